@@ -1,0 +1,58 @@
+"""Every deliberate failure: what was wrong, where, and what to do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+from typing import Any
+
+import numpy as np
+
+
+class LinkageError(Exception):
+    """The base of every error this framework raises on purpose."""
+
+
+class DefinitionError(LinkageError, ValueError):
+    """What a class, a file or a setting says cannot be."""
+
+
+class AssemblyError(LinkageError):
+    """The mechanism cannot be assembled at some strokes.
+
+    `point` is the name of what could not be placed, `mask` marks the poses (True = not reached, the
+    shape of the motion), `shortfall` is the largest missing length [m] (NaN where it is not a length).
+    """
+
+    def __init__(self, message: str, *, point: str = "", mask: Any = None, shortfall: float = float("nan")) -> None:
+        super().__init__(message)
+        self.point = point
+        self.mask = np.zeros((), bool) if mask is None else np.asarray(mask, bool)
+        self.shortfall = shortfall
+
+
+class SingularError(AssemblyError):
+    """A ratio or a force was asked for at a singular pose; positions stay available in `motion`."""
+
+    def __init__(self, message: str, *, point: str = "", mask: Any = None, motion: Any = None) -> None:
+        super().__init__(message, point=point, mask=mask)
+        self.reason = message
+        self.motion = motion
+
+
+class SingularWarning(UserWarning):
+    """A pose so near to a singular one that digits are lost; the text gives the estimate."""
+
+
+class FileError(LinkageError):
+    """A file that cannot be understood: the line or the key, and the remedy."""
+
+
+def unknown(kind: str, name: str, known: Iterable[str], where: str = "") -> DefinitionError:
+    """Return the error for a name that is not there: it lists the valid names and the nearest one."""
+    names = list(known)
+    near = get_close_matches(name, names, n=1, cutoff=0.5)
+    hint = f" Did you mean {near[0]}?" if near else ""
+    place = f" in {where}" if where else ""
+    listing = ", ".join(names) if names else "none"
+    return DefinitionError(f"{kind} {name!r} is unknown{place}.{hint} Known: {listing}.")

@@ -1,0 +1,55 @@
+"""The rigid bodies of a mechanism and the joints between them, from what its steps declare."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+FRAME = "frame"
+
+
+@dataclass(frozen=True)
+class Body:
+    """Points that move as one. The frame holds all fixed points."""
+
+    points: tuple[str, ...]
+    fixed: bool = False
+
+    @property
+    def name(self) -> str:
+        """The points' names joined, or `frame`."""
+        return FRAME if self.fixed else "".join(self.points)
+
+    def __contains__(self, point: object) -> bool:
+        return point in self.points
+
+    def __str__(self) -> str:
+        return f"frame {' '.join(self.points)}" if self.fixed else " ".join(self.points)
+
+
+def merged(groups: Iterable[Sequence[str]], ground: Sequence[str]) -> tuple[Body, ...]:
+    """Return the bodies: groups that share two points are one. The frame comes first."""
+    bodies: list[list[str]] = [list(ground)]
+    for group in groups:
+        body = list(dict.fromkeys(group))
+        while (other := next((each for each in bodies if len(set(each) & set(body)) > 1), None)) is not None:
+            bodies.remove(other)
+            body = list(dict.fromkeys([*other, *body]))
+        bodies.append(body)
+    frame = max(bodies, key=lambda body: len(set(body) & set(ground)) if ground else 0) if ground else []
+    others = [body for body in bodies if body is not frame and body]
+    return (Body(tuple(frame), fixed=True), *(Body(tuple(body)) for body in others))
+
+
+def gruebler(bodies: Sequence[Body], cylinders: Sequence[tuple[str, str]]) -> int:
+    """Return 3 (n - 1) - 2 j: n bodies with the frame, j pins and slides.
+
+    A cylinder is two bodies on a slide, pinned at its ends. A pin that joins k bodies counts k - 1 times.
+    """
+    ends = Counter(point for pair in cylinders for point in pair)
+    count = Counter(point for body in bodies for point in body.points)
+    count.update(ends)
+    pins = sum(bodies_there - 1 for bodies_there in count.values() if bodies_there > 1)
+    members = len(bodies) + 2 * len(cylinders)
+    return 3 * (members - 1) - 2 * (pins + len(cylinders))

@@ -1,0 +1,116 @@
+"""A mechanism: its class is the structure, an instance its dimensions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, ClassVar, Self
+
+import numpy as np
+
+from .errors import DefinitionError
+from .graph import Body
+from .motion import Column, Motion, at_values, stroke_unit, sweep_values
+from .plan import Plan
+from .quantities import Dimension, Member, Quantity, Stroke
+
+
+class Mechanism:
+    """The base of every mechanism. A subclass declares points, links and strokes, one line each, in any order.
+
+    An instance is a design: `ThreePointHitch(OB=0.32)`; every keyword is a dimension by its name [SI], a float or
+    an array of designs. A subclass of a mechanism is a variant: it replaces members by name and adds others.
+    """
+
+    plan: ClassVar[Plan] = Plan({}, "Mechanism")
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        cls.plan = Plan(declared(cls), cls.__name__)
+        for name in cls.plan.strokes:
+            if not any(name in cls.plan.reaches(point) for point in cls.plan.moving) and cls.plan.points:
+                raise DefinitionError(f"{cls.__name__}: the stroke {name} moves nothing; use it in a length or an angle, or take it out.")
+
+    def __init__(self, **dimensions: Any) -> None:
+        self._values = self.plan.table.settings(dimensions)
+
+    @property
+    def dimensions(self) -> Mapping[str, Any]:
+        """Every design variable with its value [SI]."""
+        return dict(self._values)
+
+    def __getitem__(self, name: str) -> Any:
+        """Return a design variable's value [SI]; a fixed point's position, shape (2, ...)."""
+        if f"{name}.x" in self._values:
+            return np.array([self._values[f"{name}.x"], self._values[f"{name}.y"]])
+        owner, sign = self.plan.table.spellings.get(name, ("", 1))
+        if not owner:
+            self.plan.table.settings({name: 0.0})
+        return sign * self._values[owner]
+
+    def replaced(self, **dimensions: Any) -> Self:
+        """Return the same design with some dimensions changed."""
+        changed = type(self)(**dimensions)
+        touched = {owner for name, value in dimensions.items() for owner in changed._owners(name)}
+        changed._values = {name: changed._values[name] if name in touched else value for name, value in self._values.items()}
+        return changed
+
+    def _owners(self, name: str) -> set[str]:
+        spellings = self.plan.table.spellings
+        return {spellings[each][0] for each in (name, f"{name}.x", f"{name}.y") if each in spellings}
+
+    def sweep(self, count: int | None = None, /, *, unreachable: str = "raise", **strokes: Any) -> Motion:
+        """Return the motion over the whole stroke, at `count` poses.
+
+        With several strokes each is named: `sweep(S1=101, S2=0.15)`, an int is a count, a float a value; two
+        counts give a grid. Raises AssemblyError where it cannot be assembled, unless `unreachable="nan"`.
+        """
+        return Motion(self.plan, self._values, sweep_values(count, strokes, self.plan.strokes, self.plan.title), unreachable)
+
+    def at(self, *, unreachable: str = "raise", **strokes: Any) -> Motion:
+        """Return the motion at chosen strokes [SI]: `at(S=[0.0, 0.1])`. They may lie beyond the declared range."""
+        return Motion(self.plan, self._values, at_values(strokes, self.plan.strokes, self.plan.title), unreachable)
+
+    def columns(self, motion: Motion) -> list[Column]:
+        """Return the table of results: strokes, moving points, named outputs. A machine replaces it by its own."""
+        units = {name: stroke_unit(self.plan, name) for name in self.plan.strokes}
+        table = [Column(name, value, "deg" if units[name] == "rad" else "m") for name, value in motion.strokes.items()]
+        table += [Column(f"{point}_{axis}", getattr(motion, axis)(point), "m") for point in self.plan.moving for axis in "xy"]
+        outputs = [name for name, member in self.plan.of_kind(Quantity).items() if not isinstance(member, (Stroke, Dimension))]  # type: ignore[type-abstract]
+        return table + [Column(name, motion[name]) for name in outputs]
+
+    def verdicts(self, motion: Motion) -> list[str]:
+        """Return what an engineer should know of this motion, in sentences. A machine replaces it by its own."""
+        return []
+
+    @property
+    def strokes(self) -> Mapping[str, Stroke]:
+        """The strokes by name."""
+        return dict(self.plan.strokes)
+
+    @property
+    def links(self) -> tuple[Body, ...]:
+        """The rigid bodies, the frame first."""
+        return self.plan.links
+
+    @property
+    def gruebler(self) -> int:
+        """The Gruebler count 3 (n - 1) - 2 j."""
+        return self.plan.gruebler
+
+    def __repr__(self) -> str:
+        changed = {name: value for name, value in self._values.items() if np.ndim(value) or value != self.plan.table.entries[name].default}
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in changed.items())})"
+
+
+def declared(cls: type) -> dict[str, Member]:
+    """Return the members of a class and its bases by name; a subclass replaces by name."""
+    members: dict[str, Member] = {}
+    for base in reversed(cls.__mro__):
+        for name, value in vars(base).items():
+            if isinstance(value, Member):
+                if name in vars(Mechanism) or name in ("plan",):
+                    raise DefinitionError(f"{cls.__name__}: {name} is a word of the framework; give the member another name.")
+                members[name] = value
+            elif name in members:
+                del members[name]
+    return members

@@ -1,0 +1,30 @@
+"""A column of results: a name, values over the poses, and the unit to show them in."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..program import FloatArray
+from ..units import UNITS
+
+
+@dataclass(frozen=True, eq=False)
+class Column:
+    """Values in SI, shape (...), and the unit they are read in; a unit of "" is a plain number."""
+
+    name: str
+    values: FloatArray
+    unit: str = ""
+    digits: int = 4
+
+    @property
+    def shown(self) -> FloatArray:
+        """The values in the column's unit."""
+        return np.asarray(self.values) / (UNITS[self.unit][0] if self.unit else 1.0)
+
+    @property
+    def heading(self) -> str:
+        """The name with its unit: `pd, kgf/cm2`."""
+        return f"{self.name}, {self.unit}" if self.unit else self.name

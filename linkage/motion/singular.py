@@ -1,0 +1,82 @@
+"""How near a pose is to a singular one, and what is said about it.
+
+Where two links that close a loop come into line, a velocity ratio is off by about 0.1-0.3 eps cond^2, with
+cond the condition of the scaled constraint Jacobian: (1 + cos) / sin of the angle between the links.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ..errors import SingularError, SingularWarning
+from ..plan import ArrayReading, Plan
+from ..program import FloatArray
+from ..steps import Point, Step
+from .reach import Mask, where_words
+
+WARN = 1e4
+REFUSE = 1e6
+
+
+def conditions(plan: Plan, reading: ArrayReading, names: set[str]) -> dict[str, FloatArray]:
+    """Return the condition of every loop among some members, at every pose of a reading."""
+    found = {}
+    for name, sine in reading.sines.items():
+        member = plan.members[name]
+        if name in names and plan.moves(member) and (member.closes if isinstance(member, Point) else True):
+            found[name] = condition(np.asarray(sine, float))
+    return found
+
+
+def condition(sine: FloatArray) -> FloatArray:
+    """Return the condition of two unit rows that meet under an angle of that sine; infinite in line."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        size = np.minimum(np.abs(sine), 1.0)
+        worst: FloatArray = (1.0 + np.sqrt(1.0 - size * size)) / size
+        return worst
+
+
+def loss(cond: float) -> float:
+    """Return the relative error to expect of a ratio: 0.3 eps cond^2."""
+    return float(0.3 * np.finfo(float).eps * cond * cond)
+
+
+def refused(plan: Plan, found: Mapping[str, FloatArray], shape: tuple[int, ...]) -> Mask:
+    """Return the mask of the poses where ratios and forces are refused."""
+    mask = np.zeros(shape, bool)
+    for cond in found.values():
+        mask |= cond > REFUSE
+    return mask
+
+
+def refusal(plan: Plan, found: Mapping[str, FloatArray], mask: Mask, strokes: Mapping[str, Any], what: str, motion: Any) -> SingularError:
+    """Return the error for ratios asked at singular poses."""
+    name = max((each for each in found if np.any(found[each] > REFUSE)), key=lambda each: float(np.nanmax(found[each])))
+    member = plan.members[name]
+    opening = member.sentence() if isinstance(member, Step) else f"{name} = {member}"
+    worst = float(np.nanmax(found[name]))
+    size = "infinite" if np.isinf(worst) else f"{worst:.1e}"
+    return SingularError(
+        f"{what} is refused {where_words(plan, mask, strokes)}: {opening} stands at a dead point, its two links are in line "
+        f"(condition {size}, refused above {REFUSE:.0e}). The positions hold; shorten the stroke, or ask with "
+        f'unreachable="nan" for the other poses.',
+        point=name, mask=mask, motion=motion,
+    )  # fmt: skip
+
+
+def warn(plan: Plan, found: Mapping[str, FloatArray], strokes: Mapping[str, Any], what: str) -> None:
+    """Warn of poses next to a singular one, with the estimate of what is lost."""
+    for name, cond in found.items():
+        near = (cond > WARN) & (cond <= REFUSE)
+        if np.any(near):
+            worst = float(np.nanmax(np.where(near, cond, np.nan)))
+            warnings.warn(
+                f"{what} {where_words(plan, near, strokes)}: {name} is near a dead point (condition {worst:.1e}); "
+                f"expect a relative error of about {loss(worst):.0e}.",
+                SingularWarning,
+                stacklevel=4,
+            )

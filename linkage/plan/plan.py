@@ -1,0 +1,185 @@
+"""The ordered steps of a mechanism: printable, traceable, the same for every design."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import Any, TypeVar
+
+from ..errors import DefinitionError, unknown
+from ..graph import Body, gruebler, merged, ordered
+from ..program import Kernel, Level, Node, Tangent
+from ..quantities import Dimension, Member, Number, Quantity, Stroke, needs
+from ..steps import Arrow, Bar, Ground, Link, Point
+from .reading import ArrayReading
+from .table import Table
+from .trace import Trace
+
+Kind = TypeVar("Kind", bound=Member)
+
+
+class Plan:
+    """The members of a mechanism in an order in which each can be worked out.
+
+    Raises DefinitionError for unknown names, cycles, and dimensions that are missing, double or impossible.
+    """
+
+    def __init__(self, members: Mapping[str, Member], title: str) -> None:
+        self.title = title
+        order = ordered({name: list(needs(member)) for name, member in members.items()}, title)
+        self.table = Table(title)
+        self.members: dict[str, Member] = {}
+        for name in order:
+            self.members[name] = self._bound(name, members[name])
+        self.strokes: dict[str, Stroke] = {name: self.members[name] for name in members if isinstance(self.members[name], Stroke)}  # type: ignore[misc]
+        self._kernels: dict[Any, Kernel] = {}
+        self._check_kinds()
+
+    def _bound(self, name: str, member: Member) -> Member:
+        """Return a member with its dimensions entered in the table."""
+        if isinstance(member, Dimension):
+            self.table.add(name, member.default, "number", f"{name} = {member}")
+        if isinstance(member, Ground):
+            for coordinate, value in member.coordinates():
+                if isinstance(value, Number):
+                    self.table.add(coordinate, value.number, "coordinate", f"{name} = {member}")
+        return member.bind(name, self.table) if isinstance(member, Point) else member
+
+    def of_kind(self, kind: type[Kind]) -> dict[str, Kind]:
+        """Return the members of a kind by name, in order."""
+        return {name: member for name, member in self.members.items() if isinstance(member, kind)}
+
+    @cached_property
+    def points(self) -> dict[str, Point]:
+        """The points by name, in order."""
+        return self.of_kind(Point)  # type: ignore[type-abstract]
+
+    @cached_property
+    def ground(self) -> tuple[str, ...]:
+        """The names of the fixed points."""
+        return tuple(self.of_kind(Ground))
+
+    def _check_kinds(self) -> None:
+        """Raise DefinitionError where a point, a vector or a quantity stands in the place of another kind."""
+        for name, member in self.members.items():
+            for attribute, kind, word in PLACES.get(type(member).__name__, ()):
+                reference = getattr(member, attribute)
+                found = self.members[reference] if isinstance(reference, str) else reference
+                if not isinstance(found, kind):
+                    raise DefinitionError(f"{self.title}: {name} = {member}: {found.name or found} is not a {word}.")
+
+    # -- what moves with what --------------------------------------------------------------------------
+
+    def reaches(self, start: Member | str) -> set[str]:
+        """Return the names of all members that something is built from, itself included."""
+        stack = [start] if isinstance(start, str) else list(needs(start))
+        found: set[str] = set()
+        while stack:
+            name = stack.pop()
+            if name not in found:
+                found.add(name)
+                stack.extend(needs(self.members[name]))
+        return found
+
+    def moves(self, quantity: Member) -> bool:
+        """Return whether a quantity follows a stroke."""
+        return isinstance(quantity, Stroke) or any(name in self.strokes for name in self.reaches(quantity))
+
+    @cached_property
+    def bars(self) -> tuple[Bar, ...]:
+        """The links of two points that the steps bring."""
+        return tuple(bar for point in self.points.values() for bar in point.bars())
+
+    @cached_property
+    def cylinders(self) -> tuple[Bar, ...]:
+        """The bars whose length follows a stroke."""
+        return tuple(bar for bar in self.bars if self.moves(bar.length))
+
+    @cached_property
+    def links(self) -> tuple[Body, ...]:
+        """The rigid bodies, the frame first."""
+        groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in self.bars if bar not in self.cylinders]
+        groups += [body for point in self.points.values() for body in point.bodies()]
+        groups += [link.point_names for link in self.of_kind(Link).values()]
+        return merged(groups, self.ground)
+
+    @cached_property
+    def gruebler(self) -> int:
+        """The Gruebler count 3 (n - 1) - 2 j."""
+        return gruebler(self.links, [(bar.P, bar.Q) for bar in self.cylinders])
+
+    # -- the program -----------------------------------------------------------------------------------
+
+    @cached_property
+    def trace(self) -> Trace:
+        """The program's nodes: every point placed."""
+        levels = dict.fromkeys(self.strokes, Level.POSE) | dict.fromkeys(self.table.entries, Level.DESIGN)
+        trace = Trace(self.members, self.table.lengths, levels)
+        for name in self.points:
+            trace.at(name)
+        return trace
+
+    def read(self, inputs: Mapping[str, Any]) -> ArrayReading:
+        """Return the eager reading on arrays, every point placed."""
+        reading = ArrayReading(self.members, self.table.lengths, inputs)
+        for name in self.points:
+            reading.at(name)
+        return reading
+
+    def nodes(self, target: str | Quantity) -> tuple[Node, ...]:
+        """Return the nodes of a point, a vector or a quantity."""
+        if isinstance(target, str) and target not in self.members:
+            raise unknown("Name", target, self.named(), where=self.title)
+        member = self.members[target] if isinstance(target, str) else target
+        if isinstance(member, Point):
+            place = self.trace.at(member)
+            return self.trace.graph.node(place.x), self.trace.graph.node(place.y)
+        if isinstance(member, Arrow):
+            vector = self.trace.vector(member)
+            return self.trace.graph.node(vector.x), self.trace.graph.node(vector.y)
+        if isinstance(member, Quantity):
+            return (self.trace.graph.node(self.trace.value(member)),)
+        raise DefinitionError(f"{self.title}: {target} has no value over the stroke; name a point, a vector or an output.")
+
+    def derived(self, nodes: Sequence[Node], along: Sequence[str]) -> tuple[Node, ...]:
+        """Return the derivatives of nodes by strokes or dimensions, one after the other."""
+        for name in along:
+            tangent = Tangent(self.trace.graph, {self.trace.inputs[name]: 1.0})
+            nodes = [tangent.of(node) for node in nodes]
+        return tuple(nodes)
+
+    def kernel(self, targets: tuple[str | Quantity, ...], along: tuple[str, ...] = (), guarded: bool = False) -> Kernel:
+        """Return the kernel of some targets' values or derivatives, made once."""
+        key = (targets, along, guarded)
+        if key not in self._kernels:
+            nodes = [node for target in targets for node in self.derived(self.nodes(target), along)]
+            self._kernels[key] = Kernel(nodes, [guard.node for guard in self.trace.guards] if guarded else ())
+        return self._kernels[key]
+
+    @cached_property
+    def moving(self) -> tuple[str, ...]:
+        """The points that are not fixed."""
+        return tuple(name for name in self.points if name not in self.ground)
+
+    def named(self) -> list[str]:
+        """Return the names that have a value: points, vectors and quantities."""
+        return [name for name, member in self.members.items() if isinstance(member, (Point, Arrow, Quantity))]
+
+    def __str__(self) -> str:
+        return "\n".join(f"{name} = {member}" for name, member in self.members.items())
+
+    __repr__ = __str__
+
+
+PLACES: dict[str, tuple[tuple[str, type, str], ...]] = {
+    "Dyad": (("P", Point, "point"), ("Q", Point, "point"), ("PX", Quantity, "quantity"), ("QX", Quantity, "quantity")),
+    "OnLink": (("P", Point, "point"), ("Q", Point, "point")),
+    "Crank": (("P", Point, "point"), ("angle", Quantity, "quantity")),
+    "Vector": (("P", Point, "point"), ("Q", Point, "point")),
+    "Turn": (("base", Arrow, "vector"), ("angle", Quantity, "quantity")),
+    "Offset": (("P", Point, "point"), ("by", Arrow, "vector")),
+    "Angle": (("P", Point, "point"), ("Q", Point, "point")),
+    "Distance": (("P", Point, "point"), ("Q", Point, "point")),
+    "Coordinate": (("P", Point, "point"),),
+    "Length": (("vector", Arrow, "vector"),),
+}

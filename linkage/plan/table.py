@@ -1,0 +1,119 @@
+"""The dimensions of a mechanism: one owner each, all spellings, and the check of what they are set to."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isclose
+from typing import Any
+
+import numpy as np
+
+from ..errors import DefinitionError, unknown
+from ..quantities import Number, Quantity, Variable, quantity, spelled
+from ..steps import Slot
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One design variable: its default [SI], what it measures, and where it stands."""
+
+    name: str
+    default: float
+    kind: str
+    where: str
+
+
+class Table:
+    """Which design variables there are, which labels follow others, and the spellings of both."""
+
+    def __init__(self, title: str) -> None:
+        self.title = title
+        self.entries: dict[str, Entry] = {}
+        self.spellings: dict[str, tuple[str, int]] = {}
+        self.following: dict[str, str] = {}
+        self.lengths: dict[frozenset[str], Quantity] = {}
+        self._labels: dict[Any, tuple[str, Quantity]] = {}
+
+    def add(self, name: str, default: float, kind: str, where: str) -> None:
+        """Enter a design variable; raise DefinitionError where its name is taken or its value cannot be."""
+        if name in self.entries:
+            raise DefinitionError(f"{where}: the name {name} already belongs to {self.entries[name].where}; rename one of them.")
+        entry = Entry(name, default, kind, where)
+        checked(entry, default)
+        self.entries[name] = entry
+        self.spellings[name] = (name, 1)
+
+    def claim(self, slot: Slot, spelling: str, value: Any, where: str) -> Quantity:
+        """Return the quantity a label stands for; a number makes a design variable of that name."""
+        given = quantity(value)
+        key = frozenset(slot.points) if slot.kind == "length" else (slot.points[1], frozenset((slot.points[0], slot.points[2])))
+        if key in self._labels:
+            return self._repeated(key, slot, spelling, given, where)
+        stands: Quantity = Variable(spelling) if isinstance(given, Number) else given
+        if isinstance(given, Number):
+            self.add(spelling, given.number, slot.kind, where)
+            self.spellings |= {each: (spelling, slot.spellings[each] * slot.spellings[spelling]) for each in slot.spellings}
+        else:
+            self.following |= dict.fromkeys(slot.spellings, spelled(given))
+        self._labels[key] = (spelling, given)
+        if slot.kind == "length":
+            self.lengths[frozenset(slot.points)] = stands
+        return stands
+
+    def _repeated(self, key: Any, slot: Slot, spelling: str, given: Quantity, where: str) -> Quantity:
+        """Return the quantity of a label that stands somewhere already; the values must agree."""
+        first, owner = self._labels[key]
+        sign = 1 if slot.spellings[first] == slot.spellings[spelling] else -1
+        if isinstance(given, Number) and isinstance(owner, Number) and isclose(given.number, sign * owner.number, rel_tol=1e-9):
+            return Variable(first) if sign > 0 else -Variable(first)
+        if not isinstance(owner, Number) and sign > 0 and (given is owner or spelled(given) == spelled(owner)):
+            return owner
+        raise DefinitionError(f"{where}: {spelling}={spelled(given)} contradicts {first}={spelled(owner)}; a dimension has one value.")
+
+    def settings(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the design variables with some of them set: floats, or arrays for a batch of designs.
+
+        Raises DefinitionError for an unknown name, one that follows others, or a value that cannot be.
+        """
+        values: dict[str, Any] = {name: entry.default for name, entry in self.entries.items()}
+        for name, value in given.items():
+            for each, part in self._pairs(name, value):
+                owner, sign = self.spellings[each]
+                values[owner] = checked(self.entries[owner], signed(part, sign, self.entries[owner]))
+        return values
+
+    def _pairs(self, name: str, value: Any) -> list[tuple[str, Any]]:
+        """Return a setting as variables: a point's position is two of them."""
+        if name in self.spellings:
+            return [(name, value)]
+        if f"{name}.x" in self.spellings or f"{name}.y" in self.spellings:
+            if np.ndim(value) == 0 or len(value) != 2:
+                raise DefinitionError(f"{self.title}({name}={value!r}): a point takes two coordinates, {name}=(x, y) in m.")
+            return [(f"{name}.{axis}", part) for axis, part in zip("xy", value, strict=True) if f"{name}.{axis}" in self.spellings]
+        if name in self.following:
+            raise DefinitionError(f"{self.title}({name}=...): {name} follows {self.following[name]}; set what it follows.")
+        raise unknown("Dimension", name, self.names(), where=self.title)
+
+    def names(self) -> list[str]:
+        """Return the names that can be set; a fixed point by its own name."""
+        return list(dict.fromkeys(name.partition(".")[0] for name in self.entries))
+
+
+def signed(value: Any, sign: int, entry: Entry) -> Any:
+    """Return a setting under its owner's sign; raise DefinitionError for what is not a number."""
+    try:
+        array = np.asarray(value, float)
+    except (TypeError, ValueError):
+        raise DefinitionError(f"{entry.name}={value!r} is not a number; give it in SI, such as {entry.name}={entry.default!r}.") from None
+    return float(sign * array) if array.ndim == 0 else sign * array
+
+
+def checked(entry: Entry, value: Any) -> Any:
+    """Return a value that the variable may take; raise DefinitionError for NaN, infinity and lengths not above zero."""
+    if not np.all(np.isfinite(value)):
+        raise DefinitionError(f"{entry.where}: {entry.name}={value!r} is not a finite number; give a value in SI.")
+    if entry.kind == "length" and np.any(np.asarray(value) <= 0.0):
+        what = "has no length" if np.all(np.asarray(value) >= 0.0) else "is negative"
+        raise DefinitionError(f"{entry.where}: the length {entry.name}={np.min(value):.6g} m {what}; give a positive one.")
+    return value

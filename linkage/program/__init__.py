@@ -1,0 +1,12 @@
+"""The traced straight-line program, its derivatives and its kernels."""
+
+from .interpret import interpret as interpret
+from .kernel import FloatArray as FloatArray
+from .kernel import Kernel as Kernel
+from .kernel import Result as Result
+from .node import Closure as Closure
+from .node import Graph as Graph
+from .node import Level as Level
+from .node import Node as Node
+from .tangent import Tangent as Tangent
+from .tangent import jacobian as jacobian

@@ -1,0 +1,109 @@
+"""The operations of a traced program: one row each, with its NumPy function and its derivative.
+
+Every reading of a program (NumPy blocks, floats, tangents, adjoints) is driven by this table.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+
+def pick(a: Any, b: Any, x: Any, y: Any) -> Any:
+    """Return x where a <= b, else y."""
+    return np.where(a <= b, x, y)
+
+
+def shares(result: Any, a: Any, b: Any) -> tuple[Any, Any]:
+    """Return (1, 0) where a <= b, else (0, 1): which of two arguments a minimum or a choice follows."""
+    return result.graph.pick(a, b, 1.0, 0.0), result.graph.pick(a, b, 0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Operation:
+    """One operation: how arrays evaluate it, how it is written, and its partial derivatives.
+
+    `partials(result, *arguments)` returns the derivative of the result by each argument, as nodes.
+    """
+
+    array: Callable[..., Any]
+    text: str
+    partials: Callable[..., tuple[Any, ...]]
+
+
+OPERATIONS: dict[str, Operation] = {
+    "add": Operation(np.add, "{} + {}", lambda r, a, b: (1.0, 1.0)),
+    "subtract": Operation(np.subtract, "{} - {}", lambda r, a, b: (1.0, -1.0)),
+    "multiply": Operation(np.multiply, "{} * {}", lambda r, a, b: (b, a)),
+    "negative": Operation(np.negative, "-{}", lambda r, a: (-1.0,)),
+    "reciprocal": Operation(np.reciprocal, "reciprocal({})", lambda r, a: (-(r * r),)),
+    "sqrt": Operation(np.sqrt, "sqrt({})", lambda r, a: (0.5 / r,)),
+    "sin": Operation(np.sin, "sin({})", lambda r, a: (np.cos(a),)),
+    "cos": Operation(np.cos, "cos({})", lambda r, a: (-np.sin(a),)),
+    "tan": Operation(np.tan, "tan({})", lambda r, a: (1.0 + r * r,)),
+    "arctan2": Operation(np.arctan2, "arctan2({}, {})", lambda r, y, x: (x / (x * x + y * y), -y / (x * x + y * y))),
+    "exp": Operation(np.exp, "exp({})", lambda r, a: (r,)),
+    "log": Operation(np.log, "log({})", lambda r, a: (1.0 / a,)),
+    "power": Operation(np.power, "power({}, {})", lambda r, a, b: (b * a ** (b - 1.0), r * np.log(a))),
+    "absolute": Operation(np.absolute, "absolute({})", lambda r, a: (np.sign(a),)),
+    "sign": Operation(np.sign, "sign({})", lambda r, a: (0.0,)),
+    "minimum": Operation(np.minimum, "minimum({}, {})", lambda r, a, b: shares(r, a, b)),
+    "maximum": Operation(np.maximum, "maximum({}, {})", lambda r, a, b: shares(r, b, a)),
+    "pick": Operation(pick, "pick({}, {}, {}, {})", lambda r, a, b, x, y: (0.0, 0.0, *shares(r, a, b))),
+}
+
+
+def _reciprocal(a: float) -> float:
+    return 1.0 / a if a else math.copysign(math.inf, a)
+
+
+def _sqrt(a: float) -> float:
+    return math.sqrt(a) if a >= 0.0 else math.nan
+
+
+def _log(a: float) -> float:
+    return math.log(a) if a > 0.0 else (-math.inf if a == 0.0 else math.nan)
+
+
+def _quiet(name: str) -> Callable[..., float]:
+    """Return a function of math that answers as NumPy does where math would raise."""
+    function = getattr(math, name)
+
+    def guarded(argument: float) -> float:
+        try:
+            return float(function(argument))
+        except (OverflowError, ValueError):
+            return math.inf if name == "exp" else math.nan
+
+    return guarded
+
+
+def _power(a: float, b: float) -> float:
+    with np.errstate(all="ignore"):
+        return float(np.power(np.float64(a), b))
+
+
+#: The names a program's text uses, on plain floats: math raises where NumPy returns NaN, so roots and divisions are guarded.
+FLOATS: Mapping[str, Callable[..., float]] = {
+    "reciprocal": _reciprocal,
+    "sqrt": _sqrt,
+    "sin": _quiet("sin"),
+    "cos": _quiet("cos"),
+    "tan": _quiet("tan"),
+    "arctan2": math.atan2,
+    "exp": _quiet("exp"),
+    "log": _log,
+    "power": _power,
+    "absolute": abs,
+    "sign": lambda a: math.nan if a != a else float((a > 0) - (a < 0)),
+    "minimum": lambda a, b: math.nan if a != a or b != b else min(a, b),
+    "maximum": lambda a, b: math.nan if a != a or b != b else max(a, b),
+    "pick": lambda a, b, x, y: x if a <= b else y,
+}
+
+#: The same names on arrays.
+ARRAYS: Mapping[str, Callable[..., Any]] = {name: each.array for name, each in OPERATIONS.items()} | {"least": np.min}

@@ -1,0 +1,60 @@
+"""What a mechanism's class may bind to a name, and how members refer to each other: by that name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, TypeAlias
+
+from ..errors import DefinitionError
+
+
+class Member:
+    """Anything that a mechanism's class declares.
+
+    Its name is the first one it is bound to. Members refer to each other by name, so that a subclass
+    which replaces a member replaces it for everybody.
+    """
+
+    _name: str = ""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        if not self._name:
+            object.__setattr__(self, "_name", name)
+
+    @property
+    def name(self) -> str:
+        """The name in the class; empty for a part of an expression."""
+        return self._name
+
+    def parts(self) -> tuple[Reference, ...]:
+        """Return what this member is built from: names or members."""
+        return ()
+
+    def sides(self, where: Any) -> tuple[tuple[str, Any], ...]:
+        """Return the triangle this member closes, as labelled lengths [m]; empty where it closes none."""
+        return ()
+
+
+Reference: TypeAlias = str | Member
+
+
+def name_of(reference: Reference) -> str:
+    """Return the name a reference stands for; raise DefinitionError for a member without one."""
+    if isinstance(reference, str):
+        return reference
+    if not isinstance(reference, Member):
+        raise DefinitionError(f"{reference!r} stands where a point or its name is expected.")
+    if not reference.name:
+        raise DefinitionError(f"{reference!r} is used before it has a name: bind it to one in the class, or write the name as a string.")
+    return reference.name
+
+
+def needs(member: Member) -> Iterator[str]:
+    """Yield the names that a member needs, through its unnamed parts."""
+    for part in member.parts():
+        if isinstance(part, str):
+            yield part
+        elif part.name:
+            yield part.name
+        else:
+            yield from needs(part)

@@ -1,0 +1,113 @@
+"""What is read off a mechanism: directions, distances and coordinates, as quantities like any other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..vectors import Scalar
+from .member import Reference
+from .quantity import Quantity, Turning, Where
+
+
+def label(reference: Reference) -> str:
+    """Return a reference as it is written: its name, or its own text."""
+    if isinstance(reference, str):
+        return reference
+    return reference.name or str(reference)
+
+
+@dataclass(frozen=True, eq=False)
+class Angle(Quantity):
+    """The direction of P -> Q [rad], counter-clockwise from the x axis."""
+
+    P: Reference
+    Q: Reference
+
+    def parts(self) -> tuple[Reference, ...]:
+        return self.P, self.Q
+
+    def rule(self, where: Where) -> Scalar:
+        return where.angle_of(where.at(self.Q) - where.at(self.P))
+
+    def turning(self, where: Where) -> Turning:
+        v = where.at(self.Q) - where.at(self.P)
+        scale = 1.0 / v.length()
+        return v.x * scale, v.y * scale
+
+    def __str__(self) -> str:
+        return f"angle({label(self.P)}, {label(self.Q)})"
+
+
+@dataclass(frozen=True, eq=False)
+class Distance(Quantity):
+    """The distance of P and Q [m]."""
+
+    P: Reference
+    Q: Reference
+
+    def parts(self) -> tuple[Reference, ...]:
+        return self.P, self.Q
+
+    def rule(self, where: Where) -> Scalar:
+        return (where.at(self.Q) - where.at(self.P)).length()
+
+    def __str__(self) -> str:
+        return f"distance({label(self.P)}, {label(self.Q)})"
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinate(Quantity):
+    """A point's x or y [m]."""
+
+    P: Reference
+    axis: str
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (self.P,)
+
+    def rule(self, where: Where) -> Scalar:
+        P = where.at(self.P)
+        return P.x if self.axis == "x" else P.y
+
+    def __str__(self) -> str:
+        return f"{self.axis}({label(self.P)})"
+
+
+@dataclass(frozen=True, eq=False)
+class Length(Quantity):
+    """The length of a vector [m]: `abs(AO)`."""
+
+    vector: Reference
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (self.vector,)
+
+    def rule(self, where: Where) -> Scalar:
+        return np.sqrt(where.vector(self.vector).square())
+
+    def __str__(self) -> str:
+        return f"abs({label(self.vector)})"
+
+
+def angle(P: Reference, Q: Reference) -> Quantity:
+    """Return the direction of P -> Q [rad], counter-clockwise from the x axis."""
+    return Angle(P, Q)
+
+
+def distance(P: Reference, Q: Reference) -> Quantity:
+    """Return the distance of P and Q [m]."""
+    return Distance(P, Q)
+
+
+def x(P: Reference) -> Quantity:
+    """Return the x coordinate of a point [m]."""
+    return Coordinate(P, "x")
+
+
+def y(P: Reference) -> Quantity:
+    """Return the y coordinate of a point [m]."""
+    return Coordinate(P, "y")
+
+

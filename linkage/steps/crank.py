@@ -1,0 +1,54 @@
+"""A link turned by a drive."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..errors import DefinitionError
+from ..quantities import Quantity, Reference, Where, quantity, spelled
+from ..vectors import Scalar, Vec
+from .labels import Slot
+from .step import UNBOUND, Bar, Step
+
+
+class Crank(Step):
+    """A point X at distance PX from P, in the direction `angle` [rad] counter-clockwise from the x axis.
+
+    `A = Crank(O, OA=0.1, angle=phi)` with `phi = Stroke(0, 2 * pi)`.
+    """
+
+    P: str
+    PX: Quantity = UNBOUND
+    parent_letters = ("P",)
+
+    def __init__(self, P: Reference, *, angle: Any, **lengths: Any) -> None:
+        super().__init__(P, labels=lengths)
+        self.angle = quantity(angle)
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (*super().parts(), self.angle)
+
+    def slots(self) -> tuple[Slot, ...]:
+        return (Slot("PX", (self.P, self.X)),)
+
+    def check(self) -> None:
+        if self.PX is UNBOUND:
+            raise self.missing(self.slots()[0])
+        if self.angle.is_constant:
+            raise DefinitionError(f"{self.sentence()}: a crank needs a driven angle; a fixed point is a Ground, one on a body OnLink.")
+
+    def place(self, where: Where) -> Vec:
+        cos, sin = where.turn(self.angle)
+        arm = Vec(cos, sin) * where.value(self.PX)
+        X: Vec = where.at(self.P) + arm
+        return X
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        miss = where.at(self.X) - self.place(where)
+        return miss.x, miss.y
+
+    def bars(self) -> tuple[Bar, ...]:
+        return (Bar(self.P, self.X, self.PX),)
+
+    def arguments(self) -> list[str]:
+        return [*super().arguments(), f"angle={spelled(self.angle)}"]

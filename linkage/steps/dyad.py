@@ -1,0 +1,72 @@
+"""The intersection of two circles: written once, read by every step that closes a triangle."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..errors import DefinitionError
+from ..quantities import Quantity, Reference, Where
+from ..vectors import Scalar, Side, Vec
+from .labels import Slot
+from .step import UNBOUND, Bar, Step
+
+
+def triangle(where: Where, base2: Scalar, p: Scalar, q: Scalar) -> tuple[Scalar, Scalar]:
+    """Return base times the apex's distance along the base, and twice the area [m2].
+
+    `base2` is the squared base [m2], `p` and `q` the sides from its first and second end [m]. By Heron,
+    twice the area is base times height; it is NaN where the sides do not meet.
+    """
+    along = (base2 + p * p - q * q) * 0.5
+    whole = p * p * base2
+    return along, where.root(whole - along * along, scale=p * q, size=whole)
+
+
+class Dyad(Step):
+    """The joint of two links that hang from P and Q (RRR dyad), on one side of P -> Q.
+
+    `B = Dyad(A, O, AB=0.5, OB=0.3, side=RIGHT)`: B is 0.5 m from A and 0.3 m from O, to the right of A -> O.
+    A length that follows a stroke is a cylinder. Source: Artobolevsky, class II group of the first kind.
+    """
+
+    P: str
+    Q: str
+    PX: Quantity = UNBOUND
+    QX: Quantity = UNBOUND
+
+    def __init__(self, P: Reference, Q: Reference, *, side: Side | None = None, near: Any = None, at: Any = None, **lengths: Any) -> None:
+        super().__init__(P, Q, labels=lengths, side=side, near=near, at=at)
+
+    def slots(self) -> tuple[Slot, ...]:
+        return Slot("PX", (self.P, self.X)), Slot("QX", (self.Q, self.X))
+
+    def check(self) -> None:
+        for slot in self.slots():
+            if getattr(self, slot.attribute) is UNBOUND and self.drawn_at is None:
+                raise self.missing(slot)
+        if self.side is None and self.near is None and self.drawn_at is None:
+            raise self.needs_side("two circles meet in two points")
+
+    def place(self, where: Where) -> Vec:
+        P, base = where.at(self.P), where.at(self.Q) - where.at(self.P)
+        if self.side is None:
+            raise DefinitionError(f"{self.sentence()}: its side is not settled.")
+        along, height = triangle(where, base.square(), where.value(self.PX), where.value(self.QX))
+        inverse = 1.0 / base.square()
+        X: Vec = P + base * (along * inverse) + base.left() * (float(self.side) * (height * inverse))
+        return X
+
+    def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
+        base = (where.at(self.Q) - where.at(self.P)).length()
+        return (self.P + self.Q, base), (self.P + self.X, where.value(self.PX)), (self.Q + self.X, where.value(self.QX))
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        X, p, q = where.at(self.X), where.value(self.PX), where.value(self.QX)
+        return ((X - where.at(self.P)).square() - p * p) * 0.5, ((X - where.at(self.Q)).square() - q * q) * 0.5
+
+    @property
+    def closes(self) -> bool:
+        return True
+
+    def bars(self) -> tuple[Bar, ...]:
+        return Bar(self.P, self.X, self.PX), Bar(self.Q, self.X, self.QX)

@@ -1,0 +1,37 @@
+"""A point of the frame."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..errors import DefinitionError
+from ..quantities import Number, Quantity, Reference, Where, quantity
+from ..vectors import Vec
+from .labels import Claims
+from .step import Point
+
+
+class Ground(Point):
+    """A fixed point [m]. Its coordinates are design variables: `M.x`, `M.y`, or `M=(x, y)` at once."""
+
+    def __init__(self, x: Any, y: Any) -> None:
+        self.x, self.y = quantity(x), quantity(y)
+        for value in (self.x, self.y):
+            if isinstance(value, Number) and not abs(value.number) < float("inf"):
+                raise DefinitionError(f"Ground({self.x}, {self.y}): both coordinates must be finite numbers.")
+
+    def parts(self) -> tuple[Reference, ...]:
+        return tuple(part for part in (self.x, self.y) if not part.is_constant)
+
+    def coordinates(self) -> tuple[tuple[str, Quantity], ...]:
+        """Return the names and values of both coordinates."""
+        return (f"{self.name}.x", self.x), (f"{self.name}.y", self.y)
+
+    def bind(self, X: str, claims: Claims) -> Ground:
+        return self
+
+    def place(self, where: Where) -> Vec:
+        return Vec(*(where.input(name) if value.is_constant else where.value(value) for name, value in self.coordinates()))
+
+    def __str__(self) -> str:
+        return f"Ground({self.x}, {self.y})"

@@ -1,0 +1,61 @@
+"""The labels of a step: `AB=0.5` names a link, its dimension and the design variable at once.
+
+A label is the points' names joined, matched against the step's own points and never tokenised:
+`AB` and `BA` are one length; `XYZ` is the angle counter-clockwise from YX to YZ, and `ZYX = -XYZ`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from ..errors import DefinitionError
+from ..quantities import Quantity
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A place of a step that a label fills: a length of two points or an angle of three."""
+
+    attribute: str
+    points: tuple[str, ...]
+
+    @property
+    def kind(self) -> str:
+        """`length` or `angle`."""
+        return "length" if len(self.points) == 2 else "angle"
+
+    @property
+    def spellings(self) -> dict[str, int]:
+        """The valid spellings with their sign: reversed, an angle changes it."""
+        forward, back = "".join(self.points), "".join(reversed(self.points))
+        return {forward: 1, back: 1 if self.kind == "length" else -1} if forward != back else {forward: 1}
+
+
+class Claims(Protocol):
+    """The table of a mechanism's dimensions: it gives each label its one quantity."""
+
+    def claim(self, slot: Slot, spelling: str, value: Any, where: str) -> Quantity:
+        """Return the quantity a label stands for; a number makes a design variable of that name."""
+
+
+def match(labels: Mapping[str, Any], slots: Iterable[Slot], what: str) -> dict[str, tuple[Slot, str, int, Any]]:
+    """Return, for each slot filled, its slot, spelling, sign and value.
+
+    Raises DefinitionError for a label that fits no slot or a slot filled twice.
+    """
+    places = list(slots)
+    found: dict[str, tuple[Slot, str, int, Any]] = {}
+    for spelling, value in labels.items():
+        fitting = [slot for slot in places if spelling in slot.spellings]
+        if not fitting:
+            valid = ", ".join("/".join(slot.spellings) for slot in places)
+            raise DefinitionError(f"{what}: the label {spelling!r} does not fit its points; valid labels: {valid}.")
+        if len(fitting) > 1:
+            raise DefinitionError(f"{what}: the label {spelling!r} can be read two ways; rename a point.")
+        slot = fitting[0]
+        if slot.attribute in found:
+            raise DefinitionError(f"{what}: {found[slot.attribute][1]} and {spelling} are the same dimension; give it once.")
+        found[slot.attribute] = (slot, spelling, slot.spellings[spelling], value)
+    return found

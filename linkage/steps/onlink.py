@@ -1,0 +1,70 @@
+"""A further point of a rigid body."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..errors import DefinitionError
+from ..quantities import Number, Quantity, Reference, Turning, Where
+from ..vectors import Scalar, Side, Vec
+from .dyad import triangle
+from .labels import Slot
+from .step import UNBOUND, Step
+
+
+class OnLink(Step):
+    """A point X rigidly on the body of P and Q: at distance PX from P, under the angle QPX or with the third side QX.
+
+    With `side` the angle is positive and the side gives its sense; without it the angle is counter-clockwise
+    from PQ. Without angle and third side X lies on the line PQ, beyond P towards Q.
+    """
+
+    P: str
+    Q: str
+    PX: Quantity = UNBOUND
+    QX: Quantity = UNBOUND
+    QPX: Quantity = UNBOUND
+
+    def __init__(self, P: Reference, Q: Reference, *, side: Side | None = None, near: Any = None, at: Any = None, **labels: Any) -> None:
+        super().__init__(P, Q, labels=labels, side=side, near=near, at=at)
+
+    def slots(self) -> tuple[Slot, ...]:
+        return Slot("PX", (self.P, self.X)), Slot("QX", (self.Q, self.X)), Slot("QPX", (self.Q, self.P, self.X))
+
+    def check(self) -> None:
+        given = [slot for slot in self.slots() if getattr(self, slot.attribute) is not UNBOUND]
+        if self.PX is UNBOUND and self.drawn_at is None:
+            raise self.missing(self.slots()[0])
+        if len(given) > 2:
+            raise DefinitionError(f"{self.sentence()}: give the third side or the angle, not both.")
+        if self.QX is not UNBOUND and self.side is None and self.near is None and self.drawn_at is None:
+            raise self.needs_side("a triangle of three sides lies on either side")
+
+    def turn(self, where: Where, base: Scalar) -> Turning:
+        """Return the cosine and sine of the angle QPX; `base` is the length of PQ [m]."""
+        sense = 1.0 if self.side is None else float(self.side)
+        if self.QX is not UNBOUND:
+            p = where.value(self.PX)
+            along, height = triangle(where, base * base, p, where.value(self.QX))
+            scale = 1.0 / (base * p)
+            return along * scale, height * scale * sense
+        cos, sin = where.turn(Number(0.0) if self.QPX is UNBOUND else self.QPX)
+        return cos, sin * sense
+
+    def place(self, where: Where) -> Vec:
+        P, Q = where.at(self.P), where.at(self.Q)
+        base = where.link_length(self.P, self.Q)
+        cos, sin = self.turn(where, base)
+        scale = where.value(self.PX) / base
+        return P + (Q - P).turned(cos * scale, sin * scale)
+
+    def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
+        base = where.link_length(self.P, self.Q)
+        return (self.P + self.Q, base), (self.P + self.X, where.value(self.PX)), (self.Q + self.X, where.value(self.QX))
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        miss = where.at(self.X) - self.place(where)
+        return miss.x, miss.y
+
+    def bodies(self) -> tuple[tuple[str, ...], ...]:
+        return ((self.P, self.Q, self.X),)

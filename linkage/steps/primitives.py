@@ -1,0 +1,122 @@
+"""The vector method's own primitives: vectors of points, cosine-rule angles, rotate-and-scale, offset."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import Any
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..quantities import Length, Member, Quantity, Reference, Turning, Where, label, name_of, quantity, spelled
+from ..vectors import Scalar, Vec
+from .dyad import triangle
+from .step import Point
+
+
+class Arrow(Member):
+    """A vector of the mechanism; `abs(arrow)` is its length, a quantity."""
+
+    @abstractmethod
+    def vector(self, where: Where) -> Vec:
+        """Return the vector [m] in a reading."""
+
+    def length(self, where: Where) -> Scalar:
+        """Return its length [m]; the link's where it is known."""
+        return where.vector(self).length()
+
+    def __abs__(self) -> Quantity:
+        return Length(self)
+
+
+class Vector(Arrow):
+    """The vector PQ = Q - P between two points [m]."""
+
+    def __init__(self, P: Reference, Q: Reference) -> None:
+        self.P, self.Q = P, Q
+
+    def parts(self) -> tuple[Reference, ...]:
+        return self.P, self.Q
+
+    def vector(self, where: Where) -> Vec:
+        return where.at(self.Q) - where.at(self.P)
+
+    def length(self, where: Where) -> Scalar:
+        return where.link_length(name_of(self.P), name_of(self.Q))
+
+    def __str__(self) -> str:
+        return f"Vector({label(self.P)}, {label(self.Q)})"
+
+
+class Turn(Arrow):
+    """A vector turned by an angle [rad], then scaled to a length [m]; the length is kept where none is given."""
+
+    def __init__(self, vector: Reference, angle: Any, length: Any = None) -> None:
+        self.base, self.angle = vector, quantity(angle)
+        self.scaled_to = None if length is None else quantity(length)
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (self.base, self.angle) if self.scaled_to is None else (self.base, self.angle, self.scaled_to)
+
+    def vector(self, where: Where) -> Vec:
+        cos, sin = where.turn(self.angle)
+        if self.scaled_to is not None:
+            scale = where.value(self.scaled_to) / where.vector_length(self.base)
+            cos, sin = cos * scale, sin * scale
+        return where.vector(self.base).turned(cos, sin)
+
+    def length(self, where: Where) -> Scalar:
+        return where.vector_length(self.base) if self.scaled_to is None else where.value(self.scaled_to)
+
+    def __str__(self) -> str:
+        end = "" if self.scaled_to is None else f", length={spelled(self.scaled_to)}"
+        return f"Turn({label(self.base)}, {spelled(self.angle)}{end})"
+
+
+class CosineAngle(Quantity):
+    """The angle between the first two sides of a triangle, opposite the third [rad], 0 to pi.
+
+    It closes a loop: NaN where the three sides [m] do not make a triangle.
+    """
+
+    def __init__(self, a: Any, b: Any, c: Any) -> None:
+        self.triangle = (quantity(a), quantity(b), quantity(c))
+
+    def parts(self) -> tuple[Reference, ...]:
+        return self.triangle
+
+    def rule(self, where: Where) -> Scalar:
+        cos, sin = where.turn(self)
+        return np.arctan2(sin, cos)
+
+    def turning(self, where: Where) -> Turning:
+        a, b, c = (where.value(side) for side in self.triangle)
+        along, height = triangle(where, a * a, b, c)
+        scale = 1.0 / (a * b)
+        return where.close_angle(along * scale, height * scale)
+
+    def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
+        return tuple((spelled(side), where.value(side)) for side in self.triangle)
+
+    def __str__(self) -> str:
+        return f"CosineAngle({', '.join(map(spelled, self.triangle))})"
+
+
+class Offset(Point):
+    """The point P + vector [m]."""
+
+    X: str = ""
+
+    def __init__(self, P: Reference, vector: Reference) -> None:
+        self.P, self.by = P, vector
+        if not isinstance(vector, (str, Arrow)):
+            raise DefinitionError(f"Offset({label(P)}, {vector!r}): the second argument is a vector, such as Turn(AO, -OAB, length=L).")
+
+    def parts(self) -> tuple[Reference, ...]:
+        return self.P, self.by
+
+    def place(self, where: Where) -> Vec:
+        return where.at(self.P) + where.vector(self.by)
+
+    def __str__(self) -> str:
+        return f"Offset({label(self.P)}, {label(self.by)})"

@@ -1,0 +1,161 @@
+"""A construction step: it places one point from points and quantities already known."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from copy import copy
+from dataclasses import dataclass
+from typing import Any, Self
+
+from ..errors import DefinitionError
+from ..quantities import Member, Number, Quantity, Reference, Where, name_of, quantity, spelled
+from ..vectors import Scalar, Side, Vec
+from .labels import Claims, Slot, match
+
+UNBOUND = Number(float("nan"))
+
+
+@dataclass(frozen=True)
+class Bar:
+    """Two points at a distance: a link, or a cylinder where the length follows a stroke."""
+
+    P: str
+    Q: str
+    length: Quantity
+
+
+class Point(Member):
+    """A named point of the mechanism."""
+
+    def bind(self, X: str, claims: Claims) -> Self:
+        """Return this step with its name, its parents' names and its dimensions settled."""
+        return self
+
+    @abstractmethod
+    def place(self, where: Where) -> Vec:
+        """Return the position [m]; NaN where it cannot be assembled."""
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        """Return what must vanish at this point's place, in every reading; empty for a free construction."""
+        return ()
+
+    @property
+    def closes(self) -> bool:
+        """Whether placing this point closes a loop, so that it can fail and become singular."""
+        return False
+
+    def bars(self) -> tuple[Bar, ...]:
+        """Return the links of two points that this step brings."""
+        return ()
+
+    def bodies(self) -> tuple[tuple[str, ...], ...]:
+        """Return the points this step makes rigid with each other."""
+        return ()
+
+
+class Step(Point):
+    """A step that hangs a point X from parents by labelled lengths and angles.
+
+    After binding, `X` and the parents are names and every slot holds a quantity.
+    """
+
+    X: str = ""
+    parents: tuple[Reference, ...]
+    parent_letters: tuple[str, ...] = ("P", "Q")
+
+    def __init__(self, *parents: Reference, labels: Mapping[str, Any], side: Side | None = None, near: Any = None, at: Any = None) -> None:
+        self.parents = parents
+        self.labels = dict(labels)
+        self.side = None if side is None else side_of(side, type(self).__name__)
+        self.near = position(near, f"{type(self).__name__}(near=...)")
+        self.drawn_at = position(at, f"{type(self).__name__}(at=...)")
+
+    @abstractmethod
+    def slots(self) -> tuple[Slot, ...]:
+        """Return the labels this step takes; the step knows its points' names by now."""
+
+    @abstractmethod
+    def check(self) -> None:
+        """Raise DefinitionError where something this step needs is missing or too much."""
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (*self.parents, *(part for part in map(quantity, self.labels.values()) if not part.is_constant))
+
+    def bind(self, X: str, claims: Claims) -> Self:
+        bound = copy(self)
+        bound.X = X
+        for letter, parent in zip(self.parent_letters, self.parents, strict=True):
+            setattr(bound, letter, name_of(parent))
+        bound.check_points()
+        for attribute, (slot, spelling, sign, value) in match(self.labels, bound.slots(), bound.sentence()).items():
+            claimed = claims.claim(slot, spelling, value, bound.sentence())
+            setattr(bound, attribute, claimed if sign > 0 else -claimed)
+        bound.check()
+        return bound
+
+    def check_points(self) -> None:
+        """Raise DefinitionError where a point stands twice."""
+        names = [getattr(self, letter) for letter in self.parent_letters]
+        if len({self.X, *names}) < len(names) + 1:
+            raise DefinitionError(f"{self.sentence()}: the points {', '.join([self.X, *names])} must be different.")
+
+    def missing(self, slot: Slot) -> DefinitionError:
+        """Return the error for a label that must be given."""
+        return DefinitionError(f"{self.sentence()}: the {slot.kind} {'/'.join(slot.spellings)} is missing; give {slot_example(slot)}.")
+
+    def needs_side(self, why: str) -> DefinitionError:
+        """Return the error for a step that can be assembled in two ways and does not say which."""
+        return DefinitionError(f"{self.sentence()}: {why}; say side=LEFT, side=RIGHT, or near=(x, y).")
+
+    def sentence(self) -> str:
+        """Return the step's opening words: `B = Dyad(A, O)`."""
+        return f"{self.X or self.name or '?'} = {type(self).__name__}({', '.join(map(parent_text, self.parents))})"
+
+    def arguments(self) -> list[str]:
+        """Return the arguments as they would be written."""
+        words = [parent_text(parent) for parent in self.parents]
+        words += [f"{label}={spelled(quantity(value))}" for label, value in self.labels.items()]
+        if self.side is not None:
+            words.append(f"side={self.side}")
+        if self.near is not None:
+            words.append(f"near=({self.near[0]!r}, {self.near[1]!r})")
+        return words
+
+    def __str__(self) -> str:
+        return f"{type(self).__name__}({', '.join(self.arguments())})"
+
+    def __repr__(self) -> str:
+        return str(self)
+
+
+def slot_example(slot: Slot) -> str:
+    """Return how a missing label would be written."""
+    return "".join(slot.points) + ("=0.3 (m)" if slot.kind == "length" else "=30 * deg")
+
+
+def parent_text(parent: Reference) -> str:
+    """Return a parent as it is written."""
+    return parent if isinstance(parent, str) else parent.name or str(parent)
+
+
+def side_of(side: Any, what: str) -> Side:
+    """Return the side; raise DefinitionError for anything but LEFT and RIGHT."""
+    if not isinstance(side, Side):
+        raise DefinitionError(f"{what}: side={side!r}; say side=LEFT or side=RIGHT.")
+    return side
+
+
+def position(value: Any, what: str) -> tuple[float, float] | None:
+    """Return a sketch position as two floats; raise DefinitionError unless it is a pair of finite numbers."""
+    if value is None:
+        return None
+    try:
+        x, y = (float(part) for part in value)
+    except (TypeError, ValueError):
+        raise DefinitionError(f"{what}: {value!r} is not a position; write (x, y) in m.") from None
+    if not (abs(x) < float("inf") and abs(y) < float("inf")):
+        raise DefinitionError(f"{what}: {value!r} is not a finite position.")
+    return x, y
+
+

@@ -1,0 +1,84 @@
+"""Factors to SI, and quantities read and written with their unit.
+
+A value times its unit is the value in SI: `80 * mm` is 0.08 (m), `-75 * deg` is -1.309 (rad).
+"""
+
+from __future__ import annotations
+
+import math
+import re
+
+from .errors import DefinitionError, unknown
+
+m = 1.0
+mm = 1e-3
+cm = 1e-2
+inch = 0.0254
+rad = 1.0
+deg = math.pi / 180.0
+s = 1.0
+minute = 60.0
+kg = 1.0
+g0 = 9.80665  # standard gravity, m/s2 (ISO 80000-4)
+N = 1.0
+kN = 1e3
+kgf = g0
+Pa = 1.0
+kPa = 1e3
+MPa = 1e6
+bar = 1e5
+kgf_cm2 = kgf / cm**2
+litre = 1e-3
+cm3 = 1e-6
+cm2 = 1e-4
+
+#: name -> (factor to SI, what it measures)
+UNITS: dict[str, tuple[float, str]] = {
+    "m": (m, "length"), "mm": (mm, "length"), "cm": (cm, "length"), "inch": (inch, "length"),
+    "rad": (rad, "angle"), "deg": (deg, "angle"), "°": (deg, "angle"),
+    "s": (s, "time"), "min": (minute, "time"),
+    "kg": (kg, "mass"), "t": (1e3, "mass"),
+    "N": (N, "force"), "kN": (kN, "force"), "kgf": (kgf, "force"),
+    "Nm": (N, "moment"), "kNm": (kN, "moment"),
+    "Pa": (Pa, "pressure"), "kPa": (kPa, "pressure"), "MPa": (MPa, "pressure"), "bar": (bar, "pressure"),
+    "kgf_cm2": (kgf_cm2, "pressure"), "kgf/cm2": (kgf_cm2, "pressure"),
+    "l": (litre, "volume"), "litre": (litre, "volume"), "cm3": (cm3, "volume"), "m3": (1.0, "volume"),
+    "cm2": (cm2, "area"), "m2": (1.0, "area"),
+}  # fmt: skip
+
+_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\s\d]\S*)?\s*\Z")
+
+
+def parse(text: str, kind: str = "") -> float:
+    """Return the SI value of a text such as `180mm`, `-75 deg` or `0.18`.
+
+    A bare number is SI. With `kind` ("length", "angle", ...) a unit of another kind is refused.
+    Raises DefinitionError naming the text and the valid units.
+    """
+    match = _QUANTITY.match(text)
+    if match is None:
+        raise DefinitionError(f"{text!r} is not a value; write a number and a unit, such as 180mm or -75deg.")
+    number, unit = match.groups()
+    if unit is None:
+        return finite(float(number), text)
+    if unit not in UNITS:
+        raise unknown("Unit", unit, UNITS, where=repr(text))
+    factor, measured = UNITS[unit]
+    if kind and measured != kind:
+        valid = ", ".join(name for name, (_, what) in UNITS.items() if what == kind)
+        raise DefinitionError(f"{text!r} is a {measured} where a value of kind {kind} is wanted; use one of: {valid}.")
+    return finite(float(number) * factor, text)
+
+
+def finite(value: float, text: str) -> float:
+    """Return the value; raise DefinitionError if it overflowed or is not a number."""
+    if not math.isfinite(value):
+        raise DefinitionError(f"{text!r} is not a finite number.")
+    return value
+
+
+def show(value: float, unit: str, digits: int = 6) -> str:
+    """Return an SI value as text in a unit: `show(0.18, "mm")` is `180 mm`."""
+    if unit not in UNITS:
+        raise unknown("Unit", unit, UNITS)
+    return f"{value / UNITS[unit][0]:.{digits}g} {unit}"

@@ -1,0 +1,70 @@
+"""The algebra of the plane, on anything that adds and multiplies: floats, arrays, traced nodes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any, TypeAlias
+
+import numpy as np
+
+Scalar: TypeAlias = Any
+"""A number, an array or a traced node: whatever the reading at hand works on."""
+
+
+class Side(IntEnum):
+    """The assembly mode of a point: LEFT or RIGHT of its first parent -> second parent."""
+
+    LEFT = 1
+    RIGHT = -1
+
+    def __str__(self) -> str:
+        return self.name
+
+
+LEFT = Side.LEFT
+RIGHT = Side.RIGHT
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Vec:
+    """A vector or a position in the plane [m]; the components are scalars of one reading."""
+
+    x: Scalar
+    y: Scalar
+
+    def __add__(self, other: Vec) -> Vec:
+        return Vec(self.x + other.x, self.y + other.y)
+
+    def __sub__(self, other: Vec) -> Vec:
+        return Vec(self.x - other.x, self.y - other.y)
+
+    def __neg__(self) -> Vec:
+        return Vec(-self.x, -self.y)
+
+    def __mul__(self, factor: Scalar) -> Vec:
+        return Vec(self.x * factor, self.y * factor)
+
+    def dot(self, other: Vec) -> Scalar:
+        """Return the scalar product [m2]."""
+        return self.x * other.x + self.y * other.y
+
+    def cross(self, other: Vec) -> Scalar:
+        """Return the z component of the vector product [m2], positive when `other` lies to the left."""
+        return self.x * other.y - self.y * other.x
+
+    def left(self) -> Vec:
+        """Return this vector turned by +90 degrees."""
+        return Vec(-self.y, self.x)
+
+    def turned(self, cos: Scalar, sin: Scalar) -> Vec:
+        """Return this vector turned by the angle with that cosine and sine."""
+        return Vec(self.x * cos - self.y * sin, self.x * sin + self.y * cos)
+
+    def square(self) -> Scalar:
+        """Return the squared length [m2]."""
+        return self.x * self.x + self.y * self.y
+
+    def length(self) -> Scalar:
+        """Return the length [m]."""
+        return np.sqrt(self.square())

@@ -1,0 +1,175 @@
+"""The house keeps its floors: an import points down or sideways, never up, and nothing heavy is loaded at the door."""
+
+import ast
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path, PurePosixPath
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+
+FLOORS = (
+    ("errors", "units", "vectors"),
+    ("quantities",),
+    ("steps", "loads"),
+    ("graph",),
+    ("program",),
+    ("plan",),
+    ("assembly", "mobility"),
+    ("motion",),
+    ("mechanism",),
+    ("statics", "equations", "study"),
+    ("draw", "animate", "page", "report", "files"),
+    ("cli",),
+)
+FLOOR = {room: number for number, rooms in enumerate(FLOORS) for room in rooms}
+FRONT_DOOR = {"__init__", "__main__"}
+MAY_IMPORT = {  # of the project's own three
+    "linkage": {"linkage"},
+    "hydraulics": {"linkage", "hydraulics"},
+    "mechanisms": {"linkage", "hydraulics", "mechanisms"},
+}
+MAY_PRINT = {"cli", "demo"}
+
+HEAVY = {"PIL", "imageio_ffmpeg", "matplotlib", "networkx", "numba", "pydantic", "rich", "scipy", "sympy"}
+OPTIONAL = {"dask", "distributed", "ezdxf", "openpyxl", "pymoo"}  # extras: there may be nothing to import
+HEAVY_ROOMS = {f"linkage.{room}" for room in ("equations", "study", "draw", "animate", "page", "report", "files")}
+
+
+def room(module: str) -> str:
+    """Return the second name of a dotted module: `steps` of `linkage.steps.dyad`."""
+    return module.split(".")[1] if "." in module else "__init__"
+
+
+def imports(path: PurePosixPath, tree: ast.AST, lazy: bool = False) -> Iterator[tuple[ast.stmt, str, bool]]:
+    """Yield the statement, the absolute module and whether a function holds it, for each import below `tree`.
+
+    `from linkage import x` is the module `linkage.x` when `x` is a room, else the front door, `linkage`.
+    """
+    for node in ast.iter_child_nodes(tree):
+        if isinstance(node, ast.Import):
+            yield from ((node, alias.name, lazy) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            base = path.parts[: -node.level] if node.level else ()
+            module = ".".join([*base, node.module] if node.module else base)
+            names = (f"{module}.{alias.name}" for alias in node.names)
+            yield from ((node, name if module == "linkage" and room(name) in FLOOR else module, lazy) for name in names)
+        else:
+            yield from imports(path, node, lazy or isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef))
+
+
+def climbing(here: str, module: str) -> str | None:
+    """Return what is wrong with `module` in the room `here` of linkage, if anything is."""
+    there = room(module)
+    if there == here:
+        return None
+    if there in FRONT_DOOR:
+        return f"floor {FLOOR[here]} ({here}) imports the front door: import from the room that holds the name"
+    if there not in FLOOR:
+        return f"imports linkage.{there}, which is no room of the table: add it to FLOORS in {Path(__file__).name}"
+    if FLOOR[there] > FLOOR[here]:
+        return f"floor {FLOOR[here]} ({here}) imports upwards, floor {FLOOR[there]} ({there})"
+    return None
+
+
+def import_faults(path: PurePosixPath, tree: ast.AST) -> Iterator[str]:
+    """Yield a sentence for each import that `path` should not have."""
+    package, here = path.parts[0], room(".".join(path.with_suffix("").parts))
+    door = package == "linkage" and here in FRONT_DOOR
+    if package == "linkage" and not door and here not in FLOOR:
+        yield f"{path}: {here} is no room of the table: add it to FLOORS in {Path(__file__).name}, on its floor"
+        return
+    for node, module, lazy in imports(path, tree):
+        where, owner = f"{path}:{node.lineno}", module.split(".")[0]
+        if isinstance(node, ast.ImportFrom) and node.names[0].name == "*":
+            yield f"{where}: star import of {module}"
+        if owner in {*MAY_IMPORT, "tests"} - MAY_IMPORT[package]:
+            yield f"{where}: {package} imports {owner}"
+        elif package == owner == "linkage" and not door and (fault := climbing(here, module)):
+            yield f"{where}: {fault}"
+        if lazy and not door and owner not in HEAVY | OPTIONAL and ".".join(module.split(".")[:2]) not in HEAVY_ROOMS:
+            yield f"{where}: {module} is imported inside a function, which is for heavy libraries only: import it at the top"
+
+
+def print_faults(path: PurePosixPath, tree: ast.AST) -> Iterator[str]:
+    """Yield a sentence for each `print(` outside the command and the demo."""
+    if MAY_PRINT.isdisjoint(path.with_suffix("").parts):
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "print":
+                yield f"{path}:{node.lineno}: print( in library code: return the text"
+
+
+def faults(path: str, source: str) -> list[str]:
+    """Return every breach of the house's rules in the text of one file, its path counted from the checkout."""
+    tree, place = ast.parse(source, path), PurePosixPath(path)
+    return list(dict.fromkeys([*import_faults(place, tree), *print_faults(place, tree)]))
+
+
+SOURCES = sorted(file.relative_to(ROOT).as_posix() for package in MAY_IMPORT for file in (ROOT / package).rglob("*.py"))
+
+
+@pytest.mark.parametrize("path", SOURCES)
+def test_file_keeps_the_floors(path):
+    assert not faults(path, (ROOT / path).read_text(encoding="utf-8"))
+
+
+def test_every_package_is_looked_at():
+    assert {path.split("/")[0] for path in SOURCES} == set(MAY_IMPORT)
+
+
+@pytest.mark.parametrize(
+    ("path", "source", "fault"),
+    [
+        ("linkage/steps/dyad.py", "from linkage.motion import Motion", "floor 2 (steps) imports upwards, floor 7 (motion)"),
+        ("linkage/steps/dyad.py", "from ..motion import Motion", "imports upwards, floor 7"),
+        ("linkage/steps/__init__.py", "from ..motion import Motion", "imports upwards, floor 7"),
+        ("linkage/errors.py", "from .quantities import Stroke", "imports upwards, floor 1"),
+        ("linkage/errors.py", "import numpy, linkage.quantities as q", "imports upwards, floor 1"),
+        ("linkage/errors.py", "from . import units, plan", "imports upwards, floor 5 (plan)"),
+        ("linkage/errors.py", "def f():\n    from .plan import Plan", "imports upwards, floor 5 (plan)"),
+        ("linkage/plan.py", "from linkage import Stroke", "imports the front door"),
+        ("linkage/plan.py", "import linkage", "imports the front door"),
+        ("linkage/plan.py", "from .cellar import wine", "linkage.cellar, which is no room of the table: add it to FLOORS"),
+        ("linkage/cellar.py", "", "cellar is no room of the table: add it to FLOORS"),
+        ("linkage/plan.py", "from hydraulics import Cylinder", "linkage imports hydraulics"),
+        ("linkage/__init__.py", "import mechanisms.mower_lift", "linkage imports mechanisms"),
+        ("linkage/cli.py", "def f():\n    import mechanisms", "linkage imports mechanisms"),
+        ("hydraulics/gas.py", "from mechanisms.mower_lift import MowerLift", "hydraulics imports mechanisms"),
+        ("mechanisms/crane.py", "from tests.helpers import law", "mechanisms imports tests"),
+        ("mechanisms/crane.py", "from linkage import *", "star import of linkage"),
+        ("linkage/motion.py", "class A:\n    def f(self):\n        import json", "json is imported inside a function"),
+        ("linkage/motion.py", "def f():\n    from .plan import Plan", "linkage.plan is imported inside a function"),
+        ("hydraulics/gas.py", "async def f():\n    from .circuit import g", "hydraulics.circuit is imported inside a function"),
+        ("linkage/motion.py", "def f():\n    print(1)", "print( in library code"),
+        ("linkage/__init__.py", "print(1)", "print( in library code"),
+    ],
+)
+def test_breach_is_found(path, source, fault):
+    assert fault in "\n".join(faults(path, source))
+
+
+@pytest.mark.parametrize(
+    ("path", "source"),
+    [
+        ("linkage/steps/dyad.py", "from ..errors import A\nfrom .base import B\nfrom ..loads import C\nfrom linkage.steps.base import D"),
+        ("linkage/steps/__init__.py", "from .dyad import Dyad\nfrom . import base"),
+        ("linkage/motion.py", "from . import plan, errors\nfrom linkage import program\nimport numpy as np"),
+        ("linkage/graph.py", "def f():\n    import networkx as nx\n    from scipy.sparse import csgraph"),
+        ("linkage/cli.py", "def f():\n    from .draw import show\n    from . import report\n    print(1)"),
+        ("linkage/__init__.py", "from .cli import main\ndef __getattr__(name):\n    from importlib import import_module"),
+        ("linkage/__main__.py", "from .cli import main"),
+        ("hydraulics/cylinder.py", "from linkage import Stroke\nfrom .gas import isothermal"),
+        ("mechanisms/demo.py", "from hydraulics import Cylinder\ndef f():\n    from linkage.draw import show\n    print(1)"),
+    ],
+)
+def test_honest_file_is_left_alone(path, source):
+    assert faults(path, source) == []
+
+
+def test_the_door_loads_numpy_only():
+    program = "import sys, linkage; print(*sorted({name.partition('.')[0] for name in sys.modules}))"
+    loaded = subprocess.run([sys.executable, "-c", program], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split()
+    assert "linkage" in loaded
+    assert (HEAVY | OPTIONAL).isdisjoint(loaded), sorted((HEAVY | OPTIONAL).intersection(loaded))

@@ -48,10 +48,10 @@ class FileError(LinkageError):
     """A file that cannot be understood: the line or the key, and the remedy."""
 
 
-def unknown(kind: str, name: str, known: Iterable[str], where: str = "") -> DefinitionError:
+def unknown(kind: str, name: object, known: Iterable[str], where: str = "") -> DefinitionError:
     """Return the error for a name that is not there: it lists the valid names and the nearest one."""
     names = list(known)
-    near = get_close_matches(name, names, n=1, cutoff=0.5)
+    near = get_close_matches(str(name), names, n=1, cutoff=0.5)
     hint = f" Did you mean {near[0]}?" if near else ""
     place = f" in {where}" if where else ""
     listing = ", ".join(names) if names else "none"

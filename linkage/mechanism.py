@@ -7,6 +7,7 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
+from .assembly import assembled
 from .errors import DefinitionError
 from .graph import Body
 from .motion import Column, Motion, at_values, stroke_unit, sweep_values
@@ -25,7 +26,7 @@ class Mechanism:
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        cls.plan = Plan(declared(cls), cls.__name__)
+        cls.plan = Plan(assembled(declared(cls), cls.__name__), cls.__name__)
         for name in cls.plan.strokes:
             if not any(name in cls.plan.reaches(point) for point in cls.plan.moving) and cls.plan.points:
                 raise DefinitionError(f"{cls.__name__}: the stroke {name} moves nothing; use it in a length or an angle, or take it out.")

@@ -43,7 +43,7 @@ UNITS: dict[str, tuple[float, str]] = {
     "Pa": (Pa, "pressure"), "kPa": (kPa, "pressure"), "MPa": (MPa, "pressure"), "bar": (bar, "pressure"),
     "kgf_cm2": (kgf_cm2, "pressure"), "kgf/cm2": (kgf_cm2, "pressure"),
     "l": (litre, "volume"), "litre": (litre, "volume"), "cm3": (cm3, "volume"), "m3": (1.0, "volume"),
-    "cm2": (cm2, "area"), "m2": (1.0, "area"),
+    "cm2": (cm2, "area"), "m2": (1.0, "area"), "rad/m": (1.0, "angle per length"),
 }  # fmt: skip
 
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\s\d]\S*)?\s*\Z")

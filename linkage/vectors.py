@@ -68,3 +68,16 @@ class Vec:
     def length(self) -> Scalar:
         """Return the length [m]."""
         return np.sqrt(self.square())
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Line:
+    """A straight line: an origin [m] and a direction of length one."""
+
+    origin: Vec
+    direction: Vec
+
+    def at(self, along: Scalar) -> Vec:
+        """Return the point at a distance along the line [m]."""
+        place: Vec = self.origin + self.direction * along
+        return place

@@ -9,13 +9,15 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularWarning, unknown
+from ..assembly import Solved, solve_groups
+from ..errors import DefinitionError, SingularError, SingularWarning
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray
 from ..quantities import Angle, Distance, Member, Quantity
 from ..steps import Arrow, Dyad, Point
 from ..vectors import Vec
 from . import numeric, reach, singular
+from .asked import method_of, named, order_of, rates_of
 from .reach import Mask
 from .unwrap import unwrapped
 
@@ -45,8 +47,8 @@ class Motion:
         self._ratios: dict[Any, FloatArray] = {}
         result = plan.kernel(plan.moving, guarded=True)(self._flat)
         self._places = self._full(result.values)
-        self.is_near_singular = bool(np.any(result.guards < 0.0)) or bool(np.isnan(result.guards).any())
-        if np.isnan(result.guards).any():
+        self.is_near_singular = not np.all(result.guards > 0.0)
+        if self.is_near_singular or plan.may_overflow:
             self._settle_unreached()
 
     # -- inputs ----------------------------------------------------------------------------------------
@@ -57,14 +59,25 @@ class Motion:
         flat: dict[str, Any] = {}
         for name, value in self.designs.items():
             flat[name] = np.broadcast_to(value, self.design_shape).ravel() if np.ndim(value) else float(value)
-        return flat | {name: value.ravel() for name, value in self.strokes.items()}
+        flat |= {name: value.ravel() for name, value in self.strokes.items()}
+        return flat | dict(self._solved.inputs)
+
+    @cached_property
+    def _solved(self) -> Solved:
+        """The pins of groups, shape (m, n)."""
+        if not self.plan.groups:
+            return Solved({}, np.zeros((1, 1), bool))
+        designs = {name: np.broadcast_to(value, self.design_shape).ravel() if np.ndim(value) else value for name, value in self.designs.items()}
+        return solve_groups(self.plan, designs, {name: value.ravel() for name, value in self.strokes.items()})
 
     @cached_property
     def inputs(self) -> dict[str, Any]:
         """The inputs shaped to broadcast against results: designs first, strokes last."""
         tail = (1,) * len(self.stroke_shape)
         shaped = {name: np.reshape(value, np.shape(value) + tail) if np.ndim(value) else value for name, value in self.designs.items()}
-        return shaped | dict(self.strokes)
+        solved = {name: self._full(value[None])[0] for name, value in self._solved.inputs.items()}
+        shaped = {name: np.float64(value) if np.ndim(value) == 0 else value for name, value in shaped.items()}
+        return shaped | dict(self.strokes) | solved
 
     def _full(self, values: FloatArray) -> FloatArray:
         """Return a kernel's values in the motion's shape."""
@@ -77,11 +90,15 @@ class Motion:
 
     def _settle_unreached(self) -> None:
         """Place the poses at a dead point, to rounding; refuse or mask those out of reach."""
-        failed: Mask = np.asarray(np.isnan(self._places).any(axis=0)) if len(self._places) else np.ones(self.shape, bool)
+        failed: Mask = np.asarray(~np.isfinite(self._places).all(axis=0)) if len(self._places) else np.ones(self.shape, bool)
+        with np.errstate(all="ignore"):
+            failed |= reach.negative(self.plan, ArrayReading(self.plan.members, self.plan.table.lengths, self.inputs), self.shape)
+        if not failed.any():
+            return
         reading = self._read_at(failed)
         lost = np.zeros(int(failed.sum()), bool)
-        for sine in reading.sines.values():
-            lost |= np.isnan(sine)
+        for _, mask in reach.failures(self.plan, reading, lost.shape):
+            lost |= mask
         self._places = np.array(self._places)
         for index, name in enumerate(self.plan.moving):
             place = reading.at(name)
@@ -100,9 +117,8 @@ class Motion:
 
     def __getitem__(self, name: str) -> FloatArray:
         """Return a point's position or a vector, shape (2, ...) [m], or a quantity, shape (...) [SI]."""
-        if name not in self.plan.members:
-            raise unknown("Name", str(name), self.plan.named(), where=self.plan.title)
-        member = self.plan.members[name]
+        member = self._known(name)
+        name = member.name
         if isinstance(member, Point):
             return self._place(name)
         if isinstance(member, Arrow):
@@ -127,39 +143,51 @@ class Motion:
         """Return a quantity over all poses [SI]; angles without jumps along the stroke."""
         with np.errstate(all="ignore"):
             found = np.broadcast_to(np.asarray(self._outputs.value(quantity), float), self.shape)
-        return np.where(self.reached, found, np.nan)
+        return self._finite(np.where(self.reached, found, np.nan), np.zeros((), bool), str(quantity.name or quantity))
 
-    def x(self, point: str) -> FloatArray:
+    def _finite(self, values: FloatArray, excused: Mask, what: str) -> FloatArray:
+        """Return values that are finite at every pose reached; NaN where they are not and NaN was asked for."""
+        good = np.isfinite(values)
+        if good.all():
+            return values
+        good = good if good.ndim == len(self.shape) else good.all(axis=0)
+        missing = ~good & self.reached & ~excused
+        if missing.any() and self.unreachable == "raise":
+            where = reach.where_words(self.plan, missing, self.strokes)
+            raise SingularError(f'{what} has no finite value {where}. Leave these poses out, or ask with unreachable="nan".', mask=missing, motion=self)
+        return np.where(good, values, np.nan)
+
+    def x(self, point: Target) -> FloatArray:
         """Return a point's x coordinate [m]."""
         return np.asarray(self._point(point)[0])
 
-    def y(self, point: str) -> FloatArray:
+    def y(self, point: Target) -> FloatArray:
         """Return a point's y coordinate [m]."""
         return np.asarray(self._point(point)[1])
 
-    def _point(self, name: str) -> FloatArray:
-        if name not in self.plan.points:
-            raise unknown("Point", name, self.plan.points, where=self.plan.title)
-        return self._place(name)
+    def _point(self, name: Target) -> FloatArray:
+        return self._place(named("Point", name, self.plan.points, self.plan.title))
 
-    def angle(self, P: str, Q: str) -> FloatArray:
+    def _known(self, target: Target) -> Member:
+        return self.plan.members[named("Name", target, self.plan.members, self.plan.title)]
+
+    def angle(self, P: Target, Q: Target) -> FloatArray:
         """Return the direction of P -> Q [rad], without jumps along the stroke."""
         self._point(P), self._point(Q)
         return self.value(Angle(P, Q))
 
-    def distance(self, P: str, Q: str) -> FloatArray:
+    def distance(self, P: Target, Q: Target) -> FloatArray:
         """Return the distance of two points [m]."""
         self._point(P), self._point(Q)
         return self.value(Distance(P, Q))
 
-    def transmission_angle(self, point: str) -> FloatArray:
+    def transmission_angle(self, point: Target) -> FloatArray:
         """Return the angle between the two links that meet in a dyad's joint [rad], 0 to pi; best near pi / 2."""
-        self._point(point)
-        step = self.plan.points[point]
+        step = self.plan.members[named("Point", point, self.plan.points, self.plan.title)]
         if not isinstance(step, Dyad):
             joints = [name for name, each in self.plan.points.items() if isinstance(each, Dyad)]
             raise DefinitionError(f"{self.plan.title}: {point} is not the joint of a dyad; those are: {', '.join(joints) or 'none'}.")
-        (ux, uy), (wx, wy) = self._place(step.P) - self._place(point), self._place(step.Q) - self._place(point)
+        (ux, uy), (wx, wy) = self._place(step.P) - self._place(step.X), self._place(step.Q) - self._place(step.X)
         return np.asarray(np.arctan2(np.abs(ux * wy - uy * wx), ux * wx + uy * wy))
 
     # -- ratios ----------------------------------------------------------------------------------------
@@ -174,31 +202,22 @@ class Motion:
         Raises SingularError at a dead point; warns near one.
         """
         stroke = self._stroke(wrt)
-        if order not in (1, 2):
-            raise DefinitionError(f"order={order!r}: derivatives of order 1 and 2 are provided.")
-        if method not in ("exact", "central"):
-            raise DefinitionError(f'method={method!r}: say "exact" or "central".')
+        order, method = order_of(order), method_of(method, step)
         member = self._member(target)
         refused = self._singular(member, f"The ratio of {member.name or member}")
         found = self._exact(member, (stroke,) * order) if method == "exact" else self._numeric(member, stroke, order, step)
-        return np.where(refused, np.nan, found) if refused.any() else found
+        found = np.where(refused, np.nan, found) if refused.any() else found
+        return self._finite(found, refused, f"The ratio of {member.name or member} by {stroke}")
 
     def _stroke(self, wrt: str | None) -> str:
         if wrt is None and len(self.strokes) == 1:
             return next(iter(self.strokes))
         if wrt is None:
             raise DefinitionError(f"{self.plan.title} has {len(self.strokes)} strokes: say wrt= one of {', '.join(self.strokes)}.")
-        if wrt not in self.strokes:
-            raise unknown("Stroke", wrt, self.strokes, where=self.plan.title)
-        return wrt
+        return named("Stroke", wrt, self.strokes, self.plan.title)
 
     def _member(self, target: Target) -> Member:
-        if isinstance(target, str) or target.name in self.plan.members:
-            name = target if isinstance(target, str) else target.name
-            if name not in self.plan.members:
-                raise unknown("Name", name, self.plan.named(), where=self.plan.title)
-            return self.plan.members[name]
-        return target
+        return target if isinstance(target, Quantity) and not target.name else self._known(target)
 
     def _exact(self, member: Member, along: tuple[str, ...]) -> FloatArray:
         """Return a derivative through the program; the first derivatives of all points come in one pass, kept."""
@@ -254,25 +273,25 @@ class Motion:
 
     def velocity(self, target: Target, rates: Mapping[str, Any]) -> FloatArray:
         """Return the velocity of a point [m/s], shape (2, ...), or the rate of an output, from stroke rates [1/s]."""
-        self._rates(rates)
-        return sum((self.ratio(target, wrt=name) * rate for name, rate in rates.items()), np.zeros(self.shape))
+        given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title)
+        return sum((self.ratio(target, wrt=name) * rate for name, rate in given.items()), self._still(target))
 
     def acceleration(self, target: Target, rates: Mapping[str, Any], accelerations: Mapping[str, Any] | None = None) -> FloatArray:
         """Return the acceleration of a point [m/s2], shape (2, ...), from stroke rates and accelerations."""
-        driven = dict(accelerations or {})
-        self._rates(rates)
-        self._rates(driven)
+        given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title)
+        driven = rates_of("accelerations", accelerations or {}, self.strokes, self.shape, self.plan.title)
         member = self._member(target)
         refused = self._singular(member, f"The acceleration of {member.name or member}")
-        total = sum((self.ratio(target, wrt=name) * value for name, value in driven.items()), np.zeros(self.shape))
-        for first, u in rates.items():
-            for second, v in rates.items():
+        total = sum((self.ratio(target, wrt=name) * value for name, value in driven.items()), self._still(target))
+        for first, u in given.items():
+            for second, v in given.items():
                 total = total + self._exact(member, tuple(sorted((first, second)))) * u * v
         return np.where(refused, np.nan, total)
 
-    def _rates(self, rates: Mapping[str, Any]) -> None:
-        for name in rates:
-            self._stroke(name)
+    def _still(self, target: Target) -> FloatArray:
+        """Return zeros in the shape of a ratio, NaN where the pose is not reached."""
+        parts = (2,) if isinstance(self._member(target), (Point, Arrow)) else ()
+        return np.where(self.reached, np.zeros((*parts, *self.shape)), np.nan)
 
 
 class _Outputs(ArrayReading):
@@ -287,5 +306,5 @@ class _Outputs(ArrayReading):
             self.positions[name] = Vec(place[0], place[1])
 
     def angle_of(self, vector: Vec) -> Any:
-        angle = np.broadcast_to(np.arctan2(vector.y, vector.x), self.shape)
+        angle = np.where((vector.x == 0.0) & (vector.y == 0.0), np.nan, np.broadcast_to(np.arctan2(vector.y, vector.x), self.shape))
         return unwrapped(angle, self.axes)

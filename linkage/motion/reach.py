@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,16 +10,31 @@ import numpy.typing as npt
 
 from ..errors import AssemblyError
 from ..plan import ArrayReading, Plan
-from ..quantities import Negative, Quantity, Ref, Sum, quantity
-from ..steps import Step
+from ..quantities import Member, Negative, Quantity, Ref, Sum, quantity, spelled
+from ..steps import Point, Step
 from ..units import mm
 
 Mask = npt.NDArray[np.bool_]
 
 
-def first_failure(plan: Plan, reading: ArrayReading) -> str:
-    """Return the first member, in the order of construction, that cannot be placed at some pose of a reading."""
-    return next(name for name in plan.members if name in reading.sines and np.any(np.isnan(reading.sines[name])))
+def failures(plan: Plan, reading: ArrayReading, shape: tuple[int, ...]) -> Iterator[tuple[str, Mask]]:
+    """Yield the members that cannot be placed at some poses of a reading, in the order of construction, with those poses."""
+    for name in plan.members:
+        mask = negative(plan, reading, shape, name) | np.isnan(reading.sines.get(name, 0.0))
+        if name in plan.points:
+            place = reading.at(name)
+            mask |= ~(np.isfinite(place.x) & np.isfinite(place.y))
+        if mask.any():
+            yield name, mask
+
+
+def negative(plan: Plan, reading: ArrayReading, shape: tuple[int, ...], point: str = "") -> Mask:
+    """Return the poses where a length that follows others is negative: of one point, or any."""
+    mask = np.zeros(shape, bool)
+    for owner, length in plan.following:
+        if point in (owner, ""):
+            mask |= np.asarray(reading.value(length)) < 0.0
+    return mask
 
 
 def refusal(plan: Plan, reading: ArrayReading, mask: Mask, strokes: Mapping[str, Any]) -> AssemblyError:
@@ -27,21 +42,44 @@ def refusal(plan: Plan, reading: ArrayReading, mask: Mask, strokes: Mapping[str,
 
     `reading` holds the failing poses, `mask` all of them (designs first, strokes last), `strokes` their values.
     """
-    name = first_failure(plan, reading)
+    name, lost = next(failures(plan, reading, (int(mask.sum()),)))
     member = plan.members[name]
     opening = member.sentence() if isinstance(member, Step) else f"{name} = {member}"
-    words, shortfall = triangle_words(plan, name, reading)
+    words, shortfall = negative_words(plan, name, reading) or coinciding_words(plan, name, reading) or triangle_words(plan, name, reading, lost)
     text = f"{opening} cannot be assembled {where_words(plan, mask, strokes)}:\n{words}"
     return AssemblyError(text, point=name, mask=mask, shortfall=shortfall)
 
 
-def triangle_words(plan: Plan, name: str, reading: ArrayReading) -> tuple[str, float]:
+def negative_words(plan: Plan, name: str, reading: ArrayReading) -> tuple[str, float] | None:
+    """Return which length of a point is negative, at its worst pose, and by how much [m]; None where none is."""
+    for owner, length in plan.following:
+        least = float(np.min(reading.value(length)))
+        if owner == name and least < 0.0:
+            return f"the length {spelled(length)} = {least:.4g} m is negative. Keep the stroke where it is positive.", -least
+    return None
+
+
+def coinciding_words(plan: Plan, name: str, reading: ArrayReading) -> tuple[str, float] | None:
+    """Return which two points of a step coincide, so that no direction goes from one to the other; None where they do not."""
+    step = plan.members[name]
+    names = [getattr(step, letter) for letter in step.parent_letters] if isinstance(step, Step) else []
+    if len(names) == 2 and set(names) <= set(plan.points):
+        base = reading.at(names[1]) - reading.at(names[0])
+        if np.any((base.x == 0.0) & (base.y == 0.0)):
+            return f"{names[0]} and {names[1]} coincide there, so that no direction goes from one to the other. Move one of them.", float("nan")
+    return None
+
+
+def triangle_words(plan: Plan, name: str, reading: ArrayReading, lost: Mask) -> tuple[str, float]:
     """Return how a triangle misses, at its worst pose, and by how much [m]."""
     sides = plan.members[name].sides(reading)
     if not sides:
-        return "its point lies nowhere. Shorten the stroke or change a dimension.", float("nan")
+        return shortage_words(plan.members[name], reading)
     labels = [label for label, _ in sides]
-    values = np.array(np.broadcast_arrays(*(value for _, value in sides)), float).reshape(len(sides), -1)
+    values = np.array(np.broadcast_arrays(*(value for _, value in sides), lost)[:-1], float).reshape(len(sides), -1)[:, lost]
+    for label, value in zip(labels, values, strict=True):
+        if not np.all(np.isfinite(value)):
+            return f"{label} has no finite value there. Change the strokes or what it follows.", float("nan")
     missing = 2 * values.max(axis=0) - values.sum(axis=0)
     worst = int(np.nanargmax(missing))
     longest = int(values[:, worst].argmax())
@@ -52,6 +90,14 @@ def triangle_words(plan: Plan, name: str, reading: ArrayReading) -> tuple[str, f
         f"{labels[longest]} = {values[longest, worst]:.4g} m. Shorten the stroke or {remedy(plan, labels, longest)}.",
         gap,
     )
+
+
+def shortage_words(member: Member, reading: ArrayReading) -> tuple[str, float]:
+    """Return what is too short, at the worst pose, and by how much [m]."""
+    words, gaps = member.shortage(reading) if isinstance(member, Point) else ("it has no value", float("nan"))
+    gap = float(np.max(gaps))
+    missing = "" if np.isnan(gap) else f": {gap / mm:.3g} mm are missing"
+    return f"{words}{missing}. Shorten the stroke or change a dimension.", gap
 
 
 def remedy(plan: Plan, labels: Sequence[str], longest: int) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import DefinitionError, unknown
 from ..program import FloatArray
-from ..quantities import Stroke
+from ..quantities import Stroke, real
 
 
 def known_strokes(given: Mapping[str, Any], strokes: Mapping[str, Stroke], title: str) -> None:
@@ -26,8 +26,8 @@ def at_values(given: Mapping[str, Any], strokes: Mapping[str, Stroke], title: st
     """Return chosen stroke values, broadcast against each other."""
     known_strokes(given, strokes, title)
     try:
-        arrays = [np.asarray(given[name], float) for name in strokes]
-    except (TypeError, ValueError):
+        arrays = [real(given[name]) for name in strokes]
+    except ValueError:
         raise DefinitionError(f"{title}: strokes are numbers or arrays of numbers (SI); given {dict(given)!r}.") from None
     for name, array in zip(strokes, arrays, strict=True):
         if not np.all(np.isfinite(array)):
@@ -58,7 +58,10 @@ def _axis(name: str, asked: Any, stroke: Stroke, title: str) -> FloatArray:
     if isinstance(asked, (int, np.integer)) and not isinstance(asked, bool):
         if asked < 1:
             raise DefinitionError(f"{title}: sweep({name}={asked}): a count of at least 1 is expected; for a value write {float(asked)}.")
-        return np.linspace(stroke.start, stroke.end, int(asked))
-    if isinstance(asked, float):
+        try:
+            return np.linspace(stroke.start, stroke.end, int(asked))
+        except (MemoryError, OverflowError, ValueError):
+            raise DefinitionError(f"{title}: sweep({name}={asked}): so many poses do not fit into memory; ask for fewer.") from None
+    if isinstance(asked, (float, np.floating)) and np.isfinite(asked):
         return np.asarray(asked, float)
     raise DefinitionError(f"{title}: sweep({name}={asked!r}): an int is a count, a float a value; for chosen values use at({name}=...).")

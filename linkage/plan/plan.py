@@ -9,8 +9,8 @@ from typing import Any, TypeVar
 from ..errors import DefinitionError, unknown
 from ..graph import Body, gruebler, merged, ordered
 from ..program import Kernel, Level, Node, Tangent
-from ..quantities import Dimension, Member, Number, Quantity, Stroke, needs
-from ..steps import Arrow, Bar, Ground, Link, Point
+from ..quantities import Dimension, Function, Member, Number, Operation, Quantity, Stroke, Variable, needs, unnamed
+from ..steps import Arrow, Bar, Drawn, Ground, Group, Guide, Link, Point
 from .reading import ArrayReading
 from .table import Table
 from .trace import Trace
@@ -26,7 +26,7 @@ class Plan:
 
     def __init__(self, members: Mapping[str, Member], title: str) -> None:
         self.title = title
-        order = ordered({name: list(needs(member)) for name, member in members.items()}, title)
+        order = ordered({name: self._needs(name, member) for name, member in members.items()}, title)
         self.table = Table(title)
         self.members: dict[str, Member] = {}
         for name in order:
@@ -35,14 +35,28 @@ class Plan:
         self._kernels: dict[Any, Kernel] = {}
         self._check_kinds()
 
+    def _needs(self, name: str, member: Member) -> list[str]:
+        """Return the names that a member needs; DefinitionError, with the place, where a part of it cannot be one."""
+        try:
+            return list(needs(member))
+        except DefinitionError as error:
+            raise DefinitionError(f"{self.title}.{name}: {error}") from None
+
     def _bound(self, name: str, member: Member) -> Member:
         """Return a member with its dimensions entered in the table."""
         if isinstance(member, Dimension):
-            self.table.add(name, member.default, "number", f"{name} = {member}")
+            self.table.add(name, member.default, "number", f"{name} = {member}", member.unit)
         if isinstance(member, Ground):
             for coordinate, value in member.coordinates():
                 if isinstance(value, Number):
                     self.table.add(coordinate, value.number, "coordinate", f"{name} = {member}")
+        if isinstance(member, Guide):
+            for variable, default, kind in member.variables():
+                self.table.add(variable, default, kind, f"{name} = {member}")
+        if isinstance(member, Link):
+            member.claim(self.table)
+        if isinstance(member, Group):
+            member.settled(self.table)
         return member.bind(name, self.table) if isinstance(member, Point) else member
 
     def of_kind(self, kind: type[Kind]) -> dict[str, Kind]:
@@ -62,11 +76,14 @@ class Plan:
     def _check_kinds(self) -> None:
         """Raise DefinitionError where a point, a vector or a quantity stands in the place of another kind."""
         for name, member in self.members.items():
-            for attribute, kind, word in PLACES.get(type(member).__name__, ()):
-                reference = getattr(member, attribute)
-                found = self.members[reference] if isinstance(reference, str) else reference
-                if not isinstance(found, kind):
-                    raise DefinitionError(f"{self.title}: {name} = {member}: {found.name or found} is not a {word}.")
+            for part in (member, *unnamed(member)):
+                for attribute, kind, word in PLACES.get(type(part).__name__, ()):
+                    reference = getattr(part, attribute)
+                    found = self.members[reference] if isinstance(reference, str) else reference
+                    if reference is not None and not isinstance(found, kind):
+                        raise DefinitionError(f"{self.title}: {name} = {member}: {found.name or found} is not a {word}.")
+            if isinstance(member, Ground) and self.moves(member):
+                raise DefinitionError(f"{self.title}: {name} = {member} follows a stroke, but is fixed; drive a point by OnGuide, Dyad or Crank.")
 
     # -- what moves with what --------------------------------------------------------------------------
 
@@ -88,19 +105,24 @@ class Plan:
     @cached_property
     def bars(self) -> tuple[Bar, ...]:
         """The links of two points that the steps bring."""
-        return tuple(bar for point in self.points.values() for bar in point.bars())
+        steps = [bar for point in self.points.values() for bar in point.bars()]
+        return (*steps, *(rod for group in self.groups.values() for rod in group.rods))
 
     @cached_property
     def cylinders(self) -> tuple[Bar, ...]:
         """The bars whose length follows a stroke."""
         return tuple(bar for bar in self.bars if self.moves(bar.length))
 
+    def _is_cylinder(self, link: Link) -> bool:
+        length = self.table.lengths.get(frozenset(link.point_names))
+        return length is not None and self.moves(length)
+
     @cached_property
     def links(self) -> tuple[Body, ...]:
         """The rigid bodies, the frame first."""
         groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in self.bars if bar not in self.cylinders]
         groups += [body for point in self.points.values() for body in point.bodies()]
-        groups += [link.point_names for link in self.of_kind(Link).values()]
+        groups += [link.point_names for link in self.of_kind(Link).values() if len(link.point_names) > 2 or not self._is_cylinder(link)]
         return merged(groups, self.ground)
 
     @cached_property
@@ -113,11 +135,26 @@ class Plan:
     @cached_property
     def trace(self) -> Trace:
         """The program's nodes: every point placed."""
-        levels = dict.fromkeys(self.strokes, Level.POSE) | dict.fromkeys(self.table.entries, Level.DESIGN)
+        levels = dict.fromkeys((*self.strokes, *self.solved), Level.POSE) | dict.fromkeys(self.table.entries, Level.DESIGN)
         trace = Trace(self.members, self.table.lengths, levels)
         for name in self.points:
             trace.at(name)
+        for name, length in self.following:
+            trace.watch_length(name, length)
         return trace
+
+    @cached_property
+    def following(self) -> tuple[tuple[str, Quantity], ...]:
+        """The lengths that follow other quantities, and so can become negative, each with the later of its two points."""
+        place = list(self.members).index
+        return tuple((max(ends, key=place), length) for ends, length in self.table.lengths.items() if not isinstance(length, Variable))
+
+    @cached_property
+    def may_overflow(self) -> bool:
+        """Whether a place depends on arithmetic that has no value everywhere: quotients, powers, functions."""
+        names = set().union(*map(self.reaches, self.points))
+        parts = [part for name in names for part in (self.members[name], *unnamed(self.members[name]))]
+        return any(isinstance(part, Function) or (isinstance(part, Operation) and part.symbol != "*") for part in parts)
 
     def read(self, inputs: Mapping[str, Any]) -> ArrayReading:
         """Return the eager reading on arrays, every point placed."""
@@ -157,6 +194,27 @@ class Plan:
         return self._kernels[key]
 
     @cached_property
+    def groups(self) -> dict[str, Group]:
+        """The groups whose pins are found together, in order."""
+        return self.of_kind(Group)
+
+    @cached_property
+    def solved(self) -> tuple[str, ...]:
+        """The inputs that a group's solution supplies: its pins' coordinates and its distance from a singular pose."""
+        return tuple(name for group in self.groups.values() for name in group.inputs)
+
+    @cached_property
+    def defaults(self) -> dict[str, float]:
+        """The design variables at their defaults [SI]."""
+        return {name: entry.default for name, entry in self.table.entries.items()}
+
+    @cached_property
+    def sketch_strokes(self) -> dict[str, float]:
+        """The strokes at which sketch positions hold: the start of each, unless the class says `drawn(...)`."""
+        said = {name: value for drawing in self.of_kind(Drawn).values() for name, value in drawing.strokes.items()}
+        return {name: float(said.get(name, stroke.start)) for name, stroke in self.strokes.items()}
+
+    @cached_property
     def moving(self) -> tuple[str, ...]:
         """The points that are not fixed."""
         return tuple(name for name in self.points if name not in self.ground)
@@ -173,6 +231,12 @@ class Plan:
 
 PLACES: dict[str, tuple[tuple[str, type, str], ...]] = {
     "Dyad": (("P", Point, "point"), ("Q", Point, "point"), ("PX", Quantity, "quantity"), ("QX", Quantity, "quantity")),
+    "SliderDyad": (("P", Point, "point"), ("guide", Guide, "guide")),
+    "PinSlotDyad": (("P", Point, "point"), ("Q", Point, "point")),
+    "GuideCross": (("guide", Guide, "guide"), ("other", Guide, "guide")),
+    "YokeDyad": (("P", Point, "point"), ("guide", Guide, "guide")),
+    "OnGuide": (("guide", Guide, "guide"),),
+    "Slide": (("point", Point, "point"), ("guide", Guide, "guide")),
     "OnLink": (("P", Point, "point"), ("Q", Point, "point")),
     "Crank": (("P", Point, "point"), ("angle", Quantity, "quantity")),
     "Vector": (("P", Point, "point"), ("Q", Point, "point")),
@@ -182,4 +246,6 @@ PLACES: dict[str, tuple[tuple[str, type, str], ...]] = {
     "Distance": (("P", Point, "point"), ("Q", Point, "point")),
     "Coordinate": (("P", Point, "point"),),
     "Length": (("vector", Arrow, "vector"),),
+    "Ref": (("target", Quantity, "quantity"),),
+    "Guide": (("P", Point, "point"), ("Q", Point, "point")),
 }

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..quantities import Member, Quantity, Reference, Turning, name_of
 from ..steps import Point
-from ..vectors import Scalar, Vec
+from ..vectors import Line, Scalar, Vec
 
 
 class Reading:
@@ -35,6 +35,11 @@ class Reading:
             self.positions[name] = self.closed(step, self.positions[name])
             self.placing.pop()
         return self.positions[name]
+
+    @property
+    def owner(self) -> str:
+        """The named member that is being worked out."""
+        return self.placing[-1]
 
     def closed(self, step: Point, X: Vec) -> Vec:
         """Return the position of a point that closes a loop; here it is known by its value."""
@@ -78,6 +83,15 @@ class Reading:
         """Return the square root that closes a loop."""
         return np.sqrt(radicand)
 
+    def margin(self, sine: Scalar) -> Scalar:
+        """Return the sine of the angle between a loop's two members."""
+        return sine
+
+    def line(self, guide: Reference) -> Line:
+        """Return a guide's line."""
+        found: Line = self._once("line", guide, "line")
+        return found
+
     def angle_of(self, vector: Vec) -> Scalar:
         """Return a vector's direction [rad]."""
         return np.arctan2(vector.y, vector.x)
@@ -107,5 +121,10 @@ class ArrayReading(Reading):
     def root(self, radicand: Scalar, scale: Scalar, size: Scalar) -> Scalar:
         inside = np.where((radicand < 0.0) & (radicand >= -self.ROUNDING * size), 0.0, radicand)
         height = np.sqrt(inside)
-        self.sines[self.placing[-1]] = height / scale
+        self.margin(height / scale)
         return height
+
+    def margin(self, sine: Scalar) -> Scalar:
+        """Return a sine, noted for the member that is being placed."""
+        self.sines[self.owner] = sine
+        return sine

@@ -10,18 +10,19 @@ from typing import Any
 import numpy as np
 
 from ..errors import DefinitionError, unknown
-from ..quantities import Number, Quantity, Variable, quantity, spelled
+from ..quantities import Number, Quantity, Variable, quantity, real, spelled
 from ..steps import Slot
 
 
 @dataclass(frozen=True)
 class Entry:
-    """One design variable: its default [SI], what it measures, and where it stands."""
+    """One design variable: its default [SI], what it measures, where it stands, and the unit it is shown in, if it has one."""
 
     name: str
     default: float
     kind: str
     where: str
+    unit: str = ""
 
 
 class Table:
@@ -35,11 +36,11 @@ class Table:
         self.lengths: dict[frozenset[str], Quantity] = {}
         self._labels: dict[Any, tuple[str, Quantity]] = {}
 
-    def add(self, name: str, default: float, kind: str, where: str) -> None:
+    def add(self, name: str, default: float, kind: str, where: str, unit: str = "") -> None:
         """Enter a design variable; raise DefinitionError where its name is taken or its value cannot be."""
         if name in self.entries:
             raise DefinitionError(f"{where}: the name {name} already belongs to {self.entries[name].where}; rename one of them.")
-        entry = Entry(name, default, kind, where)
+        entry = Entry(name, default, kind, where, unit)
         checked(entry, default)
         self.entries[name] = entry
         self.spellings[name] = (name, 1)
@@ -88,9 +89,10 @@ class Table:
         if name in self.spellings:
             return [(name, value)]
         if f"{name}.x" in self.spellings or f"{name}.y" in self.spellings:
-            if np.ndim(value) == 0 or len(value) != 2:
+            pair = list(value) if isinstance(value, (list, tuple)) or np.ndim(value) else []
+            if len(pair) != 2:
                 raise DefinitionError(f"{self.title}({name}={value!r}): a point takes two coordinates, {name}=(x, y) in m.")
-            return [(f"{name}.{axis}", part) for axis, part in zip("xy", value, strict=True) if f"{name}.{axis}" in self.spellings]
+            return [part for axis, each in zip("xy", pair, strict=True) for part in self._pairs(f"{name}.{axis}", each)]
         if name in self.following:
             raise DefinitionError(f"{self.title}({name}=...): {name} follows {self.following[name]}; set what it follows.")
         raise unknown("Dimension", name, self.names(), where=self.title)
@@ -103,8 +105,8 @@ class Table:
 def signed(value: Any, sign: int, entry: Entry) -> Any:
     """Return a setting under its owner's sign; raise DefinitionError for what is not a number."""
     try:
-        array = np.asarray(value, float)
-    except (TypeError, ValueError):
+        array = real(value)
+    except ValueError:
         raise DefinitionError(f"{entry.name}={value!r} is not a number; give it in SI, such as {entry.name}={entry.default!r}.") from None
     return float(sign * array) if array.ndim == 0 else sign * array
 

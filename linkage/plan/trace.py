@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..program import Graph, Level, Node
 from ..quantities import Member, Quantity, Turning
 from ..steps import Point
@@ -17,7 +19,7 @@ NEAR = 2e-4
 
 @dataclass(frozen=True)
 class Guard:
-    """A node that is NaN where a step cannot be assembled and negative where it is near a singular pose."""
+    """A node that is NaN where a step cannot be assembled, negative near a singular pose, zero where a direction is lost."""
 
     step: str
     node: Node
@@ -35,18 +37,49 @@ class Trace(Reading):
     def root(self, radicand: Scalar, scale: Scalar, size: Scalar) -> Scalar:
         node: Node = self.graph.apply("sqrt", radicand)
         watched = node - NEAR * scale if node.level is Level.POSE else node
-        self.guards.append(Guard(self.placing[-1], self.graph.node(watched)))
+        self.guards.append(Guard(self.owner, self.graph.node(watched)))
         return node
+
+    def margin(self, sine: Scalar) -> Scalar:
+        if isinstance(sine, Node):
+            self.guards.append(Guard(self.owner, np.abs(sine) - NEAR))
+        return sine
+
+    def watch_length(self, step: str, length: Quantity) -> None:
+        """Keep a guard that is NaN where a length is negative."""
+        self.guards.append(Guard(step, self.graph.apply("sqrt", self.value(length))))
+
+    def link_length(self, P: str, Q: str) -> Scalar:
+        length = super().link_length(P, Q)
+        if frozenset((P, Q)) not in self.lengths:
+            self.guards.append(Guard(self.owner, self.graph.node(length)))
+        return length
 
     def closed(self, step: Point, X: Vec) -> Vec:
         if not step.closes:
             return X
 
+        names = step.companions or (step.name,)
+        values = [self.graph.node(part) for name in names for part in self._raw(name, step, X)]
+
         def residuals(roots: tuple[Node, ...]) -> tuple[Scalar, ...]:
-            self.positions[step.name] = Vec(*roots)
+            for name, x, y in zip(names, roots[::2], roots[1::2], strict=True):
+                self.positions[name] = Vec(x, y)
             return step.constraints(self)
 
-        return Vec(*self.graph.close((X.x, X.y), residuals))
+        roots = self.graph.close(values, residuals)
+        for name, x, y in zip(names, roots[::2], roots[1::2], strict=True):
+            self.positions[name] = Vec(x, y)
+        return self.positions[step.name]
+
+    def _raw(self, name: str, step: Point, X: Vec) -> tuple[Scalar, Scalar]:
+        """Return the selected position of a point of a loop."""
+        if name == step.name:
+            return X.x, X.y
+        other = self.members[name]
+        assert isinstance(other, Point)
+        place = other.place(self)
+        return place.x, place.y
 
     def close_angle(self, cos: Scalar, sin: Scalar) -> Turning:
         (root,) = self.graph.close((sin,), lambda roots: ((cos * cos + roots[0] * roots[0]) * 0.5,))

@@ -4,6 +4,7 @@ from .interpret import interpret as interpret
 from .kernel import FloatArray as FloatArray
 from .kernel import Kernel as Kernel
 from .kernel import Result as Result
+from .linear import solve_arrays as solve_arrays
 from .node import Closure as Closure
 from .node import Graph as Graph
 from .node import Level as Level

@@ -71,10 +71,15 @@ def block_code(plan: Schedule) -> BlockCode:
     for place, node in enumerate(plan.pose):
         args = tuple(map(plain, node.args))
         operands = [registers.read(arg) for arg in args]
+        if node.op == "solve":
+            registers.names[node] = f"v{node.number}"
+            lines.append(f"v{node.number} = solve({', '.join(operands)})")
+            registers.release(arg for arg in dict.fromkeys(args) if uses[arg] == place and arg not in plan.outputs)
+            continue
         registers.release(arg for arg in dict.fromkeys(args) if uses[arg] == place and arg not in plan.outputs)
         target = registers.take(node)
         listed = ", ".join(operands)
-        lines.append(f"{target}[...] = pick({listed})" if node.op == "pick" else f"{node.op}({listed}, {target})")
+        lines.append(f"{target}[...] = {node.op}({listed})" if node.op in ("pick", "component") else f"{node.op}({listed}, {target})")
         if node in watched:
             lines += guard_lines(plan, node, target)
         if node not in uses:

@@ -34,7 +34,7 @@ class Kernel:
     """Some nodes of a program as a function of designs and poses.
 
     `kernel(inputs)` takes a float or an array (designs,) for every dimension and a float or an array (poses,)
-    for every stroke, and returns values of shape (outputs, designs, poses); NaN where a pose cannot be assembled.
+    or (designs, poses) for every stroke and solved coordinate, and returns values of shape (outputs, designs, poses); NaN where a pose cannot be assembled.
     A guard is a node whose least value over all poses is wanted: NaN tells that some pose is unreachable.
     """
 
@@ -46,9 +46,11 @@ class Kernel:
     def __call__(self, inputs: Mapping[str, Any], out: FloatArray | None = None) -> Result:
         design = [inputs[node.value] for node in self.design_inputs]
         poses = [inputs[node.value] for node in self.pose_inputs]
-        m = max((np.size(value) for value in design if np.ndim(value)), default=1)
-        n = max((np.size(value) for value in poses if np.ndim(value)), default=1)
+        m = max((np.shape(value)[0] for value in (*design, *filter(is_table, poses)) if np.ndim(value)), default=1)
+        n = max((np.shape(value)[-1] for value in poses if np.ndim(value)), default=1)
         guards = np.full(len(self.plan.guards), math.inf)
+        if m * n == 0:
+            return Result(np.empty((len(self.plan.outputs), m, n)), guards)
         if m == 1 and n <= FEW:
             values = self._few([float(np.ravel(value)[0]) for value in design], poses, n, guards)
             if out is None:
@@ -79,7 +81,7 @@ class Kernel:
     def _few(self, design: Sequence[float], poses: Sequence[Any], n: int, guards: FloatArray) -> FloatArray:
         code, count = self._few_code, len(self.plan.outputs)
         passed = code["design"](*design)
-        columns = [np.broadcast_to(np.asarray(value, float).ravel(), (n,)).tolist() for value in poses]
+        columns = [np.broadcast_to(np.ravel(np.asarray(value, float)), (n,)).tolist() for value in poses]
         rows = [code["pose"](*passed, *pose) for pose in zip(*columns, strict=True)] if columns else [code["pose"](*passed)] * n
         table = np.array(rows, float).reshape(n, -1).T
         if len(guards):
@@ -115,7 +117,7 @@ class Kernel:
         columns = min(length, BLOCK)
         height = max(1, min(rows, BLOCK // columns))
         constants = [along(value, 1 if turned else 0) for value in passed]
-        inputs = [along(value, 0 if turned else 1) for value in poses]
+        inputs = [along(np.transpose(value) if turned and is_table(value) else value, 0 if turned else 1) for value in poses]
         pool = registers_for(registers, height * columns)
         least = np.empty(len(guards))
         for top in range(0, rows, height):
@@ -145,11 +147,18 @@ def compiled(text: str, names: Mapping[str, Any]) -> dict[str, Any]:
     return space
 
 
+def is_table(value: Any) -> bool:
+    """Return whether an input varies over designs and poses."""
+    return np.ndim(value) == 2
+
+
 def along(value: Any, axis: int) -> Any:
-    """Return a value as it stands in a block: a float, or an array that varies along one axis."""
-    if np.ndim(value) == 0 or np.size(value) == 1:
+    """Return a value as it stands in a block: a float, or an array that varies along one axis or both."""
+    if np.size(value) == 1:
         return float(np.ravel(value)[0])
-    array = np.ascontiguousarray(value, float).ravel()
+    if is_table(value):
+        return np.ascontiguousarray(value, float)
+    array = np.ascontiguousarray(value, float)
     return array[None, :] if axis == 1 else array[:, None]
 
 
@@ -157,8 +166,8 @@ def window(value: Any, band: slice, part: slice, shape: tuple[int, ...]) -> Any:
     """Return the part of a value that a block sees."""
     if isinstance(value, float):
         return value
-    seen = value[:, part] if value.shape[0] == 1 else value[band]
-    return seen if len(shape) == 2 else seen[0] if value.shape[0] == 1 else float(seen[0, 0])
+    seen = value[band if value.shape[0] > 1 else slice(None), part if value.shape[1] > 1 else slice(None)]
+    return seen if len(shape) == 2 else seen[0] if seen.shape[1] > 1 or shape[0] == 1 else float(seen[0, 0])
 
 
 def registers_for(count: int, size: int) -> list[FloatArray]:

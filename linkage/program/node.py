@@ -156,7 +156,7 @@ class Graph:
     def apply(self, op: str, *arguments: Any) -> Node:
         """Return the node of an operation, simplified."""
         args = tuple(map(self.node, arguments))
-        if all(each.op == "constant" for each in args):
+        if op not in ("solve", "component") and all(each.op == "constant" for each in args):
             with np.errstate(all="ignore"):
                 return self.constant(float(OPERATIONS[op].array(*(each.value for each in args))))
         simpler = SIMPLIFY[op](self, *args) if op in SIMPLIFY else None
@@ -168,7 +168,7 @@ class Graph:
 
     def power(self, base: Node, exponent: Any) -> Node:
         """Return base ** exponent; whole and half exponents become products and roots."""
-        if not isinstance(exponent, Node) and float(exponent) == int(float(exponent)) and abs(float(exponent)) <= 8:
+        if not isinstance(exponent, Node) and abs(float(exponent)) <= 8 and float(exponent).is_integer():
             count = int(float(exponent))
             result = self.constant(1.0)
             for _ in range(abs(count)):

@@ -12,10 +12,17 @@ from typing import Any
 
 import numpy as np
 
+from .linear import solve_arrays, solve_floats
+
 
 def pick(a: Any, b: Any, x: Any, y: Any) -> Any:
     """Return x where a <= b, else y."""
     return np.where(a <= b, x, y)
+
+
+def component(values: Any, place: Any) -> Any:
+    """Return one unknown of a solved system."""
+    return values[int(place)]
 
 
 def shares(result: Any, a: Any, b: Any) -> tuple[Any, Any]:
@@ -53,6 +60,8 @@ OPERATIONS: dict[str, Operation] = {
     "sign": Operation(np.sign, "sign({})", lambda r, a: (0.0,)),
     "minimum": Operation(np.minimum, "minimum({}, {})", lambda r, a, b: shares(r, a, b)),
     "maximum": Operation(np.maximum, "maximum({}, {})", lambda r, a, b: shares(r, b, a)),
+    "solve": Operation(solve_arrays, "solve({})", lambda r, *entries: ()),
+    "component": Operation(component, "component({}, {})", lambda r, *entries: ()),
     "pick": Operation(pick, "pick({}, {}, {}, {})", lambda r, a, b, x, y: (0.0, 0.0, *shares(r, a, b))),
 }
 
@@ -88,7 +97,7 @@ def _power(a: float, b: float) -> float:
 
 
 #: The names a program's text uses, on plain floats: math raises where NumPy returns NaN, so roots and divisions are guarded.
-FLOATS: Mapping[str, Callable[..., float]] = {
+FLOATS: Mapping[str, Callable[..., Any]] = {
     "reciprocal": _reciprocal,
     "sqrt": _sqrt,
     "sin": _quiet("sin"),
@@ -103,6 +112,8 @@ FLOATS: Mapping[str, Callable[..., float]] = {
     "minimum": lambda a, b: math.nan if a != a or b != b else min(a, b),
     "maximum": lambda a, b: math.nan if a != a or b != b else max(a, b),
     "pick": lambda a, b, x, y: x if a <= b else y,
+    "solve": solve_floats,
+    "component": component,
 }
 
 #: The same names on arrays.

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from .linear import unknowns
 from .node import Closure, Graph, Node
 from .operations import OPERATIONS
 from .solve import solution
@@ -24,6 +25,7 @@ class Tangent:
         self.graph, self.beyond, self.limit = graph, beyond, limit
         self.zero = graph.constant(0.0)
         self._known: dict[Node, Node] = {node: graph.node(seed) for node, seed in seeds.items()}
+        self._systems: dict[Node, list[Node]] = {}
         self._first = min((node.number for node in seeds), default=0)
 
     def of(self, node: Node) -> Node:
@@ -51,9 +53,25 @@ class Tangent:
             stack.extend(each.closure.sources if each.closure else each.args)
         return sorted(found, key=lambda each: each.number)
 
+    def _solved(self, node: Node) -> Node:
+        """Return the derivative of one unknown of A u = b: the solution of A du = db - dA u."""
+        system = node.args[0]
+        if system not in self._systems:
+            matrix, right = _entries(system)
+            found = [self.graph.apply("component", system, float(place)) for place in range(len(right))]
+            drive = [
+                sum((-(self._lookup(entry) * u) for entry, u in zip(row, found, strict=True)), self._lookup(b))
+                for row, b in zip(matrix, right, strict=True)
+            ]
+            self._systems[system] = solution(self.graph, matrix, drive)
+        return self._systems[system][int(node.args[1].value)]
+
     def _settle(self, node: Node) -> None:
         if node.closure is not None:
             self._known.update(zip(node.closure.roots, rates(self.graph, node.closure, self), strict=True))
+            return
+        if node.op in ("solve", "component"):
+            self._known[node] = self._solved(node) if node.op == "component" else self.zero
             return
         moving = [(index, change) for index, arg in enumerate(node.args) if (change := self._lookup(arg)) is not self.zero]
         total = self.zero
@@ -62,6 +80,12 @@ class Tangent:
             for index, change in moving:
                 total = total + change * partials[index]
         self._known[node] = total
+
+
+def _entries(node: Node) -> tuple[list[list[Node]], list[Node]]:
+    """Return the matrix and the right side of a system node."""
+    n = unknowns(len(node.args))
+    return [list(node.args[k * n : k * n + n]) for k in range(n)], list(node.args[n * n :])
 
 
 def rates(graph: Graph, closure: Closure, along: Tangent) -> Sequence[Node]:

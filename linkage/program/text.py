@@ -16,7 +16,13 @@ def name(node: Node) -> str:
 
 def assignments(nodes: Iterable[Node]) -> list[str]:
     """Return one line a node: `n7 = n3 * n5`."""
-    return [f"n{node.number} = {OPERATIONS[node.op].text.format(*(bracketed(plain(arg)) for arg in node.args))}" for node in nodes]
+    return [f"n{node.number} = {expression(node)}" for node in nodes]
+
+
+def expression(node: Node) -> str:
+    """Return a node's operation on its arguments' names."""
+    operands = [bracketed(plain(arg)) for arg in node.args]
+    return f"solve({', '.join(operands)})" if node.op == "solve" else OPERATIONS[node.op].text.format(*operands)
 
 
 def bracketed(node: Node) -> str:

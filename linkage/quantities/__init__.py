@@ -6,6 +6,9 @@ from .member import Member as Member
 from .member import Reference as Reference
 from .member import name_of as name_of
 from .member import needs as needs
+from .member import unnamed as unnamed
+from .numbers import is_number as is_number
+from .numbers import real as real
 from .outputs import Angle as Angle
 from .outputs import Coordinate as Coordinate
 from .outputs import Distance as Distance
@@ -16,7 +19,9 @@ from .outputs import label as label
 from .outputs import x as x
 from .outputs import y as y
 from .quantity import Negative as Negative
+from .quantity import Function as Function
 from .quantity import Number as Number
+from .quantity import Operation as Operation
 from .quantity import Quantity as Quantity
 from .quantity import Ref as Ref
 from .quantity import Sum as Sum

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, unknown
+from ..units import UNITS
 from ..vectors import Scalar
+from .numbers import is_number
 from .quantity import Quantity, Where
 
 
@@ -19,7 +20,7 @@ class Stroke(Quantity):
 
     def __post_init__(self) -> None:
         for value in (self.start, self.end):
-            if not isinstance(value, (int, float)) or not math.isfinite(value):
+            if not is_number(value):
                 raise DefinitionError(f"Stroke({self.start}, {self.end}): both ends must be finite numbers.")
         if self.start == self.end:
             raise DefinitionError(f"Stroke({self.start}, {self.end}) has no length: give two different ends.")
@@ -33,16 +34,20 @@ class Stroke(Quantity):
 
 @dataclass(frozen=True, eq=False)
 class Dimension(Quantity):
-    """A number of the design that has a name of its own [SI]."""
+    """A number of the design that has a name of its own [SI]; `unit` is the one it is shown and checked in, such as "kgf"."""
 
     default: float
+    unit: str = ""
 
     def __post_init__(self) -> None:
-        if isinstance(self.default, bool) or not isinstance(self.default, (int, float)) or not math.isfinite(self.default):
+        if not is_number(self.default):
             raise DefinitionError(f"Dimension({self.default!r}): a finite number is expected.")
+        if self.unit and self.unit not in UNITS:
+            raise unknown("Unit", self.unit, UNITS, where=str(self))
 
     def rule(self, where: Where) -> Scalar:
         return where.input(self.name)
 
     def __str__(self) -> str:
-        return f"Dimension({self.default!r})"
+        unit = f', unit="{self.unit}"' if self.unit else ""
+        return f"Dimension({self.default!r}{unit})"

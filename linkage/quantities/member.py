@@ -45,16 +45,22 @@ def name_of(reference: Reference) -> str:
     if not isinstance(reference, Member):
         raise DefinitionError(f"{reference!r} stands where a point or its name is expected.")
     if not reference.name:
-        raise DefinitionError(f"{reference!r} is used before it has a name: bind it to one in the class, or write the name as a string.")
+        raise DefinitionError(f"{reference} is used before it has a name: bind it to one in the class, or write the name as a string.")
     return reference.name
 
 
 def needs(member: Member) -> Iterator[str]:
     """Yield the names that a member needs, through its unnamed parts."""
     for part in member.parts():
-        if isinstance(part, str):
-            yield part
-        elif part.name:
-            yield part.name
-        else:
+        if isinstance(part, Member) and not part.name:
             yield from needs(part)
+        else:
+            yield name_of(part)
+
+
+def unnamed(member: Member) -> Iterator[Member]:
+    """Yield the parts of a member that have no name of their own, through all depths."""
+    for part in member.parts():
+        if isinstance(part, Member) and not part.name:
+            yield part
+            yield from unnamed(part)

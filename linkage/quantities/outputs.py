@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..vectors import Scalar
-from .member import Reference
+from .member import Reference, name_of
 from .quantity import Quantity, Turning, Where
 
 
@@ -33,7 +33,7 @@ class Angle(Quantity):
 
     def turning(self, where: Where) -> Turning:
         v = where.at(self.Q) - where.at(self.P)
-        scale = 1.0 / v.length()
+        scale = 1.0 / where.link_length(name_of(self.P), name_of(self.Q))
         return v.x * scale, v.y * scale
 
     def __str__(self) -> str:

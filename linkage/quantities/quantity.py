@@ -14,8 +14,9 @@ from typing import Any, Protocol, TypeAlias
 import numpy as np
 
 from ..errors import DefinitionError
-from ..vectors import Scalar, Vec
+from ..vectors import Line, Scalar, Vec
 from .member import Member, Reference
+from .numbers import is_number
 
 Turning: TypeAlias = tuple[Scalar, Scalar]
 """The cosine and the sine of an angle: how angles are carried between steps."""
@@ -44,6 +45,12 @@ class Where(Protocol):
 
         NaN where the radicand is negative by more than rounding, which is measured against `size`.
         """
+
+    def margin(self, sine: Scalar) -> Scalar:
+        """Return the sine of the angle between a loop's two members, noted as its distance from a singular pose."""
+
+    def line(self, guide: Reference) -> Line:
+        """Return a guide's line."""
 
     def angle_of(self, vector: Vec) -> Scalar:
         """Return a vector's direction [rad]."""
@@ -102,6 +109,9 @@ class Quantity(Member):
     def __pow__(self, other: Operand) -> Quantity:
         return Operation("**", self, quantity(other))
 
+    def __rpow__(self, other: Operand) -> Quantity:
+        return Operation("**", quantity(other), self)
+
     def __neg__(self) -> Quantity:
         return Negative(self)
 
@@ -141,8 +151,10 @@ def quantity(value: Operand) -> Quantity:
         return value
     if isinstance(value, str):
         return ref(value)
-    if isinstance(value, (float, int, np.floating, np.integer)) and not isinstance(value, bool):
+    if is_number(value):
         return Number(float(value))
+    if isinstance(value, (float, int)) and not isinstance(value, bool):
+        raise DefinitionError(f"{value!r} is not a finite number; give a value in SI.")
     raise DefinitionError(f"{value!r} stands where a number, a quantity or its name is expected.")
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..errors import DefinitionError
 from ..quantities import Quantity, Reference, Where
 from ..vectors import Scalar, Side, Vec
 from .labels import Slot
@@ -33,6 +32,7 @@ class Dyad(Step):
     Q: str
     PX: Quantity = UNBOUND
     QX: Quantity = UNBOUND
+    measures = "distances"
 
     def __init__(self, P: Reference, Q: Reference, *, side: Side | None = None, near: Any = None, at: Any = None, **lengths: Any) -> None:
         super().__init__(P, Q, labels=lengths, side=side, near=near, at=at)
@@ -49,12 +49,13 @@ class Dyad(Step):
 
     def place(self, where: Where) -> Vec:
         P, base = where.at(self.P), where.at(self.Q) - where.at(self.P)
-        if self.side is None:
-            raise DefinitionError(f"{self.sentence()}: its side is not settled.")
         along, height = triangle(where, base.square(), where.value(self.PX), where.value(self.QX))
         inverse = 1.0 / base.square()
-        X: Vec = P + base * (along * inverse) + base.left() * (float(self.side) * (height * inverse))
+        X: Vec = P + base * (along * inverse) + base.left() * (float(self.settled_side) * (height * inverse))
         return X
+
+    def modes(self) -> tuple[Side, ...]:
+        return Side.LEFT, Side.RIGHT
 
     def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
         base = (where.at(self.Q) - where.at(self.P)).length()

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from typing import Any
 
 from ..errors import DefinitionError
-from ..quantities import Member, Reference, name_of, quantity
+from ..quantities import Member, Reference, name_of, quantity, spelled
+from .labels import Claims, Slot, match
 
 
 class Link(Member):
@@ -21,6 +23,14 @@ class Link(Member):
     def parts(self) -> tuple[Reference, ...]:
         return (*self.points, *(part for part in map(quantity, self.labels.values()) if not part.is_constant))
 
+    def claim(self, claims: Claims) -> None:
+        """Enter the labels: distances and angles of its own points."""
+        slots = [Slot("", pair) for pair in combinations(self.point_names, 2)]
+        slots += [Slot("", (P, vertex, Q)) for vertex in self.point_names for P, Q in combinations(self.point_names, 2) if vertex not in (P, Q)]
+        for spelling, value in self.labels.items():
+            (found,) = match({spelling: value}, slots, f"{self.name} = {self}").values()
+            claims.claim(found[0], spelling, value, f"{self.name} = {self}")
+
     @property
     def point_names(self) -> tuple[str, ...]:
         """The names of its points; DefinitionError where one stands twice."""
@@ -31,5 +41,5 @@ class Link(Member):
 
     def __str__(self) -> str:
         points = " ".join(name_of(point) for point in self.points)
-        labels = "".join(f", {key}={value}" for key, value in self.labels.items())
+        labels = "".join(f", {key}={spelled(quantity(value))}" for key, value in self.labels.items())
         return f'Link("{points}"{labels})'

@@ -24,6 +24,7 @@ class OnLink(Step):
     PX: Quantity = UNBOUND
     QX: Quantity = UNBOUND
     QPX: Quantity = UNBOUND
+    measures = "angle"
 
     def __init__(self, P: Reference, Q: Reference, *, side: Side | None = None, near: Any = None, at: Any = None, **labels: Any) -> None:
         super().__init__(P, Q, labels=labels, side=side, near=near, at=at)
@@ -39,6 +40,9 @@ class OnLink(Step):
             raise DefinitionError(f"{self.sentence()}: give the third side or the angle, not both.")
         if self.QX is not UNBOUND and self.side is None and self.near is None and self.drawn_at is None:
             raise self.needs_side("a triangle of three sides lies on either side")
+
+    def modes(self) -> tuple[Side, ...]:
+        return (Side.LEFT, Side.RIGHT) if self.QX is not UNBOUND else ()
 
     def turn(self, where: Where, base: Scalar) -> Turning:
         """Return the cosine and sine of the angle QPX; `base` is the length of PQ [m]."""
@@ -59,6 +63,8 @@ class OnLink(Step):
         return P + (Q - P).turned(cos * scale, sin * scale)
 
     def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
+        if self.QX is UNBOUND:
+            return ()
         base = where.link_length(self.P, self.Q)
         return (self.P + self.Q, base), (self.P + self.X, where.value(self.PX)), (self.Q + self.X, where.value(self.QX))
 

@@ -53,6 +53,23 @@ class Point(Member):
         """Return the points this step makes rigid with each other."""
         return ()
 
+    def slides(self) -> tuple[tuple[str, str], ...]:
+        """Return the points this step keeps on guides: (point, guide)."""
+        return ()
+
+    @property
+    def companions(self) -> tuple[str, ...]:
+        """The points that are found together with this one; empty where it is placed alone."""
+        return ()
+
+    def modes(self) -> tuple[Side, ...]:
+        """Return the assembly modes a side chooses from; empty where there is only one."""
+        return ()
+
+    def shortage(self, where: Where) -> tuple[str, Scalar]:
+        """Return what is too short to place this point, in words, and by how much [m]."""
+        return "its point lies nowhere", float("nan")
+
 
 class Step(Point):
     """A step that hangs a point X from parents by labelled lengths and angles.
@@ -63,6 +80,8 @@ class Step(Point):
     X: str = ""
     parents: tuple[Reference, ...]
     parent_letters: tuple[str, ...] = ("P", "Q")
+    measures: str = ""
+    """What `at=(x, y)` supplies: the `distances` from both parents, or one distance and the `angle`."""
 
     def __init__(self, *parents: Reference, labels: Mapping[str, Any], side: Side | None = None, near: Any = None, at: Any = None) -> None:
         self.parents = parents
@@ -107,6 +126,13 @@ class Step(Point):
     def needs_side(self, why: str) -> DefinitionError:
         """Return the error for a step that can be assembled in two ways and does not say which."""
         return DefinitionError(f"{self.sentence()}: {why}; say side=LEFT, side=RIGHT, or near=(x, y).")
+
+    @property
+    def settled_side(self) -> Side:
+        """The side; DefinitionError where a sketch position has not been turned into one."""
+        if self.side is None:
+            raise DefinitionError(f"{self.sentence()}: its side is not settled.")
+        return self.side
 
     def sentence(self) -> str:
         """Return the step's opening words: `B = Dyad(A, O)`."""

@@ -1,0 +1,16 @@
+"""Cylinders, gas and accumulators: what moves a linkage and what it rests on."""
+
+from .accumulator import Accumulator as Accumulator
+from .accumulator import AccumulatorBlock as AccumulatorBlock
+from .buckling import Buckling as Buckling
+from .cylinder import CylinderSize as CylinderSize
+from .gas import Gas as Gas
+from .gas import adiabatic as adiabatic
+from .gas import isothermal as isothermal
+from .gas import polytropic as polytropic
+from .nitrogen import real_nitrogen as real_nitrogen
+from .sizes import next_bore as next_bore
+from .sizes import next_rod as next_rod
+from .sizes import standard_bores as standard_bores
+from .sizes import standard_rods as standard_rods
+from .verdict import Verdict as Verdict

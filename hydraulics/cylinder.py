@@ -1,0 +1,133 @@
+"""The size of a hydraulic cylinder: areas, thrust, pressure, oil. Every pressure in this file is gauge [Pa].
+
+    thrust                    works = "piston": +    works = "rod": -
+    <--[====|-----]======-->  pressure left of |     pressure right of |, on the annulus around the rod
+
+Positive thrust pushes the ends apart. A cylinder that works with its rod side pulls: its thrust is negative.
+
+    >>> from linkage.units import bar, kN, mm
+    >>> size = CylinderSize(bore=63 * mm, rod=40 * mm, count=2)
+    >>> print(f"{size.thrust(100 * bar) / kN:.2f} kN, {size.pressure_for(50 * kN) / bar:.1f} bar")
+    62.34 kN, 80.2 bar
+    >>> print(size.sized_for(80 * kN, 100 * bar))
+    2 cylinders 80/40 mm, piston side
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import pi
+from typing import Literal, final
+
+from numpy.typing import ArrayLike
+
+from linkage.errors import DefinitionError, unknown
+from linkage.units import kN, mm
+
+from .inputs import Array, finite, over_poses, positive
+from .sizes import next_bore, standard_bores
+
+SIDES = ("piston", "rod")
+
+
+@final
+@dataclass(frozen=True)
+class CylinderSize:
+    """`count` equal cylinders side by side, of a bore and a rod [m]; `works` is the side the pressure acts on.
+
+    DefinitionError for a bore or rod not above zero, a rod not smaller than the bore, a count that is no positive integer.
+    """
+
+    bore: float
+    rod: float
+    count: int = 1
+    works: Literal["piston", "rod"] = "piston"
+
+    def __post_init__(self) -> None:
+        positive(self.bore, "Bore")
+        positive(self.rod, "Rod")
+        if self.rod >= self.bore:
+            raise DefinitionError(
+                f"Rod {self.rod / mm:.6g} mm is not smaller than bore {self.bore / mm:.6g} mm; exchange them or take a thinner rod."
+            )
+        if finite(self.count, "Count of cylinders") < 1 or self.count != int(self.count):
+            raise DefinitionError(f"Count of cylinders = {self.count}; give a whole number from 1 on.")
+        if self.works not in SIDES:
+            raise unknown("Side", self.works, SIDES, where="works")
+
+    def __str__(self) -> str:
+        many = "1 cylinder" if self.count == 1 else f"{self.count} cylinders"
+        return f"{many} {self.bore / mm:.4g}/{self.rod / mm:.4g} mm, {self.works} side"
+
+    @property
+    def piston_area(self) -> float:
+        """Area of one piston, m2."""
+        return pi / 4.0 * self.bore**2
+
+    @property
+    def rod_area(self) -> float:
+        """Area of the annulus around one rod, m2: what the rod side's pressure acts on."""
+        return pi / 4.0 * (self.bore**2 - self.rod**2)
+
+    @property
+    def ratio(self) -> float:
+        """Piston area over annulus (phi of ISO 3320)."""
+        return self.piston_area / self.rod_area
+
+    @property
+    def area(self) -> float:
+        """The area the pressure acts on, all cylinders, m2."""
+        return self.count * (self.piston_area if self.works == "piston" else self.rod_area)
+
+    @property
+    def back_area(self) -> float:
+        """The area on the other side of the pistons, all cylinders, m2."""
+        return self.count * (self.rod_area if self.works == "piston" else self.piston_area)
+
+    @property
+    def sense(self) -> int:
+        """+1 where the working side pushes the ends apart, -1 where it pulls them together."""
+        return 1 if self.works == "piston" else -1
+
+    def thrust(self, pressure: ArrayLike, back: ArrayLike = 0.0) -> Array:
+        """Return the thrust [N] of all cylinders at a pressure, with `back` pressure on the other side; the two broadcast.
+
+        Seal friction may be taken off the pressure, so a negative one is not refused. NaN in an array stays NaN.
+        DefinitionError for a lone NaN or an infinite pressure.
+        """
+        forward = over_poses(pressure, "Cylinder pressure") * self.area
+        return (self.sense * (forward - over_poses(back, "Back pressure") * self.back_area))[()]
+
+    def pressure_for(self, thrust: ArrayLike, back: ArrayLike = 0.0) -> Array:
+        """Return the pressure at which all cylinders together give a thrust [N] against a `back` pressure; they broadcast.
+
+        Negative where the load drives the cylinder: this side is empty and the other one holds. NaN and errors as `thrust`.
+        """
+        against = over_poses(back, "Back pressure") * self.back_area
+        return ((self.sense * over_poses(thrust, "Thrust") + against) / self.area)[()]
+
+    def oil(self, travel: ArrayLike) -> Array:
+        """Return the oil [m3] that the working side of all cylinders takes in over a travel [m] in its direction, same shape."""
+        return (over_poses(travel, "Travel") * self.area)[()]
+
+    def speed(self, flow: ArrayLike) -> Array:
+        """Return the speed [m/s] in the working direction at a flow [m3/s] into all cylinders, same shape."""
+        return (over_poses(flow, "Flow") / self.area)[()]
+
+    def next_size(self) -> CylinderSize:
+        """Return the same with the next standard bore; DefinitionError where there is none."""
+        return replace(self, bore=next_bore(self.bore))
+
+    def sized_for(self, thrust: float, pressure: float) -> CylinderSize:
+        """Return the same with the smallest standard bore that gives a thrust [N] at a pressure, the rod kept.
+
+        The thrust counts by its size. DefinitionError where no standard bore is enough, for a pressure not above zero.
+        """
+        force = abs(float(finite(thrust, "Thrust")))
+        limit = float(positive(pressure, "Pressure"))
+        for bore in standard_bores():
+            if bore > self.rod and replace(self, bore=bore).area * limit >= force:
+                return replace(self, bore=bore)
+        raise DefinitionError(
+            f"No standard bore of ISO 3320 gives {force / kN:.4g} kN with {self.count} of {self}; use more cylinders or a higher pressure."
+        )

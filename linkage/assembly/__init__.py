@@ -1,0 +1,6 @@
+"""Pins, links and slides turned into steps; groups solved and continued along the stroke."""
+
+from .assemble import assembled as assembled
+from .groups import Solved as Solved
+from .groups import solve_groups as solve_groups
+from .newton import Newton as Newton

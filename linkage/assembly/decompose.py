@@ -1,0 +1,110 @@
+"""What no dyad pattern places: the smallest sets of pins whose equations determine them together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..errors import DefinitionError
+from ..quantities import Quantity, name_of
+from ..steps import Group, OnLink, Slide
+from .parts import Parts
+
+
+@dataclass(frozen=True)
+class Row:
+    """An equation of the parts list: the loose pins it holds, and what it stands for."""
+
+    pins: tuple[str, ...]
+    length: tuple[str, str, Quantity] | None = None
+    attached: tuple[str, OnLink] | None = None
+    slide: Slide | None = None
+    half: int = 0
+
+
+def rows_of(parts: Parts, title: str) -> list[Row]:
+    """Return the equations of all links and slides that hold loose pins."""
+    rows: list[Row] = []
+    for name, link in parts.links.items():
+        if parts.loose(link):
+            rows += link_rows(parts, name, title)
+    for slide in parts.slides.values():
+        held = (name_of(slide.point), *parts.guides[name_of(slide.guide)].points)
+        loose = tuple(point for point in held if point in parts.pins and point not in parts.placed)
+        if loose:
+            rows.append(Row(loose, slide=slide))
+    return rows
+
+
+def link_rows(parts: Parts, name: str, title: str) -> list[Row]:
+    """Return a link's equations: one length, and two for every further point that is rigid with the first two."""
+    link, shape = parts.links[name], parts.shapes[name]
+    points = [*parts.firm(link), *parts.loose(link)]
+    first, second = points[:2]
+    length = shape.distance(first, second)
+    if length is None:
+        raise DefinitionError(f"{title}: the length {first}{second} of {name} = {link} is missing; give it, or draw both pins at=(x, y).")
+
+    def loose(*pins: str) -> tuple[str, ...]:
+        return tuple(pin for pin in pins if pin not in parts.placed)
+
+    rows = [Row(loose(first, second), length=(first, second, length))] if loose(first, second) else []
+    for pin in points[2:]:
+        step = shape.attachment((first, second), pin)
+        if not isinstance(step, OnLink):
+            raise DefinitionError(
+                f"{title}: the shape of {name} = {link} is not settled at {pin}; give two distances or a distance and an angle."
+            )
+        rows += [Row(loose(first, second, pin), attached=(pin, step), half=half) for half in (0, 1)]
+    return rows
+
+
+def next_group(parts: Parts, title: str) -> Group:
+    """Return the first set of loose pins that its own equations determine: an Assur group.
+
+    Raises DefinitionError where the equations leave a pin free.
+    """
+    import networkx as nx
+
+    rows = rows_of(parts, title)
+    matched = matching(rows, parts, title)
+    graph = nx.DiGraph()
+    graph.add_nodes_from({pin for pin, _ in matched})
+    for (pin, _), row in matched.items():
+        graph.add_edges_from((other, pin) for other in rows[row].pins if other != pin)
+    blocks = nx.condensation(graph)
+    for block in nx.lexicographical_topological_sort(blocks):
+        pins = blocks.nodes[block]["members"]
+        return grouped([pin for pin in parts.pins if pin in pins], [rows[row] for (pin, _), row in matched.items() if pin in pins], parts)
+    raise DefinitionError(f"{title}: no pin is left to place.")
+
+
+def matching(rows: list[Row], parts: Parts, title: str) -> dict[tuple[str, int], int]:
+    """Return which equation determines which coordinate; DefinitionError for a pin that is left free."""
+    import networkx as nx
+
+    loose = [pin for pin in parts.pins if pin not in parts.placed]
+    graph = nx.Graph()
+    coordinates = [(pin, axis) for pin in loose for axis in (0, 1)]
+    graph.add_nodes_from(coordinates)
+    graph.add_edges_from(((pin, axis), place) for place, row in enumerate(rows) for pin in row.pins for axis in (0, 1))
+    found = nx.bipartite.hopcroft_karp_matching(graph, coordinates)
+    free = sorted({pin for pin, axis in coordinates if (pin, axis) not in found}, key=loose.index)
+    if free:
+        raise DefinitionError(
+            f"{title}: the parts leave {' '.join(free)} free: {len(rows)} conditions for {2 * len(loose)} coordinates of the pins "
+            f"{' '.join(loose)}. Add a link, a slide or a length that follows a stroke."
+        )
+    return {each: found[each] for each in coordinates}
+
+
+def grouped(pins: list[str], rows: list[Row], parts: Parts) -> Group:
+    """Return the group of some pins with its equations."""
+    group = Group(" ".join(pins))
+    group.lengths = tuple(dict.fromkeys(row.length for row in rows if row.length))
+    attached: dict[str, tuple[str, OnLink]] = {}
+    for row in rows:
+        if row.attached:
+            attached.setdefault(f"{row.attached[0]} {row.attached[1]}", row.attached)
+    group.attached = tuple(attached.values())
+    group.slides = tuple(row.slide for row in rows if row.slide)
+    return group

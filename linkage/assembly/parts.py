@@ -1,0 +1,123 @@
+"""A parts list turned into steps: pins, links and slides become dyads by pattern, and groups where none fits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+from ..errors import DefinitionError
+from ..quantities import Quantity, name_of
+from ..steps import Dyad, Guide, GuideCross, Link, Pin, PinSlotDyad, Slide, SliderDyad, Step
+from .shape import Shape, labelled
+
+
+@dataclass
+class Parts:
+    """What is placed so far, and the pins, links and slides that are still to be used."""
+
+    placed: set[str]
+    pins: dict[str, Pin]
+    links: dict[str, Link]
+    slides: dict[str, Slide]
+    guides: dict[str, Guide]
+    place: Callable[[str], tuple[float, float]]
+    shapes: dict[str, Shape] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.shapes = {name: Shape(link, self.pins, self.place) for name, link in self.links.items()}
+
+    def loose(self, link: Link) -> list[str]:
+        """Return a link's points that are not placed."""
+        return [point for point in link.point_names if point not in self.placed]
+
+    def firm(self, link: Link) -> list[str]:
+        """Return a link's points that are placed."""
+        return [point for point in link.point_names if point in self.placed]
+
+    def is_placed(self, guide: str) -> bool:
+        """Return whether a guide lies on placed points."""
+        return set(self.guides[guide].points) <= self.placed
+
+    def guides_of(self, pin: str) -> list[str]:
+        """Return the placed guides a pin slides on."""
+        found = [name_of(slide.guide) for slide in self.slides.values() if name_of(slide.point) == pin]
+        return [guide for guide in found if self.is_placed(guide)]
+
+    def arms(self, pin: str) -> Iterator[tuple[str, str, Quantity]]:
+        """Yield the links by which a pin hangs on one placed point: link, point, length."""
+        for name, link in self.links.items():
+            firm = self.firm(link)
+            if pin in link.point_names and len(firm) == 1:
+                length = self.shapes[name].distance(firm[0], pin)
+                if length is not None:
+                    yield name, firm[0], length
+
+
+def next_step(parts: Parts) -> tuple[str, Step] | None:
+    """Return a pin that can be placed now and the step that places it; None where no pattern fits."""
+    for pin in parts.pins:
+        if pin in parts.placed:
+            continue
+        for pattern in PATTERNS:
+            step = pattern(parts, pin)
+            if step is not None:
+                return pin, step
+    return None
+
+
+def attached(parts: Parts, pin: str) -> Step | None:
+    """Return the pin's place on a body two of whose points are placed."""
+    for name, link in parts.links.items():
+        firm = parts.firm(link)
+        if pin in link.point_names and len(firm) >= 2:
+            step = parts.shapes[name].attachment(firm, pin)
+            if step is not None:
+                return step
+    return None
+
+
+def hung(parts: Parts, pin: str) -> Step | None:
+    """Return the RRR dyad of two links that hang on a placed point each."""
+    arms = list(parts.arms(pin))
+    for k, (_, P, p) in enumerate(arms):
+        for _, Q, q in arms[k + 1 :]:
+            if P != Q:
+                return Dyad(P, Q, near=parts.pins[pin].sketched, **labelled((P + pin, p), (Q + pin, q)))
+    return None
+
+
+def sliding(parts: Parts, pin: str) -> Step | None:
+    """Return the RRP dyad of a link that hangs on a placed point and a placed guide."""
+    guides = parts.guides_of(pin)
+    for _, P, length in parts.arms(pin):
+        if guides:
+            return SliderDyad(P, guides[0], near=parts.pins[pin].sketched, **labelled((P + pin, length)))
+    return None
+
+
+def crossing(parts: Parts, pin: str) -> Step | None:
+    """Return the PRP dyad of a pin on two placed guides."""
+    guides = parts.guides_of(pin)
+    return GuideCross(guides[0], guides[1]) if len(guides) > 1 else None
+
+
+def slotted(parts: Parts, pin: str) -> Step | None:
+    """Return the RPR dyad of a body that hangs on a placed point P and whose slot, through P and this pin, holds a placed pin."""
+    for _, P, length in parts.arms(pin):
+        for slide in parts.slides.values():
+            guide, held = parts.guides[name_of(slide.guide)], name_of(slide.point)
+            if set(guide.points) == {P, pin} and held in parts.placed:
+                return PinSlotDyad(P, held, near=parts.pins[pin].sketched, **labelled((P + pin, length)))
+    return None
+
+
+PATTERNS: tuple[Callable[[Parts, str], Step | None], ...] = (attached, hung, sliding, crossing, slotted)
+
+
+def check_held(parts: Parts, title: str) -> None:
+    """Raise DefinitionError for a pin that too little holds: fewer than two links or guides."""
+    for pin in parts.pins:
+        holds = [name for name, link in parts.links.items() if pin in link.point_names]
+        holds += [name for name, slide in parts.slides.items() if name_of(slide.point) == pin]
+        if not holds:
+            raise DefinitionError(f"{title}: nothing holds the pin {pin}; say Link(...) or Slide(...) with it.")

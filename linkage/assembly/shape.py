@@ -1,0 +1,77 @@
+"""The shape of a link: the distances and angles of its points, from its labels or a drawing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from itertools import permutations
+from typing import Any
+
+import numpy as np
+
+from ..quantities import Number, Quantity, quantity
+from ..steps import Link, OnLink, Pin, Step
+
+
+class Shape:
+    """What is known of a link's shape. Lengths in m, angles in rad."""
+
+    def __init__(self, link: Link, pins: Mapping[str, Pin], place: Callable[[str], tuple[float, float]]) -> None:
+        self.points = link.point_names
+        self.pins, self.place = pins, place
+        self.labels = {name: quantity(value) for name, value in link.labels.items()}
+
+    def given(self, *points: str) -> tuple[str, Quantity] | None:
+        """Return the label of a distance (two points) or an angle (three points) as it is spelled, if it is given."""
+        spellings = ("".join(points), "".join(reversed(points)))
+        return next(((spelling, self.labels[spelling]) for spelling in spellings if spelling in self.labels), None)
+
+    def distance(self, P: str, Q: str) -> Quantity | None:
+        """Return the distance of two points: given, by the cosine rule from two sides and their angle, or measured [m]."""
+        found = self.given(P, Q)
+        if found is not None:
+            return found[1]
+        for R in self.points:
+            sides, angle = (self.given(R, P), self.given(R, Q)), self.given(P, R, Q)
+            if angle is not None and sides[0] is not None and sides[1] is not None:
+                p, q = sides[0][1], sides[1][1]
+                derived: Quantity = np.sqrt(p * p + q * q - 2.0 * p * q * np.cos(angle[1]))
+                return derived
+        return self.measured(P, Q)
+
+    def measured(self, P: str, Q: str) -> Quantity | None:
+        """Return the distance of two points in the drawing [m]."""
+        if not any(point in self.pins and self.pins[point].drawn_at for point in (P, Q)):
+            return None
+        first, second = (self.pins[point].drawn_at if point in self.pins else self.place(point) for point in (P, Q))
+        return None if first is None or second is None else Number(float(np.hypot(first[0] - second[0], first[1] - second[1])))
+
+    def attachment(self, firm: Sequence[str], pin: str) -> Step | None:
+        """Return the step that places a point of this body from two placed ones, if the labels allow it."""
+        near = self.pins[pin].near
+        for P, Q in permutations(firm, 2):
+            length = self.given(P, pin)
+            angle = self.given(Q, P, pin)
+            if length is None:
+                continue
+            if angle is not None:
+                return OnLink(P, Q, **labelled(length, angle))
+            other = self.given(Q, pin)
+            if other is not None:
+                return OnLink(P, Q, near=self.pins[pin].sketched, **labelled(length, other))
+        if near is None:
+            return OnLink(firm[0], firm[1], at=self.pins[pin].drawn_at, **self.own(firm, pin))
+        for P, Q in permutations(firm, 2):
+            p, q = self.distance(P, pin), self.distance(Q, pin)
+            if p is not None and q is not None:
+                return OnLink(P, Q, near=near, **labelled((P + pin, p), (Q + pin, q)))
+        return None
+
+    def own(self, firm: Sequence[str], pin: str) -> dict[str, Any]:
+        """Return the given labels that fit a step from the first two placed points."""
+        found = [self.given(firm[0], pin), self.given(firm[1], firm[0], pin)]
+        return labelled(*(each for each in found if each is not None))
+
+
+def labelled(*labels: tuple[str, Quantity]) -> dict[str, Any]:
+    """Return labels as a step's keywords."""
+    return dict(labels)

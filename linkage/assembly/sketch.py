@@ -1,0 +1,110 @@
+"""Where things are in the sketch: it chooses assembly modes and supplies lengths that are not given."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from copy import copy
+from typing import Any
+
+import numpy as np
+
+from ..errors import AssemblyError, DefinitionError
+from ..plan import Plan
+from ..quantities import Member, name_of
+from ..steps import Point, Step
+from .groups import at_sketch
+from .newton import Newton
+
+Place = tuple[float, float]
+
+
+class Sketch:
+    """The positions of a mechanism's points at the strokes of its sketch, as far as it is settled."""
+
+    def __init__(self, settled: Mapping[str, Member], title: str) -> None:
+        self.plan = Plan(settled, title)
+        inputs: dict[str, Any] = self.plan.defaults | self.plan.sketch_strokes
+        if self.plan.groups:
+            newton = Newton(self.plan)
+            inputs |= dict(zip(newton.names, at_sketch(self.plan, newton)[:, 0, 0], strict=True))
+            inputs |= {group.inputs[-1]: 1.0 for group in self.plan.groups.values()}
+        with np.errstate(all="ignore"):
+            self.reading = self.plan.read(inputs)
+
+    def at(self, name: str) -> Place:
+        """Return a point's place [m]; AssemblyError where it cannot be assembled in the sketch."""
+        place = self.reading.at(name)
+        x, y = float(place.x), float(place.y)
+        if not np.isfinite([x, y]).all():
+            raise AssemblyError(
+                f"{self.plan.title}: {name} cannot be assembled at the sketch ({self.strokes()}); say drawn(S=...) with a stroke "
+                "it can be assembled at, or change a length.", point=name, mask=np.ones((), bool),
+            )  # fmt: skip
+        return x, y
+
+    def strokes(self) -> str:
+        """Return the sketch's strokes as text."""
+        return ", ".join(f"{name} = {value:.4g}" for name, value in self.plan.sketch_strokes.items())
+
+
+def sided(name: str, step: Step, settled: Mapping[str, Member], title: str) -> Step:
+    """Return a step with the side its sketch position chooses; DefinitionError where both modes are equally near."""
+    place = step.near or step.drawn_at
+    if place is None or step.side is not None:
+        return step
+    sketches = {}
+    for side in modes(name, step, settled, title):
+        chosen = copy(step)
+        chosen.side = side
+        sketches[side] = Sketch({**settled, name: chosen}, title)
+    if not sketches:
+        return step
+    distance = {side: float(np.hypot(*np.subtract(sketch.at(name), place))) for side, sketch in sketches.items()}
+    side, other = sorted(distance, key=lambda each: distance[each])
+    apart = float(np.hypot(*np.subtract(sketches[side].at(name), sketches[other].at(name))))
+    if distance[other] - distance[side] <= 1e-6 * max(apart, 1e-12) or apart == 0.0:
+        raise DefinitionError(
+            f"{title}: {name} = {step} does not choose an assembly mode: both poses are equally near, the sketch lies on the dead line. "
+            "Move near=(x, y) to the side that is meant, or say side=LEFT or side=RIGHT."
+        )
+    chosen = copy(step)
+    chosen.side, chosen.near = side, None
+    return chosen
+
+
+def modes(name: str, step: Step, settled: Mapping[str, Member], title: str) -> tuple[Any, ...]:
+    """Return the assembly modes of a step among settled ones."""
+    bound = Plan({**settled, name: step}, title).members[name]
+    return bound.modes() if isinstance(bound, Point) else ()
+
+
+def measured(name: str, step: Step, settled: Mapping[str, Member], title: str) -> Step:
+    """Return a step drawn `at=(x, y)` with the lengths and angles that it does not give measured from there [m, rad]."""
+    if step.drawn_at is None:
+        return step
+    sketch = Sketch({each: member for each, member in settled.items()}, title)
+    X = np.array(step.drawn_at)
+    parents = [name_of(parent) for parent in step.parents]
+    found = copy(step)
+    found.labels = dict(step.labels) | missing_labels(name, step, parents, X, sketch)
+    return found
+
+
+def missing_labels(name: str, step: Step, parents: list[str], X: Any, sketch: Sketch) -> dict[str, float]:
+    """Return the labels a drawn step lacks, measured: every distance of a dyad, distance and angle on a link."""
+    away = {parent: X - np.array(sketch.at(parent)) for parent in parents}
+    given = set(step.labels)
+    found: dict[str, float] = {}
+    first = parents[0]
+    wanted = parents if type(step).measures == "distances" else parents[:1]
+    for parent in wanted:
+        if not {parent + name, name + parent} & given:
+            found[parent + name] = float(np.hypot(*away[parent]))
+    if type(step).measures == "angle":
+        second = parents[1]
+        angles = {second + first + name, name + first + second, second + name, name + second}
+        if not angles & given:
+            base = away[first] - away[second]
+            turn = np.arctan2(base[0] * away[first][1] - base[1] * away[first][0], base @ away[first])
+            found[second + first + name] = float(turn)
+    return found

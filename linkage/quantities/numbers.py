@@ -1,0 +1,27 @@
+"""What counts as a number from outside: finite, real, not a truth value."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+
+def is_number(value: Any) -> bool:
+    """Return whether a value is one finite real number."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+        return False
+    try:
+        return math.isfinite(value)
+    except OverflowError:
+        return False
+
+
+def real(value: Any) -> npt.NDArray[np.float64]:
+    """Return a value as a new array of floats; raise ValueError for anything but real numbers."""
+    array = np.asarray(value)
+    if array.dtype.kind not in "fiu":
+        raise ValueError(f"{value!r} is not a real number")
+    return np.array(array, float)

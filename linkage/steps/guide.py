@@ -1,0 +1,105 @@
+"""Straight guides, fixed or on a moving body, and the points that slide on them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..errors import DefinitionError
+from ..quantities import Member, Number, Quantity, Reference, Variable, Where, label, name_of, quantity, spelled
+from ..vectors import Line, Scalar, Vec
+from .labels import Claims
+from .step import Point, position
+
+
+class Guide(Member):
+    """A straight line to slide on: `Guide((0.0, -0.2), angle=0)` in the frame, `Guide(P, Q)` the line of two points.
+
+    The first point is the guide's origin, its direction goes by the angle [rad] or from P to Q. Numbers are design
+    variables: `rail.x`, `rail.y`, `rail.angle`.
+    """
+
+    def __init__(self, P: Reference | tuple[float, float], Q: Reference | None = None, *, angle: Any = None) -> None:
+        if (Q is None) == (angle is None):
+            raise DefinitionError("Guide: give its direction, either angle= or a second point.")
+        self.fixed_at = None if isinstance(P, (str, Member)) else position(P, "Guide")
+        self.P = P if isinstance(P, (str, Member)) else None
+        self.Q = Q
+        self.angle = None if angle is None else quantity(angle)
+
+    def parts(self) -> tuple[Reference, ...]:
+        angle = () if self.angle is None or self.angle.is_constant else (self.angle,)
+        return (*(point for point in (self.P, self.Q) if point is not None), *angle)
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """The names of the points the guide goes through."""
+        return tuple(name_of(point) for point in (self.P, self.Q) if point is not None)
+
+    def variables(self) -> tuple[tuple[str, float, str], ...]:
+        """Return the design variables this guide brings: name, default and kind."""
+        place = () if self.fixed_at is None else tuple(zip(("x", "y"), self.fixed_at, ("coordinate",) * 2, strict=True))
+        turn = (("angle", self.angle.number, "angle"),) if isinstance(self.angle, Number) else ()
+        return tuple((f"{self.name}.{part}", value, kind) for part, value, kind in (*place, *turn))
+
+    def line(self, where: Where) -> Line:
+        """Return the origin [m] and the direction's cosine and sine."""
+        origin = where.at(self.P) if self.P is not None else Vec(where.input(f"{self.name}.x"), where.input(f"{self.name}.y"))
+        if self.Q is not None:
+            along = where.at(self.Q) - origin
+            scale = 1.0 / where.link_length(*self.points)
+            return Line(origin, along * scale)
+        assert self.angle is not None
+        angle: Quantity = Variable(f"{self.name}.angle") if self.angle.is_constant else self.angle
+        return Line(origin, Vec(*where.turn(angle)))
+
+    def __str__(self) -> str:
+        start = label(self.P) if self.P is not None else str(self.fixed_at)
+        end = label(self.Q) if self.Q is not None else f"angle={spelled(quantity(self.angle or 0.0))}"
+        return f"Guide({start}, {end})"
+
+
+class Slide(Member):
+    """A point that slides on a guide: `shoe = Slide("C", rail)`."""
+
+    def __init__(self, point: Reference, guide: Reference) -> None:
+        self.point, self.guide = point, guide
+
+    def parts(self) -> tuple[Reference, ...]:
+        return self.point, self.guide
+
+    def miss(self, where: Where) -> Scalar:
+        """Return the point's distance from the guide [m], positive on its left: zero when it slides on it."""
+        line = where.line(self.guide)
+        return line.direction.cross(where.at(self.point) - line.origin)
+
+    def __str__(self) -> str:
+        return f"Slide({label(self.point)}, {label(self.guide)})"
+
+
+class OnGuide(Point):
+    """A point at a distance along a guide from its origin, driven or given: `C = OnGuide(rail, at=S)` [m]."""
+
+    X: str = ""
+
+    def __init__(self, guide: Reference, *, at: Any) -> None:
+        self.guide, self.along = guide, quantity(at)
+
+    def parts(self) -> tuple[Reference, ...]:
+        return self.guide, self.along
+
+    def bind(self, X: str, claims: Claims) -> OnGuide:
+        return self
+
+    def place(self, where: Where) -> Vec:
+        line = where.line(self.guide)
+        return line.at(where.value(self.along))
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        miss = where.at(self.name) - self.place(where)
+        return miss.x, miss.y
+
+    def slides(self) -> tuple[tuple[str, str], ...]:
+        return ((self.name, name_of(self.guide)),)
+
+    def __str__(self) -> str:
+        return f"OnGuide({label(self.guide)}, at={spelled(self.along)})"

@@ -1,0 +1,129 @@
+"""Pins of a parts list: points whose place the framework works out from the links they join."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..errors import DefinitionError
+from ..quantities import Member, Quantity, Reference, Where, name_of, quantity
+from ..vectors import Scalar, Vec
+from .guide import Guide, Slide
+from .labels import Claims, Slot
+from .onlink import OnLink
+from .step import Bar, Point, position
+
+
+class Pin(Point):
+    """A point that links meet in. `near=(x, y)` is its place in a sketch, which chooses the assembly mode [m].
+
+    `at=(x, y)` is its place in a drawing: lengths and angles that are not given are measured from it.
+    A pin that no dyad places belongs to a group, whose pins are found together.
+    """
+
+    def __init__(self, *, near: Any = None, at: Any = None) -> None:
+        self.near, self.drawn_at = position(near, "Pin(near=...)"), position(at, "Pin(at=...)")
+        if (near is None) == (at is None):
+            raise DefinitionError("Pin: give its place, near=(x, y) in a sketch or at=(x, y) in a drawing.")
+        self.group: Group | None = None
+
+    @property
+    def sketched(self) -> tuple[float, float]:
+        """Its place in the sketch or the drawing [m]."""
+        place = self.near or self.drawn_at
+        assert place is not None
+        return place
+
+    def parts(self) -> tuple[Reference, ...]:
+        return () if self.group is None else (self.group,)
+
+    def place(self, where: Where) -> Vec:
+        if self.group is None:
+            raise DefinitionError(f"{self.name} = {self}: no link and no guide holds this pin; say Link(...) or Slide(...) with it.")
+        where.margin(where.input(f"{self.group.name}.sine"))
+        return Vec(where.input(f"{self.name}.x"), where.input(f"{self.name}.y"))
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        return () if self.group is None else self.group.constraints(where)
+
+    def shortage(self, where: Where) -> tuple[str, Scalar]:
+        pins = " ".join(self.companions)
+        return f"the pins {pins} are found together and come to a dead point on the way from the sketch", float("nan")
+
+    @property
+    def companions(self) -> tuple[str, ...]:
+        return () if self.group is None else self.group.pins
+
+    @property
+    def closes(self) -> bool:
+        return True
+
+    def __str__(self) -> str:
+        word, (x, y) = ("near" if self.near else "at"), self.sketched
+        return f"Pin({word}=({x!r}, {y!r}))"
+
+
+class Group(Member):
+    """Pins that no construction places one by one: an Assur group of class III or higher, solved by Newton's method.
+
+    `Group("D E F")`; the framework finds the groups of a parts list itself. Its equations are the lengths of its
+    rods, the shapes of its rigid links and its slides. Source: Artobolevsky, groups of class III and IV.
+    """
+
+    def __init__(self, pins: str) -> None:
+        self.pins = tuple(pins.split())
+        self.lengths: tuple[tuple[str, str, Quantity], ...] = ()
+        self.attached: tuple[tuple[str, OnLink], ...] = ()
+        self.slides: tuple[Slide, ...] = ()
+        self.rods: tuple[Bar, ...] = ()
+        self.rigid: tuple[OnLink, ...] = ()
+
+    def settled(self, claims: Claims) -> None:
+        """Enter the group's dimensions: its rods' lengths and its links' shapes."""
+        self.rods = tuple(Bar(P, Q, claims.claim(Slot("", (P, Q)), P + Q, length, str(self))) for P, Q, length in self.lengths)
+        self.rigid = tuple(step.bind(X, claims) for X, step in self.attached)
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """The names of what its solution supplies: coordinates [m] and the sine that tells how near it is to a singular pose."""
+        return (*(f"{pin}.{axis}" for pin in self.pins for axis in "xy"), f"{self.name}.sine")
+
+    def parts(self) -> tuple[Reference, ...]:
+        points = [point for P, Q, _ in self.lengths for point in (P, Q)]
+        points += [name_of(parent) for _, step in self.attached for parent in step.parents]
+        points += [name_of(slide.point) for slide in self.slides]
+        values = [length for _, _, length in self.lengths] + [quantity(value) for _, step in self.attached for value in step.labels.values()]
+        outside: list[Reference] = [point for point in dict.fromkeys(points) if point not in self.pins]
+        return (*outside, *(value for value in values if not value.is_constant), *self.guide_parts())
+
+    def guide_parts(self) -> tuple[Reference, ...]:
+        """Return what its slides' guides need outside the group: fixed guides, points of moving ones."""
+        guides = [slide.guide for slide in self.slides]
+        return tuple(each for each in guides if not (isinstance(each, Guide) and set(each.points) & set(self.pins)))
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        """Return what must vanish: a residual a rod, two a rigidly attached point, one a slide."""
+        found: list[Scalar] = []
+        for rod in self.rods:
+            length = where.value(rod.length)
+            found.append(((where.at(rod.Q) - where.at(rod.P)).square() - length * length) * 0.5)
+        for step in self.rigid:
+            found.extend(step.constraints(where))
+        return (*found, *(slide.miss(where) for slide in self.slides))
+
+    def __str__(self) -> str:
+        return f'Group("{" ".join(self.pins)}")'
+
+
+class Drawn(Member):
+    """The strokes at which all sketch positions of a class hold: `sketch = drawn(S=0.0)`."""
+
+    def __init__(self, strokes: dict[str, float]) -> None:
+        self.strokes = strokes
+
+    def __str__(self) -> str:
+        return f"drawn({', '.join(f'{name}={value!r}' for name, value in self.strokes.items())})"
+
+
+def drawn(**strokes: float) -> Drawn:
+    """Return the statement at which strokes [SI] the positions `near` and `at` hold; default: the start of each."""
+    return Drawn(strokes)

@@ -1,0 +1,202 @@
+"""The class II dyads with sliding pairs: RRP, RPR, PRP and RPP."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..quantities import Number, Quantity, Reference, Where, quantity, spelled
+from ..vectors import Scalar, Side, Vec
+from .labels import Slot
+from .step import UNBOUND, Bar, Step
+
+
+class SliderDyad(Step):
+    """A pin on a guide at distance PX from P (RRP dyad): `C = SliderDyad(A, rail, AC=0.4, side=RIGHT)`.
+
+    RIGHT is the solution farther along the guide's direction, LEFT the other one. Length in m.
+    """
+
+    P: str
+    guide: str
+    PX: Quantity = UNBOUND
+    parent_letters = ("P", "guide")
+
+    def __init__(self, P: Reference, guide: Reference, *, side: Side | None = None, near: Any = None, **lengths: Any) -> None:
+        super().__init__(P, guide, labels=lengths, side=side, near=near)
+
+    def slots(self) -> tuple[Slot, ...]:
+        return (Slot("PX", (self.P, self.X)),)
+
+    def check(self) -> None:
+        if self.PX is UNBOUND:
+            raise self.missing(self.slots()[0])
+        if self.side is None and self.near is None:
+            raise self.needs_side("a circle meets a line in two points")
+
+    def modes(self) -> tuple[Side, ...]:
+        return Side.LEFT, Side.RIGHT
+
+    def place(self, where: Where) -> Vec:
+        line, p = where.line(self.guide), where.value(self.PX)
+        away = where.at(self.P) - line.origin
+        offset = line.direction.cross(away)
+        reach = where.root(p * p - offset * offset, scale=p, size=p * p)
+        return line.at(line.direction.dot(away) - float(self.settled_side) * reach)
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        X, line, p = where.at(self.X), where.line(self.guide), where.value(self.PX)
+        return ((X - where.at(self.P)).square() - p * p) * 0.5, line.direction.cross(X - line.origin)
+
+    @property
+    def closes(self) -> bool:
+        return True
+
+    def shortage(self, where: Where) -> tuple[str, Scalar]:
+        line = where.line(self.guide)
+        gap = abs(line.direction.cross(where.at(self.P) - line.origin)) - where.value(self.PX)
+        return f"{self.P}{self.X} does not reach from {self.P} to {self.guide}", gap
+
+    def bars(self) -> tuple[Bar, ...]:
+        return (Bar(self.P, self.X, self.PX),)
+
+    def slides(self) -> tuple[tuple[str, str], ...]:
+        return ((self.X, self.guide),)
+
+
+class PinSlotDyad(Step):
+    """A point X of a body that turns about P while its slot glides over the pin Q (RPR dyad).
+
+    The slot is parallel to P -> X, at `offset` [m] to its left (default 0: it passes through P). RIGHT (the default):
+    Q lies ahead of P along P -> X; LEFT: behind it. `R = PinSlotDyad(O, A, OR=0.5)`.
+    """
+
+    P: str
+    Q: str
+    PX: Quantity = UNBOUND
+
+    def __init__(self, P: Reference, Q: Reference, *, offset: Any = 0.0, side: Side | None = None, near: Any = None, **lengths: Any) -> None:
+        super().__init__(P, Q, labels=lengths, side=side or (None if near is not None else Side.RIGHT), near=near)
+        self.offset = quantity(offset)
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (*super().parts(), self.offset)
+
+    def slots(self) -> tuple[Slot, ...]:
+        return (Slot("PX", (self.P, self.X)),)
+
+    def check(self) -> None:
+        if self.PX is UNBOUND:
+            raise self.missing(self.slots()[0])
+
+    def modes(self) -> tuple[Side, ...]:
+        return Side.LEFT, Side.RIGHT
+
+    def place(self, where: Where) -> Vec:
+        P, to_pin, e = where.at(self.P), where.at(self.Q) - where.at(self.P), where.value(self.offset)
+        d2 = to_pin.square()
+        along = where.root(d2 - e * e, scale=d2**0.5, size=d2) * -float(self.settled_side)
+        scale = where.value(self.PX) / d2
+        return P + to_pin.turned(along * scale, -e * scale)
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        to_X, to_pin = where.at(self.X) - where.at(self.P), where.at(self.Q) - where.at(self.P)
+        p, e = where.value(self.PX), where.value(self.offset)
+        return (to_X.square() - p * p) * 0.5, to_X.cross(to_pin) / p - e
+
+    @property
+    def closes(self) -> bool:
+        return True
+
+    def shortage(self, where: Where) -> tuple[str, Scalar]:
+        gap = abs(where.value(self.offset)) - (where.at(self.Q) - where.at(self.P)).length()
+        return f"the slot's offset is larger than the distance {self.P}{self.Q}", gap
+
+    def bars(self) -> tuple[Bar, ...]:
+        return (Bar(self.P, self.X, self.PX),)
+
+    def arguments(self) -> list[str]:
+        given = [] if isinstance(self.offset, Number) and self.offset.number == 0.0 else [f"offset={spelled(self.offset)}"]
+        return [*super().arguments(), *given]
+
+    def pin_slots(self) -> tuple[tuple[str, str, str], ...]:
+        return ((self.Q, self.P, self.X),)
+
+
+class GuideCross(Step):
+    """The pin of two sliders, each on its guide (PRP dyad): where the guides cross. `C = GuideCross(rail, post)`."""
+
+    guide: str
+    other: str
+    parent_letters = ("guide", "other")
+
+    def __init__(self, guide: Reference, other: Reference) -> None:
+        super().__init__(guide, other, labels={})
+
+    def slots(self) -> tuple[Slot, ...]:
+        return ()
+
+    def check(self) -> None:
+        """Two guides need no label."""
+
+    def place(self, where: Where) -> Vec:
+        first, second = where.line(self.guide), where.line(self.other)
+        sine = where.margin(first.direction.cross(second.direction))
+        return first.at((second.origin - first.origin).cross(second.direction) / sine)
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        X = where.at(self.X)
+        lines = where.line(self.guide), where.line(self.other)
+        return tuple(line.direction.cross(X - line.origin) for line in lines)
+
+    @property
+    def closes(self) -> bool:
+        return True
+
+    def slides(self) -> tuple[tuple[str, str], ...]:
+        return (self.X, self.guide), (self.X, self.other)
+
+
+class YokeDyad(Step):
+    """The point X of a body that slides along a guide while its slot glides over the pin P (RPP dyad, Scotch yoke).
+
+    X is where the slot meets the guide; the slot stands under `angle` [rad] to the guide, default 90 degrees.
+    `X = YokeDyad(A, rail)`.
+    """
+
+    P: str
+    guide: str
+    parent_letters = ("P", "guide")
+
+    def __init__(self, P: Reference, guide: Reference, *, angle: Any = 1.5707963267948966) -> None:
+        super().__init__(P, guide, labels={})
+        self.angle = quantity(angle)
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (*super().parts(), self.angle)
+
+    def slots(self) -> tuple[Slot, ...]:
+        return ()
+
+    def check(self) -> None:
+        """A slot needs no label."""
+
+    def place(self, where: Where) -> Vec:
+        line, (cos, sin) = where.line(self.guide), where.turn(self.angle)
+        away = where.at(self.P) - line.origin
+        tangent = cos / where.margin(sin)
+        return line.at(line.direction.dot(away) - line.direction.cross(away) * tangent)
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        X, line, (cos, sin) = where.at(self.X), where.line(self.guide), where.turn(self.angle)
+        slot = line.direction.turned(cos, sin)
+        return line.direction.cross(X - line.origin), slot.cross(X - where.at(self.P))
+
+    @property
+    def closes(self) -> bool:
+        return True
+
+    def slides(self) -> tuple[tuple[str, str], ...]:
+        return ((self.X, self.guide),)
+
+    def arguments(self) -> list[str]:
+        return [*super().arguments(), f"angle={spelled(self.angle)}"]

@@ -1,0 +1,138 @@
+"""Areas, thrust and pressure of cylinders, standard sizes, and what they refuse."""
+
+from functools import partial
+from math import pi
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+
+from hydraulics import CylinderSize, next_bore, next_rod, standard_bores, standard_rods
+from linkage.errors import DefinitionError
+from linkage.units import MPa, bar, kN, mm
+
+PUSH = CylinderSize(bore=100 * mm, rod=60 * mm, count=2)
+PULL = CylinderSize(bore=100 * mm, rod=60 * mm, count=2, works="rod")
+pressures = st.floats(0, 50 * MPa)
+
+
+def test_areas_by_hand():
+    assert_allclose([PUSH.piston_area, PUSH.rod_area], [pi * 2500e-6, pi * 1600e-6])
+    assert_allclose([PUSH.area, PUSH.back_area], [pi * 5000e-6, pi * 3200e-6])
+    assert_allclose([PULL.area, PULL.back_area], [PUSH.back_area, PUSH.area])
+    assert_allclose(PUSH.ratio, 25 / 16)
+
+
+def test_catalogue_thrust():
+    """Makers' tables: 31.2 kN for a bore of 63 mm at 100 bar, 125.7 kN for 100 mm at 160 bar."""
+    assert_allclose(CylinderSize(63 * mm, 40 * mm).thrust(100 * bar) / kN, 31.2, atol=0.05)
+    assert_allclose(CylinderSize(100 * mm, 56 * mm).thrust(160 * bar) / kN, 125.7, atol=0.05)
+
+
+def test_a_rod_side_pulls():
+    assert PULL.thrust(100 * bar) < 0 < PUSH.thrust(100 * bar)
+    assert_allclose(PULL.pressure_for(-pi * 3200e-6 * 100 * bar), 100 * bar)
+    assert (PUSH.sense, PULL.sense) == (1, -1)
+
+
+@given(p=pressures, back=pressures, size=st.sampled_from([PUSH, PULL]))
+def test_pressure_for_inverts_thrust(p, back, size):
+    assert_allclose(size.pressure_for(size.thrust(p, back), back), p, atol=1e-6)
+
+
+@given(p=pressures, back=pressures)
+def test_the_sides_are_one_cylinder(p, back):
+    assert_allclose(PUSH.thrust(p, back), PULL.thrust(back, p), atol=1e-6)
+
+
+def test_both_sides_under_one_pressure_push_with_the_rod():
+    assert_allclose(PUSH.thrust(100 * bar, back=100 * bar), 2 * pi * 900e-6 * 100 * bar)
+
+
+def test_a_driving_load_needs_a_negative_pressure():
+    assert PUSH.pressure_for(-10 * kN) < 0
+
+
+def test_oil_and_speed():
+    assert_allclose(PUSH.oil(0.25), 0.25 * PUSH.area)
+    assert_allclose(PUSH.speed(PUSH.oil(0.25) / 5.0) * 5.0, 0.25)
+
+
+def test_poses_at_once_and_unreached_ones():
+    thrust = np.array([[10.0, np.nan], [30.0, -5.0]]) * kN
+    pressure = PUSH.pressure_for(thrust)
+    assert pressure.shape == (2, 2)
+    assert np.array_equal(np.isnan(pressure), np.isnan(thrust))
+    assert PUSH.thrust([10 * bar, 20 * bar], back=[[0.0], [1 * bar], [2 * bar]]).shape == (3, 2)
+
+
+def test_next_size_and_the_size_for_a_thrust():
+    assert PUSH.next_size() == CylinderSize(110 * mm, 60 * mm, 2)
+    assert PUSH.sized_for(250 * kN, 160 * bar).bore == 100 * mm  # 251.3 kN
+    assert PUSH.sized_for(252 * kN, 160 * bar).bore == 110 * mm
+    assert PUSH.sized_for(1.0, 160 * bar).bore == 63 * mm  # larger than the rod
+    found = PULL.sized_for(-250 * kN, 160 * bar)
+    assert found.area * 160 * bar >= 250 * kN > CylinderSize(110 * mm, 60 * mm, 2, "rod").area * 160 * bar
+
+
+def test_a_cylinder_says_what_it_is():
+    assert str(PULL) == "2 cylinders 100/60 mm, rod side"
+    assert str(CylinderSize(0.063, 0.04)) == "1 cylinder 63/40 mm, piston side"
+
+
+def test_standard_sizes():
+    bores = standard_bores()
+    assert len(bores) == 27
+    assert list(bores) == sorted(set(bores))
+    assert_allclose([bores[0], bores[9], bores[-1]], [0.008, 0.063, 0.5])
+    assert_allclose([next_bore(63 * mm), next_bore(62 * mm), next_bore(0.063), next_bore(110 * mm)], [0.08, 0.063, 0.08, 0.125])
+    assert_allclose([next_rod(40 * mm), next_rod(41 * mm)], [0.045, 0.045])
+
+
+def test_walking_the_series_meets_every_bore():
+    walk = [standard_bores()[0]]
+    while walk[-1] < 0.5:
+        walk.append(next_bore(walk[-1]))
+    assert tuple(walk) == standard_bores()
+
+
+@pytest.mark.parametrize("bore", standard_bores())
+def test_every_bore_has_rods(bore):
+    rods = standard_rods(bore)
+    assert rods
+    assert all(1.06 <= CylinderSize(bore, rod).ratio <= 5.0 for rod in rods)
+
+
+def test_rods_of_common_cylinders_are_offered():
+    for bore, rod in [(40, 22), (40, 28), (50, 28), (50, 36), (63, 36), (63, 40), (63, 45), (80, 56), (100, 70), (125, 90)]:
+        assert rod * mm in standard_rods(bore * mm)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (partial(CylinderSize, -63 * mm, 40 * mm), "Bore = -0.063 is not above zero"),
+        (partial(CylinderSize, np.nan, 40 * mm), "Bore = nan is not finite"),
+        (partial(CylinderSize, "63", 40 * mm), "Bore = '63' is not a number"),
+        (partial(CylinderSize, 63 * mm, 0.0), "Rod = 0 is not above zero"),
+        (partial(CylinderSize, 40 * mm, 63 * mm), "Rod 63 mm is not smaller than bore 40 mm; exchange them"),
+        (partial(CylinderSize, 40 * mm, 40 * mm), "Rod 40 mm is not smaller than bore 40 mm"),
+        (partial(CylinderSize, 63 * mm, 40 * mm, 0), "Count of cylinders = 0; give a whole number from 1 on"),
+        (partial(CylinderSize, 63 * mm, 40 * mm, 1.5), "Count of cylinders = 1.5; give a whole number"),
+        (partial(CylinderSize, 63 * mm, 40 * mm, 1, "pistn"), "Side 'pistn' is unknown in works. Did you mean piston"),
+        (partial(PUSH.thrust, np.nan), "Cylinder pressure = nan is not finite"),
+        (partial(PUSH.thrust, [1e5, np.inf]), "Cylinder pressure = inf is not finite"),
+        (partial(PUSH.pressure_for, np.nan), "Thrust = nan is not finite"),
+        (partial(PUSH.sized_for, 1 * kN, 0.0), "Pressure = 0 is not above zero"),
+        (partial(PUSH.sized_for, 1e9, 160 * bar), r"No standard bore of ISO 3320 gives 1e\+06 kN with 2 of"),
+        (partial(next_bore, 500 * mm), "No standard bore of ISO 3320 is above 500 mm, the largest is 500 mm"),
+        (partial(next_bore, -1.0), "Bore = -1 is not above zero"),
+        (partial(next_rod, 360 * mm), "No standard rod of ISO 3320 is above 360 mm"),
+        (partial(standard_rods, np.inf), "Bore = inf is not finite"),
+    ],
+)
+def test_refusals(call, message):
+    with pytest.raises(DefinitionError, match=message):
+        call()

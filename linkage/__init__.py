@@ -1,5 +1,8 @@
 """Planar linkages moved by cylinders, described the way an engineer says them."""
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from .errors import AssemblyError as AssemblyError
 from .errors import DefinitionError as DefinitionError
 from .errors import FileError as FileError
@@ -7,6 +10,7 @@ from .errors import LinkageError as LinkageError
 from .errors import SingularError as SingularError
 from .errors import SingularWarning as SingularWarning
 from .mechanism import Mechanism as Mechanism
+from .mobility import grashof as grashof
 from .motion import Column as Column
 from .motion import Motion as Motion
 from .quantities import Dimension as Dimension
@@ -47,3 +51,13 @@ from .units import litre as litre
 from .units import mm as mm
 from .vectors import LEFT as LEFT
 from .vectors import RIGHT as RIGHT
+
+if TYPE_CHECKING:
+    from .equations import equations as equations
+
+
+def __getattr__(name: str) -> Any:
+    """Return `equations`, loaded where it is first used: it brings SymPy."""
+    if name == "equations":
+        return import_module(".equations", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

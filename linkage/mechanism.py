@@ -7,9 +7,10 @@ from typing import Any, ClassVar, Self
 
 import numpy as np
 
-from .assembly import assembled
-from .errors import DefinitionError
+from .assembly import Assembly, assembled, assemblies
+from .errors import DefinitionError, unknown
 from .graph import Body
+from .mobility import FourBar, Mobility, check, four_bars, mobility
 from .motion import Column, Motion, at_values, stroke_unit, sweep_values
 from .plan import Plan
 from .quantities import Dimension, Member, Quantity, Stroke
@@ -30,6 +31,7 @@ class Mechanism:
         for name in cls.plan.strokes:
             if not any(name in cls.plan.reaches(point) for point in cls.plan.moving) and cls.plan.points:
                 raise DefinitionError(f"{cls.__name__}: the stroke {name} moves nothing; use it in a length or an angle, or take it out.")
+        check(cls.plan)
 
     def __init__(self, **dimensions: Any) -> None:
         self._values = self.plan.table.settings(dimensions)
@@ -41,7 +43,9 @@ class Mechanism:
 
     def __getitem__(self, name: str) -> Any:
         """Return a design variable's value [SI]; a fixed point's position, shape (2, ...)."""
-        if f"{name}.x" in self._values:
+        if not isinstance(name, str):
+            raise unknown("Dimension", name, self.plan.table.names(), where=self.plan.title)
+        if {f"{name}.x", f"{name}.y"} <= self._values.keys():
             return np.array([self._values[f"{name}.x"], self._values[f"{name}.y"]])
         owner, sign = self.plan.table.spellings.get(name, ("", 1))
         if not owner:
@@ -88,10 +92,35 @@ class Mechanism:
         """The strokes by name."""
         return dict(self.plan.strokes)
 
+    def assemblies(self, **strokes: float) -> list[Assembly]:
+        """Return all assembly modes of the dyads that exist at a stroke, `assemblies(S=0.1)`; default the start of each.
+
+        One design at a time. Raises DefinitionError for more than 16 dyads.
+        """
+        pose = self.at(unreachable="nan", **{name: stroke.start for name, stroke in self.strokes.items()} | strokes)
+        if pose.shape:
+            raise DefinitionError(f"{self.plan.title}: assembly modes are listed for one design at one pose.")
+        return assemblies(self.plan, pose.inputs)
+
+    @property
+    def four_bars(self) -> list[FourBar]:
+        """The four-bars on the frame, each with its Grashof class."""
+        return four_bars(self.plan, self.at(unreachable="nan", **self.plan.sketch_strokes).inputs)
+
     @property
     def links(self) -> tuple[Body, ...]:
         """The rigid bodies, the frame first."""
         return self.plan.links
+
+    @property
+    def mobility(self) -> int:
+        """The number of independent motions, by the rank of the constraints; it equals the number of strokes."""
+        return self.freedom.rank
+
+    @property
+    def freedom(self) -> Mobility:
+        """The mobility by rank and by count, with the links that are redundant, in words."""
+        return mobility(self.plan)
 
     @property
     def gruebler(self) -> int:

@@ -3,4 +3,7 @@
 from .assemble import assembled as assembled
 from .groups import Solved as Solved
 from .groups import solve_groups as solve_groups
+from .modes import Assembly as Assembly
+from .modes import assemblies as assemblies
 from .newton import Newton as Newton
+from .sketch import places_at as places_at

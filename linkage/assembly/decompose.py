@@ -100,7 +100,7 @@ def matching(rows: list[Row], parts: Parts, title: str) -> dict[tuple[str, int],
 def grouped(pins: list[str], rows: list[Row], parts: Parts) -> Group:
     """Return the group of some pins with its equations."""
     group = Group(" ".join(pins))
-    group.lengths = tuple(dict.fromkeys(row.length for row in rows if row.length))
+    group.given = tuple(dict.fromkeys(row.length for row in rows if row.length))
     attached: dict[str, tuple[str, OnLink]] = {}
     for row in rows:
         if row.attached:

@@ -23,6 +23,8 @@ class Solved:
 
     inputs: Mapping[str, FloatArray]
     crossed: Mask
+    stops: tuple[float, ...] = ()
+    """Where the paths of a single design ended before the last value asked for, along its one stroke."""
 
 
 def solve_groups(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray]) -> Solved:
@@ -33,12 +35,13 @@ def solve_groups(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, F
     sketch = plan.sketch_strokes
     if len(strokes) == 1:
         ((name, values),) = strokes.items()
-        u, crossed = _along_one(newton, designs, start, name, sketch[name], values)
+        u, crossed, stops = _along_one(newton, designs, start, name, sketch[name], values)
     else:
         u, crossed = _along_many(newton, designs, start, sketch, strokes)
+        stops = ()
     sine = newton.sine({**designs, **strokes}, u)
     inputs = dict(zip(newton.names, u, strict=True)) | {group.inputs[-1]: sine for group in plan.groups.values()}
-    return Solved(inputs, crossed)
+    return Solved(inputs, crossed, stops)
 
 
 def at_sketch(plan: Plan, newton: Newton) -> FloatArray:
@@ -106,17 +109,19 @@ class Leg:
 
 def _along_one(
     newton: Newton, designs: Mapping[str, Any], start: FloatArray, name: str, sketch: float, values: FloatArray
-) -> tuple[FloatArray, Mask]:
+) -> tuple[FloatArray, Mask, tuple[float, ...]]:
     """Return the pins over one stroke: a path each way, then all poses at once from guesses between its places."""
     u = np.full((len(start), start.shape[1], len(values)), np.nan)
     crossed = np.zeros(u.shape[1:], bool)
+    stops: tuple[float, ...] = ()
     for side, last in ((values >= sketch, np.max), (values < sketch, np.min)):
         if side.any():
             leg = Leg(name, sketch, float(last(values[side])))
             path = follow(newton, lambda place, leg=leg: {**designs, name: leg.value(place)}, start)  # type: ignore[misc]
             u[:, :, side] = _filled(newton, designs, leg, values[side], path)
+            stops += tuple(float(leg.value(place)) for place in path.ended[:, 0] if place < 1.0)
             crossed[:, side] = path.crossed & (leg.place(values[side])[None, :] > path.ended)
-    return u, crossed
+    return u, crossed, stops
 
 
 def _filled(newton: Newton, designs: Mapping[str, Any], leg: Leg, values: FloatArray, path: Path) -> FloatArray:

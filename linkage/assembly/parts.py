@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from ..errors import DefinitionError
 from ..quantities import Quantity, name_of
-from ..steps import Dyad, Guide, GuideCross, Link, Pin, PinSlotDyad, Slide, SliderDyad, Step
+from ..steps import Dyad, Guide, GuideCross, Link, Pin, PinSlotDyad, Slide, SliderDyad, Step, YokeDyad
 from .shape import Shape, labelled
 
 
@@ -111,7 +111,22 @@ def slotted(parts: Parts, pin: str) -> Step | None:
     return None
 
 
-PATTERNS: tuple[Callable[[Parts, str], Step | None], ...] = (attached, hung, sliding, crossing, slotted)
+def yoked(parts: Parts, pin: str) -> Step | None:
+    """Return the RPP dyad of a body that slides on a placed guide with two points while its slot holds a placed pin."""
+    for guide in parts.guides_of(pin):
+        for name, link in parts.links.items():
+            partners = [each for each in parts.loose(link) if each != pin and guide in parts.guides_of(each)]
+            for slide in parts.slides.values():
+                slot, held = parts.guides[name_of(slide.guide)], name_of(slide.point)
+                ends = [each for each in slot.points if each != pin]
+                if pin in slot.points and set(slot.points) <= set(link.point_names) and held in parts.placed and partners:
+                    angle = parts.shapes[name].given(partners[0], pin, ends[0])
+                    if angle is not None:
+                        return YokeDyad(held, guide, angle=angle[1] if angle[0].startswith(partners[0]) else -angle[1])
+    return None
+
+
+PATTERNS: tuple[Callable[[Parts, str], Step | None], ...] = (attached, hung, sliding, crossing, slotted, yoked)
 
 
 def check_held(parts: Parts, title: str) -> None:

@@ -12,10 +12,30 @@ from ..errors import AssemblyError, DefinitionError
 from ..plan import Plan
 from ..quantities import Member, name_of
 from ..steps import Point, Step
-from .groups import at_sketch
-from .newton import Newton
+from .groups import solve_groups
 
 Place = tuple[float, float]
+
+
+def inputs_at(plan: Plan, strokes: Mapping[str, float]) -> dict[str, Any]:
+    """Return all inputs at some strokes and default dimensions, the pins of groups included [SI]."""
+    inputs: dict[str, Any] = plan.defaults | dict(strokes)
+    if plan.groups:
+        solved = solve_groups(plan, plan.defaults, {name: np.array([value]) for name, value in strokes.items()})
+        inputs |= {name: float(value[0, 0]) for name, value in solved.inputs.items()}
+    return inputs
+
+
+def places_at(plan: Plan, strokes: Mapping[str, float]) -> tuple[dict[str, Place], dict[str, Any]]:
+    """Return where all points are at some strokes [m], and the inputs; AssemblyError where they cannot be assembled."""
+    inputs = inputs_at(plan, strokes)
+    with np.errstate(all="ignore"):
+        reading = plan.read(inputs)
+    places = {name: (float(reading.at(name).x), float(reading.at(name).y)) for name in plan.points}
+    lost = [name for name, place in places.items() if not np.isfinite(place).all()]
+    if lost:
+        raise AssemblyError(f"{plan.title}: {lost[0]} cannot be assembled at {dict(strokes)}.", point=lost[0], mask=np.ones((), bool))
+    return places, inputs
 
 
 class Sketch:
@@ -23,11 +43,7 @@ class Sketch:
 
     def __init__(self, settled: Mapping[str, Member], title: str) -> None:
         self.plan = Plan(settled, title)
-        inputs: dict[str, Any] = self.plan.defaults | self.plan.sketch_strokes
-        if self.plan.groups:
-            newton = Newton(self.plan)
-            inputs |= dict(zip(newton.names, at_sketch(self.plan, newton)[:, 0, 0], strict=True))
-            inputs |= {group.inputs[-1]: 1.0 for group in self.plan.groups.values()}
+        inputs = inputs_at(self.plan, self.plan.sketch_strokes)
         with np.errstate(all="ignore"):
             self.reading = self.plan.read(inputs)
 

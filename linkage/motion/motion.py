@@ -16,7 +16,7 @@ from ..program import FloatArray
 from ..quantities import Angle, Distance, Member, Quantity
 from ..steps import Arrow, Dyad, Point
 from ..vectors import Vec
-from . import numeric, reach, singular
+from . import numeric, reach, scan, singular
 from .asked import method_of, named, order_of, rates_of
 from .reach import Mask
 from .unwrap import unwrapped
@@ -50,6 +50,8 @@ class Motion:
         self.is_near_singular = not np.all(result.guards > 0.0)
         if self.is_near_singular or plan.may_overflow:
             self._settle_unreached()
+        if unreachable == "raise" and scan.is_watched(self):
+            scan.refuse_crossing(self)
 
     # -- inputs ----------------------------------------------------------------------------------------
 
@@ -105,8 +107,10 @@ class Motion:
             for axis, part in enumerate((place.x, place.y)):
                 self._places[2 * index + axis, ...][failed] = np.where(lost, np.nan, part)
         self.reached[failed] = ~lost
+        if self.unreachable == "raise" and self._solved.crossed.any():
+            raise scan.group_crossing(self, self._solved.crossed.reshape(self.shape))
         if self.unreachable == "raise" and lost.any():
-            raise reach.refusal(self.plan, self._read_at(~self.reached), ~self.reached, self.strokes)
+            raise reach.refusal(self.plan, self._read_at(~self.reached), ~self.reached, self.strokes, scan.stop_words(self))
 
     def _read_at(self, mask: Mask) -> ArrayReading:
         """Return the eager reading of some poses."""
@@ -147,10 +151,10 @@ class Motion:
 
     def _finite(self, values: FloatArray, excused: Mask, what: str) -> FloatArray:
         """Return values that are finite at every pose reached; NaN where they are not and NaN was asked for."""
-        good = np.isfinite(values)
-        if good.all():
+        finite = np.isfinite(values)
+        if finite.all():
             return values
-        good = good if good.ndim == len(self.shape) else good.all(axis=0)
+        good: Mask = np.asarray(finite if finite.ndim == len(self.shape) else finite.all(axis=0))
         missing = ~good & self.reached & ~excused
         if missing.any() and self.unreachable == "raise":
             where = reach.where_words(self.plan, missing, self.strokes)
@@ -204,7 +208,7 @@ class Motion:
         stroke = self._stroke(wrt)
         order, method = order_of(order), method_of(method, step)
         member = self._member(target)
-        refused = self._singular(member, f"The ratio of {member.name or member}")
+        refused = self._singular(member, f"The ratio of {member.name or member}", order)
         found = self._exact(member, (stroke,) * order) if method == "exact" else self._numeric(member, stroke, order, step)
         found = np.where(refused, np.nan, found) if refused.any() else found
         return self._finite(found, refused, f"The ratio of {member.name or member} by {stroke}")
@@ -243,15 +247,18 @@ class Motion:
             return near[member.name] if member.name else near.value(member)  # type: ignore[arg-type]
 
         declared = self.plan.strokes[stroke]
-        found, error = numeric.derivative(values, abs(declared.end - declared.start), order, step)
-        size = float(np.nanmax(np.abs(found), initial=0.0))
-        lost = float(np.nanmax(np.where(np.isfinite(error), error, 0.0), initial=0.0))
-        if size and lost > 1e-6 * size:
-            what = f"The numerical ratio of {member.name or member} is off by up to about {lost:.0e}; the exact one is not."
-            warnings.warn(what, SingularWarning, stacklevel=3)
-        return found
+        found, error, still = numeric.derivative(values, abs(declared.end - declared.start), order, step)
+        useless, lost = numeric.losses(found, np.where(self.reached, error, 0.0), still, len(self.shape))
+        what = f"The numerical ratio of {member.name or member}"
+        if useless.any() and self.unreachable == "raise":
+            where = reach.where_words(self.plan, useless, self.strokes)
+            text = f'{what} is refused {where}: differences do not settle so near a dead point. Ask for method="exact".'
+            raise SingularError(text, mask=useless, motion=self)
+        if lost > numeric.WARN:
+            warnings.warn(f"{what} is off by up to about {lost:.0e} of its greatest value; the exact one is not.", SingularWarning, stacklevel=3)
+        return np.where(useless, np.nan, found)
 
-    def _singular(self, member: Member, what: str) -> Mask:
+    def _singular(self, member: Member, what: str, order: int = 1) -> Mask:
         """Return the mask of poses where a ratio is refused; raise or warn as asked."""
         nothing = np.zeros(self.shape, bool)
         if not self.is_near_singular:
@@ -261,13 +268,41 @@ class Motion:
         refused = singular.refused(self.plan, found, self.shape)
         if refused.any() and self.unreachable == "raise":
             raise singular.refusal(self.plan, found, refused, self.strokes, what, self)
-        singular.warn(self.plan, found, self.strokes, what)
+        singular.warn(self.plan, found, self.strokes, what, order)
         return refused
 
     @cached_property
     def _reading(self) -> ArrayReading:
         with np.errstate(all="ignore"):
             return self.plan.read(self.inputs)
+
+    @property
+    def group_stops(self) -> tuple[float, ...]:
+        """The strokes at which a group's pins could not be followed farther from the sketch."""
+        return self._solved.stops
+
+    @property
+    def reading(self) -> ArrayReading:
+        """The eager reading of all poses."""
+        return self._reading
+
+    @cached_property
+    def loop_sines(self) -> dict[str, Any]:
+        """The sine of the angle between the two links of every moving loop; zero at a dead point."""
+        return singular.loops(self.plan, self._reading)
+
+    def moved(self, strokes: Mapping[str, Any]) -> Motion:
+        """Return the same design at other strokes [SI], unreachable poses as NaN."""
+        arrays = np.broadcast_arrays(*(np.asarray(strokes[name], float) for name in self.strokes))
+        return Motion(self.plan, self.designs, dict(zip(self.strokes, arrays, strict=True)), "nan")
+
+    def limits(self) -> scan.Limits:
+        """Return, for every stroke, how far it can go and what stops it; printed as sentences.
+
+        Reachable intervals, dead points and the steps that stop there, change points, least transmission angles.
+        One design at a time; other strokes are held at this motion's first values.
+        """
+        return scan.limits(self)
 
     # -- velocity --------------------------------------------------------------------------------------
 
@@ -281,7 +316,7 @@ class Motion:
         given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title)
         driven = rates_of("accelerations", accelerations or {}, self.strokes, self.shape, self.plan.title)
         member = self._member(target)
-        refused = self._singular(member, f"The acceleration of {member.name or member}")
+        refused = self._singular(member, f"The acceleration of {member.name or member}", 2)
         total = sum((self.ratio(target, wrt=name) * value for name, value in driven.items()), self._still(target))
         for first, u in given.items():
             for second, v in given.items():

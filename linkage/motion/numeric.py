@@ -10,16 +10,24 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from ..program import FloatArray
 
 RATIO = 4.0
-STEPS = 10
-FIRST = 1e-2
+STEPS = 14
+FIRST = 8e-2
+WARN = 1e-6
+"""The relative error above which a numerical derivative warns."""
+STILL = 1e-3
+"""A derivative this much smaller than value over span counts as none: only rounding is left of its differences."""
+ROUNDING = 4 * np.finfo(float).eps
 
 
-def derivative(values: Callable[[FloatArray], FloatArray], span: float, order: int, step: float | None) -> tuple[FloatArray, FloatArray]:
-    """Return a derivative and the estimate of its error.
+def derivative(
+    values: Callable[[FloatArray], FloatArray], span: float, order: int, step: float | None
+) -> tuple[FloatArray, FloatArray, float]:
+    """Return a derivative, the estimate of its error, and the size below which it counts as none.
 
     `values(offsets)` returns the function at strokes shifted by each offset, along a new last axis; NaN where
     unreachable. `span` is the length of the stroke [m or rad]. With `step` a plain difference of that step is taken.
@@ -35,20 +43,45 @@ def derivative(values: Callable[[FloatArray], FloatArray], span: float, order: i
         one = np.where(np.isfinite(ahead3), 2 * zero - 5 * ahead + 4 * ahead2 - ahead3, 2 * zero - 5 * back + 4 * back2 - back3) / steps**2
     if step is not None:
         best = np.where(np.isfinite(two), two, one)[..., 0]
-        return best, np.zeros_like(best)
-    return _best(np.concatenate([_extrapolated(two), _extrapolated(one)], axis=-1))
+        return best, np.zeros_like(best), 0.0
+    still = STILL * float(np.max(np.abs(zero), initial=0.0, where=np.isfinite(zero))) / span**order
+    floor = ROUNDING * np.abs(zero) / steps[2:] ** order
+    return *_best(np.concatenate([_extrapolated(two, floor), _extrapolated(one, floor)], axis=-1)), still
 
 
-def _extrapolated(estimate: FloatArray) -> Any:
-    """Return estimates of second order, extrapolated to the fourth (two-sided) or third (one-sided), with a spread."""
+def _extrapolated(estimate: FloatArray, floor: FloatArray) -> Any:
+    """Return estimates of second order, extrapolated to the fourth (two-sided) or third (one-sided), each with its error.
+
+    The error is the change from the next larger step, and not below rounding. It counts only where the changes
+    shrink with the step: next to a dead point coarse steps agree with each other and not with the derivative.
+    """
     better = (RATIO**2 * estimate[..., 1:] - estimate[..., :-1]) / (RATIO**2 - 1)
-    return np.stack([better[..., 1:], np.abs(np.diff(better, axis=-1))])
+    change = np.abs(np.diff(better, axis=-1))
+    known = np.where(np.isfinite(change), change, np.inf)
+    edge = np.full((*known.shape[:-1], 1), np.inf)
+    before, after = np.concatenate([edge, known[..., :-1]], axis=-1), np.concatenate([known[..., 1:], edge], axis=-1)
+    shrinks = (np.isfinite(before) & (known <= before)) | (after <= known) | (known <= 1e-3 * np.abs(better[..., 1:]))
+    error = np.maximum(change, floor)
+    return np.stack([better[..., 1:], np.where(shrinks, error, np.maximum(error, np.abs(better[..., 1:])))])
 
 
 def _best(table: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return, at every pose, the estimate that agrees best with its neighbour."""
+    """Return, at every pose, the estimate of least error."""
     values, spread = table
     spread = np.where(np.isfinite(spread), spread, np.inf)
     place = np.argmin(spread, axis=-1)[..., None]
     error = np.take_along_axis(spread, place, axis=-1)[..., 0]
     return np.where(np.isfinite(error), np.take_along_axis(values, place, axis=-1)[..., 0], np.nan), error
+
+
+def losses(found: FloatArray, error: FloatArray, still: float, axes: int) -> tuple[npt.NDArray[np.bool_], float]:
+    """Return the poses where a derivative is as uncertain as it is large, and the worst error of the others.
+
+    The error is relative to the derivative's greatest value; poses are the last `axes` axes.
+    """
+    components = tuple(range(found.ndim - axes))
+    local, off = np.max(np.abs(found), axis=components), np.max(error, axis=components)
+    size = float(np.max(local, initial=still, where=np.isfinite(local)))
+    useless = np.isfinite(local) & (off > 0.1 * local) & (off > WARN * size)
+    kept = np.where(np.isfinite(local) & ~useless, off, 0.0)
+    return useless, float(np.max(kept, initial=0.0)) / size if size else 0.0

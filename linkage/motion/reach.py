@@ -37,7 +37,7 @@ def negative(plan: Plan, reading: ArrayReading, shape: tuple[int, ...], point: s
     return mask
 
 
-def refusal(plan: Plan, reading: ArrayReading, mask: Mask, strokes: Mapping[str, Any]) -> AssemblyError:
+def refusal(plan: Plan, reading: ArrayReading, mask: Mask, strokes: Mapping[str, Any], stop: str = "") -> AssemblyError:
     """Return the error for poses that cannot be assembled.
 
     `reading` holds the failing poses, `mask` all of them (designs first, strokes last), `strokes` their values.
@@ -45,8 +45,9 @@ def refusal(plan: Plan, reading: ArrayReading, mask: Mask, strokes: Mapping[str,
     name, lost = next(failures(plan, reading, (int(mask.sum()),)))
     member = plan.members[name]
     opening = member.sentence() if isinstance(member, Step) else f"{name} = {member}"
-    words, shortfall = negative_words(plan, name, reading) or coinciding_words(plan, name, reading) or triangle_words(plan, name, reading, lost)
-    text = f"{opening} cannot be assembled {where_words(plan, mask, strokes)}:\n{words}"
+    told = negative_words(plan, name, reading) or coinciding_words(plan, name, reading)
+    words, shortfall = told or triangle_words(plan, name, reading, lost)
+    text = f"{opening} cannot be assembled {where_words(plan, mask, strokes)}:\n{words}{stop}"
     return AssemblyError(text, point=name, mask=mask, shortfall=shortfall)
 
 

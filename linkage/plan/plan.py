@@ -9,8 +9,8 @@ from typing import Any, TypeVar
 from ..errors import DefinitionError, unknown
 from ..graph import Body, gruebler, merged, ordered
 from ..program import Kernel, Level, Node, Tangent
-from ..quantities import Dimension, Function, Member, Number, Operation, Quantity, Stroke, Variable, needs, unnamed
-from ..steps import Arrow, Bar, Drawn, Ground, Group, Guide, Link, Point
+from ..quantities import Dimension, Distance, Function, Length, Member, Number, Operation, Quantity, Stroke, Variable, needs, unnamed
+from ..steps import Arrow, Bar, Drawn, Ground, Group, Guide, Link, OnLink, Point
 from .reading import ArrayReading
 from .table import Table
 from .trace import Trace
@@ -76,7 +76,10 @@ class Plan:
     def _check_kinds(self) -> None:
         """Raise DefinitionError where a point, a vector or a quantity stands in the place of another kind."""
         for name, member in self.members.items():
-            for part in (member, *unnamed(member)):
+            for part in self.with_parts(name):
+                for length in part.lengths():
+                    if isinstance(length, Number) and not length.number > 0.0:
+                        raise DefinitionError(f"{self.title}: {name} = {member}: the length {length.number:.6g} m is not positive.")
                 for attribute, kind, word in PLACES.get(type(part).__name__, ()):
                     reference = getattr(part, attribute)
                     found = self.members[reference] if isinstance(reference, str) else reference
@@ -113,7 +116,13 @@ class Plan:
         """The bars whose length follows a stroke."""
         return tuple(bar for bar in self.bars if self.moves(bar.length))
 
-    def _is_cylinder(self, link: Link) -> bool:
+    @cached_property
+    def telescopes(self) -> tuple[str, ...]:
+        """The points that move along their body because a label of theirs follows a stroke."""
+        return tuple(name for name, step in self.of_kind(OnLink).items() if any(map(self.moves, step.dimensions())))
+
+    def is_cylinder(self, link: Link) -> bool:
+        """Return whether a link of two points follows a stroke."""
         length = self.table.lengths.get(frozenset(link.point_names))
         return length is not None and self.moves(length)
 
@@ -121,14 +130,17 @@ class Plan:
     def links(self) -> tuple[Body, ...]:
         """The rigid bodies, the frame first."""
         groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in self.bars if bar not in self.cylinders]
-        groups += [body for point in self.points.values() for body in point.bodies()]
-        groups += [link.point_names for link in self.of_kind(Link).values() if len(link.point_names) > 2 or not self._is_cylinder(link)]
+        groups += [body for name, point in self.points.items() if name not in self.telescopes for body in point.bodies()]
+        groups += [link.point_names for link in self.of_kind(Link).values() if len(link.point_names) > 2 or not self.is_cylinder(link)]
         return merged(groups, self.ground)
 
     @cached_property
     def gruebler(self) -> int:
-        """The Gruebler count 3 (n - 1) - 2 j."""
-        return gruebler(self.links, [(bar.P, bar.Q) for bar in self.cylinders])
+        """The Gruebler count 3 (n - 1) - 2 j1 - j2."""
+        halves = sum(len(point.half_joints()) for point in self.points.values()) + sum(len(group.slides) for group in self.groups.values())
+        bodies = {name for body in self.links for name in body.points} | {end for bar in self.cylinders for end in (bar.P, bar.Q)}
+        lone = sum(1 for name, point in self.points.items() if name not in bodies and (point.half_joints() or name in self.telescopes))
+        return gruebler(self.links, [(bar.P, bar.Q) for bar in self.cylinders]) - halves - len(self.telescopes) + 2 * lone
 
     # -- the program -----------------------------------------------------------------------------------
 
@@ -145,15 +157,22 @@ class Plan:
 
     @cached_property
     def following(self) -> tuple[tuple[str, Quantity], ...]:
-        """The lengths that follow other quantities, and so can become negative, each with the later of its two points."""
+        """The lengths that follow other quantities, and so can become negative, each with the member that it places."""
         place = list(self.members).index
-        return tuple((max(ends, key=place), length) for ends, length in self.table.lengths.items() if not isinstance(length, Variable))
+        found = [(max(ends, key=place), length) for ends, length in self.table.lengths.items()]
+        names = set().union(*map(self.reaches, self.points))
+        found += [(name, length) for name in sorted(names, key=place) for part in self.with_parts(name) for length in part.lengths()]
+        return tuple((name, length) for name, length in found if not isinstance(length, (Variable, Number, Length, Distance)))
+
+    def with_parts(self, name: str) -> tuple[Member, ...]:
+        """Return a member and its parts that have no name of their own."""
+        return (self.members[name], *unnamed(self.members[name]))
 
     @cached_property
     def may_overflow(self) -> bool:
         """Whether a place depends on arithmetic that has no value everywhere: quotients, powers, functions."""
         names = set().union(*map(self.reaches, self.points))
-        parts = [part for name in names for part in (self.members[name], *unnamed(self.members[name]))]
+        parts = [part for name in names for part in self.with_parts(name)]
         return any(isinstance(part, Function) or (isinstance(part, Operation) and part.symbol != "*") for part in parts)
 
     def read(self, inputs: Mapping[str, Any]) -> ArrayReading:

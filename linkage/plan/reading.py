@@ -109,7 +109,8 @@ class Reading:
 class ArrayReading(Reading):
     """The eager evaluation on NumPy arrays: a dead point is reached to rounding, and every loop tells how near it is.
 
-    `sines` holds, for each step that closes a loop, the sine of the angle between its links (NaN where it fails).
+    `sines` holds, for each step that closes a loop, the sine of the angle between its links (NaN where it fails);
+    `rounding` how much larger the numbers are whose difference closes the loop than its own links.
     """
 
     ROUNDING = 8 * np.finfo(float).eps
@@ -117,11 +118,13 @@ class ArrayReading(Reading):
     def __init__(self, members: Mapping[str, Member], lengths: Mapping[frozenset[str], Quantity], inputs: Mapping[str, Scalar]) -> None:
         super().__init__(members, lengths, inputs)
         self.sines: dict[str, Any] = {}
+        self.rounding: dict[str, Any] = {}
 
     def root(self, radicand: Scalar, scale: Scalar, size: Scalar) -> Scalar:
         inside = np.where((radicand < 0.0) & (radicand >= -self.ROUNDING * size), 0.0, radicand)
         height = np.sqrt(inside)
         self.margin(height / scale)
+        self.rounding[self.owner] = size / scale**2
         return height
 
     def margin(self, sine: Scalar) -> Scalar:

@@ -38,12 +38,17 @@ class Table:
 
     def add(self, name: str, default: float, kind: str, where: str, unit: str = "") -> None:
         """Enter a design variable; raise DefinitionError where its name is taken or its value cannot be."""
-        if name in self.entries:
-            raise DefinitionError(f"{where}: the name {name} already belongs to {self.entries[name].where}; rename one of them.")
+        self.check_free(name, where)
         entry = Entry(name, default, kind, where, unit)
         checked(entry, default)
         self.entries[name] = entry
         self.spellings[name] = (name, 1)
+
+    def check_free(self, name: str, where: str) -> None:
+        """Raise DefinitionError where a name already stands for a design variable, forwards or backwards."""
+        if name in self.spellings:
+            owner = self.entries[self.spellings[name][0]]
+            raise DefinitionError(f"{where}: the name {name} already belongs to {owner.name} of {owner.where}; rename one of them.")
 
     def claim(self, slot: Slot, spelling: str, value: Any, where: str) -> Quantity:
         """Return the quantity a label stands for; a number makes a design variable of that name."""
@@ -53,6 +58,8 @@ class Table:
             return self._repeated(key, slot, spelling, given, where)
         stands: Quantity = Variable(spelling) if isinstance(given, Number) else given
         if isinstance(given, Number):
+            for each in slot.spellings:
+                self.check_free(each, where)
             self.add(spelling, given.number, slot.kind, where)
             self.spellings |= {each: (spelling, slot.spellings[each] * slot.spellings[spelling]) for each in slot.spellings}
         else:

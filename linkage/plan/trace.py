@@ -36,7 +36,7 @@ class Trace(Reading):
 
     def root(self, radicand: Scalar, scale: Scalar, size: Scalar) -> Scalar:
         node: Node = self.graph.apply("sqrt", radicand)
-        watched = node - NEAR * scale if node.level is Level.POSE else node
+        watched = radicand - NEAR**2 * (scale * scale + size) if node.level is Level.POSE else node
         self.guards.append(Guard(self.owner, self.graph.node(watched)))
         return node
 

@@ -79,7 +79,7 @@ def block_code(plan: Schedule) -> BlockCode:
         registers.release(arg for arg in dict.fromkeys(args) if uses[arg] == place and arg not in plan.outputs)
         target = registers.take(node)
         listed = ", ".join(operands)
-        lines.append(f"{target}[...] = {node.op}({listed})" if node.op in ("pick", "component") else f"{node.op}({listed}, {target})")
+        lines.append(f"{target}[...] = {node.op}({listed})" if node.op in ("pick", "component") else f"{node.op}({listed}, out={target})")
         if node in watched:
             lines += guard_lines(plan, node, target)
         if node not in uses:

@@ -8,6 +8,10 @@ from typing import Any
 import numpy as np
 
 
+#: Up to so many systems LAPACK, called once, is cheaper than one elimination in array steps.
+FEW = 64
+
+
 def unknowns(count: int) -> int:
     """Return how many unknowns a system of n * n + n entries has."""
     return (math.isqrt(4 * count + 1) - 1) // 2
@@ -19,6 +23,9 @@ def solve_arrays(*entries: Any) -> Any:
     One elimination for all, each pivot the row that is large in every system; where no row is, LAPACK pivots each.
     """
     n = unknowns(len(entries))
+    size = max(np.size(each) for each in entries)
+    if size <= FEW:
+        return _pivoted_each(n, entries)
     arrays = [np.array(each, float) for each in np.broadcast_arrays(*entries)]
     rows = [[*arrays[k * n : k * n + n], arrays[n * n + k]] for k in range(n)]
     found = _eliminated(rows)
@@ -57,6 +64,11 @@ def _pivoted_each(n: int, entries: tuple[Any, ...]) -> Any:
     stacked = np.stack(np.broadcast_arrays(*entries), axis=-1).astype(float)
     matrix, right = stacked[..., : n * n].reshape(*stacked.shape[:-1], n, n), stacked[..., n * n :, None]
     with np.errstate(all="ignore"):
+        if np.isfinite(stacked).all():
+            try:
+                return np.moveaxis(np.linalg.solve(matrix, right)[..., 0], -1, 0)
+            except np.linalg.LinAlgError:
+                pass
         regular = np.isfinite(stacked).all(axis=-1)
         safe = np.where(regular[..., None, None], matrix, np.eye(n))
         regular &= np.abs(np.linalg.det(safe)) > 0.0

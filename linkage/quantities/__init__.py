@@ -18,8 +18,8 @@ from .outputs import distance as distance
 from .outputs import label as label
 from .outputs import x as x
 from .outputs import y as y
-from .quantity import Negative as Negative
 from .quantity import Function as Function
+from .quantity import Negative as Negative
 from .quantity import Number as Number
 from .quantity import Operation as Operation
 from .quantity import Quantity as Quantity

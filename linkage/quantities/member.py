@@ -30,6 +30,10 @@ class Member:
         """Return what this member is built from: names or members."""
         return ()
 
+    def lengths(self) -> tuple[Any, ...]:
+        """Return the quantities that stand for lengths in this member, beside its labels: none may be negative."""
+        return ()
+
     def sides(self, where: Any) -> tuple[tuple[str, Any], ...]:
         """Return the triangle this member closes, as labelled lengths [m]; empty where it closes none."""
         return ()

@@ -118,6 +118,9 @@ class Quantity(Member):
     def __pos__(self) -> Quantity:
         return self
 
+    def __abs__(self) -> Quantity:
+        return Function("absolute", self)
+
     # NumPy's numbers and functions meet a quantity here: np.sqrt(L), np.float64(2) * L
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Quantity:

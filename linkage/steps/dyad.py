@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from ..quantities import Quantity, Reference, Where
 from ..vectors import Scalar, Side, Vec
 from .labels import Slot
@@ -17,8 +19,8 @@ def triangle(where: Where, base2: Scalar, p: Scalar, q: Scalar) -> tuple[Scalar,
     twice the area is base times height; it is NaN where the sides do not meet.
     """
     along = (base2 + p * p - q * q) * 0.5
-    whole = p * p * base2
-    return along, where.root(whole - along * along, scale=p * q, size=whole)
+    largest = np.maximum(base2, np.maximum(p * p, q * q))
+    return along, where.root(p * p * base2 - along * along, scale=p * q, size=np.abs(along) * largest)
 
 
 class Dyad(Step):

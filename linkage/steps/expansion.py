@@ -67,7 +67,7 @@ def _(step: OnLink) -> tuple[Assignment, ...]:
     return (
         *lengths[: 2 if by_sides else 1],
         Assignment(step.P + step.Q, base),
-        Assignment(step.Q + step.P + step.X, angle),
+        Assignment(step.X + step.P + step.Q if by_sides else step.Q + step.P + step.X, angle),
         Assignment(step.P + step.X, arm),
         Assignment(step.X, Offset(step.P, arm)),
         *([Assignment(step.Q + step.X, Vector(step.Q, step.X))] if by_sides else []),

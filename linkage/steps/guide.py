@@ -19,8 +19,8 @@ class Guide(Member):
     """
 
     def __init__(self, P: Reference | tuple[float, float], Q: Reference | None = None, *, angle: Any = None) -> None:
-        if (Q is None) == (angle is None):
-            raise DefinitionError("Guide: give its direction, either angle= or a second point.")
+        if P is None or (Q is None) == (angle is None):
+            raise DefinitionError("Guide: give its origin, and its direction by angle= or by a second point.")
         self.fixed_at = None if isinstance(P, (str, Member)) else position(P, "Guide")
         self.P = P if isinstance(P, (str, Member)) else None
         self.Q = Q

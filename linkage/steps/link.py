@@ -26,7 +26,8 @@ class Link(Member):
     def claim(self, claims: Claims) -> None:
         """Enter the labels: distances and angles of its own points."""
         slots = [Slot("", pair) for pair in combinations(self.point_names, 2)]
-        slots += [Slot("", (P, vertex, Q)) for vertex in self.point_names for P, Q in combinations(self.point_names, 2) if vertex not in (P, Q)]
+        corners = [(P, vertex, Q) for vertex in self.point_names for P, Q in combinations(self.point_names, 2)]
+        slots += [Slot("", corner) for corner in corners if corner[1] not in (corner[0], corner[2])]
         for spelling, value in self.labels.items():
             (found,) = match({spelling: value}, slots, f"{self.name} = {self}").values()
             claims.claim(found[0], spelling, value, f"{self.name} = {self}")

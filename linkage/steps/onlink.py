@@ -41,6 +41,10 @@ class OnLink(Step):
         if self.QX is not UNBOUND and self.side is None and self.near is None and self.drawn_at is None:
             raise self.needs_side("a triangle of three sides lies on either side")
 
+    def dimensions(self) -> tuple[Quantity, ...]:
+        """Return the quantities of its labels."""
+        return tuple(each for each in (self.PX, self.QX, self.QPX) if each is not UNBOUND)
+
     def modes(self) -> tuple[Side, ...]:
         return (Side.LEFT, Side.RIGHT) if self.QX is not UNBOUND else ()
 

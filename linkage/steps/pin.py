@@ -71,7 +71,7 @@ class Group(Member):
 
     def __init__(self, pins: str) -> None:
         self.pins = tuple(pins.split())
-        self.lengths: tuple[tuple[str, str, Quantity], ...] = ()
+        self.given: tuple[tuple[str, str, Quantity], ...] = ()
         self.attached: tuple[tuple[str, OnLink], ...] = ()
         self.slides: tuple[Slide, ...] = ()
         self.rods: tuple[Bar, ...] = ()
@@ -79,7 +79,7 @@ class Group(Member):
 
     def settled(self, claims: Claims) -> None:
         """Enter the group's dimensions: its rods' lengths and its links' shapes."""
-        self.rods = tuple(Bar(P, Q, claims.claim(Slot("", (P, Q)), P + Q, length, str(self))) for P, Q, length in self.lengths)
+        self.rods = tuple(Bar(P, Q, claims.claim(Slot("", (P, Q)), P + Q, length, str(self))) for P, Q, length in self.given)
         self.rigid = tuple(step.bind(X, claims) for X, step in self.attached)
 
     @property
@@ -88,10 +88,10 @@ class Group(Member):
         return (*(f"{pin}.{axis}" for pin in self.pins for axis in "xy"), f"{self.name}.sine")
 
     def parts(self) -> tuple[Reference, ...]:
-        points = [point for P, Q, _ in self.lengths for point in (P, Q)]
+        points = [point for P, Q, _ in self.given for point in (P, Q)]
         points += [name_of(parent) for _, step in self.attached for parent in step.parents]
         points += [name_of(slide.point) for slide in self.slides]
-        values = [length for _, _, length in self.lengths] + [quantity(value) for _, step in self.attached for value in step.labels.values()]
+        values = [length for _, _, length in self.given] + [quantity(value) for _, step in self.attached for value in step.labels.values()]
         outside: list[Reference] = [point for point in dict.fromkeys(points) if point not in self.pins]
         return (*outside, *(value for value in values if not value.is_constant), *self.guide_parts())
 

@@ -58,6 +58,9 @@ class Turn(Arrow):
     def parts(self) -> tuple[Reference, ...]:
         return (self.base, self.angle) if self.scaled_to is None else (self.base, self.angle, self.scaled_to)
 
+    def lengths(self) -> tuple[Quantity, ...]:
+        return () if self.scaled_to is None else (self.scaled_to,)
+
     def vector(self, where: Where) -> Vec:
         cos, sin = where.turn(self.angle)
         if self.scaled_to is not None:
@@ -83,6 +86,9 @@ class CosineAngle(Quantity):
         self.triangle = (quantity(a), quantity(b), quantity(c))
 
     def parts(self) -> tuple[Reference, ...]:
+        return self.triangle
+
+    def lengths(self) -> tuple[Quantity, ...]:
         return self.triangle
 
     def rule(self, where: Where) -> Scalar:

@@ -118,8 +118,8 @@ class PinSlotDyad(Step):
         given = [] if isinstance(self.offset, Number) and self.offset.number == 0.0 else [f"offset={spelled(self.offset)}"]
         return [*super().arguments(), *given]
 
-    def pin_slots(self) -> tuple[tuple[str, str, str], ...]:
-        return ((self.Q, self.P, self.X),)
+    def half_joints(self) -> tuple[str, ...]:
+        return (self.Q,)
 
 
 class GuideCross(Step):
@@ -197,6 +197,9 @@ class YokeDyad(Step):
 
     def slides(self) -> tuple[tuple[str, str], ...]:
         return ((self.X, self.guide),)
+
+    def half_joints(self) -> tuple[str, ...]:
+        return self.guide, self.P
 
     def arguments(self) -> list[str]:
         return [*super().arguments(), f"angle={spelled(self.angle)}"]

@@ -57,6 +57,10 @@ class Point(Member):
         """Return the points this step keeps on guides: (point, guide)."""
         return ()
 
+    def half_joints(self) -> tuple[str, ...]:
+        """Return the guides and slots that take one freedom each."""
+        return tuple(guide for _, guide in self.slides())
+
     @property
     def companions(self) -> tuple[str, ...]:
         """The points that are found together with this one; empty where it is placed alone."""

@@ -1,0 +1,99 @@
+"""Machines by name: shipped or of another package (entry points), of a module, or of a file."""
+
+from __future__ import annotations
+
+import sys
+import traceback
+from collections.abc import Callable
+from importlib import import_module
+from importlib.metadata import EntryPoint, entry_points
+from importlib.util import module_from_spec, spec_from_file_location
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from ..errors import DefinitionError, LinkageError, unknown
+from ..mechanism import Mechanism
+
+GROUP = "hydrolinkage.machines"
+OWN = "A machine of your own is written package.module:Class, file.py or file.py:Class."
+
+
+def registered() -> dict[str, EntryPoint]:
+    """Return the installed machines by name."""
+    return {entry.name: entry for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name)}
+
+
+def find(text: str) -> type[Mechanism]:
+    """Return the machine that a text names; DefinitionError, with the nearest name, where there is none."""
+    entries = registered()
+    if text in entries:
+        return machine(guarded(entries[text].load, f"The machine {text} ({entries[text].value})"), text)
+    place, name = split(text)
+    if place.endswith(".py"):
+        return of_module(guarded(lambda: module_of_file(place), place), name, place)
+    if name:
+        if "" not in sys.path and str(Path.cwd()) not in sys.path:
+            sys.path.insert(0, str(Path.cwd()))
+        return of_module(guarded(lambda: import_module(place), f"The module {place}"), name, place)
+    raise DefinitionError(f"{unknown('Machine', text, entries)} {OWN}")
+
+
+def split(text: str) -> tuple[str, str]:
+    """Return the place and the class of `place:Class`; the class is "" where none is named."""
+    place, colon, name = text.rpartition(":")
+    return (place, name) if colon and name.isidentifier() else (text, "")
+
+
+def guarded(load: Callable[[], Any], what: str) -> Any:
+    """Return what is loaded; whatever goes wrong in a user's module becomes a DefinitionError with its line."""
+    try:
+        return load()
+    except FileNotFoundError as error:
+        raise DefinitionError(f"{what}: {error.strerror or error}.") from error
+    except SyntaxError as error:
+        raise DefinitionError(f"{what} cannot be loaded: {error.filename}, line {error.lineno}: {error.msg}.") from error
+    except LinkageError as error:
+        raise DefinitionError(f"{what} cannot be loaded: {error}") from error
+    except Exception as error:
+        last = traceback.extract_tb(error.__traceback__)[-1]
+        where = "" if last.filename.startswith("<") else f" ({last.filename}, line {last.lineno})"
+        raise DefinitionError(f"{what} cannot be loaded: {type(error).__name__}: {error}{where}.") from error
+
+
+def module_of_file(place: str) -> ModuleType:
+    """Return a file as a module; it may import its neighbours, as a script may."""
+    path = Path(place).resolve()
+    spec = spec_from_file_location(f"_machine_file_{path.stem}", path)
+    assert spec is not None and spec.loader is not None  # the name ends in .py
+    module = module_from_spec(spec)
+    sys.modules[spec.name] = module
+    if str(path.parent) not in sys.path:
+        sys.path.insert(0, str(path.parent))
+    spec.loader.exec_module(module)
+    return module
+
+
+def of_module(module: ModuleType, name: str, place: str) -> type[Mechanism]:
+    """Return a module's machine of that name, or its only one."""
+    own = {key: each for key, each in vars(module).items() if is_machine(each) and each.__module__ == module.__name__}
+    if name:
+        if name not in vars(module):
+            raise unknown("Machine", name, own, where=place)
+        return machine(vars(module)[name], f"{place}:{name}")
+    if len(own) != 1:
+        choice = f"say {place}:Class, one of {', '.join(own)}" if own else "declare a class of Mechanism in it"
+        raise DefinitionError(f"{place} holds {len(own) or 'no'} machine{'s' if len(own) > 1 else ''}; {choice}.")
+    return machine(next(iter(own.values())), place)
+
+
+def is_machine(found: Any) -> bool:
+    """Return whether something is a class of mechanism."""
+    return isinstance(found, type) and issubclass(found, Mechanism) and found is not Mechanism
+
+
+def machine(found: Any, what: str) -> type[Mechanism]:
+    """Return it as a class of mechanism; DefinitionError where it is none."""
+    if not is_machine(found):
+        raise DefinitionError(f"{what} is not a class of Mechanism. {OWN}")
+    return found  # type: ignore[no-any-return]

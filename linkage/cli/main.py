@@ -1,0 +1,89 @@
+"""The door of the command: arguments in, exit code out, every deliberate failure in one line."""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from argparse import ArgumentParser
+from collections.abc import Sequence
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any, NoReturn
+
+from ..errors import DefinitionError, LinkageError, SingularWarning
+from .commands import chosen
+
+PROGRAM = "hydrolinkage"
+BAD_INPUT, INTERRUPTED, PIPE_CLOSED = 2, 130, 141
+
+
+class Parser(ArgumentParser):
+    """A parser that reports a mistake in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        raise DefinitionError(f"{message}; see {self.prog} --help.")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command and return its exit code: 0, 2 for what the user can mend, 130 after Ctrl-C, 141 into a closed pipe."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("default", SingularWarning)
+            warnings.showwarning = say_warning
+            code = run(list(sys.argv[1:] if argv is None else argv))
+            sys.stdout.flush()
+            return code
+    except LinkageError as error:
+        return fail(str(error))
+    except BrokenPipeError:
+        close_stdout()
+        return PIPE_CLOSED
+    except KeyboardInterrupt:
+        return INTERRUPTED
+    except OSError as error:
+        return fail(f"{error.filename}: {error.strerror}." if error.filename else str(error))
+    except MemoryError:
+        return fail("not enough memory for so many poses; lower --count.")
+    except SystemExit as leaving:  # argparse, after --help and --version
+        return int(leaving.code or 0)
+
+
+def run(arguments: list[str]) -> int:
+    """Return the exit code of the command that the arguments name."""
+    commands = chosen(arguments)
+    parser = Parser(prog=PROGRAM, description="Planar linkages moved by cylinders: numbers, equations and pictures.", allow_abbrev=False)
+    parser.add_argument("--version", action="version", version=f"{PROGRAM} {installed_version()}")
+    subparsers = parser.add_subparsers(metavar="COMMAND", dest="command")
+    for command in commands:
+        branch = subparsers.add_parser(command.name, help=command.help, description=command.help, allow_abbrev=False)
+        command.add(branch)
+        branch.set_defaults(run=command.run)
+    options = parser.parse_args(arguments)
+    if options.command is None:
+        parser.print_help(sys.stderr)
+        return BAD_INPUT
+    return int(options.run(options))
+
+
+def installed_version() -> str:
+    """Return the installed version; the checkout's where nothing is installed."""
+    try:
+        return version(PROGRAM)
+    except PackageNotFoundError:
+        return "(not installed)"
+
+
+def fail(message: str) -> int:
+    """Say in one line on stderr what was wrong, and return the exit code."""
+    print(f"{PROGRAM}: {' '.join(message.split())}", file=sys.stderr)
+    return BAD_INPUT
+
+
+def say_warning(message: Warning | str, *where: Any, **more: Any) -> None:
+    """Say a warning in one line on stderr."""
+    print(f"{PROGRAM}: warning: {' '.join(str(message).split())}", file=sys.stderr)
+
+
+def close_stdout() -> None:
+    """Let nothing more be written into the closed pipe, so that leaving is silent."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

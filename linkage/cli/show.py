@@ -1,0 +1,76 @@
+"""`hydrolinkage show NAME`: what a machine is, its dimensions, its construction, and what to know of it."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from collections.abc import Iterable, Iterator
+from inspect import cleandoc
+
+from ..mechanism import Mechanism
+from ..quantities import Dimension
+from ..report import aligned, design_rows, stroke_rows
+from .command import Command, machine_arguments
+from .machines import find
+from .settings import design, motion
+
+POSES = {0: 1, 1: 101, 2: 21}
+MANY = 7  # poses of each of three or more strokes
+
+
+class Show(Command):
+    """Prints a machine in sections."""
+
+    name = "show"
+    help = "a machine's dimensions, strokes, bodies, construction steps and verdicts"
+
+    def add(self, parser: ArgumentParser) -> None:
+        machine_arguments(parser)
+        parser.add_argument("--equations", action="store_true", help="the vector equations too, numbered")
+
+    def run(self, options: Namespace) -> int:
+        machine = design(find(options.machine), options.settings)
+        for title, lines in sections(machine):
+            section(title, lines)
+        if options.equations:
+            section("Equations", equations(machine).splitlines())
+        poses = POSES.get(len(machine.strokes), MANY)
+        section("Verdict", machine.verdicts(motion(machine, [], poses)))
+        return 0
+
+
+def sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:
+    """Yield the title and the lines of each section that describes a design."""
+    yield type(machine).__name__, cleandoc(type(machine).__doc__ or "").splitlines()
+    yield "Strokes", aligned(list(stroke_rows(machine)))
+    yield "Design variables", aligned(list(design_rows(machine)))
+    yield "Bodies", bodies(machine)
+    yield "Construction, in order", construction(machine)
+
+
+def bodies(machine: Mechanism) -> Iterator[str]:
+    """Yield the rigid bodies, the cylinders, and the count of freedoms."""
+    cylinders = machine.plan.cylinders
+    yield from map(str, machine.links)
+    yield from (f"cylinder {bar.P} {bar.Q}" for bar in cylinders)
+    strokes = len(machine.strokes)
+    yield f"Gruebler count {machine.gruebler} (a cylinder is two bodies on a slide), {strokes} stroke{'s' if strokes != 1 else ''}"
+
+
+def construction(machine: Mechanism) -> Iterator[str]:
+    """Yield the members in the order they are worked out, without the dimensions listed already."""
+    dimensions = machine.plan.of_kind(Dimension)
+    yield from (f"{name} = {member}" for name, member in machine.plan.members.items() if name not in dimensions)
+
+
+def equations(machine: Mechanism) -> str:
+    """Return the machine's vector equations as text."""
+    from ..equations import equations as worked_out
+
+    return str(worked_out(machine))
+
+
+def section(title: str, lines: Iterable[str]) -> None:
+    """Print a section; nothing where it has no lines."""
+    text = [f"  {line}".rstrip() for line in lines]
+    if text:
+        print("\n".join([title, *text, ""]))

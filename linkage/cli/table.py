@@ -1,0 +1,73 @@
+"""`hydrolinkage table NAME`: a machine's results over the stroke, as text or CSV."""
+
+from __future__ import annotations
+
+import io
+import sys
+from argparse import ArgumentParser, Namespace
+from collections.abc import Sequence
+from shutil import get_terminal_size
+from typing import TextIO
+
+from ..motion import Column
+from ..report import rich_tables, text_table, write_csv
+from .command import Command, machine_arguments, motion_arguments
+from .machines import find
+from .progress import progress_bar
+from .settings import design, motion, picked
+
+RICH_ROWS = 500  # a longer table is printed plain, which takes no time
+
+
+class Table(Command):
+    """Prints or writes the table of results."""
+
+    name = "table"
+    help = "a machine's results over the stroke, as text or CSV"
+
+    def add(self, parser: ArgumentParser) -> None:
+        machine_arguments(parser)
+        parser.add_argument("columns", metavar="COLUMN", nargs="*", default=[], help="only these columns (default: all)")
+        parser.add_argument("--csv", metavar="FILE", help="write CSV in full precision; - for stdout")
+        motion_arguments(parser, 11)
+
+    def run(self, options: Namespace) -> int:
+        machine = design(find(options.machine), options.settings)
+        poses = motion(machine, options.strokes, options.count)
+        columns = picked(machine.columns(poses), options.columns, list(poses.strokes), machine.plan.title)
+        if options.csv is None:
+            print_table(columns, poses.reached.size)
+        elif options.csv == "-":
+            keep_line_ends(sys.stdout)
+            save(columns, sys.stdout)
+        else:
+            with open(options.csv, "w", newline="", encoding="utf-8") as stream:
+                save(columns, stream)
+            print(f"{options.csv}: {poses.reached.size} rows")
+        return 0
+
+
+def save(columns: Sequence[Column], stream: TextIO) -> None:
+    """Write CSV, with a progress bar."""
+    with progress_bar("writing CSV") as progress:
+        write_csv(columns, stream, progress)
+
+
+def keep_line_ends(stream: TextIO) -> None:
+    """Let CR LF be CR LF where the system would turn LF into that itself."""
+    if isinstance(stream, io.TextIOWrapper):
+        stream.reconfigure(newline="")
+
+
+def print_table(columns: Sequence[Column], rows: int) -> None:
+    """Print a table: in blocks as wide as a terminal there, else whole and plain."""
+    width = get_terminal_size().columns if sys.stdout.isatty() else None
+    if width is None or rows > RICH_ROWS:
+        for line in text_table(columns, width):
+            print(line)
+        return
+    from rich.console import Console
+
+    console = Console(width=width)
+    for table in rich_tables(columns, width):
+        console.print(table)

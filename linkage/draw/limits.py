@@ -1,0 +1,39 @@
+"""Limit lines: a value that a result may not pass, and on which side it fails."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..program import FloatArray
+
+
+class Limit(NamedTuple):
+    """A value [SI] that a column may not pass, its words, and the side that fails: "above" or "below"."""
+
+    value: float
+    text: str = ""
+    fails: str = "above"
+
+    def failing(self, values: FloatArray) -> FloatArray:
+        """Return the mask of the values [SI] that fail."""
+        return np.asarray(values > self.value if self.fails == "above" else values < self.value)
+
+
+def limit(given: Sequence[Any]) -> Limit:
+    """Return a limit from a tuple of its parts; DefinitionError for a side that is neither above nor below."""
+    found = Limit(*given)
+    if found.fails not in ("above", "below"):
+        raise DefinitionError(f'the limit {found.text or found.value!r} fails {found.fails!r}: say "above" or "below".')
+    return found
+
+
+def crossings(along: FloatArray, values: FloatArray, at: float) -> list[float]:
+    """Return where values cross a limit, by straight lines between the poses."""
+    off = values - at
+    places = np.flatnonzero(np.signbit(off[1:]) != np.signbit(off[:-1]))
+    places = places[np.isfinite(off[places]) & np.isfinite(off[places + 1])]
+    return [float(along[i] - off[i] * (along[i + 1] - along[i]) / (off[i + 1] - off[i])) for i in places]

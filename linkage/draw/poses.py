@@ -1,0 +1,117 @@
+"""A mechanism at its end positions, one bold and the others faint, with the paths of points."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from ..errors import unknown
+from ..mechanism import Mechanism
+from ..motion import Motion
+from ..program import FloatArray
+from . import strokes, style
+from .drawing import Drawing
+from .room import cloud
+from .scene import Box, Scene
+from .sheet import sheet
+from .style import FAINT, STRONG
+from .traces import trace
+
+WIDTH = 9.0
+LEAST, MOST = 4.2, 10.0
+LEFT, RIGHT, BOTTOM, TOP = 0.75, 0.2, 0.6, 0.7
+"""The figure's width, the range of its height, and the room around the sheet [inch]."""
+
+
+def poses(machine: Mechanism, at: Any = None, path: Sequence[str] = (), count: int = 101) -> Figure:
+    """Return a figure of a mechanism at chosen strokes: the last one bold, the others faint.
+
+    `at` are values of the first stroke [m or rad], or a mapping `dict(S=[0.0, 0.25])` for another or for several;
+    without it, the two ends of the first stroke (of a full turn its middle and its start), the others in their
+    middle. `path` names points whose paths are
+    drawn over that stroke, at `count` poses. Poses out of reach are left out; where none is in reach this raises
+    AssemblyError.
+    """
+    moving, shown, swept = motions(machine, at, count)
+    for name in path:
+        if name not in machine.plan.points:
+            raise unknown("Point", name, machine.plan.points, where=machine.plan.title)
+    whole = Scene(swept)
+    figure, ax = page(whole.box())
+    for name in path:
+        trace(ax, whole.places[name], f"path{'s' if len(path) > 1 else ''} of {', '.join(path)}" if name == path[0] else "")
+    draw(ax, shown, [whole.places[name].T for name in path])
+    heading(figure, ax, shown, moving)
+    return figure
+
+
+def motions(machine: Mechanism, at: Any, count: int) -> tuple[str, Motion, Motion]:
+    """Return the stroke that moves, the motion at the chosen values, and the one over the whole stroke."""
+    given: dict[str, Any] = dict(at) if isinstance(at, Mapping) else {strokes.first(machine): at}
+    moving = max(given, key=lambda name: np.size(given[name])) if given else strokes.first(machine)
+    if moving not in machine.strokes:
+        raise unknown("Stroke", moving, machine.strokes, where=machine.plan.title)
+    start, end = machine.strokes[moving].start, machine.strokes[moving].end
+    usual = (0.5 * (start + end), start) if strokes.is_turn(machine, moving) else (start, end)
+    chosen = {name: np.atleast_1d(np.array(usual if value is None else value, float)) for name, value in given.items()}
+    held: dict[str, Any] = strokes.middle(machine) | chosen
+    shown = machine.at(unreachable="nan", **held)
+    if not shown.reached.any():
+        machine.at(**held)
+    reach = np.array([start, end, *np.ravel(held[moving])])
+    still = {name: float(np.ravel(value)[-1]) for name, value in held.items()}
+    swept = machine.at(unreachable="nan", **still | {moving: np.linspace(reach.min(), reach.max(), count)})
+    return moving, shown, swept
+
+
+def page(box: Box) -> tuple[Figure, Axes]:
+    """Return a figure with a sheet that fits a box [m]."""
+    left, right, bottom, top = box
+    wide = WIDTH - LEFT - RIGHT
+    high = float(np.clip(wide * (top - bottom) / (right - left), LEAST - BOTTOM - TOP, MOST - BOTTOM - TOP))
+    height = high + BOTTOM + TOP
+    figure = Figure(figsize=(WIDTH, height), dpi=style.DPI, facecolor=style.PAPER)
+    FigureCanvasAgg(figure)
+    ax = figure.add_axes((LEFT / WIDTH, BOTTOM / height, wide / WIDTH, high / height))
+    sheet(ax, box)
+    return figure, ax
+
+
+def draw(ax: Axes, shown: Motion, keep_clear: Sequence[FloatArray]) -> None:
+    """Draw the poses of a motion, the last one in reach bold."""
+    scene = Scene(shown)
+    *others, last = scene.reached
+    for pose in others:
+        Drawing(ax, scene, FAINT).update(pose)
+        keep_clear = [*keep_clear, cloud(scene, scene.at(pose))[::3]]
+    bold = Drawing(ax, scene, STRONG)
+    bold.ground()
+    bold.label([scene.at(last)], [points[np.isfinite(points).all(axis=1)] for points in keep_clear])
+    bold.update(last)
+
+
+def heading(figure: Figure, ax: Axes, shown: Motion, moving: str) -> None:
+    """Write the title, and which pose is which."""
+    scene = Scene(shown)
+    held = strokes.held(shown.plan, shown.strokes, moving)
+    left = LEFT / WIDTH
+    top = 1.0 - 0.24 / float(figure.get_figheight())
+    figure.text(left, top, shown.plan.title, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
+    if held:
+        figure.text(1.0 - RIGHT / WIDTH, top, f"at {held}", fontsize=style.TEXT, color=style.MUTED, va="center", ha="right")
+    values = [float(shown.strokes[moving].ravel()[pose]) for pose in scene.reached]
+    looks = [FAINT] * (len(values) - 1) + [STRONG]
+    keys = [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in looks]
+    texts = [strokes.words(shown.plan, moving, value) for value in values]
+    lines, names = ax.get_legend_handles_labels()
+    ax.legend(
+        [*keys, *lines], [*texts, *names], loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=6, frameon=False,
+        borderaxespad=0.0, borderpad=0.25, fontsize=style.TEXT, labelcolor=style.INK,
+        handlelength=1.6, columnspacing=1.8, handletextpad=0.6,
+    )  # fmt: skip

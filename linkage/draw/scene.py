@@ -1,0 +1,183 @@
+"""What there is to draw in a motion, without a drawing library: bodies, cylinders, pins, and where they are."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import product
+from typing import TypeAlias
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..motion import Motion
+from ..program import FloatArray
+from ..steps import Bar, Offset
+from .shapes import hull
+
+Places: TypeAlias = dict[str, FloatArray]
+Box: TypeAlias = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True)
+class Ram:
+    """A cylinder from P to Q as it is drawn [m]: its barrel from bottom to mouth, its piston between least and most."""
+
+    P: str
+    Q: str
+    bottom: float = 0.0
+    mouth: float = 0.0
+    rod: float = 0.0
+    least: float = 0.0
+    most: float = 0.0
+
+    def piston(self, length: float) -> float:
+        """Return where the piston stands at a length [m], from P; it stops where no cylinder could be that long."""
+        return float(np.clip(length - self.rod, self.least, self.most))
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """The things to draw in a motion of one design. Raises DefinitionError for a batch of designs."""
+
+    motion: Motion
+    places: Places = field(init=False)
+
+    def __post_init__(self) -> None:
+        plan = self.motion.plan
+        if self.motion.design_shape:
+            raise DefinitionError(
+                f"{plan.title}: this motion holds {np.prod(self.motion.design_shape)} designs and a picture shows one; "
+                "draw them one at a time, each dimension a single number."
+            )
+        flat = {name: self.motion[name].reshape(2, -1) for name in plan.points}
+        object.__setattr__(self, "places", flat)
+
+    # -- poses -----------------------------------------------------------------------------------------
+
+    @cached_property
+    def reached(self) -> list[int]:
+        """The poses that can be assembled, as flat indices."""
+        return [int(index) for index in np.flatnonzero(self.motion.reached.ravel())]
+
+    def index(self, pose: int | tuple[int, ...]) -> int:
+        """Return the flat index of a pose; DefinitionError where there is none such."""
+        shape = self.motion.stroke_shape
+        try:
+            return int(range(int(np.prod(shape, dtype=int)))[pose] if isinstance(pose, int) else np.ravel_multi_index(pose, shape))
+        except (IndexError, ValueError):
+            raise DefinitionError(f"{self.motion.plan.title}: there is no pose {pose!r} among {shape or 1} poses.") from None
+
+    def at(self, pose: int) -> Places:
+        """Return where every point is at a pose, each of shape (2,) [m]; NaN where it is not reached."""
+        return {name: place[:, pose] for name, place in self.places.items()}
+
+    def some(self, count: int) -> list[Places]:
+        """Return up to so many poses, spread over those that are reached."""
+        if not self.reached:
+            return []
+        picks = np.unique(np.linspace(0, len(self.reached) - 1, count).round().astype(int))
+        return [self.at(self.reached[pick]) for pick in picks.tolist()]
+
+    # -- things ----------------------------------------------------------------------------------------
+
+    @cached_property
+    def bodies(self) -> tuple[tuple[str, ...], ...]:
+        """The points of each moving body."""
+        return tuple(body.points for body in self.motion.plan.links if not body.fixed and len(body.points) > 1)
+
+    @cached_property
+    def hulls(self) -> tuple[tuple[str, ...], ...]:
+        """The outermost points of each moving body, counter-clockwise; two for a straight one."""
+        shown = self.some(1)
+        if not shown:
+            return tuple(points[:2] for points in self.bodies)
+        return tuple(tuple(points[i] for i in hull(np.array([shown[0][name] for name in points]))) for points in self.bodies)
+
+    @cached_property
+    def rams(self) -> tuple[Ram, ...]:
+        """The cylinders."""
+        return tuple(self._ram(bar) for bar in self.motion.plan.cylinders)
+
+    def _ram(self, bar: Bar) -> Ram:
+        """Return a cylinder whose piston stays in its barrel over the stroke, as far as its lengths allow."""
+        lengths = np.concatenate([self.motion.value(bar.length).ravel(), self._ends.value(bar.length).ravel()])
+        short, long = np.nanmin(lengths, initial=np.inf), np.nanmax(lengths, initial=0.0)
+        if not long:
+            return Ram(bar.P, bar.Q)
+        size = min(self.size, 0.12 * short)
+        bottom, least = 1.4 * size, 2.0 * size
+        mouth = float(np.clip(least + long - short + 1.5 * size, 0.68 * short, max(0.68 * short, short - 1.2 * size)))
+        return Ram(bar.P, bar.Q, bottom, mouth, float(short) - least, least, mouth - 0.9 * size)
+
+    @cached_property
+    def _ends(self) -> Motion:
+        """The motion at the corners of the declared strokes."""
+        plan = self.motion.plan
+        corners = np.array(list(product(*((stroke.start, stroke.end) for stroke in plan.strokes.values()))))
+        values = {name: corners[:, column] for column, name in enumerate(plan.strokes)}
+        return Motion(plan, self.motion.designs, values, "nan")
+
+    @cached_property
+    def stays(self) -> tuple[tuple[str, str], ...]:
+        """Pairs that a construction joins and no body does: drawn as thin lines."""
+        bodies = [set(body.points) for body in self.motion.plan.links] + [{ram.P, ram.Q} for ram in self.rams]
+        pairs = [(step.P if isinstance(step.P, str) else step.P.name, name) for name, step in self.motion.plan.of_kind(Offset).items()]
+        return tuple((P, X) for P, X in pairs if not any({P, X} <= body for body in bodies))
+
+    @cached_property
+    def _uses(self) -> Counter[str]:
+        """How many bodies and cylinders each point belongs to."""
+        uses = Counter(point for points in self.bodies for point in points)
+        uses.update(end for bar in self.motion.plan.cylinders for end in (bar.P, bar.Q))
+        return uses
+
+    @cached_property
+    def grounds(self) -> tuple[str, ...]:
+        """The points of the frame that something is pinned to."""
+        frame = self.motion.plan.links[0].points
+        held = {P for P, _ in self.stays}
+        return tuple(name for name in frame if self._uses[name] or name in held)
+
+    @cached_property
+    def pins(self) -> tuple[str, ...]:
+        """The joints: points that two or more bodies or cylinders share, or the frame holds."""
+        return tuple(name for name in self.places if self._uses[name] > 1 or name in self.grounds)
+
+    @cached_property
+    def dots(self) -> tuple[str, ...]:
+        """The other points."""
+        return tuple(name for name in self.places if name not in self.pins)
+
+    # -- sizes -----------------------------------------------------------------------------------------
+
+    @cached_property
+    def extent(self) -> Box:
+        """The least and greatest x and y of all points over all poses [m]."""
+        every = np.concatenate([np.empty((2, 0)), *self.places.values()], axis=1)
+        every = every[:, np.isfinite(every).all(axis=0)]
+        if not every.size:
+            raise DefinitionError(f"{self.motion.plan.title}: there is nothing to draw, no point stands anywhere.")
+        low, high = every.min(axis=1), every.max(axis=1)
+        return float(low[0]), float(high[0]), float(low[1]), float(high[1])
+
+    @cached_property
+    def size(self) -> float:
+        """The radius of a bar's round end [m]: a small share of the whole, smaller where pins stand close."""
+        left, right, bottom, top = self.extent
+        whole = float(np.hypot(right - left, top - bottom)) or 1.0
+        return float(np.clip(0.3 * self._nearest, 0.0055 * whole, 0.0125 * whole))
+
+    @cached_property
+    def _nearest(self) -> float:
+        """The least distance of two joined points [m]."""
+        pairs = [(P, Q) for points in self.bodies for P in points for Q in points if P < Q]
+        gaps = [float(np.hypot(*(at[P] - at[Q]))) for at in self.some(3) for P, Q in pairs]
+        return min((gap for gap in gaps if gap > 0), default=np.inf)
+
+    def box(self, margin: float = 5.0) -> Box:
+        """Return the extent with a margin around it, in sizes [m]."""
+        left, right, bottom, top = self.extent
+        pad = margin * self.size
+        return left - pad, right + pad, bottom - pad, top + pad

@@ -1,0 +1,65 @@
+"""Strokes as a picture shows them: which one moves, in mm or degrees."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..mechanism import Mechanism
+from ..motion import Motion, stroke_unit
+from ..plan import Plan
+from ..units import UNITS
+
+
+def unit(plan: Plan, name: str) -> str:
+    """Return the unit a stroke is shown in: mm, or deg where it turns something."""
+    return "deg" if stroke_unit(plan, name) == "rad" else "mm"
+
+
+def shown(plan: Plan, name: str, value: Any) -> Any:
+    """Return stroke values [SI] in the unit they are shown in."""
+    return np.asarray(value) / UNITS[unit(plan, name)][0]
+
+
+def words(plan: Plan, name: str, value: float, *, fixed: bool = False) -> str:
+    """Return a stroke's value as text: `S = 550 mm`, `phi = 90°`; fixed, with whole units."""
+    end = "°" if unit(plan, name) == "deg" else f" {unit(plan, name)}"
+    return f"{name} = {float(shown(plan, name, value)):{'.0f' if fixed else '.4g'}}{end}".replace("-", "\N{MINUS SIGN}")
+
+
+def driven(motion: Motion) -> str:
+    """Return the stroke that a motion runs along; DefinitionError for a grid of strokes or a batch of designs."""
+    plan = motion.plan
+    if motion.design_shape or len(motion.stroke_shape) != 1:
+        raise DefinitionError(
+            f"{plan.title}: curves over a stroke need one design and one row of poses, this motion has the shape {motion.shape}; "
+            "sweep one stroke, give the others a value: sweep(S1=101, S2=0.15)."
+        )
+    return max(motion.strokes, key=lambda name: float(np.ptp(motion.strokes[name])))
+
+
+def middle(machine: Mechanism) -> dict[str, float]:
+    """Return the middle of every stroke [SI]."""
+    return {name: 0.5 * (stroke.start + stroke.end) for name, stroke in machine.strokes.items()}
+
+
+def is_turn(machine: Mechanism, name: str) -> bool:
+    """Return whether a stroke is a full turn, which ends where it began."""
+    stroke = machine.strokes[name]
+    turns = abs(stroke.end - stroke.start) / (2 * np.pi)
+    return unit(machine.plan, name) == "deg" and round(turns) >= 1 and abs(turns - round(turns)) < 1e-9
+
+
+def first(machine: Mechanism) -> str:
+    """Return the first stroke; DefinitionError for a structure without one."""
+    if not machine.strokes:
+        raise DefinitionError(f"{machine.plan.title} has no stroke, so there is nothing to move; declare one, S = Stroke(0, 0.25).")
+    return next(iter(machine.strokes))
+
+
+def held(plan: Plan, strokes: Mapping[str, Any], moving: str) -> str:
+    """Return the other strokes' values as text; empty where there is one stroke."""
+    return ", ".join(words(plan, name, float(np.ravel(value)[0])) for name, value in strokes.items() if name != moving)

@@ -1,0 +1,50 @@
+"""The look of every picture: colours, line widths, font sizes. One palette, safe for colour-blind readers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+INK = "#24313f"
+MUTED = "#67737f"
+RULE = "#c3cbd3"
+GRID = "#e9edf0"
+PAPER = "#ffffff"
+CURVE = "#0072b2"  # Okabe and Ito's blue
+ACCENT = "#d55e00"  # Okabe and Ito's vermilion: paths, limits, what falls short
+BODIES = ("#86accf", "#e8bd7c", "#94c4aa", "#c9a0bd", "#aea9d6", "#b9c0c6")
+BARREL = "#d5dce3"
+ROD = "#f4f6f8"
+PISTON = "#4a5a6a"
+
+TITLE = 12.0
+TEXT = 10.0
+SMALL = 8.5
+LABEL = 11.0
+
+OUTLINE = 1.1
+BOLD = 2.0
+THIN = 0.8
+
+DPI = 150
+
+
+@dataclass(frozen=True)
+class Look:
+    """How strongly a mechanism is drawn: `fade` mixes every colour with the paper, 0 to 1; `level` is its layer."""
+
+    fade: float = 0.0
+    level: float = 10.0
+
+    def colour(self, colour: str) -> str:
+        """Return a colour faded towards the paper."""
+        return mixed(colour, PAPER, self.fade)
+
+
+STRONG = Look()
+FAINT = Look(fade=0.6, level=3.0)
+
+
+def mixed(colour: str, other: str, share: float) -> str:
+    """Return a colour with a share of another one in it; both written `#rrggbb`."""
+    parts = ((int(colour[i : i + 2], 16), int(other[i : i + 2], 16)) for i in (1, 3, 5))
+    return "#" + "".join(f"{round(a + (b - a) * share):02x}" for a, b in parts)

@@ -1,0 +1,139 @@
+"""The mobility of a mechanism: the true one, from the rank of its constraints, and the Gruebler count beside it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+
+from ..assembly import places_at
+from ..errors import AssemblyError, DefinitionError
+from ..graph import merged
+from ..plan import Plan
+from ..program import FloatArray
+from ..steps import Link, Offset
+from ..units import mm
+from .rows import Rows, link_rows, step_rows
+
+RANK = 1e-8
+
+
+@dataclass(frozen=True)
+class Mobility:
+    """How many independent motions there are, by rank and by count, and which links bring nothing new."""
+
+    rank: int
+    gruebler: int
+    strokes: int
+    redundant: tuple[str, ...]
+    locking: tuple[str, ...]
+
+    def __str__(self) -> str:
+        words = [f"mobility {self.rank} (strokes {self.strokes}, Gruebler count {self.gruebler})"]
+        words += [f"the link {name} is redundant: the linkage is overconstrained, it moves the same without it" for name in self.redundant]
+        words += [f"the link {name} locks the linkage" for name in self.locking]
+        return "; ".join(words)
+
+
+def mobility(plan: Plan) -> Mobility:
+    """Return the mobility at the sketch; where branches cross there, in the middle of the strokes.
+
+    AssemblyError where the mechanism cannot be assembled at the sketch.
+    """
+    here = mobility_at(plan, plan.sketch_strokes)
+    if here.rank <= here.strokes:
+        return here
+    middle = {name: 0.5 * (stroke.start + stroke.end) for name, stroke in plan.strokes.items()}
+    try:
+        there = mobility_at(plan, middle)
+    except AssemblyError:
+        return here
+    return there if there.rank < here.rank else here
+
+
+def mobility_at(plan: Plan, strokes: dict[str, float]) -> Mobility:
+    """Return the mobility at some strokes."""
+    places, inputs = places_at(plan, strokes)
+    steps = step_rows(plan, places, inputs)
+    links = link_rows(plan, places, steps.unknowns)
+    both = Rows(np.vstack([steps.matrix, links.matrix]), (*steps.owners, *links.owners), steps.unknowns)
+    active = np.abs(both.matrix).sum(axis=0) > 0.0
+    free = int((active | [name not in plan.strokes for name in both.unknowns]).sum())
+    full = rank(both.matrix)
+    extra = [name for name in dict.fromkeys(links.owners) if name not in implied(plan)]
+    locking = tuple(name for name in extra if rank(both.without(name)) < full and rank(steps.matrix) == rank_needed(plan, steps))
+    redundant = tuple(name for name in extra if name not in locking and rank(both.without(name)) == full)
+    return Mobility(free - full, plan.gruebler, len(plan.strokes), redundant, locking)
+
+
+def rank_needed(plan: Plan, steps: Rows) -> int:
+    """Return the rank at which the steps alone determine every coordinate."""
+    return len(steps.unknowns) - len(plan.strokes)
+
+
+def implied(plan: Plan) -> set[str]:
+    """Return the links whose points are one body by the steps alone, or that a group's equations hold."""
+    groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in plan.bars if bar not in plan.cylinders]
+    groups += [body for point in plan.points.values() for body in point.bodies()]
+    groups += [(*map(str, step.parents), step.X) for group in plan.groups.values() for step in group.rigid]
+    bodies = merged(groups, plan.ground)
+    return {name for name, link in plan.of_kind(Link).items() if any(set(link.point_names) <= set(body.points) for body in bodies)}
+
+
+def rank(matrix: FloatArray) -> int:
+    """Return the numerical rank of unit rows."""
+    return int(np.linalg.matrix_rank(matrix, tol=RANK * max(matrix.shape))) if matrix.size else 0
+
+
+def check(plan: Plan) -> None:
+    """Raise DefinitionError where the mobility is not the number of strokes, or a link would have to stretch.
+
+    Steps determine their points by construction; it is links, pins and slides that can hold too little or too much.
+    """
+    if not plan.of_kind(Link) or not plan.moving:
+        return
+    try:
+        found = mobility(plan)
+    except AssemblyError:
+        return
+    by_hand = bool(plan.of_kind(Offset))
+    if found.rank < found.strokes or (found.rank > found.strokes and not by_hand):
+        bodies = ", ".join(body.name for body in plan.links)
+        raise DefinitionError(
+            f"{plan.title}: the mobility is {found.rank}, the strokes are {found.strokes} ({', '.join(plan.strokes) or 'none'}). "
+            f"Gruebler count {found.gruebler} of the bodies {bodies}. {remedy(found)}"
+        )
+    check_lengths(plan)
+
+
+def remedy(found: Mobility) -> str:
+    """Return what to do about a mobility that is not the number of strokes."""
+    if found.locking:
+        return f"The link {found.locking[0]} locks the linkage: take it out, or give it the length it needs all over the stroke."
+    if found.rank < found.strokes:
+        return "A link or a slide is too much: take it out."
+    return "A link, a slide or a stroke is missing: declare all links that hold the points."
+
+
+def check_lengths(plan: Plan) -> None:
+    """Raise DefinitionError where a declared link changes its length over the strokes by more than rounding."""
+    samples = [sample(plan, share) for share in (0.0, 0.13, 0.37, 0.61, 0.88, 1.0)]
+    known = [places for places in samples if places is not None]
+    for name, link in plan.of_kind(Link).items():
+        for P, Q in () if plan.is_cylinder(link) else combinations(link.point_names, 2):
+            lengths = [float(np.hypot(*np.subtract(places[P], places[Q]))) for places in known]
+            change = max(lengths, default=0.0) - min(lengths, default=0.0)
+            if change > 1e-9 * max(lengths, default=1.0):
+                raise DefinitionError(
+                    f"{plan.title}: {name} = {link}: the distance {P}{Q} changes by {change / mm:.3g} mm over the stroke, "
+                    "but a link is rigid. Take it out, or correct a length."
+                )
+
+
+def sample(plan: Plan, share: float) -> dict[str, tuple[float, float]] | None:
+    """Return the places of all points at a share of every stroke; None where it cannot be assembled."""
+    try:
+        return places_at(plan, {name: stroke.start + share * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()})[0]
+    except AssemblyError:
+        return None

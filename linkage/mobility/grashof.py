@@ -1,0 +1,74 @@
+"""Four-bars and their Grashof class: which links can turn fully round."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ..errors import DefinitionError
+from ..plan import Plan, Reading
+from ..steps import Dyad
+
+EQUAL = 1e-9
+
+
+@dataclass(frozen=True)
+class FourBar:
+    """A four-bar of a mechanism: its pins frame, crank, coupler, follower end, and its lengths [m]."""
+
+    pins: tuple[str, str, str, str]
+    ground: float
+    crank: float
+    coupler: float
+    follower: float
+
+    @property
+    def kind(self) -> str:
+        """The Grashof class in words."""
+        return grashof(self.ground, self.crank, self.coupler, self.follower)
+
+    def __str__(self) -> str:
+        return f"four-bar {'-'.join(self.pins)}: {self.kind}"
+
+
+def grashof(ground: float, crank: float, coupler: float, follower: float) -> str:
+    """Return the kind of a four-bar by Grashof's rule, from the lengths of its links [m].
+
+    Shortest plus longest less than the other two: a link turns fully; which one, tells the frame. Equal: a change
+    point. More: a triple rocker. Source: Grashof 1883; Barker's names in brackets.
+    """
+    lengths = {"ground": ground, "crank": crank, "coupler": coupler, "follower": follower}
+    bad = [name for name, length in lengths.items() if not 0.0 < length < float("inf")]
+    if bad:
+        raise DefinitionError(f"grashof: the length of the {bad[0]} is {lengths[bad[0]]!r}; a positive number of metres is expected.")
+    shortest, longest = min(lengths.values()), max(lengths.values())
+    if 2.0 * longest >= sum(lengths.values()):
+        return "cannot be assembled: the longest link is as long as the other three"
+    excess = 2.0 * (shortest + longest) - sum(lengths.values())
+    if abs(excess) <= EQUAL * longest:
+        return "change point (Grashof, s + l = p + q)"
+    if excess > 0.0:
+        return "triple rocker (non-Grashof)"
+    kinds = {
+        "ground": "double crank (drag link, Grashof)",
+        "crank": "crank rocker (Grashof)",
+        "coupler": "double rocker (Grashof)",
+        "follower": "rocker crank (Grashof)",
+    }
+    return kinds[min(lengths, key=lambda name: lengths[name])]
+
+
+def four_bars(plan: Plan, inputs: Mapping[str, Any]) -> list[FourBar]:
+    """Return the four-bars whose frame link is fixed: a dyad on a fixed point and on the end of a link that hangs on another."""
+    reading = Reading(plan.members, plan.table.lengths, inputs)
+    rigid = [(bar.P, bar.Q) for bar in plan.bars if bar not in plan.cylinders]
+    found = []
+    for name, dyad in plan.of_kind(Dyad).items():
+        for Q, P in ((dyad.Q, dyad.P), (dyad.P, dyad.Q)):
+            frames = [a if b == P else b for a, b in rigid if P in (a, b) and ({a, b} - {P}) & set(plan.ground)]
+            if Q in plan.ground and frames and {(P, name), (Q, name)} <= set(rigid):
+                O = frames[0]
+                sides = [float(reading.link_length(*pair)) for pair in ((O, Q), (O, P), (P, name), (Q, name))]
+                found.append(FourBar((O, P, name, Q), *sides))
+    return found

@@ -1,0 +1,161 @@
+"""How far a mechanism can go: reachable intervals, dead points, change points, least transmission angles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..program import FloatArray
+from ..units import deg
+
+SAMPLES = 1441
+TOUCH = 1e-6
+
+Scan = Callable[[FloatArray], "Scanned"]
+"""A look at some stroke values: which are reached, how near each loop is to its dead point, and what fails."""
+
+
+@dataclass(frozen=True)
+class Scanned:
+    """What was seen at some stroke values: the mask of those reached, and the sine of every loop there."""
+
+    reached: Any
+    sines: Mapping[str, FloatArray]
+    failing: Callable[[int], str]
+    """The step that fails at one of the values."""
+    stops: tuple[float, ...] = ()
+    """Ends that are known already: those of groups, found on the way."""
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A reachable range of a stroke, and the step that stops it at either end ("" where the scan ends first) [m or rad]."""
+
+    low: float
+    high: float
+    low_stop: str = ""
+    high_stop: str = ""
+
+    def __contains__(self, value: float) -> bool:
+        return self.low <= value <= self.high
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """The least transmission angle of a joint, folded to 0 ... pi/2 [rad], and the stroke where it stands."""
+
+    joint: str
+    angle: float
+    stroke: float
+
+
+@dataclass(frozen=True)
+class StrokeLimits:
+    """The limits along one stroke, the others held. Values in m or rad, as the stroke."""
+
+    stroke: str
+    unit: str
+    start: float
+    end: float
+    intervals: tuple[Interval, ...]
+    change_points: tuple[tuple[float, str], ...]
+    transmission: tuple[Extreme, ...] = field(default=())
+
+    @property
+    def dead_points(self) -> tuple[tuple[float, str], ...]:
+        """Where a loop's two links come into line and the motion ends: (stroke, step)."""
+        ends = [(value, stop) for each in self.intervals for value, stop in ((each.low, each.low_stop), (each.high, each.high_stop))]
+        return tuple((value, stop) for value, stop in ends if stop)
+
+    def __str__(self) -> str:
+        lines = [f"{self.stroke}: declared {self.start:.6g} to {self.end:.6g} {self.unit}"]
+        for each in self.intervals:
+            lines.append(f"  reachable from {each.low:.9g} to {each.high:.9g} {self.unit}")
+            ends = (each.low, each.low_stop), (each.high, each.high_stop)
+            lines += [f"    {value:.9g}: dead point of {stop}" for value, stop in ends if stop]
+        lines += [f"  change point at {value:.9g} {self.unit}: the branches of {step} cross" for value, step in self.change_points]
+        lines += [
+            f"  least transmission angle at {each.joint}: {each.angle / deg:.4g} deg at {each.stroke:.6g} {self.unit}"
+            for each in self.transmission
+        ]
+        return "\n".join(lines)
+
+
+class Limits(dict[str, StrokeLimits]):
+    """The limits of every stroke by name; printed as sentences."""
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self.values()))
+
+
+def search(scan: Scan, low: float, high: float) -> tuple[list[Interval], list[tuple[float, str]]]:
+    """Return the reachable intervals between two strokes, and the change points inside them."""
+    at = np.linspace(low, high, SAMPLES)
+    seen = scan(at)
+    reached = np.array(seen.reached)
+    touches: list[tuple[float, str]] = []
+    gaps: list[tuple[float, float]] = []
+    for name, sine in seen.sines.items():
+        for place in dips(np.abs(sine)):
+            value, least = deepest(scan, name, at[place - 1], at[place + 1])
+            if np.isnan(least):
+                gaps.append((value, value))
+            elif least < TOUCH and not any(abs(value - known) < (high - low) / SAMPLES for known, _ in touches):
+                touches.append((value, name))
+    at = np.concatenate([at, [value for value, _ in gaps]])
+    reached = np.concatenate([reached, np.zeros(len(gaps), bool)])
+    order = np.argsort(at, kind="stable")
+    return intervals(scan, at[order], reached[order]), sorted(touches)
+
+
+def dips(sine: FloatArray) -> list[int]:
+    """Return the places where a sine may come down to zero between its samples: sharp local minima."""
+    before, here, after = sine[:-2], sine[1:-1], sine[2:]
+    with np.errstate(invalid="ignore"):
+        lowest = (here <= before) & (here <= after)
+        sharp = np.minimum(before, after) <= np.maximum(3.0 * np.abs(after - before), 4.0 * np.maximum(before, after) / len(sine)) + 0.05
+    return [int(place) + 1 for place in np.nonzero(lowest & sharp)[0]]
+
+
+def deepest(scan: Scan, name: str, low: float, high: float) -> tuple[float, float]:
+    """Return where a loop comes nearest to its dead point between two strokes, and its sine there; NaN in a gap."""
+    for _ in range(10):
+        at = np.linspace(low, high, 17)
+        seen = scan(at)
+        sine = np.abs(np.broadcast_to(seen.sines[name], at.shape))
+        if np.isnan(sine).any():
+            return float(at[int(np.argmax(np.isnan(sine)))]), float("nan")
+        place = int(np.argmin(sine))
+        low, high = at[max(place - 1, 0)], at[min(place + 1, 16)]
+    return 0.5 * (low + high), float(sine.min())
+
+
+def intervals(scan: Scan, at: FloatArray, reached: Any) -> list[Interval]:
+    """Return the reachable ranges among samples, their ends found by bisection."""
+    found: list[Interval] = []
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], reached, [False]]).astype(int)))
+    for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
+        low, low_stop = (at[first], "") if first == 0 else bisected(scan, at[first], at[first - 1])
+        high, high_stop = (at[last], "") if last == len(at) - 1 else bisected(scan, at[last], at[last + 1])
+        found.append(Interval(float(low), float(high), low_stop, high_stop))
+    return found
+
+
+def bisected(scan: Scan, inside: float, outside: float) -> tuple[float, str]:
+    """Return the last stroke reached between one inside and one outside, and the step that fails beyond it."""
+    for _ in range(8):
+        at = np.linspace(inside, outside, 65)
+        seen = scan(at)
+        place = int(np.argmin(seen.reached))
+        known = [stop for stop in seen.stops if min(inside, outside) <= stop <= max(inside, outside)]
+        if known:
+            return known[0], seen.failing(place)
+        if seen.reached[place]:
+            return inside, ""
+        inside, outside = float(at[max(place - 1, 0)]), float(at[place])
+        if abs(outside - inside) <= 4e-16 * max(abs(inside), abs(outside)):
+            break
+    return inside, seen.failing(place)

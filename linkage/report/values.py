@@ -1,0 +1,63 @@
+"""Design variables and strokes with their values, in the units an engineer reads them in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from ..mechanism import Mechanism
+from ..motion import stroke_unit
+from ..motion.reach import terms
+from ..plan import Plan
+from ..units import UNITS, show
+
+SHOWN_IN = {"length": "mm", "angle": "deg"}
+MEASURES = {"length": "length", "coordinate": "length", "angle": "angle"}
+
+STEPS = ("length", "angle")  # kinds of variables that a step's label makes
+
+
+def measure(plan: Plan, variable: str) -> str:
+    """Return what a design variable measures ("length", "angle", "pressure", ...); "" where nothing says so.
+
+    A dimension without a unit of its own measures what it is added to: `L0` in `AB=L0 + S` is a length.
+    """
+    entry = plan.table.entries[variable]
+    if entry.unit:
+        return UNITS[entry.unit][1]
+    if entry.kind in MEASURES:
+        return MEASURES[entry.kind]
+    if any(variable in terms(length) for length in plan.table.lengths.values()):
+        return "length"
+    turning = (getattr(member, "angle", None) for member in plan.members.values())
+    return "angle" if any(angle is not None and variable in terms(angle) for angle in turning) else ""
+
+
+def in_unit(value: float, unit: str) -> str:
+    """Return an SI value as text in a unit; as it is where the unit is ""."""
+    return show(value, unit) if unit else f"{value:.6g}"
+
+
+def design_rows(machine: Mechanism) -> Iterator[tuple[str, str, str]]:
+    """Yield, for each design variable, its name, its value with unit, and the step that has it; a batch shows its range."""
+    for name, value in machine.dimensions.items():
+        entry = machine.plan.table.entries[name]
+        unit = entry.unit or SHOWN_IN.get(measure(machine.plan, name), "")
+        low, high = in_unit(float(np.min(value)), unit), in_unit(float(np.max(value)), unit)
+        yield name, low if low == high else f"{low} to {high}", entry.where if entry.kind in STEPS else ""
+
+
+def stroke_rows(machine: Mechanism) -> Iterator[tuple[str, str]]:
+    """Yield, for each stroke, its name and its range with unit."""
+    for name, stroke in machine.strokes.items():
+        unit = SHOWN_IN["angle" if stroke_unit(machine.plan, name) == "rad" else "length"]
+        factor = UNITS[unit][0]
+        yield name, f"{stroke.start / factor:.6g} to {stroke.end / factor:.6g} {unit}"
+
+
+def aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Yield rows of text as lines whose cells start below each other."""
+    sizes = [max(map(len, cells)) for cells in zip(*rows, strict=True)]
+    for row in rows:
+        yield "  ".join(cell.ljust(size) for cell, size in zip(row, sizes, strict=True)).rstrip()

@@ -1,0 +1,1 @@
+"""Shipped machines, one file each."""

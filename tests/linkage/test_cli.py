@@ -1,0 +1,389 @@
+"""The command as a user meets it: its output, one line for every mistake, its exit codes, what it loads."""
+
+import csv
+import io
+import os
+import re
+import signal
+import subprocess
+import sys
+import textwrap
+from importlib.metadata import EntryPoint
+
+import numpy as np
+import pytest
+
+from linkage.cli import Command, commands, listing, machines, main, progress
+
+OWN = '''
+    """A machine of a user."""
+    from linkage import *
+
+    class Lever(Mechanism):
+        """A lever on a cylinder."""
+
+        S = Stroke(0.5, 0.7)
+        A = Ground(0.0, 0.0)
+        O = Ground(0.6, 0.0)
+        B = Dyad(A, O, AB=S, OB=0.2, side=RIGHT)
+        turn = angle(O, B)
+'''
+
+
+@pytest.fixture
+def own(tmp_path, monkeypatch):
+    """Return a folder, made the current one, with a user's own file."""
+    (tmp_path / "lever.py").write_text(textwrap.dedent(OWN), encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    return tmp_path
+
+
+@pytest.fixture
+def said(capsys):
+    """Return a function that runs the command and gives its exit code, output and complaints."""
+
+    def run(*arguments):
+        code = main(list(arguments))
+        return code, *capsys.readouterr()
+
+    return run
+
+
+def shell(*arguments, **options):
+    return subprocess.Popen([sys.executable, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
+
+
+# -- what it prints ----------------------------------------------------------------------------------------
+
+
+def test_list_names_the_installed_machines(said):
+    code, out, err = said("list")
+    assert (code, err) == (0, "")
+    assert {line.split()[0] for line in out.splitlines()} >= {"mower_lift", "three_point_hitch"}
+    assert "Cylinder AB turns the lift arm OBC" in out
+
+
+def test_show_says_what_an_engineer_asks(said):
+    code, out, err = said("show", "mower_lift")
+    assert (code, err) == (0, "")
+    for words in (
+        "The source contradicts itself", "S  550 to 800 mm", "OB      175 mm", "BOG     110.425 deg", "weight  900 kgf",
+        "p_max   155 kgf/cm2", "frame A O", "O B G", "cylinder A B", "Gruebler count 1",
+        "B = Dyad(A, O, AB=S, OB=0.175, side=RIGHT)", "needs 161.0 kgf/cm2",
+    ):  # fmt: skip
+        assert words in out
+
+
+def test_setting_changes_the_design_and_the_verdict(said):
+    code, out, _ = said("show", "mower_lift", "--set", "p_max=200 kgf/cm2", "--set", "OB=18cm")
+    assert code == 0
+    assert "OB      180 mm" in out
+    assert "can be lifted over the whole stroke at 200 kgf/cm2" in out
+
+
+def test_table_is_the_worksheets(said):
+    code, out, err = said("table", "mower_lift", "--count", "6")
+    heading, first, *others = out.splitlines()
+    assert (code, err, len(others)) == (0, "", 5)
+    assert heading.split()[:2] == ["S,", "m"]
+    assert first.split()[0] == "0.5500" and first.split()[-1] == "0.963"
+
+
+def test_table_of_chosen_columns_and_strokes(said):
+    _, out, _ = said("table", "mower_lift", "kz", "I", "--at", "S=0.55,800mm")
+    assert [" ".join(line.split()) for line in out.splitlines()] == ["S, m kz I", "0.5500 0.963 7.262", "0.8000 2.781 2.513"]
+
+
+def test_csv_has_full_precision(said, tmp_path):
+    _, out, _ = said("table", "three_point_hitch", "I", "--csv", "-", "--count", "3")
+    header, *rows = csv.reader(io.StringIO(out, newline=""))
+    assert header == ["S, m", "I"]
+    assert [float(row[0]) for row in rows] == [0.0, 0.125, 0.25]
+    assert float(rows[0][1]) == pytest.approx(3.0389653, abs=5e-8)
+    assert len(rows[0][1]) > 12
+    code, out, _ = said("table", "three_point_hitch", "I", "--csv", str(tmp_path / "i.csv"), "--count", "3")
+    assert (code, out) == (0, f"{tmp_path / 'i.csv'}: 3 rows\n")
+    assert (tmp_path / "i.csv").read_bytes().startswith(b'"S, m",I\r\n0.0,3.03896')
+
+
+def test_point_is_set_whole_or_by_coordinate(said):
+    whole = said("table", "three_point_hitch", "tilt", "--at", "S=0", "--set", "M=0.22,950mm")
+    part = said("table", "three_point_hitch", "tilt", "--at", "S=0", "--set", "M.y=0.95")
+    assert whole == part
+    assert whole[1].split()[-1] == "2.463"
+
+
+@pytest.mark.parametrize("name", ["lever.py", "lever.py:Lever", "./lever.py", "lever:Lever"])
+def test_machine_of_a_users_own(said, own, name):
+    code, out, err = said("table", name, "turn", "--count", "2")
+    assert (code, err) == (0, "")
+    assert len(out.splitlines()) == 3
+
+
+def test_grid_of_two_strokes(said, own):
+    (own / "crane.py").write_text(
+        "from linkage import *\nclass Crane(Mechanism):\n    a, b = Stroke(0.0, 1.0), Stroke(0.0, 2.0)\n    O = Ground(0, 0)\n"
+        "    P = Crank(O, OP=1.0, angle=a)\n    Q = Crank(P, PQ=0.5, angle=b)\n"
+    )
+    _, out, _ = said("table", "crane.py", "--count", "3", "--csv", "-")
+    assert len(out.splitlines()) == 10
+    _, out, _ = said("table", "crane.py", "--count", "3", "--csv", "-", "--at", "b=90deg")
+    rows = list(csv.reader(io.StringIO(out)))[1:]
+    assert [row[1] for row in rows] == ["90.0"] * 3
+    assert said("show", "crane.py")[0] == 0
+
+
+def test_equations_are_printed_when_asked(said):
+    code, out, _ = said("show", "mower_lift", "--equations")
+    assert code == 0
+    assert "Equations" in out and "(1)" in out
+
+
+# -- pictures ----------------------------------------------------------------------------------------------
+
+MAGIC = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF", ".gif": b"GIF89a"}
+
+
+@pytest.mark.parametrize("suffix", [".png", ".svg", ".pdf"])
+def test_plot_writes_the_format_of_the_name(said, tmp_path, suffix):
+    file = tmp_path / f"curves{suffix}"
+    assert said("plot", "mower_lift", "I", "kz", "-o", str(file), "--count", "5") == (0, f"{file}\n", "")
+    assert file.read_bytes().startswith(MAGIC[suffix])
+
+
+def test_plot_draws_the_machine_under_its_name(said, own):
+    assert said("plot", "lever.py") == (0, "Lever.png\n", "")
+    assert said("plot", "mower_lift", "--at", "S=0.6,0.7", "--path", "B") == (0, "mower_lift.png\n", "")
+    assert {file.name for file in own.glob("*.png")} == {"Lever.png", "mower_lift.png"}
+
+
+def test_animation_is_written_silently_in_a_pipe(said, own):
+    assert said("animate", "lever.py", "-o", "lever.gif", "--count", "3", "--column", "turn") == (0, "lever.gif\n", "")
+    assert (own / "lever.gif").read_bytes().startswith(MAGIC[".gif"])
+
+
+# -- mistakes ----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ("table mower_lif", "Did you mean mower_lift?"),
+        ("tabel mower_lift", "Did you mean table?"),
+        ("table mower_lift --set OBB=1", "Did you mean OB?"),
+        ("table mower_lift --set OB=18deg", "--set OB: '18deg' is"),
+        ("table mower_lift --set weight=3mm", "value of kind force is wanted"),
+        ("table three_point_hitch --set L0=3bar", "value of kind length is wanted"),
+        ("table three_point_hitch --set AB=3", "AB follows L0 + S"),
+        ("table three_point_hitch --set M=0.22", "a point takes two coordinates"),
+        ("table three_point_hitch --set M.z=0.22", "'M.z' is unknown"),
+        ("table mower_lift --set OB=long", "'long' is not a value"),
+        ("table mower_lift --set OB=18furlong", "Unit 'furlong' is unknown"),
+        ("table mower_lift --set OB=-18mm", "is negative"),
+        ("table mower_lift --set OB", "write a name and a value"),
+        ("table mower_lift --set S=0.6", "S is a stroke of MowerLift"),
+        ("table mower_lift --set k_m=1.5", "above 1"),
+        ("table mower_lift --set OB=20mm", "cannot be assembled at 9 of 11 strokes"),
+        ("show mower_lift --set OB=20mm", "cannot be assembled"),
+        ("plot mower_lift --set OB=20mm", "cannot be assembled"),
+        ("plot mower_lift --at S=3", "cannot be assembled at S = 3"),
+        ("animate mower_lift -o x.gif --set OB=20mm", "cannot be assembled"),
+        ("table mower_lift --at S=0.83293", "cannot be assembled"),
+        ("table mower_lift --at T=0.6", "Stroke 'T' is unknown"),
+        ("table mower_lift --at S=3deg", "--at S: '3deg' is"),
+        ("table mower_lift kzz", "Did you mean kz?"),
+        ("plot mower_lift kzz", "Did you mean kz?"),
+        ("plot mower_lift --path W", "Point 'W' is unknown"),
+        ("plot mower_lift -o lift.jpg", ".png, .svg, .pdf"),
+        ("plot mower_lift -o nowhere/lift.png", "folder nowhere is not there"),
+        ("animate mower_lift -o lift.avi", ".gif, .mp4, .html"),
+        ("animate mower_lift -o lift.gif --column kzz", "Did you mean kz?"),
+        ("animate mower_lift", "required: -o"),
+        ("table mower_lift --csv nowhere/lift.csv", "nowhere/lift.csv: No such file"),
+        ("table mower_lift --count 0", "'0' is not a count"),
+        ("table mower_lift --count many", "'many' is not a count"),
+        ("table mower_lift --cuont 3", "unrecognized arguments: --cuont"),
+        ("table", "required: NAME"),
+        ("table nothing.py", "nothing.py: No such file"),
+        ("table lever.py:Levver", "Did you mean Lever?"),
+        ("table lever:angle", "is not a class of Mechanism"),
+        ("table no_module_here:Class", "No module named 'no_module_here'"),
+        ("table empty.py", "holds no machine"),
+        ("table two.py", "say two.py:Class, one of One, Two"),
+        ("table broken.py", "broken.py, line 2: "),
+        ("table failing.py", "ZeroDivisionError: division by zero"),
+        ("table wrong.py", "wrong.py cannot be loaded: Name 'A' is unknown in Wrong.B"),
+    ],
+)
+def test_mistake_is_one_line_and_exit_code_2(said, own, arguments, words):
+    (own / "empty.py").write_text("")
+    (own / "two.py").write_text("from linkage import *\nclass One(Mechanism): pass\nclass Two(Mechanism): pass\n")
+    (own / "broken.py").write_text("from linkage import *\nclass Lever(\n")
+    (own / "failing.py").write_text("1 / 0\n")
+    (own / "wrong.py").write_text('from linkage import *\nclass Wrong(Mechanism):\n    B = Dyad("A", "O", AB=1.0, OB=1.0, side=LEFT)\n')
+    code, _, err = said(*arguments.split())
+    assert code == 2
+    assert err.startswith("hydrolinkage: ") and err.count("\n") == 1
+    assert words in err
+
+
+def test_ratio_at_a_dead_point_is_refused_in_one_line(said):
+    reach = float(np.hypot(0.652, 0.088)) + 0.175
+    code, _, err = said("table", "mower_lift", "--at", f"S={reach!r}")
+    assert code == 2
+    assert "dead point" in err and err.count("\n") == 1
+
+
+def test_ratio_near_a_dead_point_is_warned_of_in_one_line(said):
+    reach = float(np.hypot(0.652, 0.088)) + 0.175
+    code, out, err = said("table", "mower_lift", "--at", f"S={reach - 1e-10!r}")
+    assert code == 0
+    assert all(line.startswith("hydrolinkage: warning: ") and "near a dead point" in line for line in err.splitlines())
+    assert err and out
+
+
+def test_nothing_asked_shows_the_help(said):
+    code, out, err = said()
+    assert (code, out) == (2, "")
+    assert all(name in err for name in ("list", "show", "table", "plot", "animate"))
+
+
+def test_help_and_version_are_no_mistakes(said):
+    assert said("table", "--help")[0] == 0
+    code, out, _ = said("--version")
+    assert code == 0 and out.startswith("hydrolinkage ")
+
+
+def test_not_enough_memory_is_said(said):
+    code, _, err = said("table", "mower_lift", "--count", str(10**15))
+    assert code == 2
+    assert "lower --count" in err
+
+
+# -- other packages ----------------------------------------------------------------------------------------
+
+
+class Weigh(Command):
+    """A command of another package."""
+
+    name = "weigh"
+    help = "the weight of a machine"
+
+    def add(self, parser):
+        parser.add_argument("machine")
+
+    def run(self, options):
+        print(f"{options.machine} weighs")
+        return 3
+
+
+@pytest.fixture
+def plugged(monkeypatch):
+    """Let two commands and two machines be installed, one of each broken."""
+    entries = {
+        commands.GROUP: [EntryPoint("weigh", f"{__name__}:Weigh", commands.GROUP), EntryPoint("burn", "no_package:Burn", commands.GROUP)],
+        machines.GROUP: [
+            EntryPoint("good", "mechanisms.mower_lift:MowerLift", machines.GROUP),
+            EntryPoint("bad", "no_package:Bad", machines.GROUP),
+        ],
+    }
+    monkeypatch.setitem(sys.modules, __name__, sys.modules.get(__name__) or sys.modules[Weigh.__module__])
+    for module in (commands, machines):
+        monkeypatch.setattr(module, "entry_points", lambda group: entries[group])
+
+
+def test_command_of_another_package(said, plugged):
+    assert said("weigh", "it") == (3, "it weighs\n", "")
+    code, _, err = said("burn")
+    assert code == 2 and "The command burn (no_package:Burn) cannot be loaded" in err
+    code, out, err = said("--help")
+    assert code == 0 and "the weight of a machine" in out
+    assert err.startswith("hydrolinkage: warning: The command burn")
+
+
+def test_broken_machine_of_another_package_does_not_hide_the_others(said, plugged):
+    code, out, err = said("list")
+    assert code == 0 and out.startswith("good ")
+    assert err.startswith("hydrolinkage: warning: The machine bad") and err.count("\n") == 1
+    assert said("show", "bad")[0] == 2
+
+
+def test_nothing_installed_is_said(said, monkeypatch):
+    monkeypatch.setattr(listing, "registered", dict)
+    code, _, err = said("list")
+    assert code == 2 and "install the package" in err
+
+
+# -- as a process ------------------------------------------------------------------------------------------
+
+
+def test_numbers_load_nothing_heavy():
+    program = (
+        "import sys; from linkage.cli import main; main(['show', 'mower_lift']); main(['table', 'three_point_hitch', '--csv', '-']);"
+        "print('loaded', *sorted({name.partition('.')[0] for name in sys.modules}))"
+    )
+    done = shell("-c", program, text=True)
+    out, err = done.communicate()
+    loaded = set(out[out.rindex("loaded") :].split())
+    assert (done.returncode, err) == (0, "")
+    assert "numpy" in loaded
+    assert not loaded & {"matplotlib", "sympy", "scipy", "networkx", "rich", "pydantic", "PIL", "numba"}
+
+
+def test_module_is_the_command():
+    done = shell("-m", "linkage", "tabel", text=True)
+    out, err = done.communicate()
+    assert (done.returncode, out) == (2, "")
+    assert err.startswith("hydrolinkage: Command 'tabel' is unknown.") and err.count("\n") == 1
+
+
+@pytest.mark.parametrize("form", [[], ["--csv", "-"]])
+def test_closed_pipe_is_silent(form):
+    running = shell("-m", "linkage", "table", "mower_lift", "I", "--count", "100000", *form)
+    assert running.stdout.readline()
+    running.stdout.close()
+    assert running.wait() == 141
+    assert running.stderr.read() == b""
+    running.stderr.close()
+
+
+def test_interrupt_is_130(own):
+    (own / "slow.py").write_text(
+        "import time\nfrom linkage import *\nprint('ready', flush=True)\ntime.sleep(60)\nclass Slow(Mechanism): pass\n", encoding="utf-8"
+    )
+    running = shell("-m", "linkage", "show", "slow.py", env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
+    assert running.stdout.readline() == b"ready\n"
+    running.send_signal(signal.SIGINT)
+    _, err = running.communicate()
+    assert running.returncode == 130
+    assert b"Traceback" not in err
+
+
+class Terminal(io.StringIO):
+    """A stream that is a terminal."""
+
+    def isatty(self):
+        return True
+
+
+def test_progress_is_drawn_on_a_terminal_only(monkeypatch):
+    with progress.progress_bar("working") as report:
+        assert report is None
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    with progress.progress_bar("working") as report:
+        report(1, 2)
+    assert "working" in sys.stderr.getvalue()
+
+
+def test_table_on_a_terminal_fits_it(monkeypatch):
+    screen = Terminal()
+    monkeypatch.setattr(sys, "stdout", screen)
+    monkeypatch.setenv("COLUMNS", "60")
+    assert main(["table", "mower_lift"]) == 0
+    text = re.sub(r"\x1b\[[0-9;]*m", "", screen.getvalue())
+    assert max(map(len, text.splitlines())) <= 60
+    assert text.count("S, m") > 1 and "0.963" in text and "…" not in text
+    screen.seek(screen.truncate(0))
+    assert main(["table", "mower_lift", "--count", "501"]) == 0
+    assert max(map(len, screen.getvalue().splitlines())) <= 60

@@ -1,0 +1,404 @@
+"""Pictures: everything stands where the motion says, labels keep clear, and what cannot be drawn is said in words."""
+
+from math import pi
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from matplotlib.figure import Figure
+from numpy.testing import assert_allclose
+
+from linkage import (
+    LEFT,
+    RIGHT,
+    AssemblyError,
+    Column,
+    CosineAngle,
+    Crank,
+    DefinitionError,
+    Dimension,
+    Dyad,
+    Ground,
+    Link,
+    Mechanism,
+    Offset,
+    OnLink,
+    Stroke,
+    Turn,
+    Vector,
+    deg,
+)  # fmt: skip
+from linkage.draw import curves, mechanism, poses, strokes, style
+from linkage.draw.bodies import BodyPart
+from linkage.draw.cylinders import lengthwise
+from linkage.draw.limits import crossings
+from linkage.draw.scene import Scene
+from linkage.draw.shapes import hull, rounded
+from linkage.draw.sheet import sheet
+from mechanisms.mower_lift import MowerLift
+from mechanisms.three_point_hitch import ThreePointHitch
+
+
+class FourBar(Mechanism):
+    phi = Stroke(0, 2 * pi)
+    O = Ground(0, 0)
+    Q = Ground(0.4, 0)
+    A = Crank(O, OA=0.12, angle=phi)
+    B = Dyad(A, Q, AB=0.38, QB=0.25, side=LEFT)
+    C = OnLink(A, B, AC=0.30, BAC=35 * deg)
+
+
+class Crane(Mechanism):
+    S1 = Stroke(0.9, 1.5)
+    S2 = Stroke(0.8, 1.3)
+    A = Ground(0.35, 0.2)
+    O = Ground(0, 1.2)
+    B = Dyad(A, O, AB=S1, OB=0.9, side=RIGHT)
+    J = OnLink(O, B, OJ=3.0, BOJ=8 * deg)
+    H = OnLink(O, B, OH=2.2, BOH=20 * deg)
+    N = OnLink(O, B, ON=1.0, BON=10 * deg)
+    K = Dyad(H, J, HK=S2, JK=0.45, side=LEFT)
+    T = OnLink(J, K, JT=2.5, KJT=160 * deg)
+
+
+class Construction(Mechanism):
+    """Primitives that declare no body."""
+
+    S = Stroke(0.55, 0.80)
+    LOB = Dimension(0.175)
+    A = Ground(0.0, 0.242)
+    O = Ground(0.652, 0.330)
+    AO = Vector(A, O)
+    OAB = CosineAngle(abs(AO), S, LOB)
+    AB = Turn(AO, -OAB, length=S)
+    B = Offset(A, AB)
+
+
+class Constructed(Construction):
+    lever = Link("O", "B")
+
+
+class TooLong(MowerLift):
+    """A stroke that the lever cannot follow to its end."""
+
+    S = Stroke(0.55, 0.90)
+
+
+class Longest(MowerLift):
+    S = Stroke(2.0, 3.0)
+
+
+ALL = [MowerLift, ThreePointHitch, FourBar, Crane, Construction, Constructed, TooLong]
+REACHED = [cls for cls in ALL if cls is not TooLong]
+
+
+def axes():
+    return Figure(figsize=(7, 6)).add_subplot()
+
+
+def one_motion(cls, count=11):
+    machine = cls()
+    first, *others = machine.strokes
+    middles = {name: 0.5 * (machine.strokes[name].start + machine.strokes[name].end) for name in others}
+    return machine.sweep(unreachable="nan", **{first: count}, **middles)
+
+
+# -- outlines ----------------------------------------------------------------------------------------------
+
+
+def test_hull_is_counter_clockwise_and_leaves_inner_points_out():
+    points = np.array([[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.5, 0.4], [0.0, 1.0]])
+    assert hull(points) == [0, 2, 1, 4]
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.3, pi / 2])
+def test_hull_of_a_straight_body_is_its_ends(turn):
+    along = np.array([0.3, 0.0, 1.0, 0.7])
+    ends = hull(np.column_stack([along * np.cos(turn), along * np.sin(turn)]))
+    assert sorted(ends) == [1, 2]
+
+
+@given(st.lists(st.tuples(st.integers(-9, 9), st.integers(-9, 9)), min_size=2, max_size=7, unique=True), st.floats(0.01, 2.0))
+def test_outline_keeps_its_distance(points, radius):
+    places = np.array(points, float)
+    corners = places[hull(places)]
+    outline = rounded(corners, radius)
+    ends = np.roll(corners, -1, axis=0)
+    along = ends - corners
+    share = np.einsum("okc,kc->ok", outline[:, None] - corners, along) / np.einsum("kc,kc->k", along, along)
+    nearest = corners + np.clip(share, 0, 1)[..., None] * along
+    gaps = np.linalg.norm(outline[:, None] - nearest, axis=-1).min(axis=1)
+    assert_allclose(gaps, radius, rtol=1e-9)
+    assert_allclose(outline[0], outline[-1])
+
+
+# -- a mechanism at a pose ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("cls", ALL)
+def test_circles_stand_on_the_points_at_every_pose(cls):
+    motion = one_motion(cls)
+    drawing = mechanism(axes(), motion)
+    circles = {part.points[0]: part.circle for part in drawing.parts if hasattr(part, "circle")}
+    assert set(circles) == set(motion.plan.points)
+    for pose in range(11):
+        drawing.update(pose)
+        for name, circle in circles.items():
+            place = motion[name][:, pose]
+            if np.isfinite(place).all():
+                assert circle.get_visible()
+                assert_allclose(circle.get_center(), place)
+            else:
+                assert not circle.get_visible()
+
+
+@pytest.mark.parametrize("cls", REACHED)
+def test_bodies_keep_their_shape_and_hold_their_pins(cls):
+    motion = one_motion(cls)
+    drawing = mechanism(axes(), motion)
+    bodies = [part for part in drawing.parts if isinstance(part, BodyPart)]
+    perimeters = []
+    for pose in range(11):
+        drawing.update(pose)
+        for body in bodies:
+            path = body.face.get_path()
+            assert path.contains_points([motion[name][:, pose] for name in body.points]).all()
+        perimeters.append([np.hypot(*np.diff(body.face.get_xy(), axis=0).T).sum() for body in bodies])
+    assert_allclose(perimeters, np.broadcast_to(perimeters[0], np.shape(perimeters)), rtol=1e-9)
+
+
+def test_bodies_and_grounds_are_those_of_the_plan():
+    scene = Scene(ThreePointHitch().sweep(5))
+    assert {frozenset(points) for points in scene.bodies} == set(map(frozenset, ("OBC", "EDF", "CD", "MK", "FKG")))
+    straight = next(hull for points, hull in zip(scene.bodies, scene.hulls, strict=True) if set(points) == set("EDF"))
+    assert set(straight) == {"E", "F"}
+    assert set(scene.grounds) == set("AOEM")
+    assert scene.dots == ("G",)
+    assert [(ram.P, ram.Q) for ram in scene.rams] == [("A", "B")]
+
+
+def test_a_polygon_body_is_its_hull():
+    scene = Scene(one_motion(Crane))
+    boom = next(hull for points, hull in zip(scene.bodies, scene.hulls, strict=True) if "N" in points)
+    assert set(boom) == set("OBJH")
+
+
+def test_bare_constructions_show_lines_and_no_bodies():
+    scene = Scene(one_motion(Construction))
+    assert scene.bodies == ()
+    assert scene.stays == (("A", "B"),)
+    assert scene.dots == ("O", "B")
+
+
+@pytest.mark.parametrize(("cls", "ram"), [(MowerLift, 0), (ThreePointHitch, 0), (Crane, 0), (Crane, 1)])
+def test_the_piston_stays_in_the_barrel_and_travels_the_stroke(cls, ram):
+    machine = cls()
+    corners = machine.at(**{name: [stroke.start, stroke.end] for name, stroke in machine.strokes.items()})
+    scene = Scene(corners)
+    cylinder = scene.rams[ram]
+    short, long = corners.distance(cylinder.P, cylinder.Q)
+    pieces = [lengthwise(cylinder, length, scene.size) for length in (short, long)]
+    for each, length in zip(pieces, (short, long), strict=True):
+        assert each["barrel"][0] < each["piston"][0] < each["piston"][1] < each["cap"][0] < length
+        assert each["rod"][1] == length
+    assert_allclose(pieces[1]["piston"][0] - pieces[0]["piston"][0], long - short)
+
+
+def test_a_pose_may_be_counted_from_the_end_or_in_a_grid():
+    motion = Crane().sweep(S1=3, S2=4)
+    drawing = mechanism(axes(), motion, (2, 1))
+    tip = next(part for part in drawing.parts if part.points == ("T",) and hasattr(part, "circle"))
+    assert_allclose(tip.circle.get_center(), motion["T"][:, 2, 1])
+    assert Scene(motion).index(-1) == 11
+    with pytest.raises(DefinitionError, match=r"no pose 12 among \(3, 4\) poses"):
+        mechanism(axes(), motion, 12)
+
+
+def test_a_faint_mechanism_has_paler_colours_and_no_names():
+    ax, strong = axes(), axes()
+    mechanism(ax, one_motion(FourBar), faint=True)
+    mechanism(strong, one_motion(FourBar))
+    assert not ax.texts
+    assert {text.get_text() for text in strong.texts} == set("OQABC")
+    assert ax.patches[0].get_facecolor()[:3] > strong.patches[0].get_facecolor()[:3]
+
+
+def test_a_batch_of_designs_is_refused():
+    motion = ThreePointHitch(OB=[0.29, 0.30]).sweep(5)
+    with pytest.raises(DefinitionError, match="holds 2 designs and a picture shows one"):
+        mechanism(axes(), motion)
+    with pytest.raises(DefinitionError, match="2 designs"):
+        poses(ThreePointHitch(OB=[0.29, 0.30]))
+    with pytest.raises(DefinitionError, match="one design and one row"):
+        curves(motion, [Column("tilt", motion["tilt"], "deg")])
+
+
+# -- labels ------------------------------------------------------------------------------------------------
+
+
+def boxes(figure):
+    """Return the boxes of the points' names [pixels]."""
+    figure.canvas.draw()
+    return {text.get_text(): text.get_window_extent() for text in figure.axes[0].texts if text.get_text()}
+
+
+@pytest.mark.parametrize("cls", ALL)
+def test_names_keep_clear_of_each_other_of_pins_and_of_the_edge(cls):
+    figure = poses(cls())
+    names = boxes(figure)
+    assert set(names) == set(cls.plan.points)
+    ax = figure.axes[0]
+    pins = [patch.get_window_extent() for patch in ax.patches if hasattr(patch, "get_center") and patch.get_zorder() > style.STRONG.level]
+    assert len(pins) == len(names)
+    for name, box in names.items():
+        assert not any(box.overlaps(other) for each, other in names.items() if each != name)
+        assert not any(box.overlaps(pin) for pin in pins)
+        assert figure.bbox.x0 <= box.x0 and box.x1 <= figure.bbox.x1
+        assert figure.bbox.y0 <= box.y0 and box.y1 <= figure.bbox.y1
+
+
+# -- end positions -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("cls", ALL)
+def test_scales_are_equal_and_hold_every_pose(cls):
+    ax = poses(cls()).axes[0]
+    sizes = np.diff(ax.transData.transform([(0, 0), (1, 1)]), axis=0)[0]
+    assert_allclose(sizes[0], sizes[1], rtol=1e-6)
+    motion = one_motion(cls)
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    for name in motion.plan.points:
+        x, y = motion[name][:, motion.reached]
+        assert left < x.min() and x.max() < right and bottom < y.min() and y.max() < top
+
+
+def legend(figure):
+    return [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+
+
+def test_the_legend_says_which_pose_is_which():
+    assert legend(poses(MowerLift(), path=["G"])) == ["S = 550 mm", "S = 800 mm", "path of G"]
+    assert legend(poses(ThreePointHitch(), path=["F", "G"]))[2:] == ["paths of F, G"]
+    assert legend(poses(ThreePointHitch(), at=[0.0, 0.1, 0.25])) == ["S = 0 mm", "S = 100 mm", "S = 250 mm"]
+    assert legend(poses(FourBar())) == ["phi = 180°", "phi = 0°"]
+    assert legend(poses(Crane(), at={"S2": [0.9, 1.2]})) == ["S2 = 900 mm", "S2 = 1200 mm"]
+    assert legend(poses(TooLong())) == ["S = 550 mm"]
+
+
+def test_strokes_held_are_named():
+    figure = poses(Crane())
+    assert [text.get_text() for text in figure.texts] == ["Crane", "at S2 = 1050 mm"]
+
+
+def test_the_path_is_the_points():
+    figure = poses(MowerLift(), path=["G"], count=21)
+    (line,) = [line for line in figure.axes[0].lines if line.get_color() == style.ACCENT]
+    assert_allclose(line.get_xydata().T, MowerLift().sweep(21)["G"])
+
+
+def test_nothing_in_reach_is_said_in_words():
+    with pytest.raises(AssemblyError, match="B = Dyad"):
+        poses(Longest())
+
+
+def test_unknown_names_are_said_in_words():
+    with pytest.raises(DefinitionError, match="Known: A, O, B, G"):
+        poses(MowerLift(), path=["H"])
+    with pytest.raises(DefinitionError, match="'T' is unknown"):
+        poses(MowerLift(), at={"T": [0.6]})
+
+
+@pytest.mark.parametrize(("cls", "unit"), [(MowerLift, "m"), (FourBar, "mm")])
+def test_lengths_are_in_the_unit_of_their_size(cls, unit):
+    figure = poses(cls())
+    figure.canvas.draw()
+    ax = figure.axes[0]
+    assert ax.get_xlabel() == f"x, {unit}"
+    for tick, value in zip(ax.get_xticklabels(), ax.get_xticks(), strict=True):
+        assert_allclose(float(tick.get_text().replace("\N{MINUS SIGN}", "-")), value * (1e3 if unit == "mm" else 1.0), atol=1e-9)
+
+
+def test_a_sheet_fills_its_axes():
+    ax = axes()
+    sheet(ax, (0.0, 1.0, 0.0, 0.1))
+    before = ax.get_position(original=True).bounds
+    ax.apply_aspect()
+    assert_allclose(ax.get_position().bounds, before)
+    assert ax.get_xlim() == (0.0, 1.0)
+    assert np.diff(ax.get_ylim()) > 0.5
+
+
+# -- curves ------------------------------------------------------------------------------------------------
+
+
+def columns_of(motion):
+    return {column.name: column for column in motion_machine.columns(motion)}
+
+
+motion_machine = MowerLift()
+
+
+def test_curves_are_the_columns_over_the_stroke_in_their_units():
+    motion = motion_machine.sweep(41)
+    columns = [columns_of(motion)[name] for name in ("S", "I", "F", "pd", "kz")]
+    figure = curves(motion, columns)
+    assert [ax.get_title(loc="left") for ax in figure.axes] == ["I", "F, kgf", "pd, kgf/cm²", "kz"]
+    assert {ax.get_xlabel() for ax in figure.axes} == {"S, mm"}
+    for ax, column in zip(figure.axes, columns[1:], strict=True):
+        assert_allclose(ax.lines[0].get_xdata(), np.linspace(550, 800, 41))
+        assert_allclose(ax.lines[0].get_ydata(), column.shown)
+    assert len({ax.get_position().x0 for ax in figure.axes}) == 2
+    assert len({ax.get_position().y0 for ax in figure.axes}) == 2
+
+
+def test_a_limit_shades_the_side_that_fails_and_marks_the_crossing():
+    motion = motion_machine.sweep(101)
+    columns = [columns_of(motion)[name] for name in ("pd", "kz")]
+    figure = curves(motion, columns, limits={"kz": (1.0, "kz = 1", "below"), "pd": (motion_machine["p_max"], "p_max")})
+    pressure, reserve = figure.axes
+    for ax, value, low in ((pressure, 155.0, False), (reserve, 1.0, True)):
+        _, line, short, mark = ax.lines
+        assert_allclose(line.get_ydata(), value)
+        assert np.isfinite(short.get_ydata()).sum() == 7  # S = 550 ... 565 mm, short up to 566.0 mm as printed
+        assert_allclose(mark.get_xdata(), 566.0, atol=0.05)
+        shaded = ax.patches[0].get_extents().transformed(ax.transData.inverted())
+        assert_allclose((shaded.y1 if low else shaded.y0), value)
+        assert ax.get_ylim()[0 if low else 1] == pytest.approx(shaded.y0 if low else shaded.y1)
+        assert "566 mm" in [text.get_text() for text in ax.texts]
+
+
+def test_crossings_lie_between_poses_in_reach():
+    along = np.arange(5.0)
+    assert crossings(along, np.array([1.0, -1.0, np.nan, 3.0, 4.0]), 0.0) == [0.5]
+    assert crossings(along, np.array([1.0, 2.0, 3.0, 4.0, 3.0]), 3.5) == [2.5, 3.5]
+
+
+def test_a_stroke_that_turns_is_shown_in_degrees():
+    motion = FourBar().sweep(13)
+    ax = curves(motion, [Column("B_x", motion.x("B"), "m")]).axes[0]
+    assert ax.get_xlabel() == "phi, deg"
+    assert ax.get_xlim() == (0.0, 360.0)
+    assert strokes.words(motion.plan, "phi", -pi / 2) == "phi = \N{MINUS SIGN}90°"
+
+
+def test_a_constant_column_a_single_pose_and_gaps_can_be_drawn():
+    machine = MowerLift()
+    still = machine.sweep(3)
+    curves(still, [Column("p", np.full(3, 7.0))]).canvas.draw()
+    curves(machine.at(S=[0.6]), [Column("q", np.array([1.0]))]).canvas.draw()
+    curves(machine.at(S=[0.6, 2.0], unreachable="nan"), [Column("q", np.full(2, np.nan))]).canvas.draw()
+
+
+def test_what_cannot_be_plotted_is_said_in_words():
+    motion = motion_machine.sweep(5)
+    column = columns_of(motion)["kz"]
+    with pytest.raises(DefinitionError, match=r"'kx' is unknown in limits. Did you mean kz"):
+        curves(motion, [column], limits={"kx": (1.0, "")})
+    with pytest.raises(DefinitionError, match='say "above" or "below"'):
+        curves(motion, [column], limits={"kz": (1.0, "kz = 1", "under")})
+    with pytest.raises(DefinitionError, match="no column to draw over S"):
+        curves(motion, [Column("S", motion.strokes["S"], "m")])
+    grid = Crane().sweep(S1=3, S2=3)
+    with pytest.raises(DefinitionError, match="sweep one stroke, give the others a value"):
+        curves(grid, [Column("T_x", grid.x("T"), "m")])

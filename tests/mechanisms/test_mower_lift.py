@@ -1,0 +1,282 @@
+"""The mower lift against the worksheet's printed tables, in both spellings, and what it tells an engineer."""
+
+import re
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from linkage import (
+    CosineAngle,
+    DefinitionError,
+    Dimension,
+    Link,
+    Offset,
+    Turn,
+    Vector,
+    kgf,
+    kgf_cm2,
+    mm,
+)
+from mechanisms.mower_lift import (
+    BELOW,
+    DELFI_OF_INPUT,
+    MowerLift,
+    largest_force,
+    lifting_force,
+    oil,
+    piston_area,
+    pressure,
+    reduced_force,
+    reserve,
+    rod_force,
+    short_ranges,
+)
+
+# Source: worksheet "Mathematical modelling of the lift of the left section of the KPR-6", as printed
+PRINTED = {
+    "FIS": "45.648 63.298 79.75 96.615 115.471 140.051",
+    "FI3": "233.335 250.984 267.437 284.302 303.157 327.737",
+    "FI": "13.151 15.103 lost 14.379 12.161 8.075",
+    "FIS1": "5.464 7.417 7.676 6.692 4.474 0.388",
+    "B_x": "0.548 0.595 0.644 0.695 0.748 0.800",
+    "B_y": "0.190 0.165 0.155 0.160 0.183 0.237",
+    "G_x": "1.739 1.784 1.730 1.583 1.324 0.884",
+    "G_y": "0.013 0.358 0.677 0.975 1.241 1.438",
+    "DFI3": "6.681 5.833 5.737 6.121 7.215 10.821",
+    "I": "7.262 6.602 6.182 5.695 4.850 2.513",
+    "F": "8094 7359 6890 6348 5405 2801",
+    "pd": "161.017 146.397 137.081 126.282 107.534 55.727",
+    "kz": "0.963 1.059 1.131 1.227 1.441 2.781",
+}
+STROKES = [0.55, 0.60, 0.65, 0.70, 0.75, 0.80]
+OTHER_READING = DELFI_OF_INPUT + BELOW
+
+
+class MowerLiftPrimitives(MowerLift):
+    """The same lift in the vector method's primitives."""
+
+    L3 = Dimension(0.175)
+    LS3 = Dimension(float(np.hypot(1.07, 0.37)))
+    FIS3 = Dimension(float(np.radians(129.5) + np.arctan2(-0.37, 1.07)))
+    AO = Vector("A", "O")
+    OAB = CosineAngle(abs(AO), MowerLift.S, L3)
+    AB = Turn(AO, -OAB, length=MowerLift.S)
+    B = Offset("A", AB)
+    OB = Vector("O", B)
+    OG = Turn(OB, FIS3, length=LS3)
+    G = Offset("O", OG)
+    lever = Link("O", B, G)
+
+
+SPELLINGS = pytest.mark.parametrize("spelling", [MowerLift, MowerLiftPrimitives])
+
+
+def table(lift, motion):
+    return {column.name: column for column in lift.columns(motion)}
+
+
+@SPELLINGS
+@pytest.mark.parametrize("name", PRINTED)
+def test_printed_table(spelling, name):
+    lift = spelling()
+    shown = table(lift, lift.at(S=STROKES))[name].shown
+    for value, text in zip(shown, PRINTED[name].split(), strict=True):
+        if text != "lost":
+            decimals = max(len(each.partition(".")[2]) for each in PRINTED[name].split() if each != "lost")
+            assert f"{value:.{decimals}f}" == f"{float(text):.{decimals}f}"
+
+
+def test_printed_constants():
+    lift = MowerLift()
+    motion = lift.at(S=0.55)
+    assert f"{motion.distance('A', 'O'):.3f} {lift['OG']:.3f}" == "0.658 1.132"
+    assert f"{np.degrees(motion['FI0']):.3f}" == "7.687"
+    assert f"{np.degrees(lift['BOG']):.3f}" == "110.425"
+    assert f"{piston_area(motion) * 1e4:.3f}" == "50.265"
+    assert f"{largest_force(motion) / kgf:.3e}" == "7.402e+03"
+
+
+def test_printed_rod_forces():
+    motion = MowerLift().at(S=0.55)
+    assert f"{rod_force(motion) / kgf:.0f} {lifting_force(motion) / kgf:.0f}" == "6536 7689"
+
+
+def test_units_of_the_table():
+    lift = MowerLift()
+    headings = [column.heading for column in lift.columns(lift.sweep(3))]
+    assert {"S, m", "FI3, deg", "B_x, m", "DFI3, rad/m", "I", "F, kgf", "pd, kgf/cm2", "kz"} < set(headings)
+
+
+def test_loop_closes():
+    """B from O along FI3 and B from A along FIS1 are one point (the worksheet's check)."""
+    lift = MowerLift()
+    motion = lift.sweep(101)
+    O, A, S = lift["O"][:, None], lift["A"][:, None], motion.strokes["S"]
+    from_O = O + lift["OB"] * np.array([np.cos(motion["FI3"]), np.sin(motion["FI3"])])
+    from_A = A + S * np.array([np.cos(motion["FIS1"]), -np.sin(motion["FIS1"])])
+    assert_allclose(from_O, motion["B"], rtol=0, atol=1e-12)
+    assert_allclose(from_A, motion["B"], rtol=0, atol=1e-12)
+
+
+def test_ratios_are_the_worksheets_formulas():
+    lift = MowerLift()
+    motion = lift.sweep(101)
+    S, L0, L3 = motion.strokes["S"], motion.distance("A", "O"), lift["OB"]
+    DFI3 = 2 * S / np.sqrt(4 * L0**2 * L3**2 - (S**2 - (L3**2 + L0**2)) ** 2)
+    assert_allclose(motion.ratio("FI3"), DFI3, rtol=1e-12)
+    assert_allclose(motion.ratio("G")[1], DFI3 * lift["OG"] * np.cos(motion["FI3"] + lift["BOG"]), rtol=1e-12)
+
+
+def test_spellings_are_one_mechanism():
+    motion, other = MowerLift().sweep(101), MowerLiftPrimitives().sweep(101)
+    for point in "BG":
+        assert_allclose(motion[point], other[point], rtol=0, atol=1e-12)
+        assert_allclose(motion.ratio(point), other.ratio(point), rtol=1e-12, atol=1e-12)
+    assert {body.points for body in MowerLift().links} == {body.points for body in MowerLiftPrimitives().links}
+
+
+def test_hydraulic_efficiency_counts_once():
+    motion = MowerLift(k_g=0.8).sweep(11)
+    assert_allclose(reserve(motion), largest_force(motion) / lifting_force(motion), rtol=1e-12)
+    assert_allclose(pressure(motion) * piston_area(motion), reduced_force(motion), rtol=1e-12)
+    assert_allclose(rod_force(motion), rod_force(MowerLift(k_g=0.95).sweep(11)), rtol=0)
+
+
+# -- verdicts ----------------------------------------------------------------------------------------------
+
+
+def verdict(count=11, **dimensions):
+    lift = MowerLift(**dimensions)
+    return " ".join(lift.verdicts(lift.sweep(count)))
+
+
+def test_verdict_as_printed():
+    lift = MowerLift()
+    assert lift.verdicts(lift.sweep(101)) == [
+        "The section cannot be lifted from its lowest position at 155 kgf/cm2: the least reserve kz is 0.963, at S = 0.5500 m, "
+        "and kz is below 1 from S = 0.5500 to 0.5660 m.",
+        "It needs 161.0 kgf/cm2, or the next standard bore: 90 mm gives kz = 1.22.",
+        "Lifting from S = 0.5500 to 0.8000 m takes 1.26 l of oil; time and flow follow from the pump.",
+    ]
+
+
+def test_verdict_of_the_other_reading():
+    text = verdict(BOG=OTHER_READING)
+    assert "kz is 0.978, at S = 0.5500 m" in text
+    assert "below 1 from S = 0.5500 to 0.5604 m" in text
+
+
+@pytest.mark.parametrize(("dimensions", "printed"), [({}, "0.5660"), ({"BOG": OTHER_READING}, "0.5604")])
+@pytest.mark.parametrize("count", [2, 7, 101])
+def test_end_of_the_short_range_is_a_root(dimensions, printed, count):
+    """Not the grid of the table: where the range ends, kz = 1, whatever the number of poses."""
+    lift = MowerLift(**dimensions)
+    ((start, end),) = short_ranges(lift.sweep(count))
+    assert (start, f"{end:.4f}") == (0.55, printed)
+    below, at, above = reserve(lift.at(S=[end - 1e-9, end, end + 1e-9]))
+    assert below < 1.0 < above
+    assert at == pytest.approx(1.0, abs=1e-10)
+
+
+def test_verdict_stays_where_the_motion_starts_higher():
+    lift = MowerLift()
+    assert "lifted from S = 0.5600 m at" in lift.verdicts(lift.at(S=[0.56, 0.70]))[0]
+    assert lift.verdicts(lift.at(S=0.70)) == [
+        "The section can be lifted at S = 0.7000 m at 155 kgf/cm2: the least reserve kz is 1.227, at S = 0.7000 m."
+    ]
+    assert lift.verdicts(lift.at(S=0.55))[0].startswith("The section cannot be lifted here at 155 kgf/cm2")
+
+
+def test_verdict_with_reserve():
+    text = verdict(p_max=200 * kgf_cm2)
+    assert "can be lifted over the whole stroke at 200 kgf/cm2: the least reserve kz is 1.242, at S = 0.5500 m." in text
+    assert "cannot" not in text and "needs" not in text
+
+
+def test_verdict_follows_its_own_remedies():
+    assert "can be lifted over the whole stroke" in verdict(bore=90 * mm)
+    assert "least reserve kz is 1.218" in verdict(bore=90 * mm)
+    assert "can be lifted over the whole stroke" in verdict(p_max=161.1 * kgf_cm2)
+    assert "cannot" in verdict(p_max=160.9 * kgf_cm2)
+
+
+def test_verdict_where_nothing_can_be_lifted():
+    text = verdict(p_max=50 * kgf_cm2)
+    assert "cannot be lifted anywhere on this stroke" in text
+    assert "or a larger standard bore: 160 mm gives kz = 1.24" in text
+    assert "no standard bore is large enough" in verdict(weight=1e7)
+
+
+def test_verdict_where_the_lift_stops_on_its_way():
+    text = verdict(BOG=0.6)
+    (start,) = re.findall(r"cannot be lifted beyond S = ([0-9.]+) m", text)
+    lift = MowerLift(BOG=0.6)
+    below, above = reserve(lift.at(S=[float(start) - 2e-4, float(start) + 2e-4]))
+    assert above < 1.0 and not below < 1.0
+
+
+def test_verdict_where_the_weight_drives():
+    text = verdict(BOG=3.5)
+    (start,) = re.findall(r"weight drives the lift from S = ([0-9.]+) to 0.8000 m: there it is not limited by this cylinder", text)
+    lift = MowerLift(BOG=3.5)
+    motion = lift.at(S=[float(start) - 1e-4, float(start) + 1e-4])
+    resists, drives = motion.ratio("G")[1]
+    assert resists > 0.0 > drives
+    assert np.isnan(reserve(motion)).tolist() == [False, True]
+    assert pressure(motion)[1] == 0.0
+    assert_allclose(lifting_force(motion)[1], rod_force(motion)[1] * 0.85)
+
+
+def test_verdict_where_the_weight_drives_everywhere():
+    text = verdict(BOG=4.5)
+    assert text.startswith("The weight drives the lift from S = 0.5500 to 0.8000 m")
+
+
+def test_verdict_of_a_batch_counts_designs():
+    lift = MowerLift(bore=np.array([70, 80, 90, 100]) * mm)
+    (text,) = lift.verdicts(lift.sweep(5))
+    assert text.startswith("2 of 4 designs fall short of kz = 1")
+    assert "0.737 in the worst design and 1.504 in the best" in text
+
+
+def test_verdict_where_poses_are_out_of_reach():
+    lift = MowerLift()
+    text = lift.verdicts(lift.at(S=[0.3, 0.6, 0.7], unreachable="nan"))
+    assert text[-1] == "The poses out of reach are left out of this."
+    assert "from S = 0.6000 to 0.7000 m" in text[0]
+    assert lift.verdicts(lift.at(S=[0.1, 0.2], unreachable="nan")) == ["No pose of this motion can be assembled; there is nothing to lift."]
+
+
+def test_oil_is_area_times_travel():
+    motion = MowerLift().sweep(3)
+    assert oil(motion) == pytest.approx(np.pi / 4 * 0.08**2 * 0.25, rel=1e-12)
+
+
+def test_batch_of_designs_broadcasts():
+    bores = np.array([70, 80, 90]) * mm
+    batch = reserve(MowerLift(bore=bores).sweep(7))
+    assert batch.shape == (3, 7)
+    for row, bore in zip(batch, bores, strict=True):
+        assert_allclose(row, reserve(MowerLift(bore=bore).sweep(7)), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("dimensions", "words"),
+    [
+        ({"k_m": 1.2}, "k_m = 1.2 is above 1"),
+        ({"k_g": 0.0}, "k_g = 0 is not above zero"),
+        ({"bore": -0.08}, "bore = -0.08 is not above zero"),
+        ({"weight": 0.0}, "weight = 0 is not above zero"),
+        ({"p_max": -1.0}, "p_max = -1 is not above zero"),
+        ({"diameter": 1.0}, "unknown"),
+    ],
+)
+def test_impossible_design_is_refused(dimensions, words):
+    with pytest.raises(DefinitionError, match=re.escape(words)):
+        MowerLift(**dimensions)
+
+
+def test_docstring_keeps_the_contradiction_visible():
+    for fact in ("126.665", "129.5", "contradicts", "(1.739, 0.013)", "0.5604"):
+        assert fact in MowerLift.__doc__

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
+
+import numpy as np
 
 from ..errors import DefinitionError
 from ..quantities import Quantity, name_of
 from ..steps import Group, OnLink, Slide
+from ..vectors import Side
 from .parts import Parts
+from .sketch import missing_labels
 
 
 @dataclass(frozen=True)
@@ -54,8 +59,28 @@ def link_rows(parts: Parts, name: str, title: str) -> list[Row]:
             raise DefinitionError(
                 f"{title}: the shape of {name} = {link} is not settled at {pin}; give two distances or a distance and an angle."
             )
+        step = as_sketched(parts, pin, step, f"{title}: {name} = {link}")
         rows += [Row(loose(first, second, pin), attached=(pin, step), half=half) for half in (0, 1)]
     return rows
+
+
+def as_sketched(parts: Parts, pin: str, step: OnLink, what: str) -> OnLink:
+    """Return a group's rigid point with the side its link's pins have in the sketch, and what is not given measured there."""
+    parents = [name_of(parent) for parent in step.parents]
+    if step.near is None and step.drawn_at is None:
+        return step
+    found = copy(step)
+    (px, py), (qx, qy), X = (parts.sketched(point) for point in (*parents, pin))
+    found.labels = dict(step.labels)
+    if step.drawn_at is not None:
+        found.labels |= missing_labels(pin, step, parents, np.array(X), parts.sketched)
+    if {parents[1] + pin, pin + parents[1]} & set(found.labels):
+        cross = (qx - px) * (X[1] - py) - (qy - py) * (X[0] - px)
+        if cross == 0.0:
+            raise DefinitionError(f"{what}: its pins are in one line in the sketch, so that {pin} has no side; move a near=(x, y).")
+        found.side = Side.LEFT if cross > 0.0 else Side.RIGHT
+    found.near = found.drawn_at = None
+    return found
 
 
 def next_group(parts: Parts, title: str) -> Group:

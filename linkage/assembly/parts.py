@@ -34,6 +34,10 @@ class Parts:
         """Return a link's points that are placed."""
         return [point for point in link.point_names if point in self.placed]
 
+    def sketched(self, point: str) -> tuple[float, float]:
+        """Return where a point is in the sketch [m]: where it is placed, or a loose pin's own position."""
+        return self.place(point) if point in self.placed else self.pins[point].sketched
+
     def is_placed(self, guide: str) -> bool:
         """Return whether a guide lies on placed points."""
         return set(self.guides[guide].points) <= self.placed

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from copy import copy
 from typing import Any
 
@@ -102,13 +102,13 @@ def measured(name: str, step: Step, settled: Mapping[str, Member], title: str) -
     X = np.array(step.drawn_at)
     parents = [name_of(parent) for parent in step.parents]
     found = copy(step)
-    found.labels = dict(step.labels) | missing_labels(name, step, parents, X, sketch)
+    found.labels = dict(step.labels) | missing_labels(name, step, parents, X, sketch.at)
     return found
 
 
-def missing_labels(name: str, step: Step, parents: list[str], X: Any, sketch: Sketch) -> dict[str, float]:
+def missing_labels(name: str, step: Step, parents: list[str], X: Any, place: Callable[[str], Place]) -> dict[str, float]:
     """Return the labels a drawn step lacks, measured: every distance of a dyad, distance and angle on a link."""
-    away = {parent: X - np.array(sketch.at(parent)) for parent in parents}
+    away = {parent: X - np.array(place(parent)) for parent in parents}
     given = set(step.labels)
     found: dict[str, float] = {}
     first = parents[0]

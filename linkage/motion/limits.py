@@ -64,6 +64,10 @@ class StrokeLimits:
     change_points: tuple[tuple[float, str], ...]
     transmission: tuple[Extreme, ...] = field(default=())
 
+    def _whole(self, interval: Interval) -> str:
+        """Return the line of an interval that nothing stops."""
+        return f"  reachable all the way from {interval.low:.9g} to {interval.high:.9g} {self.unit}"
+
     @property
     def dead_points(self) -> tuple[tuple[float, str], ...]:
         """Where a loop's two links come into line and the motion ends: (stroke, step)."""
@@ -73,8 +77,9 @@ class StrokeLimits:
     def __str__(self) -> str:
         lines = [f"{self.stroke}: declared {self.start:.6g} to {self.end:.6g} {self.unit}"]
         for each in self.intervals:
-            lines.append(f"  reachable from {each.low:.9g} to {each.high:.9g} {self.unit}")
             ends = (each.low, each.low_stop), (each.high, each.high_stop)
+            low, high = (f"{value:.9g}" if stop else f"{value:.9g} (looked no farther)" for value, stop in ends)
+            lines.append(f"  reachable from {low} to {high} {self.unit}" if each.low_stop or each.high_stop else self._whole(each))
             lines += [f"    {value:.9g}: dead point of {stop}" for value, stop in ends if stop]
         lines += [f"  change point at {value:.9g} {self.unit}: the branches of {step} cross" for value, step in self.change_points]
         lines += [

@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 from ..errors import DefinitionError, unknown
 from ..graph import Body, gruebler, merged, ordered
+from ..loads import ForceElement, LoadCase
 from ..program import Kernel, Level, Node, Tangent
 from ..quantities import Dimension, Distance, Function, Length, Member, Number, Operation, Quantity, Stroke, Variable, needs, unnamed
 from ..steps import Arrow, Bar, Drawn, Ground, Group, Guide, Link, OnLink, Point
@@ -53,6 +54,9 @@ class Plan:
         if isinstance(member, Guide):
             for variable, default, kind in member.variables():
                 self.table.add(variable, default, kind, f"{name} = {member}")
+        if isinstance(member, ForceElement):
+            for variable, default, kind, unit in member.variables():
+                self.table.add(variable, default, kind, f"{name} = {member}", unit)
         if isinstance(member, Link):
             member.claim(self.table)
         if isinstance(member, Group):

@@ -106,7 +106,7 @@ class Table:
 
     def names(self) -> list[str]:
         """Return the names that can be set; a fixed point by its own name."""
-        return list(dict.fromkeys(name.partition(".")[0] for name in self.entries))
+        return list(dict.fromkeys(name.removesuffix(".x").removesuffix(".y") for name in self.entries))
 
 
 def signed(value: Any, sign: int, entry: Entry) -> Any:
@@ -122,6 +122,8 @@ def checked(entry: Entry, value: Any) -> Any:
     """Return a value that the variable may take; raise DefinitionError for NaN, infinity and lengths not above zero."""
     if not np.all(np.isfinite(value)):
         raise DefinitionError(f"{entry.where}: {entry.name}={value!r} is not a finite number; give a value in SI.")
+    if entry.kind == "not negative" and np.any(np.asarray(value) < 0.0):
+        raise DefinitionError(f"{entry.where}: {entry.name}={np.min(value):.6g} is negative; give zero or more.")
     if entry.kind == "length" and np.any(np.asarray(value) <= 0.0):
         what = "has no length" if np.all(np.asarray(value) >= 0.0) else "is negative"
         raise DefinitionError(f"{entry.where}: the length {entry.name}={np.min(value):.6g} m {what}; give a positive one.")

@@ -80,7 +80,7 @@ class Mechanism:
         units = {name: stroke_unit(self.plan, name) for name in self.plan.strokes}
         table = [Column(name, value, "deg" if units[name] == "rad" else "m") for name, value in motion.strokes.items()]
         table += [Column(f"{point}_{axis}", getattr(motion, axis)(point), "m") for point in self.plan.moving for axis in "xy"]
-        outputs = [name for name, member in self.plan.of_kind(Quantity).items() if not isinstance(member, (Stroke, Dimension))]  # type: ignore[type-abstract]
+        outputs = [name for name, member in self.plan.of_kind(Quantity).items() if not isinstance(member, (Stroke, Dimension))]
         return table + [Column(name, motion[name]) for name in outputs]
 
     def verdicts(self, motion: Motion) -> list[str]:

@@ -34,7 +34,7 @@ def assemblies(plan: Plan, inputs: Mapping[str, Any]) -> list[Assembly]:
 
     Raises DefinitionError beyond 16 dyads, which have more than 65,536 modes.
     """
-    dyads = {name: step for name, step in plan.of_kind(Step).items() if step.closes and step.modes()}  # type: ignore[type-abstract]
+    dyads = {name: step for name, step in plan.of_kind(Step).items() if step.closes and step.modes()}
     if len(dyads) > MOST:
         raise DefinitionError(f"{plan.title} has {len(dyads)} dyads: assembly modes are listed for up to {MOST}.")
     return list(_modes(plan, inputs, dict(plan.members), list(dyads)))

@@ -8,10 +8,9 @@ from typing import Any, TypeVar
 
 from ..errors import DefinitionError, unknown
 from ..graph import Body, gruebler, merged, ordered
-from ..loads import ForceElement, LoadCase
 from ..program import Kernel, Level, Node, Tangent
-from ..quantities import Dimension, Distance, Function, Length, Member, Number, Operation, Quantity, Stroke, Variable, needs, unnamed
-from ..steps import Arrow, Bar, Drawn, Ground, Group, Guide, Link, OnLink, Point
+from ..quantities import Distance, Function, Length, Member, Number, Operation, Quantity, Stroke, Variable, needs, unnamed
+from ..steps import Arrow, Bar, Drawn, Ground, Group, Link, OnLink, Point
 from .reading import ArrayReading
 from .table import Table
 from .trace import Trace
@@ -32,7 +31,8 @@ class Plan:
         self.members: dict[str, Member] = {}
         for name in order:
             self.members[name] = self._bound(name, members[name])
-        self.strokes: dict[str, Stroke] = {name: self.members[name] for name in members if isinstance(self.members[name], Stroke)}  # type: ignore[misc]
+        strokes = self.of_kind(Stroke)
+        self.strokes = {name: strokes[name] for name in members if name in strokes}
         self._kernels: dict[Any, Kernel] = {}
         self._check_kinds()
 
@@ -45,22 +45,9 @@ class Plan:
 
     def _bound(self, name: str, member: Member) -> Member:
         """Return a member with its dimensions entered in the table."""
-        if isinstance(member, Dimension):
-            self.table.add(name, member.default, "number", f"{name} = {member}", member.unit)
-        if isinstance(member, Ground):
-            for coordinate, value in member.coordinates():
-                if isinstance(value, Number):
-                    self.table.add(coordinate, value.number, "coordinate", f"{name} = {member}")
-        if isinstance(member, Guide):
-            for variable, default, kind in member.variables():
-                self.table.add(variable, default, kind, f"{name} = {member}")
-        if isinstance(member, ForceElement):
-            for variable, default, kind, unit in member.variables():
-                self.table.add(variable, default, kind, f"{name} = {member}", unit)
-        if isinstance(member, Link):
-            member.claim(self.table)
-        if isinstance(member, Group):
-            member.settled(self.table)
+        for variable, default, kind, unit in member.variables():
+            self.table.add(variable, default, kind, f"{name} = {member}", unit)
+        member.enter(self.table)
         return member.bind(name, self.table) if isinstance(member, Point) else member
 
     def of_kind(self, kind: type[Kind]) -> dict[str, Kind]:
@@ -70,7 +57,7 @@ class Plan:
     @cached_property
     def points(self) -> dict[str, Point]:
         """The points by name, in order."""
-        return self.of_kind(Point)  # type: ignore[type-abstract]
+        return self.of_kind(Point)
 
     @cached_property
     def ground(self) -> tuple[str, ...]:
@@ -84,11 +71,11 @@ class Plan:
                 for length in part.lengths():
                     if isinstance(length, Number) and not length.number > 0.0:
                         raise DefinitionError(f"{self.title}: {name} = {member}: the length {length.number:.6g} m is not positive.")
-                for attribute, kind, word in PLACES.get(type(part).__name__, ()):
+                for attribute, kind in part.expects:
                     reference = getattr(part, attribute)
                     found = self.members[reference] if isinstance(reference, str) else reference
-                    if reference is not None and not isinstance(found, kind):
-                        raise DefinitionError(f"{self.title}: {name} = {member}: {found.name or found} is not a {word}.")
+                    if reference is not None and found.kind != kind:
+                        raise DefinitionError(f"{self.title}: {name} = {member}: {found.name or found} is not a {kind}.")
             if isinstance(member, Ground) and self.moves(member):
                 raise DefinitionError(f"{self.title}: {name} = {member} follows a stroke, but is fixed; drive a point by OnGuide, Dyad or Crank.")
 
@@ -250,25 +237,3 @@ class Plan:
         return "\n".join(f"{name} = {member}" for name, member in self.members.items())
 
     __repr__ = __str__
-
-
-PLACES: dict[str, tuple[tuple[str, type, str], ...]] = {
-    "Dyad": (("P", Point, "point"), ("Q", Point, "point"), ("PX", Quantity, "quantity"), ("QX", Quantity, "quantity")),
-    "SliderDyad": (("P", Point, "point"), ("guide", Guide, "guide")),
-    "PinSlotDyad": (("P", Point, "point"), ("Q", Point, "point")),
-    "GuideCross": (("guide", Guide, "guide"), ("other", Guide, "guide")),
-    "YokeDyad": (("P", Point, "point"), ("guide", Guide, "guide")),
-    "OnGuide": (("guide", Guide, "guide"),),
-    "Slide": (("point", Point, "point"), ("guide", Guide, "guide")),
-    "OnLink": (("P", Point, "point"), ("Q", Point, "point")),
-    "Crank": (("P", Point, "point"), ("angle", Quantity, "quantity")),
-    "Vector": (("P", Point, "point"), ("Q", Point, "point")),
-    "Turn": (("base", Arrow, "vector"), ("angle", Quantity, "quantity")),
-    "Offset": (("P", Point, "point"), ("by", Arrow, "vector")),
-    "Angle": (("P", Point, "point"), ("Q", Point, "point")),
-    "Distance": (("P", Point, "point"), ("Q", Point, "point")),
-    "Coordinate": (("P", Point, "point"),),
-    "Length": (("vector", Arrow, "vector"),),
-    "Ref": (("target", Quantity, "quantity"),),
-    "Guide": (("P", Point, "point"), ("Q", Point, "point")),
-}

@@ -25,9 +25,9 @@ from .quantity import Operation as Operation
 from .quantity import Quantity as Quantity
 from .quantity import Ref as Ref
 from .quantity import Sum as Sum
-from .quantity import Turning as Turning
 from .quantity import Variable as Variable
-from .quantity import Where as Where
 from .quantity import quantity as quantity
 from .quantity import ref as ref
 from .quantity import spelled as spelled
+from .where import Turning as Turning
+from .where import Where as Where

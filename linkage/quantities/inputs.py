@@ -8,7 +8,8 @@ from ..errors import DefinitionError, unknown
 from ..units import UNITS
 from ..vectors import Scalar
 from .numbers import is_number
-from .quantity import Quantity, Where
+from .quantity import Quantity
+from .where import Where
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +45,9 @@ class Dimension(Quantity):
             raise DefinitionError(f"Dimension({self.default!r}): a finite number is expected.")
         if self.unit and self.unit not in UNITS:
             raise unknown("Unit", self.unit, UNITS, where=str(self))
+
+    def variables(self) -> tuple[tuple[str, float, str, str], ...]:
+        return ((self.name, self.default, "number", self.unit),)
 
     def rule(self, where: Where) -> Scalar:
         return where.input(self.name)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, TypeAlias
+from typing import Any, ClassVar, TypeAlias
 
 from ..errors import DefinitionError
 
@@ -14,6 +14,12 @@ class Member:
     Its name is the first one it is bound to. Members refer to each other by name, so that a subclass
     which replaces a member replaces it for everybody.
     """
+
+    kind: ClassVar[str] = "member"
+    """What it is where a reference asks for it: `point`, `vector`, `quantity`, `guide`, ..."""
+
+    expects: ClassVar[tuple[tuple[str, str], ...]] = ()
+    """Its attributes that refer to others, with the kind each must be."""
 
     _name: str = ""
 
@@ -29,6 +35,13 @@ class Member:
     def parts(self) -> tuple[Reference, ...]:
         """Return what this member is built from: names or members."""
         return ()
+
+    def variables(self) -> tuple[tuple[str, float, str, str], ...]:
+        """Return the design variables this member brings: name, default [SI], what it measures, display unit or ""."""
+        return ()
+
+    def enter(self, claims: Any) -> None:
+        """Enter the labels of this member in the mechanism's table of dimensions."""
 
     def lengths(self) -> tuple[Any, ...]:
         """Return the quantities that stand for lengths in this member, beside its labels: none may be negative."""

@@ -8,7 +8,8 @@ import numpy as np
 
 from ..vectors import Scalar
 from .member import Reference, name_of
-from .quantity import Quantity, Turning, Where
+from .quantity import Quantity
+from .where import Turning, Where
 
 
 def label(reference: Reference) -> str:
@@ -24,6 +25,7 @@ class Angle(Quantity):
 
     P: Reference
     Q: Reference
+    expects = (("P", "point"), ("Q", "point"))
 
     def parts(self) -> tuple[Reference, ...]:
         return self.P, self.Q
@@ -46,6 +48,7 @@ class Distance(Quantity):
 
     P: Reference
     Q: Reference
+    expects = (("P", "point"), ("Q", "point"))
 
     def parts(self) -> tuple[Reference, ...]:
         return self.P, self.Q
@@ -63,6 +66,7 @@ class Coordinate(Quantity):
 
     P: Reference
     axis: str
+    expects = (("P", "point"),)
 
     def parts(self) -> tuple[Reference, ...]:
         return (self.P,)
@@ -80,6 +84,7 @@ class Length(Quantity):
     """The length of a vector [m]: `abs(AO)`."""
 
     vector: Reference
+    expects = (("vector", "vector"),)
 
     def parts(self) -> tuple[Reference, ...]:
         return (self.vector,)

@@ -20,6 +20,7 @@ class Crank(Step):
     P: str
     PX: Quantity = UNBOUND
     parent_letters = ("P",)
+    expects = (("P", "point"), ("angle", "quantity"))
 
     def __init__(self, P: Reference, *, angle: Any, **lengths: Any) -> None:
         super().__init__(P, labels=lengths)

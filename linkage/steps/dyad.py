@@ -35,6 +35,7 @@ class Dyad(Step):
     PX: Quantity = UNBOUND
     QX: Quantity = UNBOUND
     measures = "distances"
+    expects = (("P", "point"), ("Q", "point"), ("PX", "quantity"), ("QX", "quantity"))
 
     def __init__(self, P: Reference, Q: Reference, *, side: Side | None = None, near: Any = None, at: Any = None, **lengths: Any) -> None:
         super().__init__(P, Q, labels=lengths, side=side, near=near, at=at)

@@ -27,6 +27,9 @@ class Ground(Point):
         """Return the names and values of both coordinates."""
         return (f"{self.name}.x", self.x), (f"{self.name}.y", self.y)
 
+    def variables(self) -> tuple[tuple[str, float, str, str], ...]:
+        return tuple((name, value.number, "coordinate", "") for name, value in self.coordinates() if isinstance(value, Number))
+
     def bind(self, X: str, claims: Claims) -> Ground:
         return self
 

@@ -18,6 +18,9 @@ class Guide(Member):
     variables: `rail.x`, `rail.y`, `rail.angle`.
     """
 
+    kind = "guide"
+    expects = (("P", "point"), ("Q", "point"))
+
     def __init__(self, P: Reference | tuple[float, float], Q: Reference | None = None, *, angle: Any = None) -> None:
         if P is None or (Q is None) == (angle is None):
             raise DefinitionError("Guide: give its origin, and its direction by angle= or by a second point.")
@@ -35,11 +38,10 @@ class Guide(Member):
         """The names of the points the guide goes through."""
         return tuple(name_of(point) for point in (self.P, self.Q) if point is not None)
 
-    def variables(self) -> tuple[tuple[str, float, str], ...]:
-        """Return the design variables this guide brings: name, default and kind."""
+    def variables(self) -> tuple[tuple[str, float, str, str], ...]:
         place = () if self.fixed_at is None else tuple(zip(("x", "y"), self.fixed_at, ("coordinate",) * 2, strict=True))
         turn = (("angle", self.angle.number, "angle"),) if isinstance(self.angle, Number) else ()
-        return tuple((f"{self.name}.{part}", value, kind) for part, value, kind in (*place, *turn))
+        return tuple((f"{self.name}.{part}", value, kind, "") for part, value, kind in (*place, *turn))
 
     def line(self, where: Where) -> Line:
         """Return the origin [m] and the direction's cosine and sine."""
@@ -61,6 +63,8 @@ class Guide(Member):
 class Slide(Member):
     """A point that slides on a guide: `shoe = Slide("C", rail)`."""
 
+    expects = (("point", "point"), ("guide", "guide"))
+
     def __init__(self, point: Reference, guide: Reference) -> None:
         self.point, self.guide = point, guide
 
@@ -80,6 +84,7 @@ class OnGuide(Point):
     """A point at a distance along a guide from its origin, driven or given: `C = OnGuide(rail, at=S)` [m]."""
 
     X: str = ""
+    expects = (("guide", "guide"),)
 
     def __init__(self, guide: Reference, *, at: Any) -> None:
         self.guide, self.along = guide, quantity(at)

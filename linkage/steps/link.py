@@ -23,7 +23,7 @@ class Link(Member):
     def parts(self) -> tuple[Reference, ...]:
         return (*self.points, *(part for part in map(quantity, self.labels.values()) if not part.is_constant))
 
-    def claim(self, claims: Claims) -> None:
+    def enter(self, claims: Claims) -> None:
         """Enter the labels: distances and angles of its own points."""
         slots = [Slot("", pair) for pair in combinations(self.point_names, 2)]
         corners = [(P, vertex, Q) for vertex in self.point_names for P, Q in combinations(self.point_names, 2)]

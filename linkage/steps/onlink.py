@@ -25,6 +25,7 @@ class OnLink(Step):
     QX: Quantity = UNBOUND
     QPX: Quantity = UNBOUND
     measures = "angle"
+    expects = (("P", "point"), ("Q", "point"))
 
     def __init__(self, P: Reference, Q: Reference, *, side: Side | None = None, near: Any = None, at: Any = None, **labels: Any) -> None:
         super().__init__(P, Q, labels=labels, side=side, near=near, at=at)

@@ -77,7 +77,7 @@ class Group(Member):
         self.rods: tuple[Bar, ...] = ()
         self.rigid: tuple[OnLink, ...] = ()
 
-    def settled(self, claims: Claims) -> None:
+    def enter(self, claims: Claims) -> None:
         """Enter the group's dimensions: its rods' lengths and its links' shapes."""
         self.rods = tuple(Bar(P, Q, claims.claim(Slot("", (P, Q)), P + Q, length, str(self))) for P, Q, length in self.given)
         self.rigid = tuple(step.bind(X, claims) for X, step in self.attached)

@@ -17,6 +17,8 @@ from .step import Point
 class Arrow(Member):
     """A vector of the mechanism; `abs(arrow)` is its length, a quantity."""
 
+    kind = "vector"
+
     @abstractmethod
     def vector(self, where: Where) -> Vec:
         """Return the vector [m] in a reading."""
@@ -31,6 +33,8 @@ class Arrow(Member):
 
 class Vector(Arrow):
     """The vector PQ = Q - P between two points [m]."""
+
+    expects = (("P", "point"), ("Q", "point"))
 
     def __init__(self, P: Reference, Q: Reference) -> None:
         self.P, self.Q = P, Q
@@ -50,6 +54,8 @@ class Vector(Arrow):
 
 class Turn(Arrow):
     """A vector turned by an angle [rad], then scaled to a length [m]; the length is kept where none is given."""
+
+    expects = (("base", "vector"), ("angle", "quantity"))
 
     def __init__(self, vector: Reference, angle: Any, length: Any = None) -> None:
         self.base, self.angle = vector, quantity(angle)
@@ -112,6 +118,7 @@ class Offset(Point):
     """The point P + vector [m]."""
 
     X: str = ""
+    expects = (("P", "point"), ("by", "vector"))
 
     def __init__(self, P: Reference, vector: Reference) -> None:
         self.P, self.by = P, vector

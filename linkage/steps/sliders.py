@@ -20,6 +20,7 @@ class SliderDyad(Step):
     guide: str
     PX: Quantity = UNBOUND
     parent_letters = ("P", "guide")
+    expects = (("P", "point"), ("guide", "guide"))
 
     def __init__(self, P: Reference, guide: Reference, *, side: Side | None = None, near: Any = None, **lengths: Any) -> None:
         super().__init__(P, guide, labels=lengths, side=side, near=near)
@@ -73,6 +74,7 @@ class PinSlotDyad(Step):
     P: str
     Q: str
     PX: Quantity = UNBOUND
+    expects = (("P", "point"), ("Q", "point"))
 
     def __init__(self, P: Reference, Q: Reference, *, offset: Any = 0.0, side: Side | None = None, near: Any = None, **lengths: Any) -> None:
         super().__init__(P, Q, labels=lengths, side=side or (None if near is not None else Side.RIGHT), near=near)
@@ -121,6 +123,10 @@ class PinSlotDyad(Step):
     def half_joints(self) -> tuple[str, ...]:
         return (self.Q,)
 
+    def pin_slots(self) -> tuple[tuple[str, str, str], ...]:
+        """Return the pin, and the two points of the body whose slot it runs in."""
+        return ((self.Q, self.P, self.X),)
+
 
 class GuideCross(Step):
     """The pin of two sliders, each on its guide (PRP dyad): where the guides cross. `C = GuideCross(rail, post)`."""
@@ -128,6 +134,7 @@ class GuideCross(Step):
     guide: str
     other: str
     parent_letters = ("guide", "other")
+    expects = (("guide", "guide"), ("other", "guide"))
 
     def __init__(self, guide: Reference, other: Reference) -> None:
         super().__init__(guide, other, labels={})
@@ -166,6 +173,7 @@ class YokeDyad(Step):
     P: str
     guide: str
     parent_letters = ("P", "guide")
+    expects = (("P", "point"), ("guide", "guide"))
 
     def __init__(self, P: Reference, guide: Reference, *, angle: Any = 1.5707963267948966) -> None:
         super().__init__(P, guide, labels={})

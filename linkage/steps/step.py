@@ -28,6 +28,8 @@ class Bar:
 class Point(Member):
     """A named point of the mechanism."""
 
+    kind = "point"
+
     def bind(self, X: str, claims: Claims) -> Self:
         """Return this step with its name, its parents' names and its dimensions settled."""
         return self

@@ -8,6 +8,10 @@ from .gas import Gas as Gas
 from .gas import adiabatic as adiabatic
 from .gas import isothermal as isothermal
 from .gas import polytropic as polytropic
+from .lift import Holding as Holding
+from .lift import LiftCircuit as LiftCircuit
+from .lift import Lowering as Lowering
+from .member import Cylinder as Cylinder
 from .nitrogen import real_nitrogen as real_nitrogen
 from .sizes import next_bore as next_bore
 from .sizes import next_rod as next_rod

@@ -17,8 +17,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import pi
-from typing import Literal, final
+from typing import Any, Literal, final
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, unknown
@@ -35,21 +36,23 @@ SIDES = ("piston", "rod")
 class CylinderSize:
     """`count` equal cylinders side by side, of a bore and a rod [m]; `works` is the side the pressure acts on.
 
+    A bore or rod may be an array over designs, for the numbers; the sentences and the offers are for one size.
+
     DefinitionError for a bore or rod not above zero, a rod not smaller than the bore, a count that is no positive integer.
     """
 
-    bore: float
-    rod: float
+    bore: float | Array
+    rod: float | Array
     count: int = 1
     works: Literal["piston", "rod"] = "piston"
 
     def __post_init__(self) -> None:
         positive(self.bore, "Bore")
         positive(self.rod, "Rod")
-        if self.rod >= self.bore:
-            raise DefinitionError(
-                f"Rod {self.rod / mm:.6g} mm is not smaller than bore {self.bore / mm:.6g} mm; exchange them or take a thinner rod."
-            )
+        rod, bore = np.broadcast_arrays(self.rod, self.bore)
+        if np.any(thick := rod >= bore):
+            rods, bores = f"Rod {rod[thick][0] / mm:.6g} mm", f"bore {bore[thick][0] / mm:.6g} mm"
+            raise DefinitionError(f"{rods} is not smaller than {bores}; exchange them or take a thinner rod.")
         if finite(self.count, "Count of cylinders") < 1 or self.count != int(self.count):
             raise DefinitionError(f"Count of cylinders = {self.count}; give a whole number from 1 on.")
         if self.works not in SIDES:
@@ -60,27 +63,27 @@ class CylinderSize:
         return f"{many} {self.bore / mm:.4g}/{self.rod / mm:.4g} mm, {self.works} side"
 
     @property
-    def piston_area(self) -> float:
+    def piston_area(self) -> Any:
         """Area of one piston, m2."""
         return pi / 4.0 * self.bore**2
 
     @property
-    def rod_area(self) -> float:
+    def rod_area(self) -> Any:
         """Area of the annulus around one rod, m2: what the rod side's pressure acts on."""
         return pi / 4.0 * (self.bore**2 - self.rod**2)
 
     @property
-    def ratio(self) -> float:
+    def ratio(self) -> Any:
         """Piston area over annulus (phi of ISO 3320)."""
         return self.piston_area / self.rod_area
 
     @property
-    def area(self) -> float:
+    def area(self) -> Any:
         """The area the pressure acts on, all cylinders, m2."""
         return self.count * (self.piston_area if self.works == "piston" else self.rod_area)
 
     @property
-    def back_area(self) -> float:
+    def back_area(self) -> Any:
         """The area on the other side of the pistons, all cylinders, m2."""
         return self.count * (self.rod_area if self.works == "piston" else self.piston_area)
 
@@ -96,7 +99,8 @@ class CylinderSize:
         DefinitionError for a lone NaN or an infinite pressure.
         """
         forward = over_poses(pressure, "Cylinder pressure") * self.area
-        return (self.sense * (forward - over_poses(back, "Back pressure") * self.back_area))[()]
+        thrust: Array = self.sense * (forward - over_poses(back, "Back pressure") * self.back_area)
+        return thrust[()]
 
     def pressure_for(self, thrust: ArrayLike, back: ArrayLike = 0.0) -> Array:
         """Return the pressure at which all cylinders together give a thrust [N] against a `back` pressure; they broadcast.
@@ -104,19 +108,22 @@ class CylinderSize:
         Negative where the load drives the cylinder: this side is empty and the other one holds. NaN and errors as `thrust`.
         """
         against = over_poses(back, "Back pressure") * self.back_area
-        return ((self.sense * over_poses(thrust, "Thrust") + against) / self.area)[()]
+        pressure: Array = (self.sense * over_poses(thrust, "Thrust") + against) / self.area
+        return pressure[()]
 
     def oil(self, travel: ArrayLike) -> Array:
         """Return the oil [m3] that the working side of all cylinders takes in over a travel [m] in its direction, same shape."""
-        return (over_poses(travel, "Travel") * self.area)[()]
+        oil: Array = over_poses(travel, "Travel") * self.area
+        return oil[()]
 
     def speed(self, flow: ArrayLike) -> Array:
         """Return the speed [m/s] in the working direction at a flow [m3/s] into all cylinders, same shape."""
-        return (over_poses(flow, "Flow") / self.area)[()]
+        speed: Array = over_poses(flow, "Flow") / self.area
+        return speed[()]
 
     def next_size(self) -> CylinderSize:
         """Return the same with the next standard bore; DefinitionError where there is none."""
-        return replace(self, bore=next_bore(self.bore))
+        return replace(self, bore=next_bore(float(self.bore)))
 
     def sized_for(self, thrust: float, pressure: float) -> CylinderSize:
         """Return the same with the smallest standard bore that gives a thrust [N] at a pressure, the rod kept.

@@ -99,7 +99,8 @@ def next_group(parts: Parts, title: str) -> Group:
     blocks = nx.condensation(graph)
     for block in nx.lexicographical_topological_sort(blocks):
         pins = blocks.nodes[block]["members"]
-        return grouped([pin for pin in parts.pins if pin in pins], [rows[row] for (pin, _), row in matched.items() if pin in pins], parts)
+        own = sorted(row for (pin, _), row in matched.items() if pin in pins)
+        return grouped([pin for pin in parts.pins if pin in pins], [rows[row] for row in own])
     raise DefinitionError(f"{title}: no pin is left to place.")
 
 
@@ -110,19 +111,21 @@ def matching(rows: list[Row], parts: Parts, title: str) -> dict[tuple[str, int],
     loose = [pin for pin in parts.pins if pin not in parts.placed]
     graph = nx.Graph()
     coordinates = [(pin, axis) for pin in loose for axis in (0, 1)]
-    graph.add_nodes_from(coordinates)
-    graph.add_edges_from(((pin, axis), place) for place, row in enumerate(rows) for pin in row.pins for axis in (0, 1))
-    found = nx.bipartite.hopcroft_karp_matching(graph, coordinates)
-    free = sorted({pin for pin, axis in coordinates if (pin, axis) not in found}, key=loose.index)
+    # whole numbers as nodes: names would be matched in an order that changes from run to run
+    first = len(coordinates)
+    graph.add_nodes_from(range(first))
+    graph.add_edges_from((coordinates.index((pin, axis)), first + place) for place, row in enumerate(rows) for pin in row.pins for axis in (0, 1))
+    found = nx.bipartite.hopcroft_karp_matching(graph, range(first))
+    free = list(dict.fromkeys(pin for place, (pin, _) in enumerate(coordinates) if place not in found))
     if free:
         raise DefinitionError(
             f"{title}: the parts leave {' '.join(free)} free: {len(rows)} conditions for {2 * len(loose)} coordinates of the pins "
             f"{' '.join(loose)}. Add a link, a slide or a length that follows a stroke."
         )
-    return {each: found[each] for each in coordinates}
+    return {each: found[place] - first for place, each in enumerate(coordinates)}
 
 
-def grouped(pins: list[str], rows: list[Row], parts: Parts) -> Group:
+def grouped(pins: list[str], rows: list[Row]) -> Group:
     """Return the group of some pins with its equations."""
     group = Group(" ".join(pins))
     group.given = tuple(dict.fromkeys(row.length for row in rows if row.length))

@@ -10,9 +10,10 @@ import numpy as np
 from ..assembly import places_at
 from ..errors import AssemblyError, DefinitionError
 from ..graph import merged
-from ..plan import Plan
+from ..plan import Plan, Reading
 from ..program import FloatArray
-from ..steps import Link, Offset
+from ..quantities import name_of
+from ..steps import Guide, Link, Offset, Slide, YokeDyad
 from ..units import mm
 from .rows import Rows, link_rows, step_rows
 
@@ -61,15 +62,11 @@ def mobility_at(plan: Plan, strokes: dict[str, float]) -> Mobility:
     active = np.abs(both.matrix).sum(axis=0) > 0.0
     free = int((active | [name not in plan.strokes for name in both.unknowns]).sum())
     full = rank(both.matrix)
-    extra = [name for name in dict.fromkeys(links.owners) if name not in implied(plan)]
-    locking = tuple(name for name in extra if rank(both.without(name)) < full and rank(steps.matrix) == rank_needed(plan, steps))
+    extra = [name for name in dict.fromkeys((*links.owners, *plan.of_kind(Slide))) if name not in implied(plan)]
+    needed = len(steps.unknowns) - len(plan.strokes)
+    locking = tuple(name for name in extra if rank(both.without(name)) < full and full > needed)
     redundant = tuple(name for name in extra if name not in locking and rank(both.without(name)) == full)
     return Mobility(free - full, plan.gruebler, len(plan.strokes), redundant, locking)
-
-
-def rank_needed(plan: Plan, steps: Rows) -> int:
-    """Return the rank at which the steps alone determine every coordinate."""
-    return len(steps.unknowns) - len(plan.strokes)
 
 
 def implied(plan: Plan) -> set[str]:
@@ -78,7 +75,23 @@ def implied(plan: Plan) -> set[str]:
     groups += [body for point in plan.points.values() for body in point.bodies()]
     groups += [(*map(str, step.parents), step.X) for group in plan.groups.values() for step in group.rigid]
     bodies = merged(groups, plan.ground)
-    return {name for name, link in plan.of_kind(Link).items() if any(set(link.point_names) <= set(body.points) for body in bodies)}
+    links = {name for name, link in plan.of_kind(Link).items() if any(set(link.point_names) <= set(body.points) for body in bodies)}
+    used = {pair for point in plan.points.values() for pair in point.slides()}
+    grouped = {slide.name for group in plan.groups.values() for slide in group.slides}
+    slides = {name for name, slide in plan.of_kind(Slide).items() if (name_of(slide.point), name_of(slide.guide)) in used}
+    return links | slides | grouped | slots(plan)
+
+
+def slots(plan: Plan) -> set[str]:
+    """Return the slides that a pin-slot or a yoke dyad holds by its own construction."""
+    held = {(pin, frozenset(body)) for point in plan.points.values() for pin, *body in point.pin_slots()}
+    yokes = {step.P for step in plan.of_kind(YokeDyad).values()}
+    found = set()
+    for name, slide in plan.of_kind(Slide).items():
+        guide = plan.of_kind(Guide)[name_of(slide.guide)]
+        if (name_of(slide.point), frozenset(guide.points)) in held or name_of(slide.point) in yokes:
+            found.add(name)
+    return found
 
 
 def rank(matrix: FloatArray) -> int:
@@ -91,7 +104,7 @@ def check(plan: Plan) -> None:
 
     Steps determine their points by construction; it is links, pins and slides that can hold too little or too much.
     """
-    if not plan.of_kind(Link) or not plan.moving:
+    if not (plan.of_kind(Link) or plan.of_kind(Slide)) or not plan.moving:
         return
     try:
         found = mobility(plan)
@@ -105,6 +118,7 @@ def check(plan: Plan) -> None:
             f"Gruebler count {found.gruebler} of the bodies {bodies}. {remedy(found)}"
         )
     check_lengths(plan)
+    check_slides(plan)
 
 
 def remedy(found: Mobility) -> str:
@@ -128,6 +142,24 @@ def check_lengths(plan: Plan) -> None:
                 raise DefinitionError(
                     f"{plan.title}: {name} = {link}: the distance {P}{Q} changes by {change / mm:.3g} mm over the stroke, "
                     "but a link is rigid. Take it out, or correct a length."
+                )
+
+
+def check_slides(plan: Plan) -> None:
+    """Raise DefinitionError where a point does not lie on the guide it is said to slide on."""
+    for share in (0.0, 0.37, 0.88):
+        strokes = {name: stroke.start + share * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()}
+        try:
+            inputs = places_at(plan, strokes)[1]
+        except AssemblyError:
+            continue
+        reading = Reading(plan.members, plan.table.lengths, inputs)
+        for name, slide in plan.of_kind(Slide).items():
+            off = abs(float(slide.miss(reading)))
+            if off > 1e-9 * max(1.0, abs(float(reading.at(slide.point).x)), abs(float(reading.at(slide.point).y))):
+                raise DefinitionError(
+                    f"{plan.title}: {name} = {slide}: {name_of(slide.point)} is {off / mm:.3g} mm off the guide at {strokes}. "
+                    "Take the slide out, or let it place the point: declare the point as a Pin."
                 )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..plan import Plan, Trace
 from ..program import FloatArray, Level, Node, Tangent, interpret
-from ..steps import Link
+from ..steps import Link, Slide
 from ..vectors import Vec
 
 Places = Mapping[str, tuple[float, float]]
@@ -52,8 +52,12 @@ def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Any]) -> Rows:
         trace.placing.append(name)
         residuals[name] = point.constraints(trace)
         trace.placing.pop()
+    for name, slide in plan.of_kind(Slide).items():
+        trace.placing.append(name)
+        residuals[name] = (slide.miss(trace),)
+        trace.placing.pop()
     nodes = [(owner, trace.graph.node(each)) for owner, found in residuals.items() for each in found]
-    held = held_points(plan, {owner for owner, _ in nodes})
+    held = held_points(plan, {owner for owner, _ in nodes if owner in plan.points})
     seeds: dict[str, Node] = {f"{name}.{axis}": getattr(trace.positions[name], axis) for name in held for axis in "xy"}
     seeds |= {name: trace.inputs[name] for name in plan.strokes}
     tangents = [Tangent(trace.graph, {seed: 1.0}) for seed in seeds.values()]

@@ -247,7 +247,8 @@ class Motion:
             return near[member.name] if member.name else near.value(member)  # type: ignore[arg-type]
 
         declared = self.plan.strokes[stroke]
-        found, error, still = numeric.derivative(values, abs(declared.end - declared.start), order, step)
+        least = 1.0 if isinstance(member, Quantity) else 0.0  # an output may be a difference of what is much larger: rad
+        found, error, still = numeric.derivative(values, abs(declared.end - declared.start), order, step, least)
         useless, lost = numeric.losses(found, np.where(self.reached, error, 0.0), still, len(self.shape))
         what = f"The numerical ratio of {member.name or member}"
         if useless.any() and self.unreachable == "raise":

@@ -25,12 +25,13 @@ ROUNDING = 4 * np.finfo(float).eps
 
 
 def derivative(
-    values: Callable[[FloatArray], FloatArray], span: float, order: int, step: float | None
+    values: Callable[[FloatArray], FloatArray], span: float, order: int, step: float | None, least: float = 0.0
 ) -> tuple[FloatArray, FloatArray, float]:
     """Return a derivative, the estimate of its error, and the size below which it counts as none.
 
     `values(offsets)` returns the function at strokes shifted by each offset, along a new last axis; NaN where
-    unreachable. `span` is the length of the stroke [m or rad]. With `step` a plain difference of that step is taken.
+    unreachable. `span` is the length of the stroke [m or rad], `least` the size that its values have at least. With
+    `step` a plain difference of that step is taken.
     """
     steps = np.array([step]) if step is not None else FIRST * span * RATIO ** -np.arange(float(STEPS))
     at = values(np.concatenate([[0.0], steps, -steps, 2 * steps, -2 * steps, 3 * steps, -3 * steps]))
@@ -44,7 +45,7 @@ def derivative(
     if step is not None:
         best = np.where(np.isfinite(two), two, one)[..., 0]
         return best, np.zeros_like(best), 0.0
-    still = STILL * float(np.max(np.abs(zero), initial=0.0, where=np.isfinite(zero))) / span**order
+    still = STILL * float(np.max(np.abs(zero), initial=least, where=np.isfinite(zero))) / span**order
     floor = ROUNDING * np.abs(zero) / steps[2:] ** order
     return *_best(np.concatenate([_extrapolated(two, floor), _extrapolated(one, floor)], axis=-1)), still
 

@@ -11,7 +11,7 @@ from ..program import Graph, Level, Node
 from ..quantities import Member, Quantity, Turning
 from ..steps import Point
 from ..vectors import Scalar, Vec
-from .reading import Reading
+from .reading import ArrayReading, Reading
 
 #: A loop whose links meet under a smaller sine has a condition above 1e4: its ratios lose digits.
 NEAR = 2e-4
@@ -35,6 +35,10 @@ class Trace(Reading):
         self.guards: list[Guard] = []
 
     def root(self, radicand: Scalar, scale: Scalar, size: Scalar) -> Scalar:
+        radicand = self.graph.node(radicand)
+        if radicand.level is not Level.POSE:  # a triangle of the design may be flat: rounding must not open it
+            limit = size * -ArrayReading.ROUNDING
+            radicand = self.graph.pick(limit, radicand, np.maximum(radicand, 0.0), radicand)
         node: Node = self.graph.apply("sqrt", radicand)
         watched = radicand - NEAR**2 * (scale * scale + size) if node.level is Level.POSE else node
         self.guards.append(Guard(self.owner, self.graph.node(watched)))

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-
 #: Up to so many systems LAPACK, called once, is cheaper than one elimination in array steps.
 FEW = 64
 

@@ -211,8 +211,8 @@ def _scaled(graph: Graph, factor: float, node: Node) -> Node:
         return node
     if factor == -1.0:
         return graph._make("negative", (node,), None, node.level)
-    constant = graph.constant(factor)
-    return graph._make("multiply", (constant, node), None, node.level)
+    pair = sorted((graph.constant(factor), node), key=lambda each: each.number)
+    return graph._make("multiply", tuple(pair), None, node.level)
 
 
 def _is(node: Node, value: float) -> bool:

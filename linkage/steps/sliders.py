@@ -124,7 +124,6 @@ class PinSlotDyad(Step):
         return (self.Q,)
 
     def pin_slots(self) -> tuple[tuple[str, str, str], ...]:
-        """Return the pin, and the two points of the body whose slot it runs in."""
         return ((self.Q, self.P, self.X),)
 
 

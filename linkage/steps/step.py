@@ -63,6 +63,10 @@ class Point(Member):
         """Return the guides and slots that take one freedom each."""
         return tuple(guide for _, guide in self.slides())
 
+    def pin_slots(self) -> tuple[tuple[str, str, str], ...]:
+        """Return the pins this step holds in a slot, each with the two points of the slot's body."""
+        return ()
+
     @property
     def companions(self) -> tuple[str, ...]:
         """The points that are found together with this one; empty where it is placed alone."""

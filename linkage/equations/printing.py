@@ -1,0 +1,193 @@
+"""Text and LaTeX: SymPy's printers, and the papers' notation for vectors on top of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import hypot
+from typing import Any
+
+from sympy import fraction
+from sympy.printing.latex import LatexPrinter
+from sympy.printing.precedence import PRECEDENCE
+from sympy.printing.str import StrPrinter
+
+from .words import PointSymbol
+
+
+def plain_number(value: float, digits: int = 6) -> str:
+    """Return a number as text, zero without a sign."""
+    text = f"{value:.{digits}g}"
+    return "0" if float(text) == 0.0 else text
+
+
+def in_order(terms: Sequence[Any]) -> list[Any]:
+    """Return the terms of a sum as they are read: positive ones first, points before vectors, numbers last."""
+    return sorted(terms, key=lambda each: (not each.free_symbols, is_negative(each), not isinstance(each, PointSymbol)))
+
+
+def is_negative(expr: Any) -> bool:
+    """Return whether a term of a sum is printed with a minus."""
+    factor = expr.as_coeff_matrices()[0] if expr.is_Matrix and expr.is_MatMul else expr
+    return bool(not expr.is_Add and (factor.is_number or factor.is_Mul) and factor.could_extract_minus_sign())
+
+
+def factors(expr: Any) -> tuple[Any, Any, Any]:
+    """Return a scaled vector as numerator, denominator and vector."""
+    factor, (vector,) = expr.as_coeff_matrices()
+    return (*fraction(factor), vector)
+
+
+def signed(terms: Sequence[str]) -> str:
+    """Return a sum of printed terms."""
+    text = terms[0]
+    for each in terms[1:]:
+        text += f" - {each[1:].lstrip()}" if each.startswith("-") else f" + {each}"
+    return text
+
+
+class Text(StrPrinter):  # type: ignore[misc]
+    """Plain text: `AB = TurnVL(AO, -OAB, L_AB)`. With `values` the numbers stand in the place of the symbols."""
+
+    def __init__(self, values: Mapping[str, str] | None = None) -> None:
+        super().__init__()
+        self.values = values or {}
+
+    def _print_Symbol(self, expr: Any) -> str:
+        return self._filled(expr.name)
+
+    def _print_MatrixSymbol(self, expr: Any) -> str:
+        return self._filled(expr.name)
+
+    def _filled(self, name: str) -> str:
+        found = self.values.get(name, name)
+        return f"({found})" if found.startswith("-") else found
+
+    def _print_MatrixElement(self, expr: Any) -> str:
+        if expr.parent.name not in self.values:
+            head, slash, tail = expr.parent.name.partition("/")
+            return f"{head}_{'xy'[int(expr.i)]}{slash}{tail}"
+        part = self.values[expr.parent.name].strip("()").split(", ")[int(expr.i)]
+        return f"({part})" if part.startswith("-") else part
+
+    def _print_Float(self, expr: Any) -> str:
+        return plain_number(float(expr), 12)
+
+    def _print_Add(self, expr: Any, order: Any = None) -> str:
+        return signed([self._print(each) for each in in_order(expr.args)])
+
+    def _print_MatAdd(self, expr: Any) -> str:
+        return signed([self._print(each) for each in in_order(expr.args)])
+
+    def _print_MatMul(self, expr: Any) -> str:
+        over, under, vector = factors(expr)
+        if is_negative(expr):
+            return f"-{self._print(-expr)}"
+        text = self._print(vector) if over == 1 else f"{self.parenthesize(over, PRECEDENCE['Mul'])}*{self._print(vector)}"
+        return text if under == 1 else f"{text}/{self.parenthesize(under, PRECEDENCE['Pow'])}"
+
+    def _print_call(self, expr: Any) -> str:
+        return f"{type(expr).__name__}({', '.join(map(self._print, expr.args))})"
+
+    _print_TurnV = _print_TurnVL = _print_Tcos = _print_call
+
+    def _print_Norm(self, expr: Any) -> str:
+        text = self._print(expr.args[0])
+        if self.values and text.startswith("(") and text.count(",") == 1:
+            return plain_number(hypot(*map(float, text.strip("()").split(", "))))
+        return f"|{text}|"
+
+    def _print_Direction(self, expr: Any) -> str:
+        text = self._print(expr.args[0])
+        return f"angle{text}" if text.startswith("(") else f"angle({text})"
+
+    def _print_Dot(self, expr: Any) -> str:
+        return f"dot({', '.join(map(self._print, expr.args))})"
+
+    def _print_Cross(self, expr: Any) -> str:
+        return f"cross({', '.join(map(self._print, expr.args))})"
+
+    def _print_Deg(self, expr: Any) -> str:
+        return f"{self._print(expr.args[0])} deg"
+
+    def _print_ImmutableDenseMatrix(self, expr: Any) -> str:
+        return f"({', '.join(map(self._print, expr))})"
+
+    def _print_Min(self, expr: Any) -> str:
+        return f"min({', '.join(map(self._print, expr.args))})"
+
+    def _print_Max(self, expr: Any) -> str:
+        return f"max({', '.join(map(self._print, expr.args))})"
+
+    def _print_Abs(self, expr: Any) -> str:
+        return f"|{self._print(expr.args[0])}|"
+
+
+class Latex(LatexPrinter):  # type: ignore[misc]
+    r"""LaTeX: `\overrightarrow{AB} = \operatorname{TurnV}_{L}\left(...\right)`. `words` holds the symbols' LaTeX."""
+
+    def __init__(self, words: Mapping[str, str]) -> None:
+        super().__init__()
+        self.words = words
+
+    def _print_Symbol(self, expr: Any, style: str = "plain") -> str:
+        return self.words.get(expr.name) or str(super()._print_Symbol(expr))
+
+    def _print_MatrixSymbol(self, expr: Any, style: str = "plain") -> str:
+        return r"\vec{\imath}" if expr.name == "i" else self.words.get(expr.name, expr.name)
+
+    def _print_MatrixElement(self, expr: Any) -> str:
+        axis = "xy"[int(expr.i)]
+        return self.words.get(f"{expr.parent.name}.{axis}") or rf"{self._print(expr.parent)}_{{{axis}}}"
+
+    def _print_Float(self, expr: Any) -> str:
+        return plain_number(float(expr), 12)
+
+    def _print_Add(self, expr: Any, order: Any = None) -> str:
+        return signed([self._print(each) for each in in_order(expr.args)])
+
+    def _print_MatAdd(self, expr: Any) -> str:
+        return signed([self._print(each) for each in in_order(expr.args)])
+
+    def _print_MatMul(self, expr: Any) -> str:
+        over, under, vector = factors(expr)
+        if is_negative(expr):
+            return f"- {self._print(-expr)}"
+        if under != 1:
+            return rf"\frac{{{self._print(over)}}}{{{self._print(under)}}} {self._print(vector)}"
+        return self._print(vector) if over == 1 else f"{self.parenthesize(over, PRECEDENCE['Mul'])} {self._print(vector)}"
+
+    def _call(self, head: str, expr: Any) -> str:
+        return rf"{head}\left({', '.join(map(self._print, expr.args))}\right)"
+
+    def _print_TurnV(self, expr: Any) -> str:
+        return self._call(r"\operatorname{TurnV}", expr)
+
+    def _print_TurnVL(self, expr: Any) -> str:
+        return self._call(r"\operatorname{TurnV}_{L}", expr)
+
+    def _print_Tcos(self, expr: Any, exp: Any = None) -> str:
+        return self._call(r"\operatorname{Tcos}", expr)
+
+    def _print_Norm(self, expr: Any) -> str:
+        return rf"\left|{self._print(expr.args[0])}\right|"
+
+    def _print_Direction(self, expr: Any) -> str:
+        return self._call(r"\arg", expr)
+
+    def _print_Dot(self, expr: Any) -> str:
+        return r" \cdot ".join(map(self._factor, expr.args))
+
+    def _print_Cross(self, expr: Any) -> str:
+        left, right = map(self._factor, expr.args)
+        return rf"\left({left} \times {right}\right)_{{z}}"
+
+    def _factor(self, vector: Any) -> str:
+        text = self._print(vector)
+        return rf"\left({text}\right)" if vector.is_MatAdd else str(text)
+
+    def _print_Deg(self, expr: Any) -> str:
+        return rf"{self._print(expr.args[0])}^{{\circ}}"
+
+    def _print_ImmutableDenseMatrix(self, expr: Any) -> str:
+        rows = r" \\ ".join(map(self._print, expr))
+        return rf"\begin{{pmatrix}} {rows} \end{{pmatrix}}"

@@ -1,0 +1,188 @@
+"""How far a mechanism goes: reachable intervals, dead points, change points, assembly modes, closed turns."""
+
+from contextlib import nullcontext
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from linkage import (
+    LEFT,
+    RIGHT,
+    AssemblyError,
+    Crank,
+    DefinitionError,
+    Dyad,
+    Ground,
+    Link,
+    Mechanism,
+    OnLink,
+    Pin,
+    SingularError,
+    SingularWarning,
+    Stroke,
+    angle,
+)
+
+
+class Lift(Mechanism):
+    S = Stroke(0.0, 0.25)
+    A = Ground(0.20, 0.55)
+    O = Ground(0.30, 1.15)
+    B = Dyad(A, O, AB=0.5 + S, OB=0.30, side=RIGHT)
+
+
+class FourBar(Mechanism):
+    phi = Stroke(0, 2 * np.pi)
+    O = Ground(0, 0)
+    C = Ground(4, 0)
+    A = Crank(O, OA=1, angle=phi)
+    B = Dyad(A, C, AB=3, CB=2.5, side=LEFT)
+    rocker = angle(C, B)
+
+
+class Triad(Mechanism):
+    """A platform on three rods, one of them on a crank: a class III group."""
+
+    phi = Stroke(0.0, 0.6)
+    O = Ground(0, 0)
+    P = Ground(3, 0)
+    Q = Ground(1.5, 3)
+    A = Crank(O, OA=0.5, angle=phi)
+    body = Link("D E F", DE=1, DF=0.9, EF=0.8)
+    r1 = Link("A D", AD=0.8)
+    r2 = Link("P E", PE=1.0)
+    r3 = Link("Q F", QF=1.9)
+    D = Pin(near=(1.2, 0.5))
+    E = Pin(near=(2.2, 0.5))
+    F = Pin(near=(1.6, 1.3))
+
+
+BASE = float(np.hypot(0.1, 0.6))
+
+
+def test_the_ends_of_a_stroke_are_the_flat_triangles():
+    limits = Lift().sweep(5).limits()["S"]
+    (interval,) = limits.intervals
+    assert_allclose([interval.low, interval.high], [BASE - 0.3 - 0.5, BASE + 0.3 - 0.5], atol=1e-9)
+    assert [step for _, step in limits.dead_points] == ["B", "B"]
+    assert 0.1 in interval
+    assert 0.5 not in interval
+
+
+def test_the_least_transmission_angle_is_found_between_the_samples():
+    machine = FourBar()
+    (extreme,) = machine.sweep(5).limits()["phi"].transmission
+    flat = np.arccos((3**2 + 2.5**2 - np.array([5.0, 3.0]) ** 2) / (2 * 3 * 2.5))
+    assert_allclose(extreme.angle, np.minimum(flat, np.pi - flat).min(), atol=1e-9)
+    assert extreme.joint == "B"
+
+
+def test_a_rocker_is_reachable_in_two_ranges_of_its_crank():
+    limits = FourBar(OA=2.5).sweep(5, unreachable="nan").limits()["phi"]
+    reach = np.arccos((2.5**2 + 4**2 - 5.5**2) / (2 * 2.5 * 4))
+    assert_allclose([limits.intervals[0].high, limits.intervals[1].low], [reach, 2 * np.pi - reach], atol=1e-9)
+
+
+def test_a_group_tells_where_it_stops():
+    limits = Triad().sweep(5).limits()["phi"]
+    (interval,) = limits.intervals
+    for end, inside in ((interval.low, 1), (interval.high, -1)):
+        assert Triad().at(phi=end + inside * 1e-8)["D"].shape == (2,)
+        with pytest.raises(AssemblyError, match="D E F"):
+            Triad().at(phi=end - inside * 1e-7)
+
+
+def test_the_error_tells_how_far_the_stroke_goes():
+    with pytest.raises(AssemblyError, match=r"192 mm short of AB.*It goes from S = 0 to 0\.408276 m") as caught:
+        Lift().at(S=np.linspace(0, 0.6, 101))
+    assert caught.value.point == "B"
+    assert_allclose(caught.value.shortfall, 1.1 - 0.3 - BASE, rtol=1e-12)
+    assert caught.value.mask.sum() == 32
+
+
+def test_a_crank_that_cannot_turn_says_where_it_stops():
+    with pytest.raises(AssemblyError, match=r"It goes from phi = 0 to 1\.98231 rad, and from phi = 4\.30087 to 6\.28319 rad"):
+        FourBar(OA=2.5).sweep(36)
+
+
+@pytest.mark.parametrize("count", [36, 37, 360, 361])
+def test_a_crank_that_turns_ends_where_it_began(count):
+    motion = FourBar().sweep(count)
+    assert_allclose(motion["B"][:, -1], motion["B"][:, 0], atol=1e-14)
+    back = FourBar().at(phi=np.linspace(2 * np.pi, 0, count))
+    assert_allclose(back["B"][:, ::-1], motion["B"], atol=1e-15)
+
+
+# -- change points: the 4-1-3-2 four-bar is flat at phi = pi, where its two branches cross ----------------
+
+
+@pytest.mark.parametrize("count", [36, 37, 360, 361, 1001])
+def test_a_sweep_over_a_change_point_is_refused_by_name(count):
+    with pytest.raises(SingularError, match=r"change point at phi = 3\.14159 rad \(180 deg\): B = Dyad"):
+        FourBar(CB=2.0).sweep(count)
+
+
+@pytest.mark.parametrize("count", [36, 360])
+def test_a_flat_parallelogram_is_refused_by_name(count):
+    with pytest.raises(SingularError, match="change point at phi = 3.14159"):
+        FourBar(AB=4.0, CB=1.0).sweep(count)
+
+
+def test_the_ratios_beside_a_change_point_are_those_of_its_branches():
+    machine = FourBar(CB=2.0)
+    for distance, warned in ((1e-2, False), (1e-3, False), (1e-4, True), (1e-5, True)):
+        for sign, branch in ((-1, 0.689898), (1, -0.289898)):
+            pose = machine.at(phi=np.pi + sign * distance)
+            with pytest.warns(SingularWarning, match="relative error of about") if warned else nullcontext():
+                assert_allclose(pose.ratio("rocker"), branch, atol=distance**2 * 10 + 2e-6)
+
+
+@pytest.mark.parametrize("distance", [10.0**-power for power in range(8, 16)] + [0.0])
+def test_at_a_change_point_ratios_are_refused_and_positions_hold(distance):
+    pose = FourBar(CB=2.0).at(phi=np.pi - distance)
+    assert_allclose(pose.distance("A", "B"), 3.0, rtol=1e-12)
+    with pytest.raises(SingularError, match="change point"):
+        pose.ratio("rocker")
+
+
+def test_limits_name_the_change_point():
+    limits = FourBar(CB=2.0).at(phi=[1.0, 2.0]).limits()["phi"]
+    ((value, step),) = limits.change_points
+    assert step == "B"
+    assert_allclose(value, np.pi, atol=1e-6)
+
+
+def test_a_dead_point_at_the_end_of_a_sweep_is_no_crossing():
+    motion = Lift().at(S=np.linspace(0.0, BASE + 0.3 - 0.5, 51))
+    assert_allclose(motion.distance("O", "B"), 0.3, rtol=1e-12)
+
+
+# -- assembly modes --------------------------------------------------------------------------------------
+
+
+def test_all_modes_of_two_dyads_are_listed_the_declared_one_first():
+    class Two(FourBar):
+        D = OnLink("A", "B", AD=1.0, BAD=0.5)
+        E = Ground(2, 4)
+        F = Dyad("D", "E", DF=2.0, EF=2.5, side=RIGHT)
+
+    modes = Two().assemblies(phi=1.0)
+    assert dict(modes[0].sides) == {"B": LEFT, "F": RIGHT}
+    assert len({tuple(mode.sides.items()) for mode in modes}) == len(modes) <= 4
+    declared = Two().at(phi=1.0)
+    assert_allclose(modes[0].places["F"], declared["F"], atol=1e-15)
+    for mode in modes:
+        assert_allclose(np.hypot(*np.subtract(mode.places["F"], mode.places["E"])), 2.5, rtol=1e-12)
+
+
+def test_modes_out_of_reach_are_not_listed():
+    assert FourBar(OA=2.5).assemblies(phi=3.0) == []
+
+
+def test_limits_and_modes_are_of_one_design():
+    batch = FourBar(CB=np.array([2.4, 2.5]))
+    with pytest.raises(DefinitionError, match="one design"):
+        batch.sweep(3).limits()
+    with pytest.raises(DefinitionError, match="one design"):
+        batch.assemblies()

@@ -22,9 +22,9 @@ class Names:
         self._texts: dict[Any, str] = {}
         self._guides = plan.of_kind(Guide)
         self._members = plan.members
-        self._placed = {*plan.points, *plan.of_kind(Arrow), *self._guides}  # type: ignore[type-abstract]
+        self._placed = {*plan.points, *plan.of_kind(Arrow), *self._guides}
         self._lengths = {name for name, entry in plan.table.entries.items() if entry.kind == "length"}
-        quantities = plan.of_kind(Quantity)  # type: ignore[type-abstract]
+        quantities = plan.of_kind(Quantity)
         for name in plan.members:
             pair = self.pair(name[1:].removeprefix("_")) if name in quantities and name.startswith("L") else ()
             wanted = f"L_{''.join(pair)}" if len(pair) == 2 else name

@@ -104,7 +104,7 @@ def check(plan: Plan) -> None:
 
     Steps determine their points by construction; it is links, pins and slides that can hold too little or too much.
     """
-    if not (plan.of_kind(Link) or plan.of_kind(Slide)) or not plan.moving:
+    if not any((plan.of_kind(Link), plan.of_kind(Slide))) or not plan.moving:
         return
     try:
         found = mobility(plan)

@@ -4,27 +4,23 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from functools import cached_property
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
-from ..assembly import Solved, solve_groups
-from ..errors import DefinitionError, SingularError, SingularWarning
-from ..plan import ArrayReading, Plan
+from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning
+from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import Angle, Distance, Member, Quantity
-from ..steps import Arrow, Dyad, Point
-from ..vectors import Vec
+from ..quantities import Member, Quantity
+from ..steps import Arrow, Point
 from . import numeric, reach, scan, singular
 from .asked import method_of, named, order_of, rates_of
+from .outputs import Outputs
+from .outputs import Target as Target
 from .reach import Mask
-from .unwrap import unwrapped
-
-Target: TypeAlias = str | Member
 
 
-class Motion:
+class Motion(Outputs):
     """The poses of a mechanism: all positions, worked out at once; ratios and outputs when asked.
 
     Arrays are component-first, designs before strokes: a position has the shape (2, *designs, *strokes).
@@ -32,167 +28,24 @@ class Motion:
     """
 
     def __init__(self, plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray], unreachable: str = "raise") -> None:
-        if unreachable not in ("raise", "nan"):
-            raise DefinitionError(f'unreachable={unreachable!r}: say "raise" or "nan".')
-        self.plan, self.designs, self.strokes, self.unreachable = plan, dict(designs), dict(strokes), unreachable
-        arrays = [np.shape(value) for value in self.designs.values() if np.ndim(value)]
-        try:
-            self.design_shape = np.broadcast_shapes(*arrays)
-        except ValueError:
-            shapes = ", ".join(map(str, arrays))
-            raise DefinitionError(f"{plan.title}: the shapes of the design arrays do not fit each other: {shapes}.") from None
-        self.stroke_shape = next((value.shape for value in self.strokes.values()), ())
-        self.shape = (*self.design_shape, *self.stroke_shape)
-        self.reached: Mask = np.ones(self.shape, bool)
+        super().__init__(plan, designs, strokes, unreachable)
         self._ratios: dict[Any, FloatArray] = {}
-        result = plan.kernel(plan.moving, guarded=True)(self._flat)
-        self._places = self._full(result.values)
-        self.is_near_singular = not np.all(result.guards > 0.0)
-        if self.is_near_singular or plan.may_overflow:
-            self._settle_unreached()
         if unreachable == "raise" and scan.is_watched(self):
             scan.refuse_crossing(self)
 
-    # -- inputs ----------------------------------------------------------------------------------------
+    def refusal(self) -> AssemblyError:
+        """Return the error for the poses that are not reached: out of reach, or behind a change point."""
+        if self.crossed.any():
+            return scan.group_crossing(self, self.crossed)
+        return reach.refusal(self.plan, self.read_at(~self.reached), ~self.reached, self.strokes, scan.stop_words(self))
 
-    @cached_property
-    def _flat(self) -> dict[str, Any]:
-        """The inputs as a kernel takes them: designs (m,), poses (n,)."""
-        flat: dict[str, Any] = {}
-        for name, value in self.designs.items():
-            flat[name] = np.broadcast_to(value, self.design_shape).ravel() if np.ndim(value) else float(value)
-        flat |= {name: value.ravel() for name, value in self.strokes.items()}
-        return flat | dict(self._solved.inputs)
+    def limits(self) -> scan.Limits:
+        """Return, for every stroke, how far it can go and what stops it; printed as sentences.
 
-    @cached_property
-    def _solved(self) -> Solved:
-        """The pins of groups, shape (m, n)."""
-        if not self.plan.groups:
-            return Solved({}, np.zeros((1, 1), bool))
-        designs = {name: np.broadcast_to(value, self.design_shape).ravel() if np.ndim(value) else value for name, value in self.designs.items()}
-        return solve_groups(self.plan, designs, {name: value.ravel() for name, value in self.strokes.items()})
-
-    @cached_property
-    def inputs(self) -> dict[str, Any]:
-        """The inputs shaped to broadcast against results: designs first, strokes last."""
-        tail = (1,) * len(self.stroke_shape)
-        shaped = {name: np.reshape(value, np.shape(value) + tail) if np.ndim(value) else value for name, value in self.designs.items()}
-        solved = {name: self._full(value[None])[0] for name, value in self._solved.inputs.items()}
-        shaped = {name: np.float64(value) if np.ndim(value) == 0 else value for name, value in shaped.items()}
-        return shaped | dict(self.strokes) | solved
-
-    def _full(self, values: FloatArray) -> FloatArray:
-        """Return a kernel's values in the motion's shape."""
-        m, n = int(np.prod(self.design_shape, dtype=int)), int(np.prod(self.stroke_shape, dtype=int))
-        if values.shape[1:] != (m, n):
-            values = np.broadcast_to(values, (len(values), m, n))
-        return values.reshape(len(values), *self.shape)
-
-    # -- reach -----------------------------------------------------------------------------------------
-
-    def _settle_unreached(self) -> None:
-        """Place the poses at a dead point, to rounding; refuse or mask those out of reach."""
-        failed: Mask = np.asarray(~np.isfinite(self._places).all(axis=0)) if len(self._places) else np.ones(self.shape, bool)
-        with np.errstate(all="ignore"):
-            failed |= reach.negative(self.plan, ArrayReading(self.plan.members, self.plan.table.lengths, self.inputs), self.shape)
-        if not failed.any():
-            return
-        reading = self._read_at(failed)
-        lost = np.zeros(int(failed.sum()), bool)
-        for _, mask in reach.failures(self.plan, reading, lost.shape):
-            lost |= mask
-        self._places = np.array(self._places)
-        for index, name in enumerate(self.plan.moving):
-            place = reading.at(name)
-            for axis, part in enumerate((place.x, place.y)):
-                self._places[2 * index + axis, ...][failed] = np.where(lost, np.nan, part)
-        self.reached[failed] = ~lost
-        if self.unreachable == "raise" and self._solved.crossed.any():
-            raise scan.group_crossing(self, self._solved.crossed.reshape(self.shape))
-        if self.unreachable == "raise" and lost.any():
-            raise reach.refusal(self.plan, self._read_at(~self.reached), ~self.reached, self.strokes, scan.stop_words(self))
-
-    def _read_at(self, mask: Mask) -> ArrayReading:
-        """Return the eager reading of some poses."""
-        with np.errstate(all="ignore"):
-            return self.plan.read({name: np.broadcast_to(value, self.shape)[mask] for name, value in self.inputs.items()})
-
-    # -- positions and outputs -------------------------------------------------------------------------
-
-    def __getitem__(self, name: str) -> FloatArray:
-        """Return a point's position or a vector, shape (2, ...) [m], or a quantity, shape (...) [SI]."""
-        member = self._known(name)
-        name = member.name
-        if isinstance(member, Point):
-            return self._place(name)
-        if isinstance(member, Arrow):
-            vector = self._outputs.vector(member)
-            return np.array([np.broadcast_to(part, self.shape) for part in (vector.x, vector.y)])
-        if isinstance(member, Quantity):
-            return self.value(member)
-        raise DefinitionError(f"{self.plan.title}: {name} = {member} has no value over the stroke; name a point, a vector or an output.")
-
-    def _place(self, name: str) -> FloatArray:
-        if name in self.plan.ground:
-            place = self._outputs.at(name)
-            return np.array([np.broadcast_to(part, self.shape) for part in (place.x, place.y)], float)
-        index = 2 * self.plan.moving.index(name)
-        return self._places[index : index + 2]
-
-    @cached_property
-    def _outputs(self) -> _Outputs:
-        return _Outputs(self)
-
-    def value(self, quantity: Quantity) -> FloatArray:
-        """Return a quantity over all poses [SI]; angles without jumps along the stroke."""
-        with np.errstate(all="ignore"):
-            found = np.broadcast_to(np.asarray(self._outputs.value(quantity), float), self.shape)
-        return self._finite(np.where(self.reached, found, np.nan), np.zeros((), bool), str(quantity.name or quantity))
-
-    def _finite(self, values: FloatArray, excused: Mask, what: str) -> FloatArray:
-        """Return values that are finite at every pose reached; NaN where they are not and NaN was asked for."""
-        finite = np.isfinite(values)
-        if finite.all():
-            return values
-        good: Mask = np.asarray(finite if finite.ndim == len(self.shape) else finite.all(axis=0))
-        missing = ~good & self.reached & ~excused
-        if missing.any() and self.unreachable == "raise":
-            where = reach.where_words(self.plan, missing, self.strokes)
-            raise SingularError(f'{what} has no finite value {where}. Leave these poses out, or ask with unreachable="nan".', mask=missing, motion=self)
-        return np.where(good, values, np.nan)
-
-    def x(self, point: Target) -> FloatArray:
-        """Return a point's x coordinate [m]."""
-        return np.asarray(self._point(point)[0])
-
-    def y(self, point: Target) -> FloatArray:
-        """Return a point's y coordinate [m]."""
-        return np.asarray(self._point(point)[1])
-
-    def _point(self, name: Target) -> FloatArray:
-        return self._place(named("Point", name, self.plan.points, self.plan.title))
-
-    def _known(self, target: Target) -> Member:
-        return self.plan.members[named("Name", target, self.plan.members, self.plan.title)]
-
-    def angle(self, P: Target, Q: Target) -> FloatArray:
-        """Return the direction of P -> Q [rad], without jumps along the stroke."""
-        self._point(P), self._point(Q)
-        return self.value(Angle(P, Q))
-
-    def distance(self, P: Target, Q: Target) -> FloatArray:
-        """Return the distance of two points [m]."""
-        self._point(P), self._point(Q)
-        return self.value(Distance(P, Q))
-
-    def transmission_angle(self, point: Target) -> FloatArray:
-        """Return the angle between the two links that meet in a dyad's joint [rad], 0 to pi; best near pi / 2."""
-        step = self.plan.members[named("Point", point, self.plan.points, self.plan.title)]
-        if not isinstance(step, Dyad):
-            joints = [name for name, each in self.plan.points.items() if isinstance(each, Dyad)]
-            raise DefinitionError(f"{self.plan.title}: {point} is not the joint of a dyad; those are: {', '.join(joints) or 'none'}.")
-        (ux, uy), (wx, wy) = self._place(step.P) - self._place(step.X), self._place(step.Q) - self._place(step.X)
-        return np.asarray(np.arctan2(np.abs(ux * wy - uy * wx), ux * wx + uy * wy))
+        Reachable intervals, dead points and the steps that stop there, change points, least transmission angles.
+        One design at a time; other strokes are held at this motion's first values.
+        """
+        return scan.limits(self)
 
     # -- ratios ----------------------------------------------------------------------------------------
 
@@ -219,9 +72,6 @@ class Motion:
         if wrt is None:
             raise DefinitionError(f"{self.plan.title} has {len(self.strokes)} strokes: say wrt= one of {', '.join(self.strokes)}.")
         return named("Stroke", wrt, self.strokes, self.plan.title)
-
-    def _member(self, target: Target) -> Member:
-        return target if isinstance(target, Quantity) and not target.name else self._known(target)
 
     def _exact(self, member: Member, along: tuple[str, ...]) -> FloatArray:
         """Return a derivative through the program; the first derivatives of all points come in one pass, kept."""
@@ -265,45 +115,12 @@ class Motion:
         if not self.is_near_singular:
             return nothing
         names = self.plan.reaches(member.name) if member.name else self.plan.reaches(member)
-        found = {name: np.where(self.reached, cond, np.nan) for name, cond in singular.conditions(self.plan, self._reading, names).items()}
+        found = {name: np.where(self.reached, cond, np.nan) for name, cond in singular.conditions(self.plan, self.reading, names).items()}
         refused = singular.refused(self.plan, found, self.shape)
         if refused.any() and self.unreachable == "raise":
             raise singular.refusal(self.plan, found, refused, self.strokes, what, self)
         singular.warn(self.plan, found, self.strokes, what, order)
         return refused
-
-    @cached_property
-    def _reading(self) -> ArrayReading:
-        with np.errstate(all="ignore"):
-            return self.plan.read(self.inputs)
-
-    @property
-    def group_stops(self) -> tuple[float, ...]:
-        """The strokes at which a group's pins could not be followed farther from the sketch."""
-        return self._solved.stops
-
-    @property
-    def reading(self) -> ArrayReading:
-        """The eager reading of all poses."""
-        return self._reading
-
-    @cached_property
-    def loop_sines(self) -> dict[str, Any]:
-        """The sine of the angle between the two links of every moving loop; zero at a dead point."""
-        return singular.loops(self.plan, self._reading)
-
-    def moved(self, strokes: Mapping[str, Any]) -> Motion:
-        """Return the same design at other strokes [SI], unreachable poses as NaN."""
-        arrays = np.broadcast_arrays(*(np.asarray(strokes[name], float) for name in self.strokes))
-        return Motion(self.plan, self.designs, dict(zip(self.strokes, arrays, strict=True)), "nan")
-
-    def limits(self) -> scan.Limits:
-        """Return, for every stroke, how far it can go and what stops it; printed as sentences.
-
-        Reachable intervals, dead points and the steps that stop there, change points, least transmission angles.
-        One design at a time; other strokes are held at this motion's first values.
-        """
-        return scan.limits(self)
 
     # -- velocity --------------------------------------------------------------------------------------
 
@@ -328,19 +145,3 @@ class Motion:
         """Return zeros in the shape of a ratio, NaN where the pose is not reached."""
         parts = (2,) if isinstance(self._member(target), (Point, Arrow)) else ()
         return np.where(self.reached, np.zeros((*parts, *self.shape)), np.nan)
-
-
-class _Outputs(ArrayReading):
-    """A reading of the outputs whose points are where the motion has them, and whose angles do not jump."""
-
-    def __init__(self, motion: Motion) -> None:
-        super().__init__(motion.plan.members, motion.plan.table.lengths, motion.inputs)
-        self.axes = [value for value in motion.strokes.values() if value.ndim]
-        self.shape = motion.shape
-        for name in motion.plan.moving:
-            place = motion._place(name)
-            self.positions[name] = Vec(place[0], place[1])
-
-    def angle_of(self, vector: Vec) -> Any:
-        angle = np.where((vector.x == 0.0) & (vector.y == 0.0), np.nan, np.broadcast_to(np.arctan2(vector.y, vector.x), self.shape))
-        return unwrapped(angle, self.axes)

@@ -19,8 +19,8 @@ STEPS = 14
 FIRST = 8e-2
 WARN = 1e-6
 """The relative error above which a numerical derivative warns."""
-STILL = 1e-3
-"""A derivative this much smaller than value over span counts as none: only rounding is left of its differences."""
+STILL = {1: 1e-3, 2: 1e-2}
+"""By order: a derivative this much smaller than value over span counts as none, only rounding is left of its differences."""
 ROUNDING = 4 * np.finfo(float).eps
 
 
@@ -45,7 +45,7 @@ def derivative(
     if step is not None:
         best = np.where(np.isfinite(two), two, one)[..., 0]
         return best, np.zeros_like(best), 0.0
-    still = STILL * float(np.max(np.abs(zero), initial=least, where=np.isfinite(zero))) / span**order
+    still = STILL[order] * float(np.max(np.abs(zero), initial=least, where=np.isfinite(zero))) / span**order
     floor = ROUNDING * np.abs(zero) / steps[2:] ** order
     return *_best(np.concatenate([_extrapolated(two, floor), _extrapolated(one, floor)], axis=-1)), still
 

@@ -4,10 +4,12 @@ from .accumulator import Accumulator as Accumulator
 from .accumulator import AccumulatorBlock as AccumulatorBlock
 from .buckling import Buckling as Buckling
 from .cylinder import CylinderSize as CylinderSize
+from .floating import FloatCircuit as FloatCircuit
 from .gas import Gas as Gas
 from .gas import adiabatic as adiabatic
 from .gas import isothermal as isothermal
 from .gas import polytropic as polytropic
+from .judged import lift_verdicts as lift_verdicts
 from .lift import Holding as Holding
 from .lift import LiftCircuit as LiftCircuit
 from .lift import Lowering as Lowering

@@ -54,7 +54,7 @@ class Stage:
         drawing = Drawing(ax, self.scene)
         drawing.ground()
         drawing.label(self.scene.some(9))
-        self._title(SHEET[0], self.scene.motion.plan.title)
+        self._title(SHEET[0], self.scene.motion.plan.heading)
         return drawing
 
     def _curve(self, bound: Sequence[Any] | None) -> tuple[Artist, ...]:

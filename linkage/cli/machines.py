@@ -16,7 +16,7 @@ from ..errors import DefinitionError, LinkageError, unknown
 from ..mechanism import Mechanism
 
 GROUP = "hydrolinkage.machines"
-OWN = "A machine of your own is written package.module:Class, file.py or file.py:Class."
+OWN = "A machine of your own is written package.module:Class, file.py, file.py:Class, file.toml or file.json."
 
 
 def registered() -> dict[str, EntryPoint]:
@@ -29,6 +29,8 @@ def find(text: str) -> type[Mechanism]:
     entries = registered()
     if text in entries:
         return machine(guarded(entries[text].load, f"The machine {text} ({entries[text].value})"), text)
+    if text.endswith((".toml", ".json")):
+        return of_file(text)
     place, name = split(text)
     if place.endswith(".py"):
         return of_module(guarded(lambda: module_of_file(place), place), name, place)
@@ -37,6 +39,13 @@ def find(text: str) -> type[Mechanism]:
             sys.path.insert(0, str(Path.cwd()))
         return of_module(guarded(lambda: import_module(place), f"The module {place}"), name, place)
     raise DefinitionError(f"{unknown('Machine', text, entries)} {OWN}")
+
+
+def of_file(path: str) -> type[Mechanism]:
+    """Return the machine of a TOML or JSON file; FileError, with the keys, where it says none."""
+    from ..files import load
+
+    return load(path)
 
 
 def split(text: str) -> tuple[str, str]:

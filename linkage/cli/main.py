@@ -1,4 +1,4 @@
-"""The door of the command: arguments in, exit code out, every deliberate failure in one line."""
+"""The door of the command: arguments in, exit code out, every deliberate failure in one line, a file's mistakes in one each."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any, NoReturn
 
-from ..errors import DefinitionError, LinkageError, SingularWarning
+from ..errors import DefinitionError, FileError, LinkageError, SingularWarning
 from .commands import chosen
 
 PROGRAM = "hydrolinkage"
@@ -33,6 +33,8 @@ def main(argv: Sequence[str] | None = None) -> int:
             code = run(list(sys.argv[1:] if argv is None else argv))
             sys.stdout.flush()
             return code
+    except FileError as error:
+        return fail(*str(error).splitlines())
     except LinkageError as error:
         return fail(str(error))
     except BrokenPipeError:
@@ -73,9 +75,9 @@ def installed_version() -> str:
         return "(not installed)"
 
 
-def fail(message: str) -> int:
-    """Say in one line on stderr what was wrong, and return the exit code."""
-    print(f"{PROGRAM}: {' '.join(message.split())}", file=sys.stderr)
+def fail(*messages: str) -> int:
+    """Say on stderr what was wrong, each in one line, and return the exit code."""
+    print(f"{PROGRAM}:", "\n  ".join(" ".join(message.split()) for message in messages), file=sys.stderr)
     return BAD_INPUT
 
 

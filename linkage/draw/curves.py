@@ -34,7 +34,7 @@ def curves(motion: Motion, columns: Sequence[Column], *, limits: Mapping[str, Se
         raise DefinitionError(f"{motion.plan.title}: there is no column to draw over {moving}.")
     figure, cells = grid(len(wanted))
     held = strokes.held(motion.plan, motion.strokes, moving)
-    title = motion.plan.title + (f" at {held}" if held else "")
+    title = motion.plan.heading + (f" at {held}" if held else "")
     figure.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
     for ax, column in zip(cells, wanted, strict=True):
         panel(ax, motion, column, given.get(column.name))

@@ -102,7 +102,7 @@ def heading(figure: Figure, ax: Axes, shown: Motion, moving: str) -> None:
     held = strokes.held(shown.plan, shown.strokes, moving)
     left = LEFT / WIDTH
     top = 1.0 - 0.24 / float(figure.get_figheight())
-    figure.text(left, top, shown.plan.title, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
+    figure.text(left, top, shown.plan.heading, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
     if held:
         figure.text(1.0 - RIGHT / WIDTH, top, f"at {held}", fontsize=style.TEXT, color=style.MUTED, va="center", ha="right")
     values = [float(shown.strokes[moving].ravel()[pose]) for pose in scene.reached]

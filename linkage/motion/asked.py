@@ -24,7 +24,8 @@ def named(kind: str, target: Any, known: Iterable[str], title: str) -> str:
 def rates_of(what: str, given: Any, strokes: Mapping[str, FloatArray], shape: tuple[int, ...], title: str) -> dict[str, FloatArray]:
     """Return the stroke rates by name, a float or an array over the poses; DefinitionError for anything else."""
     if not isinstance(given, Mapping):
-        raise DefinitionError(f"{title}: {what}={given!r}: a value for each stroke is expected, such as {what}=dict({next(iter(strokes), 'S')}=0.05).")
+        example = f"{what}=dict({next(iter(strokes), 'S')}=0.05)"
+        raise DefinitionError(f"{title}: {what}={given!r}: a value for each stroke is expected, such as {example}.")
     return {named("Stroke", name, strokes, title): rate_of(f"{what}: {name}", value, shape, title) for name, value in given.items()}
 
 

@@ -106,7 +106,8 @@ class Motion(Outputs):
             text = f'{what} is refused {where}: differences do not settle so near a dead point. Ask for method="exact".'
             raise SingularError(text, mask=useless, motion=self)
         if lost > numeric.WARN:
-            warnings.warn(f"{what} is off by up to about {lost:.0e} of its greatest value; the exact one is not.", SingularWarning, stacklevel=3)
+            text = f"{what} is off by up to about {lost:.0e} of its greatest value; the exact one is not."
+            warnings.warn(text, SingularWarning, stacklevel=3)
         return np.where(useless, np.nan, found)
 
     def _singular(self, member: Member, what: str, order: int = 1) -> Mask:

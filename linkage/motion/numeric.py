@@ -19,7 +19,9 @@ STEPS = 14
 FIRST = 8e-2
 WARN = 1e-6
 """The relative error above which a numerical derivative warns."""
-STILL = {1: 1e-3, 2: 1e-2}
+USELESS = 1e-3
+"""The error, against the greatest value of all poses, above which a derivative as uncertain as it is large is refused."""
+STILL = {1: 1e-3, 2: 1e-1}
 """By order: a derivative this much smaller than value over span counts as none, only rounding is left of its differences."""
 ROUNDING = 4 * np.finfo(float).eps
 
@@ -83,6 +85,6 @@ def losses(found: FloatArray, error: FloatArray, still: float, axes: int) -> tup
     components = tuple(range(found.ndim - axes))
     local, off = np.max(np.abs(found), axis=components), np.max(error, axis=components)
     size = float(np.max(local, initial=still, where=np.isfinite(local)))
-    useless = np.isfinite(local) & (off > 0.1 * local) & (off > WARN * size)
+    useless = np.isfinite(local) & (off > 0.1 * local) & (off > USELESS * size)
     kept = np.where(np.isfinite(local) & ~useless, off, 0.0)
     return useless, float(np.max(kept, initial=0.0)) / size if size else 0.0

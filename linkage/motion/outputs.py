@@ -64,7 +64,8 @@ class Outputs(Places):
         missing = ~good & self.reached & ~excused
         if missing.any() and self.unreachable == "raise":
             where = reach.where_words(self.plan, missing, self.strokes)
-            raise SingularError(f'{what} has no finite value {where}. Leave these poses out, or ask with unreachable="nan".', mask=missing, motion=self)
+            text = f'{what} has no finite value {where}. Leave these poses out, or ask with unreachable="nan".'
+            raise SingularError(text, mask=missing, motion=self)
         return np.where(good, values, np.nan)
 
     def x(self, point: Target) -> FloatArray:

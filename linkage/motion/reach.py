@@ -37,6 +37,7 @@ def negative(plan: Plan, reading: ArrayReading, shape: tuple[int, ...], point: s
     return mask
 
 
+@np.errstate(all="ignore")
 def refusal(plan: Plan, reading: ArrayReading, mask: Mask, strokes: Mapping[str, Any], stop: str = "") -> AssemblyError:
     """Return the error for poses that cannot be assembled.
 
@@ -67,7 +68,8 @@ def coinciding_words(plan: Plan, name: str, reading: ArrayReading) -> tuple[str,
     if len(names) == 2 and set(names) <= set(plan.points):
         base = reading.at(names[1]) - reading.at(names[0])
         if np.any((base.x == 0.0) & (base.y == 0.0)):
-            return f"{names[0]} and {names[1]} coincide there, so that no direction goes from one to the other. Move one of them.", float("nan")
+            words = f"{names[0]} and {names[1]} coincide there, so that no direction goes from one to the other. Move one of them."
+            return words, float("nan")
     return None
 
 

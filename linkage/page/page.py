@@ -27,7 +27,7 @@ def page(motion: Motion, column: Column, paths: Sequence[str] = (), limit: Seque
     curve = chart(motion, column, limit)
     moving = curve["stroke"]["name"]
     data = {
-        "title": motion.plan.title,
+        "title": motion.plan.heading,
         "turn": is_turn,
         "held": strokes.held(motion.plan, motion.strokes, moving),
         "reached": scene.reached,
@@ -35,7 +35,7 @@ def page(motion: Motion, column: Column, paths: Sequence[str] = (), limit: Seque
         "chart": curve,
     }
     parts = {
-        "TITLE": escape(motion.plan.title),
+        "TITLE": escape(motion.plan.heading),
         "STROKE": escape(moving),
         "COLOURS": "".join(f"--{name.lower()}:{getattr(style, name)};" for name in COLOURS),
         "CSS": text("player.css"),

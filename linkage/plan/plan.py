@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, TypeVar
@@ -67,6 +68,7 @@ class Plan:
     def _check_kinds(self) -> None:
         """Raise DefinitionError where a point, a vector or a quantity stands in the place of another kind."""
         for name, member in self.members.items():
+            member.examine(self.members, self.title)
             for part in self.with_parts(name):
                 for length in part.lengths():
                     if isinstance(length, Number) and not length.number > 0.0:
@@ -77,7 +79,8 @@ class Plan:
                     if reference is not None and found.kind != kind:
                         raise DefinitionError(f"{self.title}: {name} = {member}: {found.name or found} is not a {kind}.")
             if isinstance(member, Ground) and self.moves(member):
-                raise DefinitionError(f"{self.title}: {name} = {member} follows a stroke, but is fixed; drive a point by OnGuide, Dyad or Crank.")
+                text = f"{self.title}: {name} = {member} follows a stroke, but is fixed; drive a point by OnGuide, Dyad or Crank."
+                raise DefinitionError(text)
 
     # -- what moves with what --------------------------------------------------------------------------
 
@@ -228,6 +231,11 @@ class Plan:
     def moving(self) -> tuple[str, ...]:
         """The points that are not fixed."""
         return tuple(name for name in self.points if name not in self.ground)
+
+    @property
+    def heading(self) -> str:
+        """The title as words, for pictures: `MowerLift` is `Mower lift`."""
+        return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", self.title).capitalize()
 
     def named(self) -> list[str]:
         """Return the names that have a value: points, vectors and quantities."""

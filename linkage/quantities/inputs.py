@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ..errors import DefinitionError, unknown
 from ..units import UNITS
 from ..vectors import Scalar
-from .numbers import is_number
+from .numbers import is_number, plain
 from .quantity import Quantity
 from .where import Where
 
@@ -23,6 +23,8 @@ class Stroke(Quantity):
         for value in (self.start, self.end):
             if not is_number(value):
                 raise DefinitionError(f"Stroke({self.start}, {self.end}): both ends must be finite numbers.")
+        object.__setattr__(self, "start", plain(self.start))
+        object.__setattr__(self, "end", plain(self.end))
         if self.start == self.end:
             raise DefinitionError(f"Stroke({self.start}, {self.end}) has no length: give two different ends.")
 
@@ -43,6 +45,7 @@ class Dimension(Quantity):
     def __post_init__(self) -> None:
         if not is_number(self.default):
             raise DefinitionError(f"Dimension({self.default!r}): a finite number is expected.")
+        object.__setattr__(self, "default", plain(self.default))
         if self.unit and self.unit not in UNITS:
             raise unknown("Unit", self.unit, UNITS, where=str(self))
 

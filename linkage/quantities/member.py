@@ -47,6 +47,9 @@ class Member:
         """Return the quantities that stand for lengths in this member, beside its labels: none may be negative."""
         return ()
 
+    def examine(self, members: Any, title: str) -> None:
+        """Raise DefinitionError for what only the whole class tells to be wrong: its members by name, its title."""
+
     def sides(self, where: Any) -> tuple[tuple[str, Any], ...]:
         """Return the triangle this member closes, as labelled lengths [m]; empty where it closes none."""
         return ()

@@ -19,6 +19,11 @@ def is_number(value: Any) -> bool:
         return False
 
 
+def plain(value: Any) -> Any:
+    """Return NumPy's number as Python's own, which prints as it is written in a class."""
+    return value.item() if isinstance(value, np.generic) else value
+
+
 def real(value: Any) -> npt.NDArray[np.float64]:
     """Return a value as a new array of floats; raise ValueError for anything but real numbers."""
     array = np.asarray(value)

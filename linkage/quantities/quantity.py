@@ -102,7 +102,8 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
 }
 OPERATORS: dict[str, Callable[[Any, Any], Any]] = {"*": operator.mul, "/": operator.truediv, "**": operator.pow}
 UFUNCS = {"add": "+", "subtract": "-", "multiply": "*", "true_divide": "/", "divide": "/", "power": "**"}
-BINDS = {"*": 2, "/": 2, "**": 3}
+BINDS = {"*": (2, 2, 3), "/": (2, 2, 3), "**": (3, 4, 4)}
+"""How strongly an operator binds, and how strongly its left and its right side must, to stand without brackets."""
 
 
 def quantity(value: Operand) -> Quantity:
@@ -136,6 +137,11 @@ class Number(Quantity):
     @property
     def is_constant(self) -> bool:
         return True
+
+    @property
+    def binds(self) -> int:
+        """A number with a sign is bracketed under a power only."""
+        return 3 if str(self).startswith("-") else 9
 
     def __str__(self) -> str:
         return repr(self.number)
@@ -202,7 +208,7 @@ class Sum(Quantity):
     def __str__(self) -> str:
         if isinstance(self.b, Negative) and not self.b.name:
             return f"{spelled(self.a, 1)} - {spelled(self.b.a, 2)}"
-        return f"{spelled(self.a, 1)} + {spelled(self.b, 1)}"
+        return f"{spelled(self.a, 1)} + {spelled(self.b, 2)}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -223,7 +229,7 @@ class Negative(Quantity):
         return cos, -sin
 
     def __str__(self) -> str:
-        return f"-{spelled(self.a, 2)}"
+        return f"-{spelled(self.a, 3)}"
 
 
 class Operation(Quantity):
@@ -231,7 +237,7 @@ class Operation(Quantity):
 
     def __init__(self, symbol: str, a: Quantity, b: Quantity) -> None:
         self.symbol, self.a, self.b = symbol, a, b
-        self.binds = BINDS[symbol]
+        self.binds, self.left, self.right = BINDS[symbol]
 
     def parts(self) -> tuple[Reference, ...]:
         return self.a, self.b
@@ -240,7 +246,7 @@ class Operation(Quantity):
         return OPERATORS[self.symbol](where.value(self.a), where.value(self.b))
 
     def __str__(self) -> str:
-        return f"{spelled(self.a, self.binds)} {self.symbol} {spelled(self.b, self.binds + 1)}"
+        return f"{spelled(self.a, self.left)} {self.symbol} {spelled(self.b, self.right)}"
 
 
 class Function(Quantity):

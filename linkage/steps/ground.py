@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..errors import DefinitionError
-from ..quantities import Number, Quantity, Reference, Where, quantity
+from ..quantities import Number, Quantity, Reference, Where, quantity, spelled
 from ..vectors import Vec
 from .labels import Claims
 from .step import Point
@@ -37,4 +37,4 @@ class Ground(Point):
         return Vec(*(where.input(name) if value.is_constant else where.value(value) for name, value in self.coordinates()))
 
     def __str__(self) -> str:
-        return f"Ground({self.x}, {self.y})"
+        return f"Ground({spelled(self.x)}, {spelled(self.y)})"

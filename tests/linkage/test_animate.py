@@ -206,8 +206,8 @@ def test_a_page_escapes_what_it_shows():
     text = page(motion, Column("a<b", motion["psi"], "deg"), limit=(1.0, "</script>"))
     assert text.count("</script>") == 2
     assert "<b>" not in text
-    assert "<h1>&lt;/script&gt;&lt;b&gt;{{JS}}&amp;</h1>" in text
-    assert data_of(text)["title"] == "</script><b>{{JS}}&"
+    assert "<h1>&lt;/script&gt;&lt;b&gt;{{js}}&amp;</h1>" in text
+    assert data_of(text)["title"] == "</script><b>{{js}}&"
     assert data_of(text)["chart"]["column"]["heading"] == "a<b, deg"
 
 

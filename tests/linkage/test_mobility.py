@@ -3,7 +3,23 @@
 import numpy as np
 import pytest
 
-from linkage import LEFT, RIGHT, Crank, DefinitionError, Dyad, Ground, Guide, Link, Mechanism, OnLink, Pin, Slide, SliderDyad, Stroke, grashof
+from linkage import (
+    LEFT,
+    RIGHT,
+    Crank,
+    DefinitionError,
+    Dyad,
+    Ground,
+    Guide,
+    Link,
+    Mechanism,
+    OnLink,
+    Pin,
+    Slide,
+    SliderDyad,
+    Stroke,
+    grashof,
+)
 
 
 class Parallelogram(Mechanism):

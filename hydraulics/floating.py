@@ -1,0 +1,131 @@
+"""A closed line of cylinders and accumulators: its pressure over the stroke, with the seals' friction. Gauge pressures [Pa].
+
+As the cylinder works outwards its fluid comes from the block and the pressure falls; pushed back, it grows. Seals act
+against the motion: the pressure that acts is lower by their friction in the working direction, higher in the other.
+Source: Rekhlitski, Chuprynin (2013), (36), (37), (39).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, ClassVar, TypeAlias, final
+
+import numpy as np
+
+from linkage.errors import DefinitionError
+from linkage.loads import ForceElement, Load, Poses
+from linkage.motion import Motion
+from linkage.plan import ArrayReading
+from linkage.quantities import Distance, Reference, label, name_of
+
+from .accumulator import AccumulatorBlock
+from .inputs import Array, finite
+from .lift import drive
+from .member import Cylinder, found_in, is_named, the_cylinder
+
+Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class FloatCircuit(ForceElement):
+    """A cylinder on a closed accumulator block: `FloatCircuit(lift, block, charge_pressure=94 * kgf_cm2, at=h_horizon)`.
+
+    The line has `charge_pressure` [Pa gauge] where the stroke that drives the cylinder is `at` [m]; `seal_friction` is what
+    the seals take off that pressure [Pa]. `block` is an AccumulatorBlock, or a function of the motion that returns one,
+    where its charges or volumes are design variables.
+    """
+
+    cylinder: Reference
+    block: Block
+    charge_pressure: Any
+    at: Any = 0.0
+    seal_friction: Any = 0.0
+    places: ClassVar[tuple[str, ...]] = ()
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"charge_pressure": "bar", "at": "m", "seal_friction": "bar"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not (isinstance(self.block, AccumulatorBlock) or callable(self.block)):
+            raise DefinitionError(f"{self}: block={self.block!r} is no AccumulatorBlock; write AccumulatorBlock([Accumulator(...)]).")
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (*([self.cylinder] if is_named(self.cylinder) else []), *super().parts())
+
+    def check(self, members: Mapping[str, Any], title: str) -> None:
+        if is_named(self.cylinder):
+            found_in(members, self.cylinder, f"{title}.{self.name}")
+
+    def __str__(self) -> str:
+        given = ", ".join(f"{name}={getattr(self, name)!s}" for name in self.parameters)
+        return f"FloatCircuit({label(self.cylinder)}, block, {given})"
+
+    def ram(self, motion: Poses) -> Cylinder:
+        """Return its cylinder, as the motion's class has it."""
+        return the_cylinder(motion, self.cylinder)
+
+    def accumulators(self, motion: Poses) -> AccumulatorBlock:
+        """Return its block, as the motion's designs have it."""
+        return self.block(motion) if callable(self.block) else self.block
+
+    # -- over the stroke -----------------------------------------------------------------------------------
+
+    def withdrawn(self, motion: Poses) -> Array:
+        """Return the fluid [m3] that has left the block since the charging stroke, shape (...); negative: pushed in. (36)"""
+        ram = self.ram(motion)
+        size = ram.sized(motion)
+        charged = length_at(_motion(motion), ram, self.number(motion, "at"))
+        return np.asarray((motion.distance(ram.A, ram.B) - charged) * size.area * size.sense)
+
+    def pressure(self, motion: Poses) -> Array:
+        """Return the block's pressure [Pa gauge], shape (...); 0 where the line is empty."""
+        charge = finite(self.number(motion, "charge_pressure"), "Charge pressure")
+        return self.accumulators(motion).pressure(charge, self.withdrawn(motion))
+
+    def thrust(self, motion: Poses, sense: int = 0) -> Array:
+        """Return the thrust [N], shape (...): frictionless, or while the drive goes on (`sense` 1) or back (-1). (37), (39)"""
+        size = self.ram(motion).sized(motion)
+        friction = finite(self.number(motion, "seal_friction"), "Seal friction") * size.area
+        return np.asarray(size.thrust(self.pressure(motion)) - self._extends(motion, sense) * friction)
+
+    def _extends(self, motion: Poses, sense: int) -> Array:
+        """Return 1 where the cylinder comes out while the drive goes on (`sense` 1) or back (-1), -1 where it goes in, else 0."""
+        if sense == 0:
+            return np.zeros(())
+        ram = self.ram(motion)
+        moved = _motion(motion)
+        return np.asarray(sense * np.sign(moved.ratio(Distance(ram.A, ram.B), wrt=drive(moved, ram))))
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return self.moving(motion, 0)
+
+    def moving(self, motion: Poses, sense: int) -> list[Load]:
+        ram = self.ram(motion)
+        A, B = name_of(ram.A), name_of(ram.B)
+        push = (motion[B] - motion[A]) / motion.distance(A, B) * self.thrust(motion, sense)
+        return [Load(A, -push), Load(B, push)]
+
+
+def length_at(motion: Motion, ram: Cylinder, at: Array) -> Array:
+    """Return a cylinder's length [m] where the stroke that drives it is `at`, the other strokes as they are; broadcasts."""
+    plan, stroke = motion.plan, drive(motion, ram)
+    reading = ArrayReading(plan.members, plan.table.lengths, motion.inputs | {stroke: at})
+    length = plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
+    if length is not None:
+        return np.asarray(reading.value(length))
+    if plan.groups:
+        raise DefinitionError(f"{ram}: its length follows from a group of links; declare it by a step, AB=... + {stroke}.")
+    with np.errstate(all="ignore"):
+        found = np.asarray((reading.at(name_of(ram.B)) - reading.at(name_of(ram.A))).length(), float)
+    if not np.all(np.isfinite(found)):
+        raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {stroke} = {np.ravel(at)[0]:.6g}.")
+    return found
+
+
+def _motion(poses: Poses) -> Motion:
+    if not isinstance(poses, Motion):
+        raise DefinitionError("A FloatCircuit needs a Motion: machine.sweep(...) or machine.at(...).")
+    return poses

@@ -1,0 +1,121 @@
+"""What is written: a class as it is declared, or an instance with its dimensions as the new defaults."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from copy import copy
+from itertools import permutations
+from typing import Any
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..mechanism import Mechanism, declared
+from ..quantities import Member, Number, Quantity, name_of, quantity, spelled
+from ..steps import Link, Pin, Step
+from ..units import deg, parse
+from .expression import arrow, expression
+from .names import Names
+
+
+class Design:
+    """The values that a mechanism's members have, as a file holds them: numbers, and expressions as text."""
+
+    def __init__(self, machine: type[Mechanism] | Mechanism, names: Names) -> None:
+        self.plan, self.names = machine.plan, names
+        self.set: Mapping[str, Any] = changed(machine) if isinstance(machine, Mechanism) else {}
+        self.machine = machine
+        self.written: set[str] = set()
+
+    def variable(self, name: str, given: Quantity) -> float | str:
+        """Return the value of a design variable, or the expression that stands in its place."""
+        if not isinstance(given, Number):
+            return self.scalar(given)
+        self.written.add(name)
+        return float(self.set.get(name, given.number))
+
+    def label(self, spelling: str, given: Any) -> float | str:
+        """Return the value of a label [SI], or the expression that stands for it."""
+        value = quantity(given)
+        if not isinstance(value, Number) or spelling not in self.plan.table.spellings:
+            return self.scalar(value)
+        owner, sign = self.plan.table.spellings[spelling]
+        self.written.add(owner)
+        found = sign * float(self.set[owner]) if owner in self.set else value.number
+        return in_degrees(found) if self.plan.table.entries[owner].kind == "angle" else found
+
+    def scalar(self, given: Quantity) -> float | str:
+        """Return a quantity as a number or as text that reads back as the same; DefinitionError where there is none."""
+        if isinstance(given, Number):
+            return given.number
+        return self.text(spelled(given))
+
+    def text(self, text: str) -> str:
+        """Return an expression's text; DefinitionError unless it reads back as the same."""
+        if str(expression(text, self.names)) != text:
+            raise DefinitionError(f"the expression {text} does not read back as it is; give its parts names of their own.")
+        return text
+
+    def arrow(self, given: Member | str) -> str:
+        """Return a vector as text, or its name."""
+        text = given if isinstance(given, str) else given.name or str(given)
+        if str(arrow(text, self.names)) != text:
+            raise DefinitionError(f"the vector {text} does not read back as it is; give its parts names of their own.")
+        return text
+
+
+def in_degrees(value: float) -> float | str:
+    """Return an angle [rad] as text in degrees where that is short and reads back as the same, else as it is."""
+    text = f"{value / deg:.9g} deg"
+    return text if isinstance(value, float) and value and parse(text) == value else value
+
+
+def changed(machine: Mechanism) -> dict[str, float]:
+    """Return the dimensions of an instance that are not its class's [SI]; DefinitionError for a batch of designs."""
+    many = [name for name, value in machine.dimensions.items() if np.ndim(value)]
+    if many:
+        raise DefinitionError(f"{machine.plan.title}: {many[0]} has several values; a file holds one design.")
+    return {name: value for name, value in machine.dimensions.items() if value != machine.plan.defaults[name]}
+
+
+def members_of(machine: type[Mechanism] | Mechanism) -> dict[str, Member]:
+    """Return the members to write, in the order they are declared.
+
+    An instance with changed dimensions has moved away from its sketch: sides are said, pins stand where they are now.
+    """
+    if not isinstance(machine, Mechanism):
+        return declared(machine)
+    members = declared(type(machine))
+    return {name: settled(name, member, machine) for name, member in members.items()} if changed(machine) else members
+
+
+def settled(name: str, member: Member, machine: Mechanism) -> Member:
+    """Return a member that no longer needs the sketch of its class."""
+    if isinstance(member, Step) and (member.near or member.drawn_at):
+        found = copy(machine.plan.members[name])
+        assert isinstance(found, Step)
+        found.near = found.drawn_at = None
+        return found
+    if isinstance(member, Pin):
+        strokes: dict[str, Any] = dict(machine.plan.sketch_strokes)
+        x, y = machine.at(**strokes)[name]
+        return Pin(near=(float(x), float(y)))
+    return member
+
+
+def measured(design: Design, members: Mapping[str, Member]) -> dict[str, dict[str, float]]:
+    """Return the labels that the class measured from its drawing, by the link that they belong to [m, rad]."""
+    found: dict[str, dict[str, float]] = {}
+    for label, entry in design.plan.table.entries.items():
+        if label not in design.written and entry.kind in ("length", "angle"):
+            owner = next((name for name, member in members.items() if isinstance(member, Link) and joined(label, member)), "")
+            if not owner:
+                raise DefinitionError(f"{label} was measured from the drawing and belongs to no link; give it in the class.")
+            found.setdefault(owner, {})[label] = float(design.set.get(label, entry.default))
+    return found
+
+
+def joined(label: str, link: Link) -> bool:
+    """Return whether a label is made of a link's own points."""
+    names = [name_of(point) for point in link.points]
+    return label in {"".join(several) for count in (2, 3) for several in permutations(names, count)}

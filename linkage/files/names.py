@@ -1,0 +1,51 @@
+"""The names a file declares, with what each of them is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from keyword import iskeyword
+from unicodedata import normalize
+
+from ..errors import DefinitionError, unknown
+from .limits import NAME_LENGTH
+
+
+@dataclass(frozen=True)
+class Names:
+    """The members of a file by name: the section each stands in, and its kind (`point`, `quantity`, `guide`, ...)."""
+
+    sections: Mapping[str, str]
+    kinds: Mapping[str, str]
+
+    def checked(self, name: object, kind: str) -> str:
+        """Return a name that stands for a member of a kind; DefinitionError, with those there are, for any other."""
+        if not isinstance(name, str):
+            raise DefinitionError(f"{shortened(name)} stands where the name of a {kind} is expected.")
+        if name not in self.kinds:
+            raise unknown(kind.capitalize(), shortened(name, quote=False), self.of_kind(kind))
+        if self.kinds[name] != kind:
+            raise DefinitionError(f"{name} of [{self.sections[name]}] is not a {kind}.")
+        return name
+
+    def of_kind(self, kind: str) -> list[str]:
+        """Return the names of a kind."""
+        return [name for name, each in self.kinds.items() if each == kind]
+
+
+def member_name(name: object) -> str:
+    """Return a name that a class could bind; DefinitionError for any other."""
+    if not isinstance(name, str) or not name.isidentifier() or iskeyword(name):
+        raise DefinitionError(f"{shortened(name)} is not a name: letters, digits and _, no digit first, no word of Python.")
+    if name.startswith("__") or len(name) > NAME_LENGTH:
+        raise DefinitionError(f"{shortened(name)} cannot be a name here: up to {NAME_LENGTH} characters, no double _ at the start.")
+    if normalize("NFKC", name) != name:
+        raise DefinitionError(f"{name!r} is spelled with look-alike letters; write {normalize('NFKC', name)!r}.")
+    return name
+
+
+def shortened(value: object, quote: bool = True) -> str:
+    """Return a value as text for a message: not too long, in one line, nothing unprintable."""
+    text = ascii(value) if isinstance(value, str) and not value.isprintable() else repr(value)
+    text = text if quote or not isinstance(value, str) else text[1:-1]
+    return text if len(text) <= NAME_LENGTH else f"{text[:NAME_LENGTH]}..."

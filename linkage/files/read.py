@@ -1,0 +1,163 @@
+"""From tables to a class of mechanism: every entry checked by itself first, then the class as a whole."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from pydantic import BaseModel
+
+from ..errors import AssemblyError, DefinitionError, FileError
+from ..mechanism import Mechanism
+from ..quantities import Member
+from .entry import Entry
+from .faults import Faults, Key
+from .limits import MEMBERS
+from .names import Names, member_name, shortened
+from .registry import registry
+from .source import source
+
+HEAD = ("name", "doc", "order")
+
+
+def load(path_or_text: str | os.PathLike[str]) -> type[Mechanism]:
+    """Return the class of mechanism that a TOML or JSON file says; a text is read as such where it has several lines or begins with `{`.
+
+    Raises FileError with every mistake, its key and, in TOML, its line; AssemblyError for a mechanism that cannot be assembled.
+    """
+    found = source(path_or_text)
+    return built(found.data, Faults(found.name, found.line_of))
+
+
+def from_dict(data: Mapping[str, Any]) -> type[Mechanism]:
+    """Return the class of mechanism that tables say, as `load` has them from a file. Errors are those of `load`."""
+    return built(data, Faults("the tables", lambda key: 0))
+
+
+def built(data: Any, faults: Faults) -> type[Mechanism]:
+    """Return the class that the tables say."""
+    sections = sections_of(data, faults)
+    title, doc = head(data, faults)
+    names = names_of(sections, faults)
+    members = members_of(sections, names, title, faults)
+    order = ordered(data.get("order", []), names, faults)
+    faults.check()
+    return made(title, doc, {name: members[name] for name in order}, names, faults)
+
+
+# -- the tables --------------------------------------------------------------------------------------------
+
+
+def sections_of(data: Any, faults: Faults) -> dict[str, Mapping[str, Any]]:
+    """Return the sections with their entries; what is no section is noted."""
+    if not isinstance(data, Mapping):
+        raise FileError(f"{faults.source}: a table of sections is expected, not {type(data).__name__}.")
+    known = registry().sections
+    found: dict[str, Mapping[str, Any]] = {}
+    for key, value in data.items():
+        if key in known and isinstance(value, Mapping):
+            found[key] = value
+        elif key not in HEAD:
+            what = "must be a table of members" if key in known else f"is not a section; there are {', '.join([*HEAD, *known])}"
+            faults.add((str(key),), f"{what}.")
+    return found
+
+
+def head(data: Mapping[str, Any], faults: Faults) -> tuple[str, str | None]:
+    """Return the class's name and its docstring."""
+    title, doc = data.get("name"), data.get("doc")
+    with faults.at("name"):
+        if title is None:
+            raise DefinitionError('the name of the mechanism is missing; begin with name = "ThreePointHitch".')
+        member_name(title)
+    if doc is not None and not (isinstance(doc, str) and all(each.isprintable() or each in "\n\t" for each in doc)):
+        faults.add(("doc",), f"{shortened(doc)} is not a text of printable characters.")
+    return str(title), doc
+
+
+def names_of(sections: Mapping[str, Mapping[str, Any]], faults: Faults) -> Names:
+    """Return all names with their sections and kinds; bad, double and too many ones are noted."""
+    count = sum(map(len, sections.values()))
+    if count > MEMBERS:
+        raise FileError(f"{faults.source}: {count} members are too many; up to {MEMBERS} are read.")
+    found: dict[str, str] = {}
+    for section, entries in sections.items():
+        for name in entries:
+            with faults.at(section, str(name)):
+                member_name(name)
+                if name in found or name in vars(Mechanism):
+                    taken = f"stands in [{found[name]}] too" if name in found else "is a word of the framework"
+                    raise DefinitionError(f"{name} {taken}; give it another name.")
+                found[name] = section
+    return Names(found, {name: registry().kind(section) for name, section in found.items()})
+
+
+def ordered(order: Any, names: Names, faults: Faults) -> list[str]:
+    """Return the names in the order that the file says; those it does not mention stand behind."""
+    given = order if isinstance(order, list) and all(isinstance(each, str) for each in order) else [None]
+    unknown = [shortened(each) for each in given if each not in names.sections]
+    if unknown or len(set(given)) < len(given):
+        faults.add(("order",), f"a list of names is expected, each once; {', '.join(unknown[:3]) or 'one'} is not such a name.")
+        return []
+    return list(dict.fromkeys([*given, *names.sections]))
+
+
+# -- the members -------------------------------------------------------------------------------------------
+
+
+def members_of(sections: Mapping[str, Mapping[str, Any]], names: Names, title: str, faults: Faults) -> dict[str, Member]:
+    """Return the members by name, each sound by itself; the mistakes of the others are noted."""
+    found: dict[str, Member] = {}
+    for section, entries in sections.items():
+        for name, given in entries.items():
+            if names.sections.get(name) != section:
+                continue
+            with faults.at(section, name), np.errstate(all="ignore"):
+                kind = registry().reading(section, given)
+                found[name] = member_of(kind, name, given, names, title)
+    return found
+
+
+def member_of(kind: type[Entry], name: str, given: Any, names: Names, title: str) -> Member:
+    """Return one member, with its name, checked by itself."""
+    entry: BaseModel = kind.model_validate(given, context=names)
+    assert isinstance(entry, Entry)
+    member = entry.member()
+    member.__set_name__(Mechanism, name)
+    kind.checked(name, member, title)
+    return member
+
+
+# -- the class ---------------------------------------------------------------------------------------------
+
+
+def made(title: str, doc: str | None, members: Mapping[str, Member], names: Names, faults: Faults) -> type[Mechanism]:
+    """Return the class with these members; what is wrong with it as a whole comes with the file's name and key."""
+    try:
+        with np.errstate(all="ignore"):
+            machine: type[Mechanism] = type(title, (Mechanism,), {"__module__": __name__, "__doc__": doc, **members})
+            for name in machine.plan.named():
+                machine.plan.nodes(name)
+        return machine
+    except DefinitionError as error:
+        faults.add(key_of(str(error), names), str(error))
+        raise FileError(faults.text()) from error
+    except AssemblyError as error:
+        faults.add((names.sections[error.point], error.point) if error.point in names.sections else (), str(error))
+        raise type(error)(faults.text(), point=error.point, mask=error.mask, shortfall=error.shortfall) from error
+    except RecursionError:
+        raise FileError(f"{faults.source}: expressions hang on each other in too long a chain; shorten it.") from None
+    except ArithmeticError as error:
+        raise FileError(f"{faults.source}: a value overflows or is divided by zero ({error}); look for extreme numbers.") from error
+
+
+def key_of(message: str, names: Names) -> Key:
+    """Return the key of the member that a message speaks of first; empty where it names none."""
+    for name in re.findall(r"(\w+)(?= = )|(?<=\.)(\w+)(?=:)|(\w+)", message):
+        word = next(filter(None, name))
+        if word in names.sections:
+            return names.sections[word], word
+    return ()

@@ -1,0 +1,99 @@
+"""From a file or a text to plain tables: TOML by the standard library, JSON without its loopholes."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import tomllib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..errors import FileError
+from .limits import FILE_BYTES
+from .lines import line_of, lines
+
+TEXT = "the text"
+
+
+@dataclass(frozen=True)
+class Source:
+    """A file's tables, the name it is spoken of by, and where its keys stand."""
+
+    name: str
+    data: Any
+    places: Mapping[tuple[str, ...], int]
+
+    def line_of(self, key: tuple[str, ...]) -> int:
+        """Return the line of a key, 0 where it is not known."""
+        return line_of(self.places, key)
+
+
+def source(path_or_text: str | os.PathLike[str]) -> Source:
+    """Return what a file holds, or a text: one that has several lines or begins with `{`. FileError for what cannot be read."""
+    if not isinstance(path_or_text, (str, os.PathLike)):
+        raise FileError(f"a path or a text is expected, not {type(path_or_text).__name__}.")
+    if isinstance(path_or_text, str) and ("\n" in path_or_text or path_or_text.lstrip().startswith("{")):
+        encoded = path_or_text.encode("utf-8", "surrogatepass")
+        return decoded(TEXT, encoded, path_or_text.lstrip().startswith("{"))
+    path = Path(path_or_text)
+    if path.suffix not in (".toml", ".json"):
+        raise FileError(f"{path.name}: the name of a mechanism's file ends in .toml or .json.")
+    return decoded(path.name, content(path), path.suffix == ".json")
+
+
+def content(path: Path) -> bytes:
+    """Return a file's bytes; FileError where it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            return file.read(FILE_BYTES + 1)
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        raise FileError(f"{path}: {reason}.") from None
+
+
+def decoded(name: str, raw: bytes, is_json: bool) -> Source:
+    """Return the tables that some bytes say; FileError, with the line, for what is neither TOML nor JSON."""
+    if len(raw) > FILE_BYTES:
+        raise FileError(f"{name}: the file is larger than {FILE_BYTES / 1e6:g} MB; a mechanism's file is a few kB.")
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = raw.count(b"\n", 0, error.start) + 1
+        raise FileError(f"{name}, line {line}: the file is not UTF-8 text; save it in that encoding.") from None
+    parse: Callable[[str], Any] = from_json if is_json else tomllib.loads
+    try:
+        return Source(name, parse(text), {} if is_json else lines(text))
+    except RecursionError:
+        raise FileError(f"{name}: lists or tables are nested too deeply; a mechanism's file needs three levels.") from None
+    except ValueError as error:
+        raise FileError(located(name, str(error))) from None
+
+
+def located(name: str, message: str) -> str:
+    """Return a parser's message with its line in front."""
+    match = re.search(r"\s*\(?:?\s*\(?(?:at )?line (\d+)[,:]? column \d+(?: \(char \d+\))?\)?", message)
+    if match is None:
+        return f"{name}: {message}."
+    return f"{name}, line {match.group(1)}: {(message[: match.start()] + message[match.end() :]).strip()}."
+
+
+def from_json(text: str) -> Any:
+    """Return what a JSON text says; ValueError for NaN, infinities and keys that stand twice."""
+    return json.loads(text, parse_constant=refused, object_pairs_hook=unique)
+
+
+def refused(word: str) -> Any:
+    """Raise ValueError: it is no number of JSON."""
+    raise ValueError(f"{word} is not a number")
+
+
+def unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return a table; ValueError for a key that stands twice."""
+    table = dict(pairs)
+    if len(table) < len(pairs):
+        keys = [key for key, _ in pairs]
+        raise ValueError(f"the key {next(key for key in keys if keys.count(key) > 1)!r} stands twice")
+    return table

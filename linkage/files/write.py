@@ -1,0 +1,77 @@
+"""From a mechanism to tables, and from tables to text."""
+
+from __future__ import annotations
+
+import os
+from inspect import cleandoc
+from pathlib import Path
+from typing import Any
+
+from ..errors import DefinitionError, FileError
+from ..mechanism import Mechanism
+from .design import Design, measured, members_of
+from .json_text import json_text
+from .names import Names
+from .registry import registry
+from .toml_text import toml_text
+
+Machine = type[Mechanism] | Mechanism
+
+
+def to_dict(machine: Machine) -> dict[str, Any]:
+    """Return a mechanism as tables of plain values; an instance's changed dimensions are the new defaults.
+
+    Raises DefinitionError for what a file cannot hold: several designs at once, members and functions of unknown kinds.
+    """
+    members = members_of(machine)
+    entries = {name: registry().writing(member) for name, member in members.items()}
+    sections = {name: entry.section for name, entry in entries.items()}
+    design = Design(machine, Names(sections, {name: registry().kind(section) for name, section in sections.items()}))
+    tables: dict[str, dict[str, Any]] = {section: {} for section in dict.fromkeys(sections.values())}
+    for name, member in members.items():
+        tables[sections[name]][name] = written(name, entries[name].written, member, design)
+    if design.set:
+        for name, labels in measured(design, members).items():
+            tables[sections[name]][name] |= labels
+    names = [name for table in tables.values() for name in table]
+    return head(machine, [] if names == list(members) else list(members)) | tables
+
+
+def written(name: str, write: Any, member: Any, design: Design) -> Any:
+    """Return a member's entry; DefinitionError, with its name, where there is none."""
+    try:
+        return write(member, design)
+    except DefinitionError as error:
+        raise DefinitionError(f"{design.plan.title}.{name} cannot be written into a file: {error}") from error
+
+
+def head(machine: Machine, order: list[str]) -> dict[str, Any]:
+    """Return what stands above the sections: name, docstring, and the members' order where the sections do not keep it."""
+    cls = type(machine) if isinstance(machine, Mechanism) else machine
+    doc = cleandoc(cls.__doc__ or "")
+    if not all(each.isprintable() or each in "\n\t" for each in doc):
+        raise DefinitionError(f"{cls.__name__}: its docstring holds characters that cannot be printed; take them out.")
+    return {"name": cls.__name__} | ({"doc": doc} if doc else {}) | ({"order": order} if order else {})
+
+
+def to_toml(machine: Machine) -> str:
+    """Return a mechanism as TOML text; numbers are exact. DefinitionError for what a file cannot hold."""
+    return toml_text(to_dict(machine))
+
+
+def to_json(machine: Machine) -> str:
+    """Return a mechanism as JSON text; numbers are exact. DefinitionError for what a file cannot hold."""
+    return json_text(to_dict(machine))
+
+
+def save(machine: Machine, path: str | os.PathLike[str]) -> None:
+    """Write a mechanism into a file, TOML or JSON by its ending. FileError where it cannot be written."""
+    writers = {".toml": to_toml, ".json": to_json}
+    place = Path(path)
+    if place.suffix not in writers:
+        raise FileError(f"{place.name}: the name of a mechanism's file ends in .toml or .json.")
+    text = writers[place.suffix](machine)
+    try:
+        place.write_text(text, encoding="utf-8", newline="\n")
+    except (OSError, ValueError) as error:
+        raise FileError(f"{place}: {getattr(error, 'strerror', None) or error}.") from None

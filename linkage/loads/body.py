@@ -1,0 +1,118 @@
+"""What acts on a body as a whole: a moment, its own mass."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, ClassVar, TypeAlias, final
+
+import numpy as np
+
+from ..errors import DefinitionError, unknown
+from ..quantities import Member, Reference, name_of
+from ..steps import Link, Point
+from .element import ForceElement, Poses, written
+from .load import Array, Load, couple
+from .point import DOWN, two, vector
+
+Body: TypeAlias = "Reference | tuple[Reference, ...]"
+"""A link, its name, or points of the body: `arm`, `"arm"`, `"O B"`, `(O, B)`."""
+
+
+class OnBody(ForceElement):
+    """An element on a body that is named by a link or by its points."""
+
+    places: ClassVar[tuple[str, ...]] = ()
+    link: Body
+
+    def named(self) -> tuple[Reference, ...]:
+        """Return what names the body: a link, or two or more points."""
+        given = tuple(self.link.split()) if isinstance(self.link, str) else self.link
+        return given if isinstance(given, tuple) else (given,)
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (*self.named(), *super().parts())
+
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
+        self.points(members, title)
+
+    def points(self, members: Mapping[str, Member], title: str) -> tuple[str, ...]:
+        """Return the body's points; DefinitionError for what names no body."""
+        names = tuple(name_of(each) for each in self.named())
+        for name in names:
+            if name not in members:
+                raise unknown("Link or point", name, (each for each, m in members.items() if isinstance(m, (Link, Point))), where=title)
+        found = tuple(members[name] for name in names)
+        if len(found) == 1 and isinstance(found[0], Link):
+            return found[0].point_names
+        if len(set(names)) < 2 or not all(isinstance(each, Point) for each in found):
+            raise DefinitionError(f"{title}: {self}: {' '.join(names)} is not a body; name a link, or two of its points such as 'O B'.")
+        return names
+
+    def axis(self, motion: Poses) -> tuple[str, str, Array]:
+        """Return two points P and Q of the body and Q - P, shape (2, ...) [m]: the body's own x axis."""
+        P, Q, *_ = self.points(motion.plan.members, motion.plan.title)
+        arm = motion[Q] - motion[P]
+        if np.any((arm[0] == 0.0) & (arm[1] == 0.0)):
+            raise DefinitionError(f"{self.name} = {self}: {P} and {Q} coincide and give no direction; name two other points of the body.")
+        return P, Q, arm
+
+    def __str__(self) -> str:
+        words = " ".join(each if isinstance(each, str) else each.name or str(each) for each in self.named())
+        given = (f"{name}={written(getattr(self, name))}" for name in self.parameters)
+        return f"{type(self).__name__}({', '.join([repr(words), *given])})"
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Moment(OnBody):
+    """A moment M [Nm] on a body, counter-clockwise: `drag = Moment(arm, M=-250)` or `Moment("O B", M=-250)`."""
+
+    link: Body
+    M: Any
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"M": "Nm"})
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return couple(*self.axis(motion), self.number(motion, "M"))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class LinkMass(OnBody):
+    """A body's own mass [kg] at its centre of gravity: `own = LinkMass("E D F", mass=30)`.
+
+    `at=(along, across)` [m] is that centre in the body's axes: from its first point towards the second, and to the left.
+    Without it the centre lies in the middle of the points named, as that of a uniform bar does.
+    """
+
+    link: Body
+    mass: Any
+    at: Any = None
+    gravity: tuple[float, float] = DOWN
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"mass": "kg"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"mass"})
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        centre = np.asarray((0.0, 0.0) if self.at is None else two(self.at, "LinkMass(at=...)"))
+        if centre.dtype.kind not in "fiu" or not np.all(np.isfinite(centre)):
+            raise DefinitionError(f"{self}: at={self.at!r} is not a place; write (along, across) in m.")
+
+    def loads(self, motion: Poses) -> list[Load]:
+        P, Q, arm = self.axis(motion)
+        weight = vector(self.number(motion, "mass"), self.gravity)
+        r = self.centre(motion, P, arm)
+        return [Load(P, weight, (P, Q)), *couple(P, Q, arm, r[0] * weight[1] - r[1] * weight[0])]
+
+    def centre(self, motion: Poses, P: str, arm: Array) -> Array:
+        """Return the centre of gravity's position from P, shape (2, ...) [m]."""
+        if self.at is None:
+            points = self.points(motion.plan.members, motion.plan.title)
+            return np.asarray(np.mean([motion[point] - motion[P] for point in points], axis=0))
+        along = arm / np.hypot(arm[0], arm[1])
+        centre: Array = along * float(self.at[0]) + np.stack([-along[1], along[0]]) * float(self.at[1])
+        return centre
+
+    def in_gravity(self, gravity: tuple[float, float]) -> LinkMass:
+        return self.renewed(gravity=gravity)

@@ -1,0 +1,75 @@
+"""Load cases: which loads count, how much, and where down is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from math import cos, sin
+from typing import ClassVar, final
+
+from ..errors import DefinitionError, unknown
+from ..quantities import Member, Reference, is_number, name_of
+from ..units import deg, g0
+from .element import ForceElement
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class LoadCase(Member):
+    """A named choice of loads: `transport = LoadCase("transport", scale={"load": 2.0}, slope=10 * deg)`.
+
+    `scale` multiplies loads by name, 0 leaves one out; `only` keeps those named and leaves out all others. `slope` [rad]
+    turns gravity: positive where the ground rises towards +x, so that weights also pull towards -x. `gravity` in m/s2.
+    """
+
+    kind: ClassVar[str] = "load case"
+    title: str = ""
+    scale: Mapping[str, float] = field(default_factory=dict)
+    only: Sequence[Reference] | None = None
+    slope: float = 0.0
+    gravity: float = g0
+
+    def __post_init__(self) -> None:
+        for name, value in {**self.scale, "slope": self.slope, "gravity": self.gravity}.items():
+            if not is_number(value):
+                raise DefinitionError(f"{self}: {name}={value!r} is not a finite number.")
+        if isinstance(self.only, str):
+            raise DefinitionError(f"{self}: only={self.only!r} is not a list of loads; write [{self.only!r}].")
+
+    @property
+    def label(self) -> str:
+        """What the case is called: its title, else its name in the class."""
+        return self.title or self.name or "load case"
+
+    @property
+    def mentioned(self) -> tuple[str, ...]:
+        """The names of the loads that it speaks of."""
+        return (*self.scale, *(name_of(each) for each in self.only or ()))
+
+    def parts(self) -> tuple[Reference, ...]:
+        return self.mentioned
+
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
+        """Raise DefinitionError for a name that is no load of the class."""
+        loads = [name for name, member in members.items() if isinstance(member, ForceElement)]
+        for name in self.mentioned:
+            if name not in loads:
+                raise unknown("Load", name, loads, where=f"{title}.{self.name}")
+
+    def factor(self, load: str) -> float:
+        """Return what a load is multiplied by; 0 where it does not count."""
+        kept = self.only is None or load in [name_of(each) for each in self.only]
+        return float(self.scale.get(load, 1.0)) if kept else 0.0
+
+    @property
+    def down(self) -> tuple[float, float]:
+        """Gravity in the machine's axes [m/s2]."""
+        return -self.gravity * sin(self.slope), -self.gravity * cos(self.slope)
+
+    def __str__(self) -> str:
+        words = [repr(self.title)] if self.title else []
+        words += [f"scale={dict(self.scale)!r}"] if self.scale else []
+        words += [f"only={[name_of(each) for each in self.only]!r}"] if self.only is not None and not isinstance(self.only, str) else []
+        words += [f"slope={self.slope / deg:.6g} * deg"] if is_number(self.slope) and self.slope else []
+        words += [f"gravity={self.gravity!r}"] if self.gravity != g0 else []
+        return f"LoadCase({', '.join(words)})"

@@ -1,0 +1,160 @@
+"""What a force element is: it knows its law, the motion knows where its points are, both meet in `loads(motion)`."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, ClassVar, Protocol, Self
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..quantities import Member, Number, Quantity, Reference, label, name_of, quantity, real, spelled
+from ..steps import Point
+from .load import Array, Load
+
+
+class Poses(Protocol):
+    """What a force element asks a motion for."""
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Designs first, strokes last."""
+
+    @property
+    def inputs(self) -> dict[str, Any]:
+        """Design variables and strokes by name [SI], shaped to broadcast against results."""
+
+    @property
+    def plan(self) -> Any:
+        """The plan, with its members by name."""
+
+    def __getitem__(self, name: str) -> Array:
+        """Return a point's position, shape (2, ...) [m]."""
+
+    def value(self, quantity: Quantity) -> Array:
+        """Return a quantity [SI]."""
+
+    def angle(self, P: Reference, Q: Reference) -> Array:
+        """Return the direction of P -> Q [rad]."""
+
+    def distance(self, P: Reference, Q: Reference) -> Array:
+        """Return the distance of two points [m]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Friction:
+    """Dry friction in a pin of a radius [m], or on the guides a point runs on (radius None; one guide where it is named)."""
+
+    point: str
+    coefficient: Array
+    radius: Array | None = None
+    guide: str = ""
+
+
+class ForceElement(Member):
+    """The base of everything that puts forces on a mechanism. A subclass says `loads(motion)`.
+
+    `places` are its attributes that hold points, `parameters` those that hold numbers, with the unit they are shown in.
+    In a class a number is a design variable by the name `<member>.<parameter>`, such as `load.mass`; outside it may be an
+    array that broadcasts against the motion. A quantity or its name (`mass=ref("m1")`) follows that.
+    """
+
+    kind: ClassVar[str] = "load"
+    places: ClassVar[tuple[str, ...]] = ("point",)
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    not_negative: ClassVar[frozenset[str]] = frozenset()
+
+    def __post_init__(self) -> None:
+        for name in self.parameters:
+            self._check_number(name)
+
+    # -- what a subclass says ------------------------------------------------------------------------------
+
+    @abstractmethod
+    def loads(self, motion: Poses) -> list[Load]:
+        """Return the forces over the motion's poses [N]."""
+
+    def moving(self, motion: Poses, sense: int) -> list[Load]:
+        """Return the forces while the drive goes on (`sense` 1) or back (-1): other ones where the element rubs."""
+        return self.loads(motion)
+
+    def frictions(self, motion: Poses) -> list[Friction]:
+        """Return the dry friction this element stands for, whose size follows from the joint forces."""
+        return []
+
+    def in_gravity(self, gravity: tuple[float, float]) -> ForceElement:
+        """Return this element under another gravity [m/s2]."""
+        return self
+
+    def cylinders(self) -> tuple[tuple[str, str], ...]:
+        """Return the pairs of points that this element holds apart as a driven member, declared by no step."""
+        return ()
+
+    # -- what follows --------------------------------------------------------------------------------------
+
+    def parts(self) -> tuple[Reference, ...]:
+        numbers = (quantity(getattr(self, name)) for name in self.parameters)
+        return (*(getattr(self, place) for place in self.places), *(each for each in numbers if not each.is_constant))
+
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
+        """Raise DefinitionError where something else stands in the place of a point."""
+        for place in self.places:
+            found = members[name_of(getattr(self, place))]
+            if not isinstance(found, Point):
+                raise DefinitionError(f"{title}: {self.name} = {self}: {found.name} is not a point.")
+
+    def variables(self) -> tuple[tuple[str, float, str, str], ...]:
+        """Return the design variables this element brings: name, default, kind and unit."""
+        given = {name: quantity(getattr(self, name)) for name in self.parameters}
+        kinds = {name: "not negative" if name in self.not_negative else "number" for name in given}
+        return tuple(
+            (f"{self.name}.{name}", value.number, kinds[name], self.parameters[name])
+            for name, value in given.items()
+            if isinstance(value, Number)
+        )
+
+    def number(self, motion: Poses, name: str) -> Array:
+        """Return a parameter over the motion [SI]: as the machine has it set, or as it is written here."""
+        given, key = getattr(self, name), f"{self.name}.{name}"
+        member = motion.plan.members.get(self.name)
+        if key in motion.inputs and type(member) is type(self) and getattr(member, name) is given:
+            return np.asarray(motion.inputs[key], float)
+        if isinstance(given, (str, Quantity)):
+            return motion.value(quantity(given))
+        return np.asarray(given, float)
+
+    def position(self, motion: Poses, place: str) -> Array:
+        """Return the position of one of its points, shape (2, ...) [m]."""
+        return motion[name_of(getattr(self, place))]
+
+    def _check_number(self, name: str) -> None:
+        given = getattr(self, name)
+        if isinstance(given, (str, Quantity)):
+            return
+        try:
+            value = real(given)
+        except ValueError:
+            raise DefinitionError(f"{self}: {name}={given!r} is not a number; give it in SI.") from None
+        if not np.all(np.isfinite(value)):
+            raise DefinitionError(f"{self}: {name}={given!r} is not a finite number; give it in SI.")
+        if name in self.not_negative and np.any(value < 0.0):
+            raise DefinitionError(f"{self}: {name}={given!r} is negative; give zero or more.")
+
+    def __str__(self) -> str:
+        places = [label(getattr(self, place)) for place in self.places]
+        return f"{type(self).__name__}({', '.join([*places, *(f'{name}={written(getattr(self, name))}' for name in self.parameters)])})"
+
+    def renewed(self, **changes: Any) -> Self:
+        """Return this element with attributes changed, under its own name."""
+        changed = object.__new__(type(self))
+        for name, value in {**vars(self), **changes}.items():
+            object.__setattr__(changed, name, value)
+        return changed
+
+
+def written(value: Any) -> str:
+    """Return a parameter as it is written."""
+    return spelled(value) if isinstance(value, Quantity) else repr(value)

@@ -1,0 +1,57 @@
+"""Dry friction of pins and guides: it acts against the motion, in proportion to the force it helps to make."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, ClassVar, final
+
+from ..quantities import Reference, name_of
+from .element import ForceElement, Friction, Poses
+from .load import Load
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class PinFriction(ForceElement):
+    """Friction in a pin of a radius [m]: the moment coefficient * radius * pin force, against the relative turning.
+
+    A pin of more than two bodies sits fast in the first of them (the frame, if it is one): the others turn on it.
+    """
+
+    point: Reference
+    radius: Any
+    coefficient: Any
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"radius": "mm", "coefficient": ""})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"radius", "coefficient"})
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return []
+
+    def frictions(self, motion: Poses) -> list[Friction]:
+        return [Friction(name_of(self.point), self.number(motion, "coefficient"), self.number(motion, "radius"))]
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class GuideFriction(ForceElement):
+    """Friction of a point on the guides and slots it runs on: coefficient * normal force, against the relative sliding.
+
+    `guide` names one of them, where the point runs on several.
+    """
+
+    point: Reference
+    coefficient: Any
+    guide: Reference = ""
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"coefficient": ""})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"coefficient"})
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (*super().parts(), *([self.guide] if self.guide else []))
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return []
+
+    def frictions(self, motion: Poses) -> list[Friction]:
+        return [Friction(name_of(self.point), self.number(motion, "coefficient"), guide=name_of(self.guide))]

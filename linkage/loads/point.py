@@ -1,0 +1,124 @@
+"""Forces at a point: weights, given forces, supports."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, ClassVar, final
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..quantities import Reference, label, name_of
+from ..units import g0
+from .element import ForceElement, Poses, written
+from .load import Array, Load
+
+DOWN = (0.0, -g0)  # gravity, m/s2
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Weight(ForceElement):
+    """The weight of a mass [kg] at a point: `load = Weight(G, mass=1200)`. Gravity 9.80665 m/s2, downwards."""
+
+    point: Reference
+    mass: Any
+    gravity: tuple[float, float] = DOWN
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"mass": "kg"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"mass"})
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return [Load(name_of(self.point), vector(self.number(motion, "mass"), self.gravity))]
+
+    def in_gravity(self, gravity: tuple[float, float]) -> Weight:
+        return self.renewed(gravity=gravity)
+
+
+class Pair(ForceElement):
+    """An element with a vector of two numbers, its parameters x and y."""
+
+    @property
+    def x(self) -> Any:
+        """The vector's part to the right."""
+        return self.pair()[0]
+
+    @property
+    def y(self) -> Any:
+        """The vector's part upwards."""
+        return self.pair()[1]
+
+    def pair(self) -> tuple[Any, Any]:
+        """Return the vector; DefinitionError unless it has two parts."""
+        raise NotImplementedError
+
+
+def two(given: Any, what: str) -> tuple[Any, Any]:
+    """Return a vector's parts; DefinitionError unless there are two."""
+    try:
+        x, y = given
+    except (TypeError, ValueError):
+        raise DefinitionError(f"{what}: {given!r} is not a vector; write (x, y).") from None
+    return x, y
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Force(Pair):
+    """A force (x, y) [N] at a point, its direction fixed to the frame: `pull = Force(F, (-5 * kN, 0))`.
+
+    Its parts are design variables: `pull.x`, `pull.y`, or `pull=(x, y)` at once.
+    """
+
+    point: Reference
+    vector: Any
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"x": "N", "y": "N"})
+
+    def pair(self) -> tuple[Any, Any]:
+        return two(self.vector, "Force")
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return [Load(name_of(self.point), vector(1.0, (self.number(motion, "x"), self.number(motion, "y"))))]
+
+    def __str__(self) -> str:
+        return f"Force({label(self.point)}, ({written(self.x)}, {written(self.y)}))"
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Support(ForceElement):
+    """A support that pushes a point along a direction (x, y), such as the ground under a shoe: `shoe = Support(R, (0, 1))`.
+
+    Its reaction is what `reaction(motion, loads, support)` finds. `force` [N] is the one it is taken to have elsewhere:
+    none, unless it is given. Of the direction only the sense counts, not the length.
+    """
+
+    point: Reference
+    direction: Any
+    force: Any = 0.0
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"force": "N"})
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        x, y = two(self.direction, "Support")
+        size = np.hypot(*(np.asarray(part, float) for part in (x, y)))
+        if not (np.all(np.isfinite(size)) and np.all(size > 0.0)):
+            raise DefinitionError(f"Support: the direction {self.direction!r} has no finite length above zero; write one such as (0, 1).")
+
+    @property
+    def unit(self) -> Array:
+        """The direction, of length one, shape (2,)."""
+        direction = np.asarray(self.direction, float)
+        return np.asarray(direction / np.hypot(*direction))
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return [Load(name_of(self.point), vector(self.number(motion, "force"), (self.unit[0], self.unit[1])))]
+
+    def __str__(self) -> str:
+        return f"Support({label(self.point)}, {self.direction!r}, force={written(self.force)})"
+
+
+def vector(size: Any, direction: tuple[Any, Any]) -> Array:
+    """Return a size times a direction, shape (2, ...)."""
+    return np.stack(np.broadcast_arrays(*(np.asarray(size * part, float) for part in direction)))

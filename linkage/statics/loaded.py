@@ -1,0 +1,154 @@
+"""Which loads act: the machine's own or given ones, as a load case has them, in a direction of motion."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, Protocol, TypeAlias
+
+import numpy as np
+
+from ..errors import DefinitionError, SingularError, unknown
+from ..loads import ForceElement, Friction, Load, LoadCase
+from ..loads import Poses as Moved
+from ..motion import Motion
+from ..program import FloatArray
+from ..quantities import name_of
+
+SENSES: Mapping[str, int] = MappingProxyType({"frictionless": 0, "extending": 1, "retracting": -1})
+"""Where the drive goes: its coordinate grows (a cylinder extends) or falls."""
+
+
+class Loading(Protocol):
+    """Anything with loads: what a force element is at the least."""
+
+    def loads(self, motion: Any) -> list[Load]:
+        """Return the forces over the motion's poses [N]."""
+
+
+Loads: TypeAlias = Sequence[ForceElement | Loading | str] | ForceElement | Loading | str | None
+Case: TypeAlias = LoadCase | str | None
+
+
+@dataclass(frozen=True)
+class Acting:
+    """A load at the poses, as it acts: point, force (2, ...) [N] in the motion's shape, the body it is on, its element."""
+
+    load: Load
+    force: FloatArray
+    element: str
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """All loads on a motion in one load case and one direction of motion, with the friction asked for."""
+
+    acting: tuple[Acting, ...]
+    frictions: tuple[Friction, ...]
+    elements: tuple[ForceElement, ...]
+    case: str
+    sense: int
+
+    @property
+    def points(self) -> set[str]:
+        """The points that carry loads."""
+        return {each.load.point for each in self.acting}
+
+
+class Plain(ForceElement):
+    """A force element made of anything that has loads."""
+
+    places = ()
+
+    def __init__(self, element: Loading) -> None:
+        self.element = element
+
+    def loads(self, motion: Moved) -> list[Load]:
+        return self.element.loads(motion)
+
+    def __str__(self) -> str:
+        return str(self.element)
+
+
+def sense_of(direction: str) -> int:
+    """Return 1, -1 or 0 for a direction of motion."""
+    if direction not in SENSES:
+        raise unknown("Direction", direction, SENSES)
+    return SENSES[direction]
+
+
+def gathered(motion: Motion, loads: Loads, case: Case, direction: str, without: str = "") -> Loaded:
+    """Return the loads that act; DefinitionError for what is no force element or gives no proper force."""
+    sense, chosen = sense_of(direction), case_of(motion, case)
+    kept = [(name, element) for name, element in elements_of(motion, loads) if chosen.factor(name) != 0.0 and name != without]
+    acting: list[Acting] = []
+    for name, element in kept:
+        found = called(element.in_gravity(chosen.down), motion, sense, name)
+        acting += [Acting(load, fitted(load, motion, name) * chosen.factor(name), name) for load in found]
+    frictions = tuple(each for _, element in kept for each in element.frictions(motion)) if sense else ()
+    return Loaded(tuple(acting), frictions, tuple(element for _, element in kept), chosen.label, sense)
+
+
+def called(element: ForceElement, motion: Motion, sense: int, name: str) -> list[Load]:
+    """Return an element's loads; DefinitionError where they are no list of loads."""
+    found = element.moving(motion, sense) if sense else element.loads(motion)
+    if not isinstance(found, (list, tuple)) or not all(isinstance(each, Load) for each in found):
+        raise DefinitionError(f"{motion.plan.title}: {name}: loads(motion) gives {found!r}; a list of Load(point, force) is expected.")
+    return list(found)
+
+
+def case_of(motion: Motion, case: Case) -> LoadCase:
+    """Return the load case that is meant; the plain one for None."""
+    if case is None:
+        return LoadCase("own loads")
+    if isinstance(case, LoadCase):
+        return case
+    cases = motion.plan.of_kind(LoadCase)
+    titled = {each.label: each for each in cases.values()}
+    if case not in titled | cases:
+        raise unknown("Load case", case, dict(cases) | titled, where=motion.plan.title)
+    return (titled | cases)[case]
+
+
+def elements_of(motion: Motion, loads: Loads) -> list[tuple[str, ForceElement]]:
+    """Return the force elements that are meant, by name: the machine's own for None."""
+    own = motion.plan.of_kind(ForceElement)
+    if loads is None:
+        return list(own.items())
+    each_of = [loads] if isinstance(loads, (str, ForceElement)) or not isinstance(loads, Sequence) else loads
+    return [named(each, own, motion.plan.title) for each in each_of]
+
+
+def named(element: Any, own: Mapping[str, ForceElement], title: str) -> tuple[str, ForceElement]:
+    """Return a force element with its name, or with its own words where it has none."""
+    if isinstance(element, str):
+        if element not in own:
+            raise unknown("Load", element, own, where=title)
+        return element, own[element]
+    if isinstance(element, ForceElement):
+        return element.name or str(element), element
+    if isinstance(element, type) or not callable(getattr(element, "loads", None)):
+        raise DefinitionError(f"{title}: {element!r} is not a force element; give a Weight, a Force, ... or anything with loads(motion).")
+    return str(element), Plain(element)
+
+
+def fitted(load: Load, motion: Motion, name: str) -> FloatArray:
+    """Return a load's force in the motion's shape (2, ...); DefinitionError where it does not fit or is no number."""
+    title, known = motion.plan.title, motion.plan.points
+    for point in (load.point, *load.on):
+        if name_of(point) not in known:
+            raise unknown("Point", point, known, where=f"{title}: {name}")
+    force = np.asarray(load.force)
+    if force.dtype.kind not in "fiu" or force.shape[:1] != (2,):
+        raise DefinitionError(f"{title}: {name}: its force at {load.point} has the shape {force.shape}; (2, ...) in N is expected.")
+    try:
+        full = np.broadcast_to(force.reshape(2, *(1,) * (len(motion.shape) + 1 - force.ndim), *force.shape[1:]), (2, *motion.shape))
+    except ValueError:
+        what = f"its force at {load.point}, shape {force.shape}, does not fit the poses {(2, *motion.shape)}"
+        raise DefinitionError(f"{title}: {name}: {what}.") from None
+    missing = ~np.isfinite(full).all(axis=0) & motion.reached
+    if missing.any() and motion.unreachable == "raise":
+        what = f"{name} gives no finite force at {load.point} at {int(missing.sum())} of {missing.size} poses"
+        raise SingularError(f"{title}: {what}.", mask=missing, motion=motion)
+    return np.asarray(full, float)

@@ -1,0 +1,104 @@
+"""The poses at which forces can be worked out, one after the other: (2, n) for a point, (n,) for a number."""
+
+from __future__ import annotations
+
+import warnings
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..errors import SingularWarning
+from ..motion import Motion, singular
+from ..motion.reach import Mask
+from ..plan import ArrayReading
+from ..program import FloatArray
+from ..vectors import Line
+
+
+class Poses:
+    """The poses of a motion that are reached and not singular, flat; forces of the others are NaN.
+
+    `names` are the members that the forces depend on, all where it is None. Raises SingularError at a singular pose unless the
+    motion was asked for with `unreachable="nan"`; warns near one. The policy is that of the transfer ratios.
+    """
+
+    def __init__(self, motion: Motion, what: str, names: set[str] | None = None) -> None:
+        self.motion, self.plan = motion, motion.plan
+        self.good: Mask = motion.reached & ~self._refused(what, set(self.plan.members) if names is None else names)
+        self.count = int(self.good.sum())
+        self._at: dict[str, FloatArray] = {}
+        self._rates: dict[tuple[str, str], FloatArray] = {}
+
+    def _refused(self, what: str, names: set[str]) -> Mask:
+        motion = self.motion
+        if not motion.is_near_singular:
+            return np.zeros(motion.shape, bool)
+        found = {name: np.where(motion.reached, cond, np.nan) for name, cond in singular.conditions(self.plan, self.reading, names).items()}
+        mask = singular.refused(self.plan, found, motion.shape)
+        if mask.any() and motion.unreachable == "raise":
+            raise singular.refusal(self.plan, found, mask, motion.strokes, what, motion)
+        singular.warn(self.plan, found, motion.strokes, what)
+        return mask
+
+    @cached_property
+    def reading(self) -> ArrayReading:
+        """Every rule evaluated on the motion's arrays."""
+        with np.errstate(all="ignore"):
+            return self.plan.read(self.motion.inputs)
+
+    def flat(self, values: Any) -> FloatArray:
+        """Return values over the motion, shape (..., *shape) or broadcast to it, as (..., n)."""
+        array = np.asarray(values, float)
+        lead = array.shape[: max(0, array.ndim - len(self.motion.shape))]
+        return np.asarray(np.broadcast_to(array, (*lead, *self.motion.shape))[..., self.good])
+
+    def full(self, values: FloatArray) -> FloatArray:
+        """Return values (..., n) in the motion's shape, NaN at the other poses."""
+        result = np.full((*values.shape[:-1], *self.motion.shape), np.nan)
+        result[..., self.good] = values
+        return result
+
+    def at(self, point: str) -> FloatArray:
+        """Return a point's position, shape (2, n) [m]."""
+        if point not in self._at:
+            self._at[point] = self.motion[point][:, self.good]
+        return self._at[point]
+
+    def rate(self, point: str, drive: str) -> FloatArray:
+        """Return a point's transfer ratio, shape (2, n)."""
+        key = (point, drive)
+        if key not in self._rates:
+            self._rates[key] = self.ratio(point, drive)
+        return self._rates[key]
+
+    def ratio(self, target: Any, drive: str) -> FloatArray:
+        """Return the ratio of a point (2, n) or a quantity (n,); what is near singular has been told already."""
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SingularWarning)
+            return np.asarray(self.motion.ratio(target, wrt=drive)[..., self.good])
+
+    def line(self, guide: str) -> tuple[FloatArray, FloatArray]:
+        """Return a guide's origin [m] and direction, shape (2, n) both."""
+        with np.errstate(all="ignore"):
+            line: Line = self.reading.line(guide)
+        return self.pair(line.origin.x, line.origin.y), self.pair(line.direction.x, line.direction.y)
+
+    def pair(self, x: Any, y: Any) -> FloatArray:
+        """Return two parts of a vector as (2, n)."""
+        return np.stack([self.flat(x), self.flat(y)])
+
+    def along(self, P: str, Q: str) -> FloatArray:
+        """Return the direction from P to Q, of length one, shape (2, n)."""
+        arm = self.at(Q) - self.at(P)
+        return np.asarray(arm / np.hypot(arm[0], arm[1]))
+
+
+def left(vector: FloatArray) -> FloatArray:
+    """Return a vector turned by +90 degrees, shape (2, n)."""
+    return np.stack([-vector[1], vector[0]])
+
+
+def cross(a: FloatArray, b: FloatArray) -> FloatArray:
+    """Return the z component of the vector product, shape (n,)."""
+    return np.asarray(a[0] * b[1] - a[1] * b[0])

@@ -1,0 +1,42 @@
+"""A front loader whose bucket keeps its angle: mechanical self-levelling by two parallelograms. Illustrative dimensions."""
+
+from __future__ import annotations
+
+from linkage import LEFT, RIGHT, Dimension, Dyad, Ground, Link, Mechanism, OnLink, Pin, Stroke, angle, deg, drawn
+
+
+class FrontLoader(Mechanism):
+    """Cylinder KL lifts the boom OHB; cylinder MT turns the tilt lever TOE on the boom's pivot.
+
+    The parallelogram EOHF carries the lever's direction to the plate HFG on the boom, the parallelogram GHBJ carries it
+    on to the bucket BJ with its edge N. Known for: the bucket keeps its angle while the boom is lifted, exactly and at
+    every tilt; the tilt cylinder alone changes it. Two strokes.
+    """
+
+    lift = Stroke(0.0, 0.600)                             # lift cylinder, m
+    tilt = Stroke(0.0, 0.350)                             # bucket cylinder, m
+    sketch = drawn(lift=0.30, tilt=0.15)
+
+    L1, L2 = Dimension(1.000), Dimension(0.700)           # pin-to-pin lengths at stroke 0, m
+    rear, front, lever = Dimension(1.300), Dimension(1.400), Dimension(0.300)      # the parallelograms' sides, m
+
+    O = Ground(0.0, 1.600)                                # boom and tilt lever
+    K = Ground(0.200, 0.700)
+    M = Ground(-0.750, 1.400)
+
+    L = Dyad(K, O, KL=L1 + lift, OL=1.200, side=RIGHT)
+    H = OnLink(O, L, OH=rear, LOH=8 * deg)               # the boom's knee
+    B = OnLink(H, O, HB=front, OHB=160 * deg)             # the boom's end
+    T = Dyad(M, O, MT=L2 + tilt, OT=0.350, side=LEFT)
+    E = OnLink(O, T, OE=lever, TOE=-30 * deg)
+
+    first = Link("E F", EF=rear)
+    plate = Link("H F G", HF=lever, HG=lever, FHG=20 * deg)
+    second = Link("G J", GJ=front)
+    bucket = Link("B J N", BJ=lever, BN=0.900, JBN=-120 * deg)
+    F = Pin(near=(1.3, 1.9))
+    G = Pin(near=(1.2, 1.9))
+    J = Pin(near=(2.6, 1.4))
+    N = Pin(near=(3.3, 0.6))
+    boom = angle(O, B)
+    attitude = angle(B, N)

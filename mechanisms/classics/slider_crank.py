@@ -1,0 +1,27 @@
+"""The offset slider-crank.
+
+Source: Norton, "Design of Machinery", chapter 4 (example 4-2: the lengths and the pose at 60 degrees).
+"""
+
+from __future__ import annotations
+
+from math import pi
+
+from linkage import RIGHT, Crank, Ground, Guide, Mechanism, SliderDyad, Stroke, x
+
+
+class SliderCrank(Mechanism):
+    """Crank OA moves slider B through rod AB; the slider's line passes 20 mm below the crank's centre.
+
+    Known for: d = a cos(phi) + sqrt(b^2 - (a sin(phi) - c)^2) with crank a, rod b, offset c; its travel is
+    sqrt((b + a)^2 - c^2) - sqrt((b - a)^2 - c^2), and one way takes longer than the other.
+    """
+
+    phi = Stroke(0.0, 2 * pi)                             # crank angle, rad
+
+    O = Ground(0.0, 0.0)
+    rail = Guide((0.0, -0.020), angle=0.0)
+
+    A = Crank(O, OA=0.040, angle=phi)
+    B = SliderDyad(A, rail, AB=0.120, side=RIGHT)
+    d = x(B)                                              # slider, m

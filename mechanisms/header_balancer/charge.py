@@ -1,0 +1,113 @@
+"""To what pressure the line is charged: for a wanted reaction, and at the most. Pressures gauge [Pa], one design at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from hydraulics import Accumulator, AccumulatorBlock, adiabatic, isothermal
+from hydraulics.gas import Gas
+from linkage import DefinitionError, Motion
+from linkage.loads import Support
+from linkage.program import FloatArray
+from linkage.statics import driving_force
+from linkage.units import kgf_cm2, mm, show
+
+from .following import Balance, at_horizon, over_following
+
+FINE = 201
+
+
+@final
+@dataclass(frozen=True)
+class Way:
+    """How hang-up is looked at: the gas law while the line is charged, the exponent of a fast movement after it
+
+    (None: by the same law), and the atmosphere [Pa] (None: the machine's).
+    """
+
+    title: str
+    gas: Gas = isothermal
+    exponent: float | None = None
+    atmosphere: float | None = None
+
+
+SLOW = Way("slow")
+FAST = Way("fast from the settled charge, n = 1.4", exponent=1.4)
+PAPER = Way("slow, gas law on gauge pressures (the paper's way)", atmosphere=0.0)
+NORMAL = Way("slow, gas law on gauge + 101325 Pa", atmosphere=101325.0)
+CHARGED_FAST = Way("adiabatic from the gas charge on, n = 1.4", adiabatic)
+WAYS = (SLOW, FAST, PAPER, CHARGED_FAST)
+"""The ways a limit is looked at. The paper's is slow without the atmosphere; adiabatic from the gas charge on is a bound of it."""
+
+
+def charge_for(motion: Motion, wanted: float) -> float:
+    """Return the charge pressure at the horizon for a reaction of all shoes [N], without friction. (35)
+
+    DefinitionError where it is below zero: so much reaction the weights do not give.
+    """
+    pose = at_horizon(motion)
+    thrust = driving_force(pose, ["feeder", "header", Support("R", (0, 1), force=wanted)])
+    pressure = float(Balance(pose).cylinder.sized(pose).pressure_for(thrust)[0])
+    if pressure < 0.0:
+        most = float(driving_force(pose, ["feeder", "header"])[0] / driving_force(pose, [Support("R", (0, -1), force=1.0)])[0])
+        raise DefinitionError(f"A reaction of {show(wanted, 'kgf', 4)} is above the weights', {show(most, 'kgf', 4)}; ask for less.")
+    return pressure
+
+
+def largest_charge(motion: Motion, way: Way = SLOW) -> float:
+    """Return the largest charge pressure at the horizon at which the shoe, moving down, never lifts off over the following range.
+
+    DefinitionError where none will do: the header is lighter than the accumulators hold at their own gas charge.
+    """
+    coarse = over_following(motion, FINE)
+    limits = charge_limits(coarse, way)
+    worst, h = int(np.argmin(limits)), coarse.strokes["h"]
+    near = motion.moved({"h": np.linspace(h[max(worst - 1, 0)], h[min(worst + 1, FINE - 1)], FINE)})
+    return float(min(limits.min(), charge_limits(near, way).min()))
+
+
+def charge_limits(motion: Motion, way: Way) -> FloatArray:
+    """Return the charge pressure [Pa] at which the shoe just carries nothing at each pose, moving down, shape (n,)."""
+    balance = Balance(motion)
+    block, left = block_in(motion, way), balance.circuit.withdrawn(motion)
+    allowed = balance.required_while("retracting")
+    lowest = float(min(np.min(one.charge) for one in block.accumulators))
+    refuse_light(motion, allowed, left, lowest)
+    held = np.maximum(allowed, lowest)
+    slow = np.where(allowed < lowest, block.pressure_holding(np.maximum(left, 0.0)), block.pressure(held, -left))
+    if way.exponent is None:
+        return np.asarray(slow)
+    return bisected(lambda p: block.fast_pressure(p, left, way.exponent) - allowed, np.full_like(slow, lowest), 4.0 * slow)
+
+
+def block_in(motion: Motion, way: Way) -> AccumulatorBlock:
+    """Return the machine's accumulators under a way's gas law and atmosphere."""
+    given = motion.inputs
+    pair = [Accumulator(given[f"V_{number}"], given[f"P_{number}"]) for number in ("I", "II")]
+    return AccumulatorBlock(pair, way.gas, float(given["atmosphere"]) if way.atmosphere is None else way.atmosphere)
+
+
+def refuse_light(motion: Motion, allowed: FloatArray, left: FloatArray, lowest: float) -> None:
+    """Raise DefinitionError where the shoe hangs at every charge: the accumulators hold more than the weights need."""
+    light = (allowed < lowest) & (left <= 0.0)
+    if np.any(light):
+        where = int(np.argmax(light))
+        raise DefinitionError(
+            f"The header is too light for these accumulators: at h = {motion.strokes['h'][where] / mm:.1f} mm the shoe lifts off from "
+            f"{allowed[where] / kgf_cm2:.2f} kgf/cm2 on, and the lowest gas charge is {lowest / kgf_cm2:.2f} kgf/cm2. Lower the gas charge."
+        )
+
+
+def bisected(excess: Callable[[FloatArray], FloatArray], low: FloatArray, high: FloatArray) -> FloatArray:
+    """Return where an increasing function of a pressure [Pa] comes to zero at each pose, to 1e-6 Pa; `low` where it is positive there."""
+    while np.max(high - low) > 1e-6:
+        middle = 0.5 * (low + high)
+        above = excess(middle) > 0.0
+        low, high = np.where(above, low, middle), np.where(above, middle, high)
+        if np.all((middle == low) | (middle == high)) and np.max(high - low) < 1e-3:
+            break
+    return 0.5 * (low + high)

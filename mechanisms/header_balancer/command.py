@@ -1,0 +1,124 @@
+"""`hydrolinkage balance header_balancer --header 2`: reactions, verdicts, settings and figures of a balanced header."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+
+from linkage import DefinitionError
+from linkage.cli.command import Command, counted, machine_arguments
+from linkage.cli.machines import find
+from linkage.cli.settings import setting
+from linkage.cli.table import print_table, save
+from linkage.motion import Column
+from linkage.units import kgf, parse, show
+
+from .charge import charge_for
+from .criteria import criteria
+from .figures import NUMBERS, figure
+from .following import kgf_cm2_text, over_following, reaction_columns
+from .headers import HEADERS, setting_table
+from .machine import HeaderBalancer
+from .measured import Deviation, deviations, read_measured
+
+WANTED = tuple(step * 100.0 * kgf for step in range(9))
+SUFFIXES = (".png", ".svg", ".pdf")
+
+
+class Balance(Command):
+    """Prints the reactions of a header over the following range and judges its balancing."""
+
+    name = "balance"
+    help = "a header on gas accumulators: shoe reactions, charge pressures, the five criteria, figures"
+
+    def add(self, parser: ArgumentParser) -> None:
+        machine_arguments(parser)
+        parser.add_argument("--header", type=int, choices=sorted(HEADERS), help="one of the published headers with its setting")
+        parser.add_argument("--pressure", metavar="40kgf_cm2", help="charge pressure of the line at the horizon, gauge")
+        parser.add_argument("--reaction", metavar="300kgf", help="charge for this reaction of all shoes at the horizon instead")
+        parser.add_argument("--table", action="store_true", help="charge pressures for each header and wanted reaction instead")
+        parser.add_argument("--count", metavar="N", type=counted, default=13, help="poses over the following range (default 13)")
+        parser.add_argument("--csv", metavar="FILE", help="write the table as CSV in full precision")
+        parser.add_argument("--measured", metavar="FILE", help='compare with measured values: columns "R_y, mm", "F_R up, kgf"')
+        parser.add_argument("-o", "--output", metavar="FILE", help=f"draw the figure into {', '.join(SUFFIXES)}")
+        parser.add_argument("--figure", type=int, choices=NUMBERS, help="which figure: 2-4 reaction, 5 bearing at O, 6 pressures")
+
+    def run(self, options: Namespace) -> int:
+        machine = chosen(options)
+        path = picture(options)
+        motion = machine.at(h=machine.strokes["h"].start)
+        over = over_following(motion, options.count)
+        horizon = show(float(over["h_horizon"][0]), "mm", 4)
+        print(f"Charged to {kgf_cm2_text(machine['charge'])} at the horizon, h = {horizon}. Pressures are gauge.\n")
+        written(setting_table(WANTED, changes=changes(options)) if options.table else reaction_columns(over), options.csv)
+        compared = deviations(motion, read_measured(options.measured)) if options.measured else []
+        print()
+        for verdict in [*criteria(motion), *(each.verdict for each in compared)]:
+            print(verdict)
+        draw(machine, options, path, compared)
+        return 0
+
+
+def chosen(options: Namespace) -> HeaderBalancer:
+    """Return the machine that the options mean."""
+    found = find(options.machine)
+    if not issubclass(found, HeaderBalancer):
+        raise DefinitionError(f"{options.machine} is no balanced header; `balance` takes header_balancer or a subclass of HeaderBalancer.")
+    given = dict(HEADERS[options.header]) if options.header else {}
+    given |= changes(options)
+    if options.pressure and options.reaction:
+        raise DefinitionError("--pressure and --reaction both choose the charge; give one of them.")
+    if options.pressure:
+        given["charge"] = value(options.pressure, "pressure", "--pressure")
+    if options.reaction:
+        wanted = value(options.reaction, "force", "--reaction")
+        given["charge"] = charge_for(found(**given).at(h=found.plan.strokes["h"].start), wanted)
+    return found(**given)
+
+
+def changes(options: Namespace) -> dict[str, float]:
+    """Return what `--set` changes."""
+    return dict(setting(find(options.machine).plan, text) for text in options.settings)
+
+
+def value(text: str, kind: str, option: str) -> float:
+    """Return the SI value of an option's text; a bare number is refused, it would be Pa or N."""
+    try:
+        number = parse(text, kind)
+    except DefinitionError as error:
+        raise DefinitionError(f"{option}: {error}") from None
+    if not any(letter.isalpha() for letter in text.replace("e", "").replace("E", "")):
+        raise DefinitionError(f"{option} {text}: say the unit too, such as 40kgf_cm2, 39bar or 300kgf.")
+    return number
+
+
+def picture(options: Namespace) -> Path | None:
+    """Return where the figure goes, checked before the work is done; None where none is wanted."""
+    if options.output is None and options.figure is None:
+        return None
+    path = Path(options.output if options.output is not None else f"balance_{options.figure}.png")
+    if path.suffix.lower() not in SUFFIXES:
+        raise DefinitionError(f"-o {path}: the file's name ends in one of {', '.join(SUFFIXES)}, which chooses the format.")
+    if not path.parent.is_dir():
+        raise DefinitionError(f"-o {path}: the folder {path.parent} is not there; make it first.")
+    return path
+
+
+def written(columns: list[Column], csv: str | None) -> None:
+    """Print the table, or write it as CSV."""
+    rows = len(columns[0].values)
+    if csv is None:
+        print_table(columns, rows)
+        return
+    with open(csv, "w", newline="", encoding="utf-8") as stream:
+        save(columns, stream)
+    print(f"{csv}: {rows} rows")
+
+
+def draw(machine: HeaderBalancer, options: Namespace, path: Path | None, compared: list[Deviation]) -> None:
+    """Draw the figure that is wanted."""
+    if path is not None:
+        figure(options.figure or 2, machine, compared).savefig(path)
+        print(path)
+
+

@@ -1,0 +1,134 @@
+"""The paper's five criteria, and the relief valve, as verdicts over the following range of one design."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydraulics import CylinderSize, Verdict, standard_bores
+from hydraulics.member import one_size
+from linkage import DefinitionError, Motion
+from linkage.program import FloatArray
+from linkage.units import kgf, kgf_cm2, mm
+
+from .charge import FAST, NORMAL, PAPER, SLOW, Way, largest_charge
+from .following import PLAIN, Balance, kgf_cm2_text, over_following, relief
+
+ON_LIMIT = 0.02 * kgf_cm2
+"""A setting this near to its limit is on it: the published ones are."""
+
+PIN_SHARE = 0.1
+"""Share of the pin at O in the hysteresis from which on a rolling bearing is worth its price."""
+
+LEAST_RESERVE = 0.1
+"""Least reserve of the pump's pressure over the required one."""
+
+
+def criteria(motion: Motion) -> list[Verdict]:
+    """Return the verdicts on the five criteria and on the relief valve; the motion says which design."""
+    fine = over_following(motion)
+    balance = Balance(fine)
+    return [rises(balance), *hangs_up(fine), hysteresis(balance), matching(balance), reserve(balance), valve(motion)]
+
+
+def rises(balance: Balance) -> Verdict:
+    """Return criterion 1: the reaction rises when moving up and falls when moving down, over the whole range."""
+    up, down = balance.up, balance.down
+    says = f"moving up the reaction goes from {_kgf(up[0])} to {_kgf(up[-1])}, moving down from {_kgf(down[-1])} to {_kgf(down[0])} kgf"
+    wrong = [way for way, curve in (("up", up), ("down", down)) if np.any(np.diff(curve) <= 0.0)]
+    if not wrong:
+        return Verdict("1 reaction follows", True, f"{says}, without a turn.")
+    curve = up if wrong[0] == "up" else down
+    at = balance.height[int(np.argmax(np.diff(curve) <= 0.0))]
+    turns = f"but turns at R_y = {at / mm:+.0f} mm moving {' and '.join(wrong)}: smaller accumulators stiffen the line"
+    return Verdict("1 reaction follows", False, f"{says}, {turns}.")
+
+
+def hangs_up(motion: Motion) -> list[Verdict]:
+    """Return criterion 2: no hang-up, slow and fast, and slow with the gas law the other way: without or with the atmosphere."""
+    other = PAPER if motion.inputs["atmosphere"] else NORMAL
+    return [hang_up(motion, way) for way in (SLOW, FAST, other)]
+
+
+def hang_up(motion: Motion, way: Way) -> Verdict:
+    """Return whether the shoe, moving down, carries something over the whole range in one way of looking at it."""
+    rule, charge = f"2 no hang-up, {way.title}", float(motion.inputs["charge"])
+    try:
+        limit = largest_charge(motion, way)
+    except DefinitionError as error:
+        return Verdict(rule, False, str(error))
+    says = f"charged to {kgf_cm2_text(charge)}, at most {kgf_cm2_text(limit)}"
+    if abs(charge - limit) <= ON_LIMIT:
+        return Verdict(rule, True, f"{says}: on the limit.")
+    if charge < limit:
+        return Verdict(rule, True, f"{says}: {kgf_cm2_text(limit - charge)} below it.")
+    return Verdict(rule, False, f"{says}: the shoe lifts off moving down; lower the charge by {kgf_cm2_text(charge - limit)}.")
+
+
+def hysteresis(balance: Balance) -> Verdict:
+    """Return criterion 3: what the hysteresis is and who makes it; a plain bearing at O beside the machine's own."""
+    whole, seals = balance.hysteresis, balance.of_seals
+    plain = balance.reaction("extending", PLAIN) - balance.reaction("retracting", PLAIN)
+    share = float(np.max((whole - seals) / whole))
+    ok = share <= PIN_SHARE
+    says = (
+        f"{_span(whole)} kgf, of it seals {_span(seals)}, pin O {_span(whole - seals)} kgf; a plain bearing at O "
+        f"(mu = {PLAIN:g}) gives {_span(plain)} kgf, {np.min(plain / seals):.2f} to {np.max(plain / seals):.2f} times a rolling one's"
+    )
+    remedy = f"; the pin makes up to {100 * share:.0f} % of it: take a rolling bearing at O"
+    return Verdict("3 hysteresis", ok, f"{says}{'' if ok else remedy}.")
+
+
+def matching(balance: Balance) -> Verdict:
+    """Return criterion 4: from the lowest place to the highest the required pressure falls with the accumulators' (the arm H grows)."""
+    arm, needed, line = balance.arm, balance.required, balance.pressure
+    ok = bool(needed[-1] < needed[0])
+    says = (
+        f"moving up the block's pressure goes from {line[0] / kgf_cm2:.1f} to {line[-1] / kgf_cm2:.1f}, the required one from "
+        f"{needed[0] / kgf_cm2:.1f} to {needed[-1] / kgf_cm2:.1f} kgf/cm2, the arm H from {arm[0] / mm:.0f} to {arm[-1] / mm:.0f} mm"
+    )
+    remedy = "; they part: place A and B so that the arm grows while the header rises, or take larger accumulators"
+    return Verdict("4 matching", ok, f"{says}{'' if ok else remedy}.")
+
+
+def reserve(balance: Balance) -> Verdict:
+    """Return criterion 5: the required pressure as high as the pump permits with the least reserve."""
+    motion = balance.motion
+    worst, pump = relief(motion).pressure, float(motion.inputs["pump"])
+    spare, ok = pump / worst - 1.0, pump >= (1.0 + LEAST_RESERVE) * worst
+    seals = float(motion.inputs["seals"] / np.mean(balance.required))
+    says = (
+        f"lifting takes up to {kgf_cm2_text(worst, 1)}, the pump gives {kgf_cm2_text(pump, 1)}: reserve {100 * spare:.0f} %, at least "
+        f"{100 * LEAST_RESERVE:.0f} %; the seals take {100 * seals:.1f} % of the required pressure"
+    )
+    return Verdict("5 pressure level", ok, f"{says}{_smaller(balance, worst, pump) if ok else '; take a larger bore or a stronger pump'}.")
+
+
+def _smaller(balance: Balance, worst: float, pump: float) -> str:
+    """Return what a smaller standard bore would do for the seals' share, where the pump permits it."""
+    size = balance.cylinder.sized(balance.motion)
+    now = one_size(size)
+    smaller = [CylinderSize(bore, now.rod, size.count, size.works) for bore in standard_bores() if now.rod < bore < now.bore]
+    fits = [float(each.bore) for each in smaller if (1.0 + LEAST_RESERVE) * worst * size.area / each.area <= pump]
+    if not fits:
+        return "; no smaller standard bore keeps the reserve, so it is as high as permitted"
+    share = 100.0 * min(fits) ** 2 / now.bore**2
+    return f"; for this header alone a bore of {min(fits) / mm:.0f} mm would do, with {share:.0f} % of the seals' hysteresis"
+
+
+def valve(motion: Motion) -> Verdict:
+    """Return whether the relief valve stays shut up to transport height."""
+    found = relief(motion)
+    says = f"lifting to transport height takes up to {kgf_cm2_text(found.pressure, 1)}, at h = {found.at / mm:.0f} mm; the valve opens at"
+    ok = found.margin > 0.0
+    apart = kgf_cm2_text(abs(found.margin), 1)
+    margin = f"margin {apart}" if ok else f"{apart} too low; set it higher or take a larger bore"
+    return Verdict("relief valve", ok, f"{says} {kgf_cm2_text(float(motion.inputs['valve']), 1)}: {margin}.")
+
+
+def _kgf(force: float) -> str:
+    return f"{force / kgf:z.0f}"
+
+
+def _span(force: FloatArray) -> str:
+    low, high = float(np.min(force)), float(np.max(force))
+    return _kgf(low) if _kgf(low) == _kgf(high) else f"{_kgf(low)} to {_kgf(high)}"

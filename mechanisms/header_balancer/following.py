@@ -1,0 +1,184 @@
+"""Shoe, pressures and reactions over the stroke. Forces are those of `linkage.statics`; pressures gauge [Pa]."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from hydraulics import Cylinder, FloatCircuit
+from linkage import Column, DefinitionError, Motion
+from linkage.loads import PinFriction
+from linkage.program import FloatArray
+from linkage.quantities import Coordinate
+from linkage.statics import driving_force, reaction
+from linkage.units import kgf_cm2, mm
+
+LOADS = ("feeder", "header", "floating")
+PLAIN = 0.15
+"""Friction coefficient of the plain bearing at O that the paper looks at; a rolling bearing has none worth counting."""
+
+REACHED = 1e-9  # m
+
+
+def stroke_at(height: Any, O_y: Any, OA: Any, to_A: Any, L_OB: Any, L_OR: Any, BOR: Any, L_min: Any) -> Any:
+    """Return the stroke at which the shoe R stands at a height [m]: (4)-(16) backwards. Numbers, arrays or quantities.
+
+    OA is a length [m], to_A the direction O -> A, BOR the angle from OB to OR [rad]; R lies to the right of O.
+    """
+    drop = height - O_y
+    to_R = np.arctan2(drop, np.sqrt(L_OR * L_OR - drop * drop))
+    AOB = to_R - BOR - to_A
+    return np.sqrt(OA * OA + L_OB * L_OB - 2.0 * (OA * (L_OB * np.cos(AOB)))) - L_min
+
+
+def stroke_of(motion: Motion, height: float) -> float:
+    """Return the stroke [m] at which the shoe of one design stands at a height [m]; DefinitionError where it never does."""
+    if motion.design_shape:
+        raise DefinitionError("The following range is found for one design at a time; this motion has a batch of them.")
+    given = motion.inputs
+    with np.errstate(all="ignore"):
+        x, y = given["A.x"] - given["O.x"], given["A.y"] - given["O.y"]
+        angles_and_lengths = np.arctan2(y, x), given["L_OB"], given["L_OR"], given["BOR"], given["L_min"]
+        h = float(stroke_at(height, given["O.y"], np.hypot(x, y), *angles_and_lengths))
+    low, high = sorted((motion.plan.strokes["h"].start, motion.plan.strokes["h"].end))
+    stands = motion.moved({"h": np.array([h])}).y("R")[0] if low <= h <= high else np.nan
+    if not abs(stands - height) < REACHED:
+        wide = f"that is at h = {h / mm:.1f} mm, the stroke is {low / mm:.1f} to {high / mm:.1f} mm"
+        why = "it never comes there" if np.isnan(h) or low <= h <= high else wide
+        raise DefinitionError(f"The shoe cannot be {height / mm:+.0f} mm from the horizon: {why}. Follow less, or change L_min or BOR.")
+    return h
+
+
+def over_following(motion: Motion, count: int = 101) -> Motion:
+    """Return the same design over the following range, from the shoe's lowest place to its highest, equally spaced in h."""
+    range_ = float(motion.inputs["follows"])
+    return motion.moved({"h": np.linspace(stroke_of(motion, -range_), stroke_of(motion, range_), count)})
+
+
+def at_horizon(motion: Motion) -> Motion:
+    """Return the same design at the horizon, one pose."""
+    return motion.moved({"h": np.array([stroke_of(motion, 0.0)])})
+
+
+@dataclass(frozen=True)
+class Balance:
+    """What a motion's poses have: arm, pressures, reactions; every array of the motion's shape, kept once found."""
+
+    motion: Motion
+
+    @property
+    def circuit(self) -> FloatCircuit:
+        """The closed line of the machine."""
+        found: FloatCircuit = self.motion.plan.of_kind(FloatCircuit)["floating"]
+        return found
+
+    @property
+    def cylinder(self) -> Cylinder:
+        """The machine's cylinders."""
+        return self.circuit.ram(self.motion)
+
+    @cached_property
+    def height(self) -> FloatArray:
+        """Height of the shoe, R_y [m]."""
+        return self.motion.value(Coordinate("R", "y"))
+
+    @cached_property
+    def arm(self) -> FloatArray:
+        """Arm of the cylinder's force about O, H = (OB x AB / |AB|)_z [m]. (34)"""
+        OB, AB = self.motion["B"] - self.motion["O"], self.motion["B"] - self.motion["A"]
+        return np.asarray((OB[0] * AB[1] - OB[1] * AB[0]) / np.hypot(AB[0], AB[1]))
+
+    @cached_property
+    def pressure(self) -> FloatArray:
+        """Pressure in the block [Pa gauge]. (36), (17)-(33)"""
+        return np.asarray(self.circuit.pressure(self.motion))
+
+    @cached_property
+    def required(self) -> FloatArray:
+        """Pressure at which the shoe carries nothing, without friction [Pa gauge]."""
+        return self.required_while("frictionless")
+
+    def required_while(self, direction: str) -> FloatArray:
+        """Return the block's pressure [Pa gauge] at which the shoe carries nothing, in a direction of motion, friction included."""
+        sense = {"extending": 1.0, "retracting": -1.0, "frictionless": 0.0}[direction]
+        thrust = driving_force(self.motion, ["feeder", "header", "pin_O"], direction=direction)
+        size = self.cylinder.sized(self.motion)
+        return np.asarray(size.pressure_for(thrust) + sense * size.sense * self.motion.inputs["seals"])
+
+    def reaction(self, direction: str, bearing: float | None = None) -> FloatArray:
+        """Return the shoes' reaction [N], all shoes: "extending" (up), "retracting" (down) or "frictionless". (38)-(41)
+
+        `bearing` is a friction coefficient at O instead of the machine's own.
+        """
+        radius = self.motion.inputs["pin_O.radius"]
+        pin = "pin_O" if bearing is None else PinFriction("O", radius, bearing)
+        return reaction(self.motion, [*LOADS, pin], "shoe", direction=direction)
+
+    @cached_property
+    def up(self) -> FloatArray:
+        """Reaction while the header rises [N]."""
+        return self.reaction("extending")
+
+    @cached_property
+    def down(self) -> FloatArray:
+        """Reaction while the header sinks [N]."""
+        return self.reaction("retracting")
+
+    @cached_property
+    def free(self) -> FloatArray:
+        """Reaction without friction [N]."""
+        return self.reaction("frictionless")
+
+    @property
+    def hysteresis(self) -> FloatArray:
+        """Reaction up less reaction down [N]."""
+        return self.up - self.down
+
+    @cached_property
+    def of_seals(self) -> FloatArray:
+        """The share of the hysteresis that the seals make alone [N]."""
+        return self.reaction("extending", 0.0) - self.reaction("retracting", 0.0)
+
+
+def reaction_columns(motion: Motion) -> list[Column]:
+    """Return the table of a motion in the paper's units."""
+    balance, shoes = Balance(motion), motion.inputs["shoes"]
+    force = {"up": balance.up, "down": balance.down}
+    return [
+        Column("h", motion.strokes["h"], "mm", 1),
+        Column("R_y", balance.height, "mm", 1),
+        Column("H", balance.arm, "mm", 2),
+        Column("P", balance.pressure, "kgf/cm2", 2),
+        Column("P_req", balance.required, "kgf/cm2", 2),
+        *(Column(f"F_R {way}", value, "kgf", 1) for way, value in force.items()),
+        Column("F_R free", balance.free, "kgf", 1),
+        *(Column(f"per shoe {way}", value / shoes, "kgf", 1) for way, value in force.items()),
+        Column("hysteresis", balance.hysteresis, "kgf", 1),
+        Column("of seals", balance.of_seals, "kgf", 1),
+        Column("of pin O", balance.hysteresis - balance.of_seals, "kgf", 1),
+    ]
+
+
+@dataclass(frozen=True)
+class Relief:
+    """Lifting by the pump to transport height: the greatest pressure [Pa gauge], the stroke where [m], the margin [Pa]."""
+
+    pressure: float
+    at: float
+    margin: float
+
+
+def relief(motion: Motion) -> Relief:
+    """Return how far the pressure stays below the relief valve from the horizon to the end of the stroke, one design."""
+    lifted = motion.moved({"h": np.linspace(stroke_of(motion, 0.0), motion.plan.strokes["h"].end, 201)})
+    needed = Balance(lifted).required_while("extending")
+    worst = int(np.nanargmax(needed))
+    return Relief(float(needed[worst]), float(lifted.strokes["h"][worst]), float(motion.inputs["valve"]) - float(needed[worst]))
+
+
+def kgf_cm2_text(pressure: float, digits: int = 2) -> str:
+    """Return a pressure [Pa] in kgf/cm2."""
+    return f"{pressure / kgf_cm2:.{digits}f} kgf/cm2"

@@ -1,0 +1,78 @@
+"""The three headers with their published settings, and the table of settings for all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from linkage import Column, DefinitionError
+from linkage.units import deg, kgf_cm2
+
+from .charge import SLOW, Way, charge_for, largest_charge
+from .following import Balance, over_following
+from .machine import HeaderBalancer
+
+
+def _header(mass: float, charge: float, L_OR: float, BOR: float, OG2: float, BOG2: float) -> Mapping[str, float]:
+    return MappingProxyType(
+        {"m2": mass, "charge": charge * kgf_cm2, "L_OR": L_OR, "BOR": BOR * deg, "OG2": OG2, "BOG2": BOG2 * deg}
+    )  # fmt: skip
+
+
+HEADERS: Mapping[int, Mapping[str, float]] = MappingProxyType(
+    {
+        1: _header(2000.0, 94.0, 2.665521, 13.055247, 2.137161, 28.184398),  # both gas charges at work
+        2: _header(1000.0, 34.0, 2.040833, 5.290081, 1.436851, 18.840343),   # the 50 kgf/cm2 pair is off: a softer system
+        3: _header(1500.0, 50.0, 1.998124, 4.552408, 1.421442, 19.909792),   # a kink where the second pair joins
+    }
+)  # fmt: skip
+"""Mass and charge pressure as published; the geometry is illustrative, such that criterion 2 gives these pressures."""
+
+
+def with_header(number: int, **changes: Any) -> HeaderBalancer:
+    """Return the machine with header 1, 2 or 3 at its published setting, other design variables [SI] changed as said."""
+    if number not in HEADERS:
+        raise DefinitionError(f"Header {number!r} is unknown; the paper has {', '.join(map(str, HEADERS))}.")
+    return HeaderBalancer(**{**HEADERS[number], **changes})
+
+
+def setting_table(wanted: Sequence[float], way: Way = SLOW, changes: Mapping[str, Any] | None = None) -> list[Column]:
+    """Return the charge pressure at the horizon for each header and each wanted reaction of all shoes [N]. (35)
+
+    Beside it stand the reaction that is left, at the least, moving down over the following range, and whether the
+    setting keeps the largest charge of `way` (1 yes, 0 no). NaN where the weights do not give so much reaction, or
+    the line would be charged below every gas charge and be rigid. `changes` are design variables [SI] of all headers.
+    """
+    forces, changed = np.asarray(wanted, float), dict(changes or {})
+    shoes = float(HeaderBalancer(**changed)["shoes"])
+    columns = [Column("F_R", forces, "kgf", 0), Column("per shoe", forces / shoes, "kgf", 0)]
+    for number in HEADERS:
+        machine = with_header(number, **changed)
+        motion = machine.at(h=0.0)
+        limit = largest_charge(motion, way)
+        charges = np.array([_charge(motion, force) for force in forces])
+        least = np.array([np.nan if np.isnan(charge) else _least(machine, charge) for charge in charges])
+        columns += [
+            Column(f"charge {number}", charges, "kgf/cm2", 2),
+            Column(f"least {number}", least, "kgf", 0),
+            Column(f"safe {number}", np.where(np.isnan(least), np.nan, charges <= limit), "", 0),
+        ]
+    return columns
+
+
+def _charge(motion: Any, force: float) -> float:
+    try:
+        return charge_for(motion, force)
+    except DefinitionError:
+        return float("nan")
+
+
+def _least(machine: HeaderBalancer, charge: float) -> float:
+    """Return the least reaction moving down [N] at a charge [Pa]; NaN where the block is rigid at it or the pump too weak."""
+    try:
+        return float(np.min(Balance(over_following(machine.replaced(charge=charge).at(h=0.0))).down))
+    except DefinitionError:
+        return float("nan")

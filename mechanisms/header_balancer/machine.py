@@ -1,0 +1,100 @@
+"""The balanced header: feeder and header swing about O on two cylinders with gas accumulators."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
+from hydraulics.inputs import positive
+from linkage import RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, Motion, OnLink, Stroke, angle, distance, ref, y
+from linkage.loads import PinFriction, Poses, Support, Weight
+from linkage.units import deg, kg, kgf_cm2, litre, mm
+
+from .criteria import criteria
+from .following import reaction_columns, stroke_at
+
+
+def block_of(motion: Poses) -> AccumulatorBlock:
+    """Return the accumulators as a motion's designs have them; n above 1: settled slowly at the charge, then moved fast."""
+    designs = motion.inputs
+    if np.ndim(designs["atmosphere"]):
+        raise DefinitionError("atmosphere is one number for all designs of a batch; give a float.")
+    pair = [Accumulator(designs[f"V_{number}"], designs[f"P_{number}"]) for number in ("I", "II")]
+    block = AccumulatorBlock(pair, isothermal, float(designs["atmosphere"]))
+    return block if np.all(designs["n"] == 1.0) else block.settled(designs["charge"], designs["n"])
+
+
+class HeaderBalancer(Mechanism):
+    """Feeder housing and header OBR swing about O; two cylinders AB on a closed accumulator block carry part of their weight.
+
+    R is the shoe, G1 the feeder's and G2 the header's centre of gravity. h is the cylinder's stroke, h_horizon that at
+    which the shoe stands on the horizon (R_y = 0), where the line is charged to `charge`. Reactions are totals of all
+    shoes. Pressures are gauge; the gas law works on gauge + `atmosphere`; atmosphere=0 is the paper's own way.
+
+    The dimensions are illustrative, the paper prints none; masses, charges and seal friction are the paper's; the rod,
+    the pump's and the relief valve's pressure are illustrative too. As it stands it has header 2: `with_header(1)`.
+    """
+
+    h = Stroke(0.0, 0.45)                                       # m
+    L_min = Dimension(0.70, unit="mm")                          # distance of the cylinder's pins at h = 0
+    L_OB = Dimension(0.930054, unit="mm")
+    L_OR = Dimension(2.040833, unit="mm")
+    BOR = Dimension(5.290081 * deg, unit="deg")
+
+    O = Ground(0.0, 1.05)
+    A = Ground(-0.05, 0.30)
+
+    B = Dyad(A, O, AB=L_min + h, OB=L_OB, side=RIGHT)
+    R = OnLink(O, B, OR=L_OR, BOR=BOR)                          # the shoe
+    G1 = OnLink(O, B, OG1=0.488774, BOG1=5.491118 * deg)        # the feeder's centre of gravity
+    G2 = OnLink(O, B, OG2=1.436851, BOG2=18.840343 * deg)       # the header's
+
+    h_horizon = stroke_at(0.0, y(O), distance(O, A), angle(O, A), L_OB, L_OR, BOR, L_min)
+
+    m1 = Dimension(1500 * kg, unit="kg")
+    m2 = Dimension(1000 * kg, unit="kg")
+    charge = Dimension(34 * kgf_cm2, unit="kgf/cm2")            # of the line, at the horizon
+    V_I = Dimension(4 * litre, unit="l")                        # two accumulators of 2 l
+    P_I = Dimension(50 * kgf_cm2, unit="kgf/cm2")
+    V_II = Dimension(4 * litre, unit="l")
+    P_II = Dimension(25 * kgf_cm2, unit="kgf/cm2")
+    seals = Dimension(3 * kgf_cm2, unit="kgf/cm2")              # seal friction, as a pressure
+    atmosphere = Dimension(101325.0, unit="Pa")
+    n = Dimension(1.0)                                          # 1 slow (isothermal); 1.4 fast, from the settled charge
+    follows = Dimension(150 * mm, unit="mm")                    # the shoe's travel to either side of the horizon
+    shoes = Dimension(2.0)
+    pump = Dimension(160 * kgf_cm2, unit="kgf/cm2")
+    valve = Dimension(150 * kgf_cm2, unit="kgf/cm2")            # where the relief valve opens
+
+    feeder = Weight(G1, mass=m1)
+    header = Weight(G2, mass=m2)
+    shoe = Support(R, (0, 1))
+    pin_O = PinFriction(O, radius=70 * mm, coefficient=0.0)     # a rolling bearing; a plain one: 0.15
+    lift = Cylinder(A, B, bore=63 * mm, rod=40 * mm, count=2, closed=0.70, stroke=0.45)
+    floating = FloatCircuit(lift, block_of, charge_pressure=ref("charge"), at=ref("h_horizon"), seal_friction=ref("seals"))
+
+    def __init__(self, **dimensions: Any) -> None:
+        """Set the design [SI]; DefinitionError also for what cannot be: no mass, no pressure, a shoe out of the stroke's reach."""
+        super().__init__(**dimensions)
+        for name in ("L_min", "L_OB", "L_OR", "m1", "charge", "V_I", "P_I", "V_II", "P_II", "follows", "shoes", "pump", "valve"):
+            positive(self[name], name)
+        for name in ("m2", "seals", "atmosphere"):
+            if np.any(np.asarray(self[name]) < 0.0):
+                raise DefinitionError(f"{name} = {np.min(self[name]):.6g} is negative; give zero or more.")
+        if np.any(np.asarray(self["charge"]) > np.asarray(self["pump"])):
+            raise DefinitionError(
+                f"The charge pressure {np.max(self['charge']) / kgf_cm2:.4g} kgf/cm2 is above the pump's, "
+                f"{np.min(self['pump']) / kgf_cm2:.4g} kgf/cm2, which has to bring it; lower the charge or take a stronger pump."
+            )
+
+    def columns(self, motion: Motion) -> list[Column]:
+        """Return stroke, shoe, arm, pressures and reactions, of all shoes and of one."""
+        return reaction_columns(motion)
+
+    def verdicts(self, motion: Motion) -> list[str]:
+        """Return the paper's five criteria in words, over the following range of one design."""
+        if motion.design_shape:
+            return ["The criteria are judged for one design at a time; this motion has a batch of them."]
+        return [str(each) for each in criteria(motion)]

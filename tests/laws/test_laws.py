@@ -1,0 +1,166 @@
+"""Laws of the geometry, over every shipped machine and some random ones."""
+
+from functools import cache
+from importlib.metadata import entry_points
+from itertools import combinations
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from linkage import LEFT, RIGHT, Dyad, Ground, Mechanism, OnLink
+from linkage.motion import stroke_unit
+from linkage.quantities import Dimension, Quantity
+from linkage.units import UNITS
+from tests.linkage.random_mechanisms import random_mechanism
+
+SHIPPED = [point.load() for point in entry_points(group="hydrolinkage.machines")]
+RANDOM = [random_mechanism(seed) for seed in range(6)] + [random_mechanism(seed, strokes=2) for seed in (10, 11, 12)]
+ALL = pytest.mark.parametrize("machine", SHIPPED + RANDOM, ids=lambda machine: machine.__name__)
+
+
+@cache
+def whole(machine):
+    """Return the motion over all strokes of a machine."""
+    strokes = machine.plan.strokes
+    return machine().sweep(**dict.fromkeys(strokes, 31 if len(strokes) == 1 else 7))
+
+
+def outputs(machine):
+    """Return the names of what a machine gives: its moving points and its named outputs."""
+    found = machine.plan.of_kind(Quantity)
+    return [
+        *machine.plan.moving,
+        *(name for name, each in found.items() if name not in machine.plan.strokes and not isinstance(each, Dimension)),
+    ]
+
+
+def inner(machine, part=0.9, count=13):
+    """Return stroke values inside the ends, so that both neighbours of every pose can be reached."""
+    middle = {name: ((each.start + each.end) / 2, part * (each.end - each.start) / 2) for name, each in machine.plan.strokes.items()}
+    return {name: mean + half * np.linspace(-1.0, 1.0, count) for name, (mean, half) in middle.items()}
+
+
+def test_machines_are_found_through_their_entry_points():
+    assert {"MowerLift", "ThreePointHitch"} <= {machine.__name__ for machine in SHIPPED}
+
+
+@ALL
+def test_links_keep_their_length(machine):
+    motion = whole(machine)
+    for body in machine().links:
+        for P, Q in combinations(body.points, 2):
+            length = motion.distance(P, Q)
+            assert np.ptp(length) <= 1e-12 * max(1.0, length.max()), f"{P}{Q}"
+
+
+@ALL
+def test_cylinders_are_as_long_as_they_say(machine):
+    motion = whole(machine)
+    for bar in machine.plan.cylinders:
+        assert_allclose(motion.distance(bar.P, bar.Q), motion.value(bar.length), rtol=1e-12)
+
+
+@ALL
+@pytest.mark.parametrize("order", [1, 2])
+def test_exact_ratio_is_the_numerical_one(machine, order):
+    motion = whole(machine)
+    for name in outputs(machine):
+        for stroke in motion.strokes:
+            exact, numerical = (motion.ratio(name, wrt=stroke, order=order, method=method) for method in ("exact", "central"))
+            size = max(1e-2 if order == 1 else 1e-1, np.abs(exact).max())
+            assert_allclose(numerical, exact, rtol=0, atol=(1e-8 if order == 1 else 3e-6) * size, err_msg=name)
+
+
+@ALL
+def test_error_of_the_plain_difference_falls_with_its_order(machine):
+    motion = machine().at(**inner(machine, part=0.8))
+    for stroke, declared in machine.plan.strokes.items():
+        step = 0.01 * abs(declared.end - declared.start)
+        sizes = []
+        for each in (step, step / 2):
+            wrong = [
+                motion.ratio(name, wrt=stroke, method="central", step=each) - motion.ratio(name, wrt=stroke) for name in machine.plan.moving
+            ]
+            sizes.append(np.sqrt(sum(np.sum(part**2, axis=0) for part in wrong)))
+        clear = sizes[1] > 1e-9  # above rounding
+        assert not clear.any() or 3.9 < np.median(sizes[0][clear] / sizes[1][clear]) < 4.1, stroke
+
+
+NO_LENGTHS = {"k", "m", "delta"}  # numbers of the classics that are ratios and angles
+
+
+def is_long(plan, name):
+    """Return whether a design variable is a length or a coordinate, going by what it is made for."""
+    entry = plan.table.entries[name]
+    if entry.kind == "number" and entry.unit:
+        return UNITS[entry.unit][1] == "length"
+    if entry.kind == "number":
+        return (
+            name not in NO_LENGTHS
+            and any(name in plan.reaches(each) for each in plan.moving)
+            and stroke_unit(plan, name) == "m"
+        )
+    return entry.kind in ("length", "coordinate")
+
+
+@ALL
+def test_scaling_all_lengths_scales_positions(machine):
+    plan, factor = machine.plan, 2.5
+    design = machine()
+    larger = machine(**{name: factor * value for name, value in design.dimensions.items() if is_long(plan, name)})
+    fractions = inner(machine, part=1.0)
+    scaled = {name: value * (factor if stroke_unit(plan, name) == "m" else 1.0) for name, value in fractions.items()}
+    small, large = design.at(**fractions), larger.at(**scaled)
+    for name in plan.points:
+        assert_allclose(large[name], factor * small[name], rtol=1e-12, atol=1e-12)
+
+
+def mirrored(machine):
+    """Return a machine mirrored in the x axis: LEFT and RIGHT swapped, angles the other way round."""
+    members = {}
+    for name, member in machine.plan.members.items():
+        labels = getattr(member, "labels", {})
+        side = {LEFT: RIGHT, RIGHT: LEFT, None: None}[getattr(member, "side", None)]
+        if isinstance(member, Ground):
+            members[name] = Ground(member.x, -member.y)
+        elif isinstance(member, Dyad):
+            members[name] = Dyad(member.P, member.Q, side=side, **labels)
+        elif isinstance(member, OnLink):
+            kinds = {spelling: slot.kind for slot in member.slots() for spelling in slot.spellings}
+            turned = {label: -value if kinds[label] == "angle" and side is None else value for label, value in labels.items()}
+            members[name] = OnLink(member.P, member.Q, side=side, **turned)
+        elif name in machine.plan.strokes or isinstance(member, Dimension):
+            members[name] = member
+    return type("Mirrored", (Mechanism,), members)
+
+
+def is_plain(machine):
+    """Return whether a machine is made of fixed points, dyads and links only."""
+    return all(isinstance(point, (Ground, Dyad, OnLink)) for point in machine.plan.points.values())
+
+
+@pytest.mark.parametrize("machine", [*filter(is_plain, SHIPPED + RANDOM)], ids=lambda machine: machine.__name__)
+def test_mirroring_swaps_left_and_right(machine):
+    motion, image = whole(machine), whole(mirrored(machine))
+    for name in machine.plan.points:
+        assert_allclose(image.x(name), motion.x(name), atol=1e-12)
+        assert_allclose(image.y(name), -motion.y(name), atol=1e-12)
+    assert np.abs(motion[machine.plan.moving[0]][1]).max() > 1e-3, "the mirror would not be seen"
+
+
+@ALL
+def test_a_pose_does_not_depend_on_the_others(machine):
+    motion = whole(machine)
+    alone = machine().at(**{name: value.ravel()[5] for name, value in motion.strokes.items()})
+    for name in machine.plan.moving:
+        assert_allclose(alone[name], motion[name].reshape(2, -1)[:, 5], rtol=1e-12, atol=1e-12)
+        for stroke in motion.strokes:
+            together = motion.ratio(name, wrt=stroke).reshape(2, -1)[:, 5]
+            assert_allclose(alone.ratio(name, wrt=stroke), together, rtol=1e-11, atol=1e-11)
+
+
+def test_units_of_the_table_are_known():
+    for machine in SHIPPED:
+        for column in machine().columns(whole(machine)):
+            assert column.unit in ("", *UNITS)

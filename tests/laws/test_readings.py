@@ -1,0 +1,117 @@
+"""Every reading of the program agrees: floats, blocks in both orientations, node by node, and the steps on arrays."""
+
+from functools import cache
+from importlib.metadata import entry_points
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from linkage.program import Kernel, interpret
+from linkage.program.kernel import BLOCK, FEW
+from mechanisms.three_point_hitch import ThreePointHitch
+from tests.linkage.random_mechanisms import random_mechanism
+
+SHIPPED = [point.load() for point in entry_points(group="hydrolinkage.machines")]
+CLOSED = [machine for machine in SHIPPED if not machine.plan.groups]  # a group's pins come from Newton's method, before the program
+MACHINES = CLOSED + [random_mechanism(seed, strokes=1 + seed % 3, joints=7) for seed in range(20, 29)]
+ALL = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
+
+
+@cache
+def everything(machine):
+    """Return all positions, and their first derivatives by every stroke, as nodes."""
+    plan = machine.plan
+    places = [node for name in plan.moving for node in plan.nodes(name)]
+    return places + [node for stroke in plan.strokes for node in plan.derived(places, (stroke,))]
+
+
+@cache
+def kernel(machine):
+    """Return the kernel of everything."""
+    return Kernel(everything(machine))
+
+
+def inputs(machine, designs, poses, seed=1):
+    """Return designs near the default and strokes that leave the reachable range, flat."""
+    random = np.random.default_rng(seed)
+    vary = (lambda value: value * random.uniform(0.98, 1.02, designs)) if designs > 1 else float
+    design = {name: vary(entry.default) for name, entry in machine.plan.table.entries.items()}
+    reach = {name: (each.start, max(0.8, 3.0 * (each.end - each.start))) for name, each in machine.plan.strokes.items()}
+    return design | {name: start + span * random.uniform(-1.0, 1.0, poses) for name, (start, span) in reach.items()}
+
+
+def agree(found, wanted):
+    """Assert that two results agree to 1e-12 of their size, and in where they have no value."""
+    assert_array_equal(np.isnan(found), np.isnan(wanted))
+    size = np.abs(wanted) + np.nanmax(np.abs(wanted), axis=tuple(range(1, wanted.ndim)), keepdims=True, initial=1.0)
+    near = np.abs(found - wanted) / size
+    assert np.nanmax(near, initial=0.0) < 1e-12
+
+
+def table(parts, shape):
+    return np.array([np.broadcast_to(part, shape) for part in parts], float)
+
+
+@ALL
+def test_places_by_the_program_and_by_the_steps(machine):
+    plan, given = machine.plan, inputs(machine, 1, 400)
+    nodes = [node for name in plan.moving for node in plan.nodes(name)]
+    with np.errstate(all="ignore"):
+        reading = plan.read(given)
+    steps = table([part for name in plan.moving for part in (reading.at(name).x, reading.at(name).y)], (400,))
+    agree(table(interpret(nodes, given), (400,)), steps)
+    agree(Kernel(nodes)(given).values[:, 0], steps)
+
+
+def test_some_of_these_poses_are_out_of_reach_and_some_are_not():
+    shares = [np.isnan(kernel(machine)(inputs(machine, 1, 400)).values).mean() for machine in MACHINES]
+    assert sum(0.0 < share < 1.0 for share in shares) > len(shares) / 2
+
+
+@ALL
+@pytest.mark.parametrize(
+    ("designs", "poses"), [(1, 1), (1, FEW), (1, FEW + 1), (1, 2 * BLOCK + 3), (3, 40), (40, 3), (2, BLOCK + 1), (BLOCK + 1, 2), (7, 1)]
+)
+def test_kernel_is_the_program_node_by_node(machine, designs, poses):
+    nodes, given = everything(machine), inputs(machine, designs, poses)
+    tall = {name: value[:, None] if np.ndim(value) and name not in machine.plan.strokes else value for name, value in given.items()}
+    wanted = table(interpret(nodes, tall), (designs, poses))
+    found = kernel(machine)(given).values
+    assert found.shape == (len(nodes), designs, poses)
+    agree(found, wanted)
+
+
+@ALL
+def test_guards_tell_whether_a_pose_is_out_of_reach(machine):
+    for seed in range(8):
+        given = inputs(machine, 1, 5, seed)
+        result = machine.plan.kernel(machine.plan.moving, guarded=True)(given)
+        assert np.isnan(result.values).any() <= (not np.all(result.guards > 0.0))
+
+
+@ALL
+def test_a_result_can_be_written_where_it_is_wanted(machine):
+    nodes, given = everything(machine), inputs(machine, 1, 100)
+    place = np.full((len(nodes), 1, 100), 7.0)
+    assert kernel(machine)(given, out=place).values is place
+    agree(place, kernel(machine)(given).values)
+
+
+@ALL
+@pytest.mark.parametrize(("designs", "poses"), [(1, 0), (0, 5), (0, 0)])
+def test_nothing_asked_nothing_given(machine, designs, poses):
+    nodes, given = everything(machine), inputs(machine, 1, 4)
+    given = {
+        name: np.empty(poses) if name in machine.plan.strokes else (np.empty(0) if designs == 0 else value) for name, value in given.items()
+    }
+    assert kernel(machine)(given).values.shape == (len(nodes), designs, poses)
+
+
+def test_second_derivatives_of_a_kernel_are_those_of_a_difference():
+    plan, h = ThreePointHitch.plan, 1e-5
+    first, second = (Kernel(plan.derived(plan.nodes("G"), along)) for along in (("S",), ("S", "S")))
+    design = {name: entry.default for name, entry in plan.table.entries.items()}
+    stroke = np.linspace(0.05, 0.2, 30)
+    slope = (first(design | {"S": stroke + h}).values - first(design | {"S": stroke - h}).values) / (2 * h)
+    assert_allclose(second(design | {"S": stroke}).values, slope, rtol=1e-6, atol=1e-7)

@@ -1,0 +1,92 @@
+"""Rigid bodies and the Gruebler count, of machines whose count is known."""
+
+import numpy as np
+import pytest
+
+from linkage import LEFT, RIGHT, Crank, Dyad, Ground, Link, Mechanism, Offset, OnLink, Stroke, Turn, Vector, angle
+from linkage.graph import gruebler, merged
+
+
+def names(bodies):
+    return sorted("".join(sorted(body.points)) for body in bodies)
+
+
+def test_bodies_that_share_two_points_are_one():
+    assert names(merged([("B", "C", "D"), ("C", "D", "E"), ("E", "F")], ("A", "O"))) == ["AO", "BCDE", "EF"]
+
+
+def test_three_rods_that_make_a_triangle_stay_three():
+    assert names(merged([("B", "C"), ("C", "D"), ("B", "D")], ("A",))) == ["A", "BC", "BD", "CD"]
+
+
+def test_merging_goes_on_until_no_two_bodies_share_two_points():
+    groups = [("B", "C"), ("D", "E", "G"), ("E", "F"), ("C", "D", "F"), ("B", "C", "D", "E")]
+    assert names(merged(groups, ("A",))) == ["A", "BCDEFG"]
+
+
+def test_a_body_pinned_twice_to_the_frame_is_the_frame():
+    bodies = merged([("A", "O", "B")], ("A", "O"))
+    assert [body.points for body in bodies if body.fixed] == [("A", "O", "B")]
+
+
+@pytest.mark.parametrize(
+    ("groups", "cylinders", "count"),
+    [
+        ([("A", "B"), ("B", "C"), ("C", "O")], [], 1),  # four-bar
+        ([("O", "B")], [("A", "B")], 1),  # lever on a cylinder
+        ([("A", "B"), ("B", "O")], [], 0),  # triangle
+        ([("A", "B"), ("B", "C"), ("C", "D"), ("D", "O")], [], 2),  # five-bar
+        ([("A", "B", "E"), ("B", "C"), ("C", "O", "F"), ("E", "D"), ("D", "F")], [], 1),  # Watt's six-bar
+    ],
+)
+def test_gruebler_count_of_known_chains(groups, cylinders, count):
+    assert gruebler(merged(groups, ("A", "O")), cylinders) == count
+
+
+class Crane(Mechanism):
+    """Boom cylinder and arm cylinder: two strokes."""
+
+    S, T = Stroke(0.0, 0.4), Stroke(0.0, 0.3)
+    O, P = Ground(0.0, 1.0), Ground(0.3, 0.2)
+    B = Dyad(P, O, PB=0.8 + S, OB=0.7, side=RIGHT)
+    C = OnLink(O, B, OC=2.0)
+    Q = OnLink(O, B, OQ=1.2, BOQ=0.2)
+    D = Dyad(Q, C, QD=0.75 + T, CD=0.4, side=LEFT)
+    G = OnLink(C, D, CG=1.5, DCG=2.6)
+    direction = angle(C, G)
+
+
+def test_a_crane_has_two_degrees_of_freedom():
+    assert Crane().gruebler == 2
+    assert names(Crane().links) == ["BCOQ", "CDG", "OP"]
+
+
+def test_primitives_declare_no_bodies_until_links_do():
+    class Arm(Mechanism):
+        """One body, declared."""
+
+        phi = Stroke(0.0, 1.0)
+        O, A = Ground(0.0, 0.0), Ground(1.0, 0.0)
+        B = Offset(O, Turn(Vector(O, A), phi))
+        C = Offset(O, Turn(Vector(O, B), 0.3))
+
+    class Linked(Arm):
+        """The same with its link."""
+
+        arm = Link("O B C")
+
+    assert names(Arm().links) == ["AO"]
+    assert names(Linked().links) == ["AO", "BCO"]
+
+
+def test_a_crank_is_a_link_of_its_own():
+    class FourBar(Mechanism):
+        """The textbook four-bar."""
+
+        phi = Stroke(0.0, 2 * np.pi)
+        O, Q = Ground(0.0, 0.0), Ground(1.0, 0.0)
+        A = Crank(O, OA=0.3, angle=phi)
+        B = Dyad(A, Q, AB=0.9, QB=0.7, side=LEFT)
+
+    assert names(FourBar().links) == ["AB", "AO", "BQ", "OQ"]
+    assert FourBar().gruebler == 1

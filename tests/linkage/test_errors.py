@@ -1,0 +1,38 @@
+"""What a failure says: what was wrong, what is known, what was probably meant."""
+
+import numpy as np
+import pytest
+
+from linkage import AssemblyError, DefinitionError, FileError, LinkageError, SingularError
+from linkage.errors import unknown
+
+
+@pytest.mark.parametrize("error", [DefinitionError, AssemblyError, SingularError, FileError])
+def test_every_error_is_a_linkage_error(error):
+    assert issubclass(error, LinkageError)
+
+
+def test_definition_error_is_a_value_error_and_singular_an_assembly_error():
+    assert issubclass(DefinitionError, ValueError)
+    assert issubclass(SingularError, AssemblyError)
+
+
+def test_unknown_name_lists_the_known_and_the_nearest():
+    text = str(unknown("Dimension", "OBB", ["OB", "CD"], where="Hitch"))
+    assert text == "Dimension 'OBB' is unknown in Hitch. Did you mean OB? Known: OB, CD."
+
+
+def test_unknown_name_with_nothing_near_or_nothing_at_all():
+    assert "Did you mean" not in str(unknown("Dimension", "zzz", ["OB"]))
+    assert str(unknown("Stroke", "S", [])).endswith("Known: none.")
+
+
+@pytest.mark.parametrize("name", [3, None, ("G",), ["G"], b"G"])
+def test_unknown_takes_anything_for_a_name(name):
+    assert "is unknown" in str(unknown("Name", name, ["G"]))
+
+
+def test_assembly_error_carries_the_poses():
+    error = AssemblyError("B cannot be assembled", point="B", mask=[True, False], shortfall=0.013)
+    assert (error.point, error.mask.tolist(), error.shortfall) == ("B", [True, False], 0.013)
+    assert np.isnan(AssemblyError("B").shortfall)

@@ -1,0 +1,243 @@
+"""The balanced header against its independent reference, the paper's own formulas, and its criteria."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from hydraulics import Accumulator, AccumulatorBlock, isothermal
+from linkage import DefinitionError
+from linkage.loads import PinFriction
+from linkage.quantities import angle
+from linkage.statics import driving_force, pin_forces
+from linkage.units import cm, deg, g0, kgf, kgf_cm2, litre, mm
+from mechanisms.header_balancer import WAYS, HeaderBalancer, charge_for, largest_charge, over_following, relief, setting_table, with_header
+from mechanisms.header_balancer.charge import FAST, PAPER, SLOW
+from mechanisms.header_balancer.criteria import criteria, hang_up, matching, rises
+from mechanisms.header_balancer.following import PLAIN, Balance, at_horizon, stroke_of
+from mechanisms.header_balancer.headers import HEADERS
+from tests.mechanisms.balancer_reference import REFERENCE
+
+PUBLISHED = {1: 94.0, 2: 34.0, 3: 50.0}
+EACH = pytest.mark.parametrize("number", HEADERS)
+
+
+def over(number, count=9, **changes):
+    """Return a header's motion over the following range."""
+    machine = with_header(number, **changes)
+    return over_following(machine.at(h=0.1), count)
+
+
+@EACH
+def test_the_reference_results_come_out(number):
+    reference, motion = REFERENCE[number], over(number, atmosphere=0.0)
+    balance = Balance(motion)
+    found = {
+        "h": motion.strokes["h"], "R_y": balance.height, "arm_H": balance.arm,
+        "block_pressure_kgf_cm2": balance.pressure / kgf_cm2, "required_pressure_kgf_cm2": balance.required / kgf_cm2,
+        "reaction_up_kgf": balance.up / kgf, "reaction_down_kgf": balance.down / kgf,
+    }  # fmt: skip
+    for name, values in found.items():
+        assert_allclose(values, reference[name], rtol=1e-7, atol=1e-8, err_msg=name)
+    assert_allclose(motion["h_horizon"], reference["h_horizon"], rtol=1e-8)
+
+
+def paper(motion, friction=0.0, bearing=0.0, sense=0):
+    """Return the shoes' reaction by the paper's own formulas (34) to (41), from positions alone [N]."""
+    given = motion.inputs
+    OB, AB, OR = motion["B"] - motion["O"], motion["B"] - motion["A"], motion["R"] - motion["O"]
+    OG1, OG2 = motion["G1"] - motion["O"], motion["G2"] - motion["O"]
+    along = AB / np.hypot(*AB)
+    H = OB[0] * along[1] - OB[1] * along[0]                                             # (34)
+    area = 0.25 * np.pi * (6.3 * cm) ** 2 * 2
+    block = AccumulatorBlock([Accumulator(4 * litre, 50 * kgf_cm2), Accumulator(4 * litre, 25 * kgf_cm2)], isothermal, given["atmosphere"])
+    horizon = motion.moved({"h": np.array([stroke_of(motion, 0.0)])})
+    dV = (motion.distance("A", "B") - horizon.distance("A", "B")) * area                # (36)
+    F = (block.pressure(given["charge"], dV) - sense * friction) * area                 # (37), (39)
+    weight = g0 * (given["m1"] * OG1[0] + given["m2"] * OG2[0])
+    R = (weight - H * F) / OR[0]                                                        # (38)
+    for _ in range(200):                                                                # (40), (41)
+        F_O = np.stack([F * along[0], F * along[1] - g0 * (given["m1"] + given["m2"]) + R])
+        R = (weight - H * F + sense * 0.07 * bearing * np.hypot(*F_O)) / OR[0]
+    return R
+
+
+@EACH
+@pytest.mark.parametrize("atmosphere", [0.0, 101325.0])
+@pytest.mark.parametrize("bearing", [0.0, PLAIN])
+def test_the_statics_agree_with_the_papers_own_formulas(number, atmosphere, bearing):
+    balance = Balance(over(number, atmosphere=atmosphere))
+    for direction, sense in (("extending", 1), ("retracting", -1), ("frictionless", 0)):
+        assert_allclose(balance.reaction(direction, bearing), paper(balance.motion, 3 * kgf_cm2, bearing, sense), rtol=1e-9, atol=1e-8)
+
+
+@EACH
+def test_the_arm_is_the_transfer_ratio(number):
+    motion = over(number)
+    assert_allclose(Balance(motion).arm, 1.0 / motion.ratio(angle("O", "B")), rtol=1e-12)
+
+
+@EACH
+def test_work_and_equilibrium_agree_and_nothing_is_left_for_the_pump(number):
+    motion = over(number)
+    loads = ["feeder", "header", "floating"]
+    thrust = driving_force(motion, loads)
+    assert_allclose(pin_forces(motion, loads).drives["h"], thrust, rtol=1e-9, atol=1e-9 * np.abs(thrust).max())
+    lever = motion.ratio("R")[1]
+    assert_allclose(thrust, Balance(motion).free * lever, rtol=1e-9, atol=1e-6)
+
+
+@EACH
+@pytest.mark.parametrize(
+    ("way", "limits"),
+    [
+        (SLOW, (94.04, 33.92, 49.87)),
+        (PAPER, (94.0, 34.0, 50.0)),
+        (WAYS[3], (93.36, 32.83, 47.46)),
+        (FAST, (91.0, 32.4, 46.4)),
+    ],
+    ids=lambda value: getattr(value, "title", ""),
+)
+def test_the_largest_charge_without_hang_up(number, way, limits):
+    motion = with_header(number, atmosphere=101325.0 if way is SLOW else 0.0).at(h=0.0)
+    assert abs(largest_charge(motion, way) / kgf_cm2 - limits[number - 1]) < 0.02
+
+
+@EACH
+def test_at_the_largest_charge_the_shoe_just_carries_nothing(number):
+    machine = with_header(number)
+    limit = largest_charge(machine.at(h=0.0))
+    balance = Balance(over_following(machine.replaced(charge=limit).at(h=0.0), 201))
+    assert_allclose(balance.down.min(), 0.0, atol=1e-6 * np.abs(balance.down).max())
+    fast = largest_charge(machine.at(h=0.0), FAST)
+    balance = Balance(over_following(machine.replaced(charge=fast, n=1.4).at(h=0.0), 201))
+    assert_allclose(balance.down.min(), 0.0, atol=1e-6 * np.abs(balance.down).max())
+
+
+@EACH
+@pytest.mark.parametrize("wanted", [0.0, 150.0, 300.0])
+def test_the_charge_for_a_wanted_reaction_gives_it(number, wanted):
+    machine = with_header(number)
+    charged = machine.replaced(charge=charge_for(machine.at(h=0.0), wanted * kgf))
+    assert_allclose(Balance(at_horizon(charged.at(h=0.0))).free / kgf, wanted, atol=1e-9)
+
+
+def test_more_reaction_than_the_weights_give_is_refused():
+    with pytest.raises(DefinitionError, match="above the weights'"):
+        charge_for(with_header(2).at(h=0.0), 3000 * kgf)
+
+
+def test_the_hysteresis_has_its_two_sources():
+    balance = Balance(over(1, **{"pin_O.coefficient": PLAIN}))
+    rolling = Balance(over(1))
+    assert_allclose(balance.of_seals, rolling.hysteresis, rtol=1e-12)
+    ratio = balance.hysteresis / rolling.hysteresis
+    assert_allclose([ratio.min(), ratio.max()], [1.43, 1.52], atol=0.005)
+    no_seals = Balance(over(1, seals=0.0, **{"pin_O.coefficient": PLAIN}))
+    assert_allclose(no_seals.of_seals, 0.0, atol=1e-9)
+    assert no_seals.hysteresis.min() > 40 * kgf
+
+
+def test_friction_in_the_cylinders_pins_is_negligible_and_can_be_included():
+    motion = over(1)
+    pins = [PinFriction(pin, radius=20 * mm, coefficient=0.15) for pin in "AB"]
+    thrust = driving_force(motion, ["feeder", "header"])
+    with_pins = driving_force(motion, ["feeder", "header", *pins], direction="extending")
+    assert np.all(with_pins > thrust)
+    assert np.max(with_pins / thrust - 1.0) < 0.01
+
+
+def test_the_published_settings_are_on_the_limit_in_the_papers_way():
+    for number in HEADERS:
+        machine = with_header(number)
+        assert machine["charge"] / kgf_cm2 == pytest.approx(PUBLISHED[number])
+        verdict = hang_up(machine.at(h=0.0), PAPER)
+        assert verdict and verdict.sentence.endswith("on the limit.")
+    assert not hang_up(with_header(2).at(h=0.0), SLOW)
+    assert not hang_up(with_header(1).at(h=0.0), FAST)
+    assert hang_up(with_header(2, charge=33 * kgf_cm2).at(h=0.0), SLOW)
+
+
+def test_the_criteria_can_be_kept_and_broken():
+    good = {verdict.rule: bool(verdict) for verdict in criteria(with_header(1).at(h=0.0))}
+    assert good["1 reaction follows"] and good["3 hysteresis"] and good["5 pressure level"] and good["relief valve"]
+    assert not good["4 matching"]  # the arm H falls in the illustrative geometry
+    bad = {verdict.rule: bool(verdict) for verdict in criteria(with_header(1, pump=130 * kgf_cm2, valve=120 * kgf_cm2, **{"pin_O.coefficient": PLAIN}).at(h=0.0))}
+    assert not (bad["3 hysteresis"] or bad["5 pressure level"] or bad["relief valve"])
+
+
+def test_an_arm_that_grows_makes_the_required_pressure_fall():
+    balance = Balance(over(2, A=(0.375, 0.40), L_min=0.27))
+    assert np.all(np.diff(balance.arm) > 0.0)
+    assert matching(balance)
+    assert not matching(Balance(over(2)))
+
+
+def test_a_reaction_that_turns_is_seen():
+    balance = Balance(over(2, 101, A=(0.375, 0.40), L_min=0.27, V_I=4000 * litre, V_II=4000 * litre))
+    assert np.any(np.diff(balance.up) < 0.0)
+    assert not rises(balance)
+    assert rises(Balance(over(2, 101)))
+
+
+def test_the_relief_valve_is_judged_up_to_transport_height():
+    machine = with_header(1)
+    found, end = relief(machine.at(h=0.0)), Balance(machine.at(h=[0.45]))
+    assert_allclose(found.pressure, end.required[0] + 3 * kgf_cm2, rtol=1e-12)
+    assert found.at == 0.45
+    assert_allclose(found.margin, 150 * kgf_cm2 - found.pressure)
+
+
+def test_the_setting_table_has_each_header():
+    table = {column.name: column.shown for column in setting_table([200 * kgf, 300 * kgf, 3000 * kgf])}
+    assert_allclose(table["per shoe"], [100.0, 150.0, 1500.0])
+    for number in HEADERS:
+        motion = with_header(number).at(h=0.0)
+        assert_allclose(table[f"charge {number}"][:2], [charge_for(motion, force * kgf) / kgf_cm2 for force in (200, 300)])
+        assert_allclose(table[f"safe {number}"][:2], [0.0, 1.0])
+        assert np.all((table[f"least {number}"][:2] >= 0.0) == (table[f"safe {number}"][:2] == 1.0))
+    assert np.isnan(table["charge 2"][2]) and np.isnan(table["least 2"][2]) and np.isnan(table["safe 2"][2])
+
+
+def test_a_batch_of_charges_is_one_call():
+    charges = np.array([30.0, 34.0, 40.0]) * kgf_cm2
+    batch = Balance(HeaderBalancer(charge=charges, n=1.4).sweep(5))
+    for row, charge in enumerate(charges):
+        alone = Balance(HeaderBalancer(charge=charge, n=1.4).sweep(5))
+        assert_allclose(batch.down[row], alone.down, rtol=1e-12)
+    assert "batch" in HeaderBalancer(charge=charges).verdicts(batch.motion)[0]
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"charge": 200 * kgf_cm2}, "above the pump's"),
+        ({"m1": 0.0}, "m1"),
+        ({"m2": -1.0}, "m2 = -1 is negative"),
+        ({"V_I": -1 * litre}, "V_I"),
+        ({"lift.rod": 70 * mm}, None),
+        ({"lift.bore": -63 * mm}, None),
+        ({"charge": 20 * kgf_cm2}, None),
+        ({"follows": 900 * mm}, None),
+        ({"L_min": 0.9}, None),
+    ],
+    ids=str,
+)
+def test_bad_input_is_refused_in_words(change, words):
+    with pytest.raises(DefinitionError, match=words):
+        criteria(HeaderBalancer(**change).at(h=0.1))
+
+
+def test_a_header_lighter_than_the_gas_holds_is_said_to_be():
+    light = with_header(2, m1=300.0, m2=100.0, charge=26 * kgf_cm2)
+    verdict = hang_up(light.at(h=0.0), SLOW)
+    assert not verdict and "too light for these accumulators" in verdict.sentence
+
+
+def test_unknown_header_lists_the_headers():
+    with pytest.raises(DefinitionError, match="1, 2, 3"):
+        with_header(4)
+
+
+def test_the_machine_turned_a_little_keeps_its_horizon():
+    machine = HeaderBalancer(BOR=6 * deg)
+    assert_allclose(Balance(at_horizon(machine.at(h=0.0))).height, 0.0, atol=1e-12)

@@ -1,0 +1,156 @@
+"""The balanced header's figures, its measured values and its command."""
+
+import csv
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from linkage import DefinitionError, FileError
+from linkage.cli import main
+from linkage.units import kgf, kgf_cm2, mm
+from mechanisms.header_balancer import HeaderBalancer, deviations, figure, over_following, read_measured, with_header
+from mechanisms.header_balancer import command as command_of
+from mechanisms.header_balancer.figures import NUMBERS
+from mechanisms.header_balancer.following import Balance
+
+
+@pytest.fixture
+def balance(monkeypatch):
+    """Return the command as a user calls it, whether or not the checkout's entry points are installed."""
+    from linkage.cli import commands, machines
+
+    monkeypatch.setattr(commands, "chosen", lambda arguments: (command_of.Balance(),))
+    monkeypatch.setattr("linkage.cli.main.chosen", lambda arguments: (command_of.Balance(),), raising=False)
+    find = machines.find
+    monkeypatch.setattr(command_of, "find", lambda text: HeaderBalancer if text == "header_balancer" else find(text))
+    return lambda *arguments: main(["balance", *arguments])
+
+
+def lines(shown):
+    """Return the curves of a figure by their label, x and y."""
+    (ax,) = shown.axes
+    return {line.get_label(): line.get_xydata().T for line in ax.get_lines()}
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_each_figure_shows_the_balance_in_its_units(number):
+    shown, header = lines(figure(number)), number - 1 if number <= 4 else 1
+    found = Balance(over_following(with_header(header).at(h=0.0)))
+    expected = {
+        2: ("moving up", found.up / kgf), 3: ("moving down", found.down / kgf), 4: ("without friction", found.free / kgf),
+        5: ("rolling bearing at O: the seals alone", found.of_seals / kgf), 6: ("in the accumulator block", found.pressure / kgf_cm2),
+    }[number]  # fmt: skip
+    height, values = shown[expected[0]]
+    assert_allclose(height, found.height / mm)
+    assert_allclose(values, expected[1])
+
+
+def test_the_papers_way_is_laid_over_the_reaction():
+    apart = [label for label in lines(figure(2)) if label.startswith("the paper's gas law")]
+    assert len(apart) == 1
+    assert not [label for label in lines(figure(2, with_header(1, atmosphere=0.0))) if label.startswith("the paper's")]
+
+
+def test_unknown_figure():
+    with pytest.raises(DefinitionError, match="2, 3, 4, 5, 6"):
+        figure(1)
+
+
+def written(path, rows, delimiter=","):
+    with open(path, "w", newline="", encoding="utf-8") as stream:
+        csv.writer(stream, delimiter=delimiter).writerows(rows)
+    return path
+
+
+def test_measured_values_are_compared_in_percent(tmp_path):
+    motion = over_following(with_header(2).at(h=0.0), 5)
+    calculated = Balance(motion)
+    rows = [["R_y, mm", "F_R up, kgf", "P [bar]", "remark"]]
+    rows += [[R / mm, 1.05 * F / kgf, 0.98 * p / 1e5, "x"] for R, F, p in zip(calculated.height, calculated.up, calculated.pressure, strict=True)]
+    up, pressure = deviations(motion, read_measured(written(tmp_path / "m.csv", rows)))
+    assert (up.curve, pressure.curve) == ("F_R up", "P")
+    assert_allclose(up.percent, 5.0, rtol=1e-6)
+    assert_allclose(pressure.percent, -2.0, rtol=1e-6)
+    assert up.verdict and "+5.0 %" in up.verdict.sentence
+
+
+def test_too_large_a_deviation_fails_and_is_drawn(tmp_path):
+    machine = with_header(2)
+    motion = over_following(machine.at(h=0.0), 3)
+    height, down = Balance(motion).height, Balance(motion).down
+    text = "R_y, mm;F_R down, kgf\n" + "\n".join(f"{R / mm:.6f};{1.10 * F / kgf:.6f}".replace(".", ",") for R, F in zip(height, down, strict=True))
+    (tmp_path / "m.csv").write_text(text + "\n0;\n", encoding="utf-8")
+    (found,) = deviations(motion, read_measured(tmp_path / "m.csv"))
+    assert len(found.percent) == 3
+    assert not found.verdict and "above the paper's 7 %" in found.verdict.sentence
+    assert abs(found.percent[0]) < 1.0  # next to hang-up percent are of a tenth of the curve's largest
+    label = next(label for label in lines(figure(3, machine, [found])) if label.startswith("measured"))
+    assert_allclose(lines(figure(3, machine, [found]))[label], [height / mm, 1.10 * down / kgf], rtol=1e-4, atol=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("R_y, mm\n", "at least one of numbers"),
+        ('"R_y, mm","F_R up, kgf"\n1,two\n', "line 2: 'two' is not a number"),
+        ('"R_y, mm","F_R up, kgf"\n1,inf\n', "line 2: 'inf' is not a finite"),
+        ('"R_y, kgf","F_R up, kgf"\n1,2\n', "the unit of R_y"),
+        ('"R_y, mm","speed, m"\n1,2\n', "one of F_R up"),
+    ],
+)
+def test_a_bad_file_is_refused_with_its_line(tmp_path, text, words):
+    (tmp_path / "m.csv").write_text(text, encoding="utf-8")
+    with pytest.raises(FileError, match=words):
+        read_measured(tmp_path / "m.csv")
+
+
+def test_the_command_prints_table_and_verdicts(balance, capsys):
+    assert balance("header_balancer", "--header", "2", "--pressure", "40kgf_cm2", "--count", "3") == 0
+    shown = capsys.readouterr().out
+    assert "Charged to 40.00 kgf/cm2" in shown
+    assert "the shoe lifts off moving down; lower the charge by 6.08 kgf/cm2" in shown
+    assert "P_req, kgf/cm2" in shown
+
+
+def test_the_command_writes_csv_and_a_figure(balance, capsys, tmp_path):
+    table, drawn = tmp_path / "t.csv", tmp_path / "f.png"
+    assert balance("header_balancer", "--header", "1", "--csv", str(table), "--figure", "6", "-o", str(drawn)) == 0
+    rows = list(csv.reader(table.open(newline="", encoding="utf-8")))
+    heading, first = rows[0], rows[1]
+    assert len(rows) == 14 and heading[:2] == ["h, mm", "R_y, mm"]
+    assert float(first[1]) == pytest.approx(-150.0)
+    assert drawn.stat().st_size > 10_000
+
+
+def test_the_command_charges_for_a_reaction_and_lists_settings(balance, capsys):
+    assert balance("header_balancer", "--header", "3", "--reaction", "300kgf", "--table") == 0
+    shown = capsys.readouterr().out
+    assert "Charged to 48.56 kgf/cm2" in shown and "charge 3, kgf/cm2" in shown
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("header_balancer", "--pressure", "40"), "say the unit too"),
+        (("header_balancer", "--pressure", "40kg"), "pressure"),
+        (("header_balancer", "--pressure", "nan"), "not a value"),
+        (("header_balancer", "--pressure", "-5bar"), "charge"),
+        (("header_balancer", "--pressure", "20kgf_cm2"), "rigid"),
+        (("header_balancer", "--pressure", "40bar", "--reaction", "300kgf"), "give one of them"),
+        (("header_balancer", "--header", "7"), "invalid choice"),
+        (("header_balancer", "--set", "follows=2m"), "cannot be -2000 mm"),
+        (("header_balancer", "-o", "picture.doc"), "ends in one of"),
+        (("header_balancer", "--measured", "nowhere.csv"), "No such file"),
+        (("mower_lift",), "no balanced header"),
+    ],
+    ids=" ".join,
+)
+def test_a_users_mistake_is_one_line(balance, capsys, arguments, words):
+    assert balance(*arguments) == 2
+    error = capsys.readouterr().err
+    assert words in error and error.count("\n") == 1
+
+
+def test_measured_curve_of_one_pose_with_no_values_is_left_out():
+    assert deviations(with_header(1).at(h=0.0), {"R_y": np.array([0.0]), "F_R up": np.array([np.nan])}) == []

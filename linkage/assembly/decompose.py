@@ -114,7 +114,8 @@ def matching(rows: list[Row], parts: Parts, title: str) -> dict[tuple[str, int],
     # whole numbers as nodes: names would be matched in an order that changes from run to run
     first = len(coordinates)
     graph.add_nodes_from(range(first))
-    graph.add_edges_from((coordinates.index((pin, axis)), first + place) for place, row in enumerate(rows) for pin in row.pins for axis in (0, 1))
+    for place, row in enumerate(rows):
+        graph.add_edges_from((coordinates.index((pin, axis)), first + place) for pin in row.pins for axis in (0, 1))
     found = nx.bipartite.hopcroft_karp_matching(graph, range(first))
     free = list(dict.fromkeys(pin for place, (pin, _) in enumerate(coordinates) if place not in found))
     if free:

@@ -23,7 +23,7 @@ class Command(ABC):
 
 def machine_arguments(parser: ArgumentParser) -> None:
     """Declare the arguments that every command on a machine has."""
-    parser.add_argument("machine", metavar="NAME", help="a machine of `list`, package.module:Class, file.py, file.py:Class, file.toml, file.json")
+    parser.add_argument("machine", metavar="NAME", help="a machine of `list`, package.module:Class, file.py, file.py:Class or file.toml")
     parser.add_argument(
         "--set", dest="settings", metavar="OB=180mm", action="append", default=[],
         help="change a design variable, with its unit (without: SI); a point: M=0.22,0.95 or M.x=220mm; repeatable",

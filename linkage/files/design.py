@@ -66,8 +66,10 @@ class Design:
 
 def in_degrees(value: float) -> float | str:
     """Return an angle [rad] as text in degrees where that is short and reads back as the same, else as it is."""
+    if not isinstance(value, float) or not 0.0 < abs(value) < 1e9:
+        return value
     text = f"{value / deg:.9g} deg"
-    return text if isinstance(value, float) and value and parse(text) == value else value
+    return text if parse(text) == value else value
 
 
 def changed(machine: Mechanism) -> dict[str, float]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping
+from copy import copy
 from typing import Any
 
 import numpy as np
@@ -147,7 +148,9 @@ def made(title: str, doc: str | None, members: Mapping[str, Member], names: Name
         raise FileError(faults.text()) from error
     except AssemblyError as error:
         faults.add((names.sections[error.point], error.point) if error.point in names.sections else (), str(error))
-        raise type(error)(faults.text(), point=error.point, mask=error.mask, shortfall=error.shortfall) from error
+        located = copy(error)
+        located.args = (faults.text(),)
+        raise located from error
     except RecursionError:
         raise FileError(f"{faults.source}: expressions hang on each other in too long a chain; shorten it.") from None
     except ArithmeticError as error:

@@ -82,6 +82,7 @@ class Motion(Outputs):
         key = (targets, along)
         if key not in self._ratios:
             self._ratios[key] = self._full(self.plan.kernel(targets, along)(self._flat).values)
+            self._ratios[key].flags.writeable = False
         values = self._ratios[key]
         if not self.reached.all():
             values = np.where(self.reached, values, np.nan)

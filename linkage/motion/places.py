@@ -41,6 +41,7 @@ class Places:
         self.is_near_singular = not np.all(result.guards > 0.0)
         if self.is_near_singular or plan.may_overflow:
             self._settle_unreached()
+        self._places.flags.writeable = False
 
     # -- inputs ----------------------------------------------------------------------------------------
 
@@ -58,7 +59,8 @@ class Places:
         """The pins of groups, shape (m, n)."""
         if not self.plan.groups:
             return Solved({}, np.zeros((1, 1), bool))
-        designs = {name: np.broadcast_to(value, self.design_shape).ravel() if np.ndim(value) else value for name, value in self.designs.items()}
+        shape = self.design_shape
+        designs = {name: np.broadcast_to(value, shape).ravel() if np.ndim(value) else value for name, value in self.designs.items()}
         return solve_groups(self.plan, designs, {name: value.ravel() for name, value in self.strokes.items()})
 
     @cached_property

@@ -28,7 +28,8 @@ Moved = Callable[[Mapping[str, Any]], "Motion"]
 def limits(motion: Motion) -> Limits:
     """Return the limits along every stroke of one design; other strokes are held at the motion's first values."""
     if motion.design_shape:
-        raise DefinitionError(f"{motion.plan.title}: limits are worked out for one design at a time; this motion has {motion.design_shape}.")
+        title, shape = motion.plan.title, motion.design_shape
+        raise DefinitionError(f"{title}: limits are worked out for one design at a time; this motion has {shape}.")
     held = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
     return Limits({name: stroke_limits(motion, name, held) for name in motion.strokes})
 

@@ -33,6 +33,7 @@ class Trace(Reading):
         inputs = {name: self.graph.input(name, level) for name, level in levels.items()}
         super().__init__(members, lengths, inputs)
         self.guards: list[Guard] = []
+        self.noted: dict[str, Node] = {}
 
     def root(self, radicand: Scalar, scale: Scalar, size: Scalar) -> Scalar:
         radicand = self.graph.node(radicand)
@@ -42,11 +43,13 @@ class Trace(Reading):
         node: Node = self.graph.apply("sqrt", radicand)
         watched = radicand - NEAR**2 * (scale * scale + size) if node.level is Level.POSE else node
         self.guards.append(Guard(self.owner, self.graph.node(watched)))
+        self.noted[self.owner] = node
         return node
 
     def margin(self, sine: Scalar) -> Scalar:
         if isinstance(sine, Node):
             self.guards.append(Guard(self.owner, np.abs(sine) - NEAR))
+            self.noted[self.owner] = sine
         return sine
 
     def watch_length(self, step: str, length: Quantity) -> None:
@@ -71,7 +74,8 @@ class Trace(Reading):
                 self.positions[name] = Vec(x, y)
             return step.constraints(self)
 
-        roots = self.graph.close(values, residuals)
+        known = step.sense * self.noted[step.name] if step.sense and step.name in self.noted else None
+        roots = self.graph.close(values, residuals, known)
         for name, x, y in zip(names, roots[::2], roots[1::2], strict=True):
             self.positions[name] = Vec(x, y)
         return self.positions[step.name]

@@ -1,7 +1,7 @@
 """The traced straight-line program, its derivatives and its kernels."""
 
+from .arrays import FloatArray as FloatArray
 from .interpret import interpret as interpret
-from .kernel import FloatArray as FloatArray
 from .kernel import Kernel as Kernel
 from .kernel import Result as Result
 from .linear import solve_arrays as solve_arrays

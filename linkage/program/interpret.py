@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from .lower import ancestors, plain
 from .node import Node
 from .operations import OPERATIONS
-from .schedule import ancestors, plain
 
 
 def interpret(outputs: Sequence[Node], inputs: Mapping[str, Any]) -> list[Any]:

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from .operations import OPERATIONS
+from .simplify import offset, simpler
 
 
 class Level(IntEnum):
@@ -98,8 +99,8 @@ class Closure:
     The values select the root; everything else (tangents, adjoints) follows from the residuals.
     """
 
-    def __init__(self, roots: tuple[Node, ...], residuals: tuple[Node, ...]) -> None:
-        self.roots, self.residuals = roots, residuals
+    def __init__(self, roots: tuple[Node, ...], residuals: tuple[Node, ...], determinant: Node | None = None) -> None:
+        self.roots, self.residuals, self.determinant = roots, residuals, determinant
         self.sources = sources(residuals, before=roots[0].number)
 
 
@@ -118,6 +119,11 @@ def sources(nodes: Sequence[Node], before: int) -> tuple[Node, ...]:
         else:
             stack.extend(each.args if each.op != "root" else ())
     return tuple(found)
+
+
+def ordered(op: str, args: tuple[Node, ...]) -> tuple[Node, ...]:
+    """Return the arguments of an operation in the order in which it is known."""
+    return args[::-1] if op in ("add", "multiply", "minimum", "maximum") and args[0].number > args[1].number else args
 
 
 class Graph:
@@ -159,12 +165,20 @@ class Graph:
         if op not in ("solve", "component") and all(each.op == "constant" for each in args):
             with np.errstate(all="ignore"):
                 return self.constant(float(OPERATIONS[op].array(*(each.value for each in args))))
-        simpler = SIMPLIFY[op](self, *args) if op in SIMPLIFY else None
-        if simpler is not None:
-            return simpler
-        if op in ("add", "multiply", "minimum", "maximum") and args[0].number > args[1].number:
-            args = args[::-1]
-        return self._make(op, args, None, max(each.level for each in args))
+        found = simpler(self, op, args)
+        return self.made(op, args) if found is None else found
+
+    def made(self, op: str, args: tuple[Node, ...]) -> Node:
+        """Return the node of an operation as it stands."""
+        return self._make(op, ordered(op, args), None, max(each.level for each in args))
+
+    def known(self, op: str, args: tuple[Node, ...]) -> Node | None:
+        """Return the node of an operation where there is one already."""
+        return self._known.get((op, None, *(each.number for each in ordered(op, args))))
+
+    def alias(self, value: Node, meaning: Node) -> Node:
+        """Return a value that is known by another way: it reads the first node and is differentiated as the second."""
+        return value if value is meaning else self._make("alias", (value, meaning), None, value.level)
 
     def power(self, base: Node, exponent: Any) -> Node:
         """Return base ** exponent; whole and half exponents become products and roots."""
@@ -182,91 +196,20 @@ class Graph:
         """Return x where a <= b, else y."""
         return self.apply("pick", a, b, x, y)
 
-    def close(self, values: Sequence[Any], residuals: Callable[[tuple[Node, ...]], Sequence[Any]]) -> tuple[Node, ...]:
-        """Return the unknowns of a loop as roots, given their selected values and the residuals that vanish there."""
+    def close(
+        self, values: Sequence[Any], residuals: Callable[[tuple[Node, ...]], Sequence[Any]], determinant: Node | None = None
+    ) -> tuple[Node, ...]:
+        """Return the unknowns of a loop as roots, given their selected values and the residuals that vanish there.
+
+        `determinant` is that of the residuals' derivatives by the unknowns, where placing them has worked it out already.
+        """
         nodes = [self.node(value) for value in values]
-        if all(each.level < Level.POSE for each in nodes) and all(each.op == "constant" for each in nodes):
+        if all(each.op == "constant" for each in nodes):
             return tuple(nodes)
-        roots = tuple(self._make("root", (each,), None, each.level, unique=True) for each in nodes)
-        closure = Closure(roots, tuple(self.node(each) for each in residuals(roots)))
+        split = [offset(self, each) for each in nodes]
+        roots = tuple(self._make("root", (moving,), None, moving.level, unique=True) for moving, _ in split)
+        unknowns = tuple(root + fixed for root, (_, fixed) in zip(roots, split, strict=True))
+        closure = Closure(roots, tuple(self.node(each) for each in residuals(unknowns)), determinant)
         for root in roots:
             root.closure = closure
-        return roots
-
-
-def _split(node: Node) -> tuple[float, Node]:
-    """Return a node as factor and rest: 2 * a is (2, a), -a is (-1, a)."""
-    if node.op == "negative":
-        factor, rest = _split(node.args[0])
-        return -factor, rest
-    if node.op == "multiply" and node.args[0].op == "constant":
-        return node.args[0].value, node.args[1]
-    if node.op == "multiply" and node.args[1].op == "constant":
-        return node.args[1].value, node.args[0]
-    return 1.0, node
-
-
-def _scaled(graph: Graph, factor: float, node: Node) -> Node:
-    if factor == 1.0:
-        return node
-    if factor == -1.0:
-        return graph._make("negative", (node,), None, node.level)
-    pair = sorted((graph.constant(factor), node), key=lambda each: each.number)
-    return graph._make("multiply", tuple(pair), None, node.level)
-
-
-def _is(node: Node, value: float) -> bool:
-    return node.op == "constant" and node.value == value
-
-
-def _combined(graph: Graph, sign: float, a: Node, b: Node) -> Node | None:
-    """Return a + sign * b where it is simpler than written: zeros, signs and common factors."""
-    if _is(a, 0.0):
-        return b if sign > 0 else graph.apply("negative", b)
-    if _is(b, 0.0):
-        return a
-    if a.op == "constant" or b.op == "constant":
-        return None
-    (p, x), (q, y) = _split(a), _split(b)
-    q *= sign
-    if x is y:
-        return graph.constant(0.0) if p + q == 0.0 else _scaled(graph, p + q, x)
-    if p == q != 1.0:
-        return graph.apply("multiply", p, graph.apply("add", x, y))
-    if p == -q and (p, sign) != (1.0, -1.0):
-        first, second = (x, y) if p > 0 else (y, x)
-        return graph.apply("multiply", abs(p), graph.apply("subtract", first, second))
-    if q < 0.0 and sign > 0:
-        return graph.apply("subtract", a, _scaled(graph, -q, y))
-    if q > 0.0 and sign < 0 and b.op == "negative":
-        return graph.apply("add", a, _scaled(graph, q, y))
-    return None
-
-
-def _product(graph: Graph, a: Node, b: Node) -> Node | None:
-    """Return a * b where it is simpler than written: ones, zeros, and constants gathered in front."""
-    (p, x), (q, y) = _split(a), _split(b)
-    if a.op == "constant":
-        return graph.constant(0.0) if a.value == 0.0 else _scaled(graph, a.value * q, y) if (q != 1.0 or a.value in (1.0, -1.0)) else None
-    if b.op == "constant":
-        return graph.apply("multiply", b, a)
-    if p != 1.0 or q != 1.0:
-        return _scaled(graph, p * q, graph.apply("multiply", x, y))
-    return None
-
-
-def _negated(graph: Graph, a: Node) -> Node | None:
-    factor, rest = _split(a)
-    if factor != 1.0:
-        return _scaled(graph, -factor, rest)
-    return graph.apply("subtract", a.args[1], a.args[0]) if a.op == "subtract" else None
-
-
-SIMPLIFY: dict[str, Callable[..., Node | None]] = {
-    "add": lambda graph, a, b: _combined(graph, 1.0, a, b),
-    "subtract": lambda graph, a, b: _combined(graph, -1.0, a, b),
-    "multiply": _product,
-    "negative": _negated,
-    "reciprocal": lambda graph, a: a.args[0] if a.op == "reciprocal" else None,
-    "pick": lambda graph, a, b, x, y: x if x is y else None,
-}
+        return unknowns

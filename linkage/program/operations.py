@@ -47,7 +47,9 @@ OPERATIONS: dict[str, Operation] = {
     "subtract": Operation(np.subtract, "{} - {}", lambda r, a, b: (1.0, -1.0)),
     "multiply": Operation(np.multiply, "{} * {}", lambda r, a, b: (b, a)),
     "negative": Operation(np.negative, "-{}", lambda r, a: (-1.0,)),
-    "reciprocal": Operation(np.reciprocal, "reciprocal({})", lambda r, a: (-(r * r),)),
+    "divide": Operation(np.divide, "{} / {}", lambda r, a, b: (1.0 / b, -(r / b))),
+    "reciprocal": Operation(np.reciprocal, "1.0 / {}", lambda r, a: (-(r * r),)),
+    "square": Operation(np.square, "{0} * {0}", lambda r, a: (2.0 * a,)),
     "sqrt": Operation(np.sqrt, "sqrt({})", lambda r, a: (0.5 / r,)),
     "sin": Operation(np.sin, "sin({})", lambda r, a: (np.cos(a),)),
     "cos": Operation(np.cos, "cos({})", lambda r, a: (-np.sin(a),)),
@@ -68,6 +70,10 @@ OPERATIONS: dict[str, Operation] = {
 
 def _reciprocal(a: float) -> float:
     return 1.0 / a if a else math.copysign(math.inf, a)
+
+
+def _divide(a: float, b: float) -> float:
+    return a / b if b else a * math.copysign(math.inf, b)
 
 
 def _sqrt(a: float) -> float:
@@ -99,6 +105,7 @@ def _power(a: float, b: float) -> float:
 #: The names a program's text uses, on plain floats: math raises where NumPy returns NaN, so roots and divisions are guarded.
 FLOATS: Mapping[str, Callable[..., Any]] = {
     "reciprocal": _reciprocal,
+    "divide": _divide,
     "sqrt": _sqrt,
     "sin": _quiet("sin"),
     "cos": _quiet("cos"),
@@ -115,6 +122,11 @@ FLOATS: Mapping[str, Callable[..., Any]] = {
     "solve": solve_floats,
     "component": component,
 }
+
+#: The same names for text that may raise where a division, a root or a function has no value.
+QUICK: Mapping[str, Callable[..., Any]] = {**FLOATS, **{name: getattr(math, name) for name in ("sqrt", "sin", "cos", "tan", "exp", "log")}}
+#: What they raise.
+NO_VALUE = (ZeroDivisionError, ValueError, OverflowError)
 
 #: The same names on arrays.
 ARRAYS: Mapping[str, Callable[..., Any]] = {name: each.array for name, each in OPERATIONS.items()} | {"least": np.min}

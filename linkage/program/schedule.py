@@ -1,18 +1,14 @@
-"""Which nodes a kernel computes and in which order: only the ancestors of what is asked for."""
+"""Which operations a kernel does and in which order: only the ancestors of what is asked for."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
+from .lower import ancestors, lowered, plain
 from .node import Level, Node
-
-
-def plain(node: Node) -> Node:
-    """Return the node that holds a root's value: a root is its value under another name."""
-    while node.op == "root":
-        node = node.args[0]
-    return node
+from .order import shortest
 
 
 @dataclass(frozen=True)
@@ -27,30 +23,29 @@ class Schedule:
     passed: tuple[Node, ...]
     """Design nodes the pose part reads, or that are outputs."""
 
+    @cached_property
+    def design_inputs(self) -> tuple[Node, ...]:
+        """The dimensions."""
+        return tuple(node for node in self.inputs if node.level is Level.DESIGN)
+
+    @cached_property
+    def pose_inputs(self) -> tuple[Node, ...]:
+        """The strokes and the coordinates of groups."""
+        return tuple(node for node in self.inputs if node.level is Level.POSE)
+
 
 def schedule(outputs: Sequence[Node], guards: Sequence[Node] = ()) -> Schedule:
     """Return the order of evaluation for some outputs, and guards whose least value is wanted."""
-    out, watched = tuple(map(plain, outputs)), tuple(map(plain, guards))
-    nodes = ancestors((*out, *watched))
-    pose = tuple(node for node in nodes if node.level is Level.POSE and node.op not in ("input", "constant"))
-    read = {arg for node in pose for arg in map(plain, node.args)} | set(out) | set(watched)
+    wanted = lowered((*outputs, *guards))
+    out, watched = tuple(wanted[: len(outputs)]), tuple(wanted[len(outputs) :])
+    nodes = ancestors(wanted)
+    pose = [node for node in nodes if node.level is Level.POSE and node.op not in ("input", "constant")]
+    read = {arg for node in pose for arg in map(plain, node.args)} | set(wanted)
     return Schedule(
         outputs=out,
         guards=watched,
         design=tuple(node for node in nodes if node.level is Level.DESIGN and node.op != "input"),
-        pose=pose,
+        pose=shortest(pose, set(out)),
         inputs=tuple(node for node in nodes if node.op == "input"),
         passed=tuple(node for node in nodes if node.level is Level.DESIGN and node in read),
     )
-
-
-def ancestors(nodes: Iterable[Node]) -> list[Node]:
-    """Return the nodes and all they are computed from, in order of dependence, without roots' aliases."""
-    found: set[Node] = set()
-    stack = list(nodes)
-    while stack:
-        node = plain(stack.pop())
-        if node not in found:
-            found.add(node)
-            stack.extend(node.args)
-    return sorted(found, key=lambda node: node.number)

@@ -29,24 +29,36 @@ def is_number(node: Node, value: float) -> bool:
     return node.op == "constant" and node.value == value
 
 
-def parts(graph: Graph, node: Node) -> tuple[Node, Node]:
-    """Return a node as factor and rest, the factor a number or, of something that moves, fixed by the design."""
+def parts(graph: Graph, node: Node) -> tuple[float, Node, Node]:
+    """Return a node as number, fixed factor (of something that moves) and rest: -(2 * d) * x is (-2, d, x)."""
     if node.op == "negative":
-        factor, rest = parts(graph, node.args[0])
-        return graph.apply("negative", factor), rest
+        number, factor, rest = parts(graph, node.args[0])
+        return -number, factor, rest
     if node.op == "multiply":
         for factor, rest in (node.args, node.args[::-1]):
-            if factor.op == "constant" or (is_fixed(factor) and not is_fixed(rest)):
-                return factor, rest
-    return graph.constant(1.0), node
+            if factor.op == "constant":
+                number, inner, rest = parts(graph, rest)
+                return factor.value * number, inner, rest
+            if is_fixed(factor) and not is_fixed(rest):
+                number, _, factor = parts(graph, factor)
+                return number, factor, rest
+    return 1.0, graph.constant(1.0), node
+
+
+def built(graph: Graph, number: float, factor: Node, rest: Node) -> Node:
+    """Return number * factor * rest; a number goes into the fixed factor, a sign in front."""
+    if number == 0.0:
+        return graph.constant(0.0)
+    if number < 0.0 and (number == -1.0 or not is_number(factor, 1.0)):
+        return graph.made("negative", (built(graph, -number, factor, rest),))
+    factor = graph.constant(number) if is_number(factor, 1.0) else graph.apply("multiply", number, factor)
+    return scaled(graph, factor, rest)
 
 
 def scaled(graph: Graph, factor: Node, node: Node) -> Node:
     """Return factor * node, into that half of a product which is known scaled already."""
-    if is_number(factor, 0.0) or is_number(factor, 1.0):
-        return node if factor.value else factor
-    if is_number(factor, -1.0):
-        return graph.made("negative", (node,))
+    if is_number(factor, 1.0):
+        return node
     if node.op == "multiply" and not any(map(is_fixed, node.args)):
         for half, other in (node.args, node.args[::-1]):
             known = graph.known("multiply", (factor, half))
@@ -56,28 +68,26 @@ def scaled(graph: Graph, factor: Node, node: Node) -> Node:
 
 
 def product(graph: Graph, a: Node, b: Node) -> Node | None:
-    """Return a * b where it is simpler than written: ones, zeros, gathered factors."""
-    (p, x), (q, y) = parts(graph, a), parts(graph, b)
-    if a.op == "constant" or (is_fixed(a) and not is_fixed(b)):
-        return scaled(graph, graph.apply("multiply", a, q), y)
+    """Return a * b where it is simpler than written: ones, zeros, gathered factors, the sign in front."""
+    (p, c, x), (q, d, y) = parts(graph, a), parts(graph, b)
+    if a.op == "constant":
+        return built(graph, a.value * q, d, y)
+    if is_fixed(a) and not is_fixed(b):
+        return built(graph, p * q, graph.apply("multiply", a if p == 1.0 else built(graph, 1.0, c, x), d), y)
     if b.op == "constant" or (is_fixed(b) and not is_fixed(a)):
-        return product(graph, b, a)
-    if p.op == q.op == "constant" and not is_number(p, 1.0) and not is_number(q, 1.0):
-        return scaled(graph, graph.constant(p.value * q.value), graph.apply("multiply", x, y))
-    for factor, rest, other in ((p, x, b), (q, y, a)):
-        if is_number(factor, -1.0):
-            return graph.apply("negative", graph.apply("multiply", rest, other))
+        return graph.apply("multiply", b, a)
+    if p * q == 1.0 and p != 1.0 and is_number(c, 1.0) and is_number(d, 1.0):
+        return graph.apply("multiply", x, y)
+    if p < 0.0 or q < 0.0:
+        core = graph.apply("multiply", built(graph, abs(p), c, x), built(graph, abs(q), d, y))
+        return core if p * q > 0.0 else graph.apply("negative", core)
     return None
 
 
 def negated(graph: Graph, a: Node) -> Node | None:
     """Return -a where it is simpler than written."""
-    if a.op == "subtract":
-        return graph.apply("subtract", a.args[1], a.args[0])
-    factor, rest = parts(graph, a)
-    if is_number(factor, 1.0):
-        return None
-    return scaled(graph, graph.constant(-factor.value) if factor.op == "constant" else graph.apply("negative", factor), rest)
+    number, factor, rest = parts(graph, a)
+    return None if number > 0.0 and (number == 1.0 or not is_number(factor, 1.0)) else built(graph, -number, factor, rest)
 
 
 def offset(graph: Graph, node: Node) -> tuple[Node, Node]:
@@ -97,6 +107,8 @@ def total(graph: Graph, sign: float, a: Node, b: Node) -> Node | None:
         return a
     if is_number(a, 0.0):
         return b if sign > 0 else graph.apply("negative", b)
+    if sign < 0 and (reverse := graph.known("subtract", (b, a))) is not None:
+        return graph.apply("negative", reverse)
     if is_fixed(a) != is_fixed(b):
         return shifted(graph, sign, a, b)
     if not is_fixed(a):
@@ -115,14 +127,14 @@ def shifted(graph: Graph, sign: float, a: Node, b: Node) -> Node | None:
     x, fixed = offset(graph, b)
     if not is_number(fixed, 0.0):
         return graph.apply(op, graph.apply(op, a, fixed), x)
-    factor, rest = parts(graph, b)
-    return None if not is_number(factor, -1.0) else graph.apply("subtract" if sign > 0 else "add", a, rest)
+    number, factor, rest = parts(graph, b)
+    return None if number > 0.0 else graph.apply("subtract" if sign > 0 else "add", a, built(graph, -number, factor, rest))
 
 
 def cancelled(graph: Graph, sign: float, a: Node, b: Node) -> Node | None:
     """Return a + sign * b of two that move, where their fixed parts cancel or a part of the sum is known."""
     (x, c), (y, d) = offset(graph, a), offset(graph, b)
-    if is_number(c, 0.0) and is_number(d, 0.0):
+    if is_number(c, 0.0) or is_number(d, 0.0):
         return None
     op = "add" if sign > 0 else "subtract"
     both = graph.apply(op, c, d)
@@ -139,24 +151,26 @@ def gathered(graph: Graph, sign: float, a: Node, b: Node) -> Node | None:
     """Return a + sign * b with signs in front and common factors taken out."""
     if a.op == "constant" or b.op == "constant":
         return None
-    (p, x), (q, y) = parts(graph, a), parts(graph, b)
-    q = q if sign > 0 else graph.apply("negative", q)
+    (p, c, x), (q, d, y) = parts(graph, a), parts(graph, b)
+    q = q * sign
+    if x is y and c is d:
+        return built(graph, p + q, c, x)
     if x is y:
-        return scaled(graph, graph.apply("add", p, q), x)
-    if p is q and not is_number(p, 1.0):
-        return scaled(graph, p, graph.apply("add", x, y))
-    if p is graph.apply("negative", q) and p.op == "constant" and abs(p.value) != 1.0:
-        return scaled(graph, p, graph.apply("subtract", x, y))
+        return scaled(graph, graph.apply("add", graph.apply("multiply", p, c), graph.apply("multiply", q, d)), x)
+    if c is d and abs(p) == abs(q) and not (abs(p) == 1.0 and is_number(c, 1.0)):
+        inner = graph.apply("add" if p == q else "subtract", x, y)
+        return graph.apply("multiply", graph.apply("multiply", p, c), inner)
     shared = common(x, y)
     if shared is not None:
         w, u, v = shared
-        return graph.apply("multiply", w, graph.apply("add", graph.apply("multiply", p, u), graph.apply("multiply", q, v)))
-    if is_number(p, -1.0):
-        return graph.apply("subtract", scaled(graph, q, y), x)
-    if sign > 0 and q.op == "constant" and q.value < 0.0:
-        return graph.apply("subtract", a, scaled(graph, graph.constant(-q.value), y))
-    if sign < 0 and q.op == "constant" and q.value > 0.0:
-        return graph.apply("add", a, scaled(graph, q, y))
+        u, v = built(graph, abs(p), c, u), built(graph, abs(q), d, v)
+        inner = graph.apply("add" if p * q > 0 else "subtract", u, v)
+        return graph.apply("multiply", w, inner if p > 0 else graph.apply("negative", inner))
+    if p < 0.0 or (q < 0.0) == (sign > 0):
+        u, v = built(graph, abs(p), c, x), built(graph, abs(q), d, y)
+        if p > 0.0:
+            return graph.apply("add" if q > 0.0 else "subtract", u, v)
+        return graph.apply("negative", graph.apply("add", u, v)) if q < 0.0 else graph.apply("subtract", v, u)
     return None
 
 

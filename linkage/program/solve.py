@@ -10,15 +10,24 @@ from collections.abc import Sequence
 from .node import Graph, Node
 
 
-def solution(graph: Graph, matrix: Sequence[Sequence[Node]], right: Sequence[Node]) -> list[Node]:
-    """Return the unknowns of `matrix @ u = right` as nodes."""
+def solution(graph: Graph, matrix: Sequence[Sequence[Node]], right: Sequence[Node], determinant: Node | None = None) -> list[Node]:
+    """Return the unknowns of `matrix @ u = right` as nodes; `determinant` is the matrix's, where it is known by another way."""
     if len(right) == 1:
         return [right[0] / matrix[0][0]]
     if len(right) == 2:
         (a, b), (c, d) = matrix
-        inverse = 1.0 / (a * d - b * c)
-        return [(right[0] * d - right[1] * b) * inverse, (right[1] * a - right[0] * c) * inverse]
+        meaning = a * d - b * c
+        inverse = 1.0 / meaning if determinant is None else _inverse(graph, determinant, meaning)
+        r, s = (each * inverse for each in right)
+        return [r * d - s * b, s * a - r * c]
     if all(each.op == "constant" and each.value == 0.0 for each in right):
         return [graph.constant(0.0)] * len(right)
     system = graph.apply("solve", *(entry for row in matrix for entry in row), *right)
     return [graph.apply("component", system, float(place)) for place in range(len(right))]
+
+
+def _inverse(graph: Graph, determinant: Node, meaning: Node) -> Node:
+    """Return 1 / determinant, its sign in front."""
+    if determinant.op == "negative":
+        return -_inverse(graph, determinant.args[0], -meaning)
+    return 1.0 / graph.alias(determinant, meaning)

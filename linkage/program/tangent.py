@@ -50,7 +50,7 @@ class Tangent:
             if each.number < floor or each in found or each in self._known:
                 continue
             found.add(each)
-            stack.extend(each.closure.sources if each.closure else each.args)
+            stack.extend(each.closure.sources if each.closure else each.args[1:] if each.op == "alias" else each.args)
         return sorted(found, key=lambda each: each.number)
 
     def _solved(self, node: Node) -> Node:
@@ -69,6 +69,9 @@ class Tangent:
     def _settle(self, node: Node) -> None:
         if node.closure is not None:
             self._known.update(zip(node.closure.roots, rates(self.graph, node.closure, self), strict=True))
+            return
+        if node.op == "alias":
+            self._known[node] = self._lookup(node.args[1])
             return
         if node.op in ("solve", "component"):
             self._known[node] = self._solved(node) if node.op == "component" else self.zero
@@ -92,7 +95,7 @@ def rates(graph: Graph, closure: Closure, along: Tangent) -> Sequence[Node]:
     """Return the derivatives of a loop's unknowns along a direction: the solution of r_u du = -r_v dv."""
     held = Tangent(graph, dict.fromkeys(closure.roots, 0.0), beyond=along, limit=closure.roots[0].number)
     drive = [-held.of(residual) for residual in closure.residuals]
-    return solution(graph, jacobian(graph, closure), drive)
+    return solution(graph, jacobian(graph, closure), drive, closure.determinant)
 
 
 def jacobian(graph: Graph, closure: Closure) -> list[list[Node]]:

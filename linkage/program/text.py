@@ -1,38 +1,65 @@
-"""The text of a program: one assignment a node, in plain arithmetic that floats and arrays can run."""
+"""The text of a program: one assignment a node, in the words of a language."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
+from .lower import plain
 from .node import Node
 from .operations import OPERATIONS
-from .schedule import plain
 
 
-def name(node: Node) -> str:
-    """Return a node's name in a program's text, or its number."""
-    return repr(node.value) if node.op == "constant" else f"n{node.number}"
+@dataclass(frozen=True)
+class Dialect:
+    """How a language writes operations, numbers and assignments."""
+
+    templates: Mapping[str, str]
+    number: Callable[[float], str] = repr
+    assignment: str = "{} = {}"
 
 
-def assignments(nodes: Iterable[Node]) -> list[str]:
-    """Return one line a node: `n7 = n3 * n5`."""
-    return [f"n{node.number} = {expression(node)}" for node in nodes]
+TEMPLATES: Mapping[str, str] = {name: each.text for name, each in OPERATIONS.items()}
+
+#: Plain Python, which raises where a division or a root has no value.
+PYTHON = Dialect(TEMPLATES)
+#: Python that calls a function for every division, which may answer with infinity.
+GUARDED = Dialect({**TEMPLATES, "divide": "divide({}, {})", "reciprocal": "reciprocal({})"})
 
 
-def expression(node: Node) -> str:
-    """Return a node's operation on its arguments' names."""
-    operands = [bracketed(plain(arg)) for arg in node.args]
-    return f"solve({', '.join(operands)})" if node.op == "solve" else OPERATIONS[node.op].text.format(*operands)
+class Names:
+    """What the nodes are called in a text: by their place in it, so that equal programs have equal texts."""
+
+    def __init__(self, dialect: Dialect, given: Mapping[Node, str] | None = None) -> None:
+        self.dialect = dialect
+        self.names: dict[Node, str] = dict(given or {})
+
+    def read(self, node: Node) -> str:
+        """Return an operand: a name, or a number; a negative one in brackets."""
+        node = plain(node)
+        if node.op != "constant":
+            return self.names[node]
+        text = self.dialect.number(node.value)
+        return f"({text})" if text.startswith("-") else text
+
+    def expression(self, node: Node) -> str:
+        """Return a node's operation on its arguments' names."""
+        operands = list(map(self.read, node.args))
+        return f"solve({', '.join(operands)})" if node.op == "solve" else self.dialect.templates[node.op].format(*operands)
+
+    def assign(self, nodes: Iterable[Node], letter: str = "n") -> list[str]:
+        """Return one line a node: `n7 = n3 * n5`."""
+        lines = []
+        for node in nodes:
+            text = self.expression(node)
+            self.names[node] = f"{letter}{len(self.names)}"
+            lines.append(self.dialect.assignment.format(self.names[node], text))
+        return lines
 
 
-def bracketed(node: Node) -> str:
-    """Return an operand; a negative number in brackets."""
-    text = name(node)
-    return f"({text})" if text.startswith("-") else text
-
-
-def function(title: str, arguments: Sequence[Node], nodes: Iterable[Node], results: Sequence[Node]) -> str:
+def function(title: str, arguments: Sequence[Node], nodes: Iterable[Node], results: Sequence[Node], dialect: Dialect = PYTHON) -> str:
     """Return the text of a Python function that computes some nodes from others."""
-    listed = "".join(name(each) + ", " for each in results)
-    lines = [f"def {title}({', '.join(map(name, arguments))}):", *assignments(nodes), f"return ({listed})"]
+    names = Names(dialect, {node: f"a{place}" for place, node in enumerate(arguments)})
+    head = f"def {title}({', '.join(names.names.values())}):"
+    lines = [head, *names.assign(nodes), f"return ({''.join(names.read(each) + ', ' for each in results)})"]
     return "\n    ".join(lines) + "\n"

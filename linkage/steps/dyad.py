@@ -54,7 +54,7 @@ class Dyad(Step):
         P, base = where.at(self.P), where.at(self.Q) - where.at(self.P)
         along, height = triangle(where, base.square(), where.value(self.PX), where.value(self.QX))
         inverse = 1.0 / base.square()
-        X: Vec = P + base * (along * inverse) + base.left() * (float(self.settled_side) * (height * inverse))
+        X: Vec = P + (base * (along * inverse) + base.left() * (float(self.settled_side) * (height * inverse)))
         return X
 
     def modes(self) -> tuple[Side, ...]:
@@ -71,6 +71,10 @@ class Dyad(Step):
     @property
     def closes(self) -> bool:
         return True
+
+    @property
+    def sense(self) -> float:
+        return float(self.settled_side)
 
     def bars(self) -> tuple[Bar, ...]:
         return Bar(self.P, self.X, self.PX), Bar(self.Q, self.X, self.QX)

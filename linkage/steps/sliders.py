@@ -52,6 +52,10 @@ class SliderDyad(Step):
     def closes(self) -> bool:
         return True
 
+    @property
+    def sense(self) -> float:
+        return -float(self.settled_side)
+
     def shortage(self, where: Where) -> tuple[str, Scalar]:
         line = where.line(self.guide)
         gap = abs(line.direction.cross(where.at(self.P) - line.origin)) - where.value(self.PX)
@@ -76,7 +80,9 @@ class PinSlotDyad(Step):
     PX: Quantity = UNBOUND
     expects = (("P", "point"), ("Q", "point"))
 
-    def __init__(self, P: Reference, Q: Reference, *, offset: Any = 0.0, side: Side | None = None, near: Any = None, **lengths: Any) -> None:
+    def __init__(
+        self, P: Reference, Q: Reference, *, offset: Any = 0.0, side: Side | None = None, near: Any = None, **lengths: Any
+    ) -> None:
         super().__init__(P, Q, labels=lengths, side=side or (None if near is not None else Side.RIGHT), near=near)
         self.offset = quantity(offset)
 
@@ -108,6 +114,10 @@ class PinSlotDyad(Step):
     @property
     def closes(self) -> bool:
         return True
+
+    @property
+    def sense(self) -> float:
+        return float(self.settled_side)
 
     def shortage(self, where: Where) -> tuple[str, Scalar]:
         gap = abs(where.value(self.offset)) - (where.at(self.Q) - where.at(self.P)).length()
@@ -158,6 +168,10 @@ class GuideCross(Step):
     def closes(self) -> bool:
         return True
 
+    @property
+    def sense(self) -> float:
+        return 1.0
+
     def slides(self) -> tuple[tuple[str, str], ...]:
         return (self.X, self.guide), (self.X, self.other)
 
@@ -201,6 +215,10 @@ class YokeDyad(Step):
     @property
     def closes(self) -> bool:
         return True
+
+    @property
+    def sense(self) -> float:
+        return 1.0
 
     def slides(self) -> tuple[tuple[str, str], ...]:
         return ((self.X, self.guide),)

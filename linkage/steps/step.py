@@ -13,7 +13,15 @@ from ..quantities import Member, Number, Quantity, Reference, Where, name_of, qu
 from ..vectors import Scalar, Side, Vec
 from .labels import Claims, Slot, match
 
-UNBOUND = Number(float("nan"))
+
+class Unbound(Number):
+    """The place of a dimension that a step has not been given. It takes no name from the classes it stands in."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        """Stay unnamed."""
+
+
+UNBOUND = Unbound(float("nan"))
 
 
 @dataclass(frozen=True)
@@ -46,6 +54,11 @@ class Point(Member):
     def closes(self) -> bool:
         """Whether placing this point closes a loop, so that it can fail and become singular."""
         return False
+
+    @property
+    def sense(self) -> float:
+        """The determinant of the constraints' Jacobian over the root or the sine that `place` asks for; 0 where nobody knows."""
+        return 0.0
 
     def bars(self) -> tuple[Bar, ...]:
         """Return the links of two points that this step brings."""

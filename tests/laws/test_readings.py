@@ -1,5 +1,6 @@
 """Every reading of the program agrees: floats, blocks in both orientations, node by node, and the steps on arrays."""
 
+import math
 from functools import cache
 from importlib.metadata import entry_points
 
@@ -41,8 +42,16 @@ def inputs(machine, designs, poses, seed=1):
     return design | {name: start + span * random.uniform(-1.0, 1.0, poses) for name, (start, span) in reach.items()}
 
 
-def agree(found, wanted):
-    """Assert that two results agree to 1e-12 of their size, and in where they have no value."""
+def firm(machine, given, shape):
+    """Return the poses that are not near a dead point: each loop magnifies the rounding of those before it by the inverse of its sine."""
+    with np.errstate(all="ignore"):
+        sines = machine.plan.read(given).sines.values()
+    return np.broadcast_to(~(abs(math.prod(sines, start=np.float64(1.0))) < 0.03), shape)
+
+
+def agree(found, wanted, firm=True):
+    """Assert that two results agree to 1e-12 of their size at firm poses, and in where they have no value."""
+    found, wanted = (np.where(firm, values, 0.0) for values in (found, wanted))
     assert_array_equal(np.isnan(found), np.isnan(wanted))
     size = np.abs(wanted) + np.nanmax(np.abs(wanted), axis=tuple(range(1, wanted.ndim)), keepdims=True, initial=1.0)
     near = np.abs(found - wanted) / size
@@ -60,8 +69,8 @@ def test_places_by_the_program_and_by_the_steps(machine):
     with np.errstate(all="ignore"):
         reading = plan.read(given)
     steps = table([part for name in plan.moving for part in (reading.at(name).x, reading.at(name).y)], (400,))
-    agree(table(interpret(nodes, given), (400,)), steps)
-    agree(Kernel(nodes)(given).values[:, 0], steps)
+    agree(table(interpret(nodes, given), (400,)), steps, firm(machine, given, (400,)))
+    agree(Kernel(nodes)(given).values[:, 0], steps, firm(machine, given, (400,)))
 
 
 def test_some_of_these_poses_are_out_of_reach_and_some_are_not():
@@ -79,7 +88,7 @@ def test_kernel_is_the_program_node_by_node(machine, designs, poses):
     wanted = table(interpret(nodes, tall), (designs, poses))
     found = kernel(machine)(given).values
     assert found.shape == (len(nodes), designs, poses)
-    agree(found, wanted)
+    agree(found, wanted, firm(machine, tall, (designs, poses)))
 
 
 @ALL

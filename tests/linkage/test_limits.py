@@ -125,7 +125,7 @@ def test_a_sweep_over_a_change_point_is_refused_by_name(count):
 
 @pytest.mark.parametrize("count", [36, 360])
 def test_a_flat_parallelogram_is_refused_by_name(count):
-    with pytest.raises(SingularError, match="change point at phi = 3.14159"):
+    with pytest.raises(SingularError, match=r"change point at phi = 3\.14159"):
         FourBar(AB=4.0, CB=1.0).sweep(count)
 
 

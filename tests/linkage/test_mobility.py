@@ -162,7 +162,7 @@ def test_grashof_refuses_a_length_that_is_none():
 
 
 def test_a_slide_that_does_not_hold_is_refused():
-    with pytest.raises(DefinitionError, match="stop = Slide.C, post.: C is .* mm off the guide"):
+    with pytest.raises(DefinitionError, match=r"stop = Slide\(C, post\): C is .* mm off the guide"):
 
         class Stuck(SliderCrank):
             post = Guide((0.2, 0.0), angle=1.2)

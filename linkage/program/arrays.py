@@ -1,0 +1,128 @@
+"""Many poses, in NumPy blocks that stay in the cache."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import cache, cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .blocks import block_code
+from .operations import ARRAYS, FLOATS
+from .schedule import Schedule
+from .source import compiled
+from .text import GUARDED, function
+
+FloatArray = npt.NDArray[np.float64]
+SMALLEST, LARGEST = 4096, 16384
+
+
+class Arrays:
+    """A program over a pool of registers, block by block: the longer of designs and poses along the rows."""
+
+    def __init__(self, plan: Schedule) -> None:
+        self.plan = plan
+
+    @cached_property
+    def _pose(self) -> Any:
+        return compiled(self._code.text, {**ARRAYS, **self._code.numbers})["pose"]
+
+    @cached_property
+    def _code(self) -> Any:
+        return block_code(self.plan)
+
+    @cached_property
+    def block(self) -> int:
+        """The poses of a block: registers, inputs and outputs fill the second-level cache."""
+        rows = self._code.registers + len(self.plan.outputs) + len(self.plan.pose_inputs)
+        fits: int = cache_size() // (8 * max(rows, 1))
+        return min(max(1 << (fits.bit_length() - 1), SMALLEST), LARGEST)
+
+    @cached_property
+    def _design(self) -> tuple[Any, Any]:
+        plan = self.plan
+        text = function("design", plan.design_inputs, plan.design, plan.passed, GUARDED)
+        return compiled(text, FLOATS)["design"], compiled(text, ARRAYS)["design"]
+
+    def passed(self, design: Sequence[Any]) -> list[Any]:
+        """Return the design part: floats where nothing varies, else floats or arrays over the designs."""
+        floats, arrays = self._design
+        if all(np.size(value) == 1 for value in design):
+            return list(floats(*(float(np.ravel(value)[0]) for value in design)))
+        return list(arrays(*(np.asarray(value, float) for value in design)))
+
+    def run(self, design: Sequence[Any], poses: Sequence[Any], values: FloatArray, guards: FloatArray) -> None:
+        """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
+        m, n = values.shape[1:]
+        turned = m > n
+        target = values.transpose(0, 2, 1) if turned else values
+        inputs = [along(np.transpose(value) if turned and is_table(value) else value, 0 if turned else 1) for value in poses]
+        rows, length = target.shape[1:]
+        columns = min(length, self.block)
+        height = max(1, min(rows, self.block // columns))
+        pool = aligned(self._code.registers, height * columns)
+        constants = [] if turned else [along(value, 0) for value in self.passed(design)]
+        for left in range(0, length, columns):
+            part = slice(left, min(left + columns, length))
+            if turned:
+                constants = [along(value, 1) for value in self.passed([value if np.size(value) == 1 else value[part] for value in design])]
+            for top in range(0, rows, height):
+                band = slice(top, min(top + height, rows))
+                here = slice(0, part.stop - part.start) if turned else part
+                self._block(target[:, band, part], (constants, band, here), (inputs, band, part), pool, guards)
+
+    def _block(self, block: FloatArray, constants: Any, inputs: Any, pool: list[FloatArray], guards: FloatArray) -> None:
+        """Fill one block, shape (outputs, rows, columns); constants and inputs with the parts of them that it sees."""
+        if block.shape[1] == 1:
+            block = block[:, 0]
+        shape = block.shape[1:]
+        least = np.full(len(guards), math.inf)
+        seen = [[window(value, band, part, shape) for value in values] for values, band, part in (constants, inputs)]
+        registers = [register[: math.prod(shape)].reshape(shape) for register in pool]
+        self._pose(*seen, registers, list(block), least)
+        np.minimum(guards, least, out=guards)
+
+
+@cache
+def cache_size() -> int:
+    """Return the size of the second-level cache of this machine [bytes], 1 MiB where the system does not tell."""
+    try:
+        text = Path("/sys/devices/system/cpu/cpu0/cache/index2/size").read_text(encoding="ascii").strip()
+        return int(text.rstrip("KM")) * {"K": 1 << 10, "M": 1 << 20}.get(text[-1], 1)
+    except (OSError, ValueError):
+        return 1 << 20
+
+
+def is_table(value: Any) -> bool:
+    """Return whether an input varies over designs and poses."""
+    return np.ndim(value) == 2
+
+
+def along(value: Any, axis: int) -> Any:
+    """Return a value as it stands in a block: a number without dimensions, or an array that varies along one axis or both."""
+    if np.size(value) == 1:
+        return np.array(np.ravel(value)[0], float)
+    array = np.ascontiguousarray(value, float)
+    if is_table(value):
+        return array
+    return array[None, :] if axis == 1 else array[:, None]
+
+
+def window(value: Any, band: slice, part: slice, shape: tuple[int, ...]) -> Any:
+    """Return the part of a value that a block sees."""
+    if value.ndim == 0:
+        return value
+    seen = value[band if value.shape[0] > 1 else slice(None), part if value.shape[1] > 1 else slice(None)]
+    return seen if len(shape) == 2 else seen[0] if seen.shape[1] > 1 or shape[0] == 1 else seen[0, 0, ...]
+
+
+def aligned(count: int, size: int) -> list[FloatArray]:
+    """Return arrays, one a register, each at a multiple of 64 bytes, from one pool of memory."""
+    stride = -(-size // 8) * 8
+    memory = np.empty(count * stride + 8)
+    start = -(memory.ctypes.data // 8) % 8
+    return [memory[start + k * stride : start + k * stride + size] for k in range(count)]

@@ -1,0 +1,134 @@
+"""The closed line of cylinder and accumulators as a force element."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
+from linkage import RIGHT, Crank, DefinitionError, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke
+from linkage.loads import Weight
+from linkage.statics import driving_force
+from linkage.units import bar, deg, kN, litre, mm
+
+BLOCK = AccumulatorBlock([Accumulator(4 * litre, 50 * bar), Accumulator(4 * litre, 25 * bar)], isothermal)
+
+
+class Carried(Mechanism):
+    """An arm carried by a cylinder on accumulators."""
+
+    S = Stroke(0.00, 0.25)
+    S0 = Dimension(0.10)
+    A = Ground(0.20, 0.55)
+    O = Ground(0.30, 1.15)
+    B = Dyad(A, O, AB=0.50 + S, OB=0.30, side=RIGHT)
+    G = OnLink(O, B, OG=0.9)
+    load = Weight(G, mass=600)
+    ram = Cylinder(A, B, bore=63 * mm, rod=40 * mm, count=2)
+    line = FloatCircuit(ram, BLOCK, charge_pressure=60 * bar, at=S0, seal_friction=3 * bar)
+
+
+class Pulled(Carried):
+    """The rod side on the accumulators."""
+
+    ram = Cylinder("A", "B", bore=63 * mm, rod=40 * mm, works="rod")
+
+
+class Turned(Mechanism):
+    """A crank whose cylinder no step declares: it comes out and goes in."""
+
+    phi = Stroke(-80 * deg, 80 * deg)
+    A = Ground(-1.0, 0.0)
+    O = Ground(0.0, 0.0)
+    P = Crank(O, OP=0.2, angle=phi)
+    ram = Cylinder(A, P, bore=63 * mm, rod=40 * mm)
+    line = FloatCircuit(ram, BLOCK, charge_pressure=60 * bar, at=30 * deg, seal_friction=3 * bar)
+
+
+def test_the_pressure_follows_the_travel():
+    motion, area = Carried().sweep(11), Carried.ram.size.area
+    withdrawn = (motion.strokes["S"] - 0.10) * area
+    assert_allclose(Carried.line.withdrawn(motion), withdrawn, atol=1e-15)
+    assert_allclose(Carried.line.pressure(motion), BLOCK.pressure(60 * bar, withdrawn))
+    assert_allclose(Carried.line.pressure(Carried(S0=0.2).at(S=0.2)), 60 * bar)
+
+
+def test_the_rod_side_fills_as_the_cylinder_comes_out():
+    motion = Pulled().sweep(11)
+    pressure = Pulled.line.pressure(motion)
+    assert np.all(np.diff(pressure) > 0.0)
+    assert_allclose(Pulled.line.thrust(motion), -pressure * Pulled.ram.size.area)
+
+
+def test_seals_take_their_pressure_against_the_motion():
+    for machine in (Carried, Pulled):
+        motion, size = machine().sweep(5), machine.ram.size
+        free, up, down = (machine.line.thrust(motion, sense) for sense in (0, 1, -1))
+        assert_allclose(free - up, 3 * bar * size.area)
+        assert_allclose(down - free, 3 * bar * size.area)
+
+
+def test_as_a_load_it_stands_for_the_drive():
+    motion = Carried().sweep(11)
+    for direction, sense in (("frictionless", 0), ("extending", 1), ("retracting", -1)):
+        left = driving_force(motion, direction=direction)
+        assert_allclose(left + Carried.line.thrust(motion, sense), driving_force(motion, ["load"]), rtol=1e-9)
+
+
+def test_work_round_a_cycle_is_what_the_seals_take():
+    motion = Carried().sweep(2001)
+    S, size = motion.strokes["S"], Carried.ram.size
+    up, down = (np.trapezoid(Carried.line.thrust(motion, sense), S) if hasattr(np, "trapezoid") else np.trapz(Carried.line.thrust(motion, sense), S) for sense in (1, -1))
+    assert_allclose(down - up, 2 * 3 * bar * size.area * 0.25, rtol=1e-9)
+
+
+def test_a_cylinder_that_no_step_declares():
+    motion = Turned().sweep(9)
+    length = motion.distance("A", "P")
+    charged = Turned().at(phi=30 * deg).distance("A", "P")
+    assert_allclose(Turned.line.pressure(motion), BLOCK.pressure(60 * bar, (length - charged) * Turned.ram.size.area))
+    friction = (Turned.line.thrust(motion, 0) - Turned.line.thrust(motion, 1)) / (3 * bar * Turned.ram.size.area)
+    assert_allclose(friction[:4], 1.0)
+    assert_allclose(friction[5:], -1.0)
+
+
+def test_many_charges_at_once():
+    batch = Carried(**{"line.charge_pressure": np.array([40.0, 60.0, 80.0]) * bar}).sweep(5)
+    pressure = Carried.line.pressure(batch)
+    assert pressure.shape == (3, 5)
+    for row, charge in enumerate((40.0, 60.0, 80.0)):
+        assert_allclose(pressure[row], Carried.line.pressure(Carried(**{"line.charge_pressure": charge * bar}).sweep(5)))
+
+
+def test_a_block_may_follow_the_design():
+    def block(motion):
+        return AccumulatorBlock([Accumulator(motion.inputs["V"], 25 * bar)])
+
+    soft = type("Soft", (Carried,), {"V": Dimension(0.004), "line": FloatCircuit("ram", block, charge_pressure=60 * bar, at=0.1)})
+    small, large = (soft.line.pressure(soft(V=V).sweep(5)) for V in (0.004, 0.02))
+    assert np.ptp(large) < np.ptp(small)
+
+
+def test_unreached_poses_stay_nan():
+    motion = Carried().at(S=np.array([0.0, 0.1, 1.0]), unreachable="nan")
+    assert np.isnan(Carried.line.pressure(motion)).tolist() == [False, False, True]
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: FloatCircuit(Carried.ram, "block", charge_pressure=60 * bar), "no AccumulatorBlock"),
+        (lambda: FloatCircuit(Carried.ram, BLOCK, charge_pressure=60 * bar, seal_friction=-1.0), "negative"),
+        (lambda: FloatCircuit(Carried.ram, BLOCK, charge_pressure=float("inf")), "finite"),
+        (lambda: type("Wrong", (Carried,), {"line": FloatCircuit("B", BLOCK, charge_pressure=60 * bar)}), "no Cylinder"),
+        (lambda: Carried.line.pressure(Carried(**{"line.charge_pressure": 10 * bar}).sweep(3)), "rigid"),
+        (lambda: Carried.line.pressure(Carried(**{"ram.bore": 300 * mm, "ram.rod": 40 * mm}).sweep(3)), "leaves no gas"),
+    ],
+)
+def test_what_cannot_be_is_refused(make, words):
+    with pytest.raises(DefinitionError, match=words):
+        make()
+
+
+def test_it_carries_about_half_of_the_load():
+    motion = Carried().at(S=0.1)
+    assert 5 * kN < Carried.line.thrust(motion) < 50 * kN

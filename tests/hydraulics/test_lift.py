@@ -1,0 +1,181 @@
+"""The lift circuit: capacity, pressure, oil, time, holding, lowering; friction as an efficiency."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from hydraulics import Cylinder, LiftCircuit, lift_verdicts
+from linkage import LEFT, RIGHT, DefinitionError, Dyad, Ground, Mechanism, OnLink, Stroke
+from linkage.loads import Weight
+from linkage.statics import driving_force
+from linkage.units import bar, cm2, deg, g0, kN, litre, minute, mm
+
+
+class Lift(Mechanism):
+    """An arm with a load at G, lifted by two cylinders."""
+
+    S = Stroke(0.00, 0.25)
+    A = Ground(0.20, 0.55)
+    O = Ground(0.30, 1.15)
+    B = Dyad(A, O, AB=0.50 + S, OB=0.30, side=RIGHT)
+    G = OnLink(O, B, OG=0.9, BOG=-40 * deg)
+    arm = Weight(B, mass=40)
+    load = Weight(G, mass=3000)
+    lift = Cylinder(A, B, bore=110 * mm, rod=63 * mm, count=2)
+    circuit = LiftCircuit(lift, pressure=180 * bar, flow=60 * litre / minute, mechanical_efficiency=0.9, hydraulic_efficiency=0.95)
+
+
+class Hoist(Lift):
+    """The same arm, the load on the other side: the cylinder's rod side holds it."""
+
+    G = OnLink("O", "B", OG=0.9, OGB=30 * deg, side=LEFT) if False else OnLink("O", "B", OG=0.9, BOG=140 * deg)
+    lift = Cylinder("A", "B", bore=110 * mm, rod=63 * mm, works="rod")
+
+
+circuit, LIFT = Lift.circuit, Lift()
+
+
+def test_the_capacity_takes_all_of_the_pump():
+    motion = LIFT.sweep(11)
+    own = driving_force(motion, ["arm"])
+    capacity = circuit.capacity(motion, "G", own)
+    for index in range(11):
+        pose = LIFT.replaced(**{"load.mass": capacity[index] / g0}).at(S=motion.strokes["S"][index])
+        assert_allclose(circuit.pressure_for(pose, driving_force(pose)), 180 * bar, rtol=1e-9)
+        assert_allclose(circuit.reserve(pose, driving_force(pose)), 1.0, rtol=1e-9)
+
+
+def test_capacity_is_the_papers_formula():
+    motion = LIFT.sweep(11)
+    area = Lift.lift.size.area
+    assert_allclose(circuit.capacity(motion, "G"), 180 * bar * area * 0.9 * 0.95 / motion.ratio("G")[1])
+    assert_allclose(circuit.capacity(motion, "G", share=0.9), 0.9 * circuit.capacity(motion, "G"))
+
+
+def test_where_the_load_drives_it_is_not_limited():
+    motion = LIFT.sweep(11)
+    assert np.isnan(circuit.capacity(motion, "G", direction=(0.0, -1.0))).all()
+    thrust = -driving_force(motion)
+    assert np.isnan(circuit.reserve(motion, thrust)).all()
+    assert_allclose(circuit.pressure_for(motion, thrust), 0.0)
+
+
+def test_a_machine_too_heavy_for_itself_lifts_nothing():
+    motion = LIFT.sweep(5)
+    assert_allclose(circuit.capacity(motion, "G", own=1e7), 0.0)
+
+
+def test_efficiencies_act_with_and_against_the_load():
+    motion = LIFT.sweep(3)
+    area = Lift.lift.size.area
+    assert_allclose(circuit.rod_force(motion, np.array([10.0, -10.0, 0.0])), [10 / 0.9, -9.0, 0.0])
+    assert_allclose(circuit.pressure_for(motion, 10 * kN), 10 * kN / 0.9 / 0.95 / area)
+    assert_allclose(circuit.largest(motion), 180 * bar * area * 0.95)
+
+
+def test_the_rod_side_pulls():
+    motion, hoist = Hoist().sweep(11), Hoist.circuit
+    thrust = driving_force(motion, ["load"])
+    assert np.all(thrust < 0.0)
+    area = np.pi / 4 * (0.110**2 - 0.063**2)
+    assert_allclose(hoist.pressure_for(motion, thrust), -thrust / 0.9 / 0.95 / area)
+    assert_allclose(hoist.capacity(motion, "G") * hoist.pressure_for(motion, thrust), 3000 * g0 * 180 * bar, rtol=1e-9)
+    assert_allclose(hoist.oil(motion), area * 0.25)
+
+
+def test_oil_and_time():
+    motion = LIFT.sweep(11)
+    assert_allclose(circuit.oil(motion), 2 * np.pi / 4 * 0.110**2 * 0.25)
+    assert_allclose(circuit.time(motion), circuit.oil(motion) / (1e-3))
+    batch = Lift(**{"lift.bore": np.array([0.10, 0.11]), "circuit.flow": np.array([1e-3, 2e-3])}).sweep(5)
+    assert_allclose(circuit.time(batch), [2 * np.pi / 4 * 0.10**2 * 250, 2 * np.pi / 4 * 0.11**2 * 125])
+    with pytest.raises(DefinitionError, match="Flow of the pump"):
+        LiftCircuit(Lift.lift, pressure=180 * bar).time(motion)
+
+
+def test_back_pressure_is_paid_for():
+    motion = LIFT.sweep(3)
+    free, held = (LiftCircuit("lift", pressure=180 * bar, back_pressure=back * bar) for back in (0, 10))
+    size = Lift.lift.size
+    assert_allclose(held.pressure_for(motion, 50 * kN) - free.pressure_for(motion, 50 * kN), 10 * bar * size.back_area / size.area)
+    assert_allclose(free.largest(motion) - held.largest(motion), 10 * bar * size.back_area)
+    with pytest.raises(DefinitionError, match="eats up the pump's"):
+        LiftCircuit("lift", pressure=10 * bar, back_pressure=100 * bar).largest(motion)
+
+
+def test_holding_uses_the_side_the_load_presses_on():
+    motion, size = LIFT.sweep(2), Lift.lift.size
+    held = circuit.holding(motion, np.array([30 * kN, -30 * kN]))
+    assert_allclose(held.working, [30 * kN / size.area, 0.0])
+    assert_allclose(held.other, [0.0, 30 * kN / size.back_area])
+
+
+def test_it_sinks_by_itself_where_the_load_beats_friction_and_the_return_line():
+    motion, size = LIFT.sweep(3), Lift.lift.size
+    limit = 5 * bar * size.area / 0.9
+    sinks = circuit.lowering(motion, np.array([1.001 * limit, 0.999 * limit, -10 * kN]), 5 * bar)
+    assert sinks.by_itself.tolist() == [True, False, False]
+    assert sinks.push[0] == 0.0
+    assert_allclose(sinks.push[2] * size.back_area, 10 * kN / 0.9 + 5 * bar * size.area)
+    assert_allclose(sinks.working[0], 5 * bar * 1.001)
+
+
+def test_verdicts_with_their_remedy():
+    def thrust(motion):
+        return driving_force(motion, ["load"])
+
+    strong, weak = Lift(), Lift(**{"load.mass": 40e3})
+    good = {verdict.rule: verdict for verdict in lift_verdicts(circuit, strong.sweep(5), thrust, resistance=0.1 * bar)}
+    assert all(good.values())
+    assert "4.8 s at 60 l/min" in good["oil"].sentence
+    bad = {verdict.rule: verdict for verdict in lift_verdicts(circuit, weak.sweep(5), thrust, resistance=50 * bar)}
+    assert not bad["lifting"] and not bad["lowering"] and not bad["holding"]
+    motion = weak.sweep(513)
+    needed = circuit.pressure_for(motion, thrust(motion)).max()
+    assert f"needs {needed / bar:.4g} bar, or a bore of 280 mm" in bad["lifting"].sentence or "or a bore of" in bad["lifting"].sentence
+    limit = 180 * bar * Lift.lift.size.area * 0.95
+    start = float(bad["lifting"].sentence.split("from S = ")[1].split()[0])
+    pose = weak.at(S=start)
+    assert_allclose(thrust(pose) / 0.9, limit, rtol=2e-3)
+
+
+def test_a_load_that_drives_is_said_so():
+    said = lift_verdicts(circuit, LIFT.sweep(5), lambda motion: -driving_force(motion, ["load"]))
+    assert "not limited by this cylinder" in said[0].sentence
+    with pytest.raises(DefinitionError, match="one design"):
+        lift_verdicts(circuit, Lift(OB=np.array([0.30, 0.31])).sweep(5), lambda motion: driving_force(motion))
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"pressure": -1.0}, "pressure"), ({"pressure": 0.0}, "pressure"), ({"mechanical_efficiency": 1.1}, "above 1"),
+        ({"mechanical_efficiency": 0.0}, "lies between 0 and 1"), ({"hydraulic_efficiency": -0.5}, "lies between 0 and 1"),
+    ],
+    ids=str,
+)  # fmt: skip
+def test_bad_numbers_are_refused_in_words(given, words):
+    motion = Lift(**{f"circuit.{name}": value for name, value in given.items()}).sweep(3)
+    with pytest.raises(DefinitionError, match=words):
+        circuit.reserve(motion, 10 * kN)
+
+
+@pytest.mark.parametrize("given", [{"flow": -1.0}, {"back_pressure": -1.0}, {"pressure": float("nan")}], ids=str)
+def test_numbers_that_cannot_be_are_refused_at_once(given):
+    with pytest.raises(DefinitionError):
+        LiftCircuit("lift", **({"pressure": 1e7} | given))
+
+
+def test_a_circuit_needs_a_cylinder():
+    with pytest.raises(DefinitionError, match="is no Cylinder"):
+        type("Wrong", (Lift,), {"circuit": LiftCircuit("load", pressure=1e7)})
+    with pytest.raises(DefinitionError, match="share"):
+        circuit.capacity(LIFT.sweep(3), "G", share=1.5)
+    with pytest.raises(DefinitionError, match="no length"):
+        circuit.capacity(LIFT.sweep(3), "G", direction=(0.0, 0.0))
+
+
+def test_a_replaced_cylinder_is_the_one_that_counts():
+    wide = type("Wide", (Lift,), {"lift": Cylinder("A", "B", bore=220 * mm, rod=63 * mm, count=2)})
+    assert_allclose(circuit.largest(wide().sweep(3)), 4.0 * circuit.largest(LIFT.sweep(3)))
+    assert Lift.lift.size.area > 100 * cm2

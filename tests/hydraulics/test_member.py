@@ -1,0 +1,133 @@
+"""A cylinder as a member of a machine: its design variables, its length, its standard sizes, buckling."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from hydraulics import Cylinder
+from linkage import RIGHT, DefinitionError, Dimension, Dyad, Ground, Mechanism, Stroke
+from linkage.statics import driving_force
+from linkage.units import bar, kN, mm
+
+
+class Arm(Mechanism):
+    """A cylinder turns an arm."""
+
+    S = Stroke(0.00, 0.25)
+    A = Ground(0.20, 0.55)
+    O = Ground(0.30, 1.15)
+    B = Dyad(A, O, AB=0.50 + S, OB=0.30, side=RIGHT)
+    lift = Cylinder(A, B, bore=110 * mm, rod=63 * mm, count=2, closed=0.48, stroke=0.27)
+
+
+class Following(Arm):
+    """Its bore is a dimension."""
+
+    D = Dimension(0.09)
+    lift = Cylinder("A", "B", bore=D, rod="D_rod")
+    D_rod = Dimension(0.045)
+
+
+def test_outside_a_class_it_is_its_size():
+    ram = Cylinder("A", "B", bore=63 * mm, rod=40 * mm, count=2)
+    assert_allclose(ram.thrust(100 * bar), 2 * np.pi / 4 * 0.063**2 * 1e7)
+    assert_allclose(ram.pressure_for(ram.thrust(123 * bar)), 123 * bar)
+    pulling = Cylinder("A", "B", bore=63 * mm, rod=40 * mm, works="rod")
+    assert_allclose(pulling.thrust(100 * bar), -np.pi / 4 * (0.063**2 - 0.040**2) * 1e7)
+
+
+def test_bore_and_rod_are_design_variables():
+    batch = Arm(**{"lift.bore": np.array([0.10, 0.11, 0.125])}).sweep(5)
+    assert_allclose(Arm.lift.sized(batch).area[:, 0], 2 * np.pi / 4 * np.array([0.10, 0.11, 0.125]) ** 2)
+    assert Arm().dimensions["lift.rod"] == 0.063
+
+
+def test_bore_and_rod_may_follow_dimensions():
+    size = Following.lift.sized(Following(D=0.1).sweep(3))
+    assert_allclose(np.unique([size.bore]), 0.1)
+    assert_allclose(np.unique([size.rod]), 0.045)
+    with pytest.raises(DefinitionError, match=r"sized\(motion\)"):
+        _ = Following.lift.size
+
+
+def test_it_puts_no_load_on_the_machine():
+    assert_allclose(driving_force(Arm().sweep(3), ["lift"]), 0.0)
+
+
+@pytest.mark.parametrize(
+    ("closed", "stroke", "words"),
+    [
+        (0.52, 0.25, ["20.0 mm too long closed"]),
+        (0.50, 0.20, ["50.0 mm are missing open"]),
+        (0.51, 0.20, ["10.0 mm too long closed", "40.0 mm are missing open"]),
+        (None, 0.20, ["50.0 mm are missing"]),
+        (0.53, None, ["30.0 mm too long closed"]),
+    ],
+)
+def test_a_cylinder_that_does_not_fit_says_how_many_millimetres(closed, stroke, words):
+    (verdict,) = Cylinder("A", "B", bore=0.1, rod=0.05, closed=closed, stroke=stroke).fits(Arm().sweep(11))
+    assert not verdict
+    assert all(each in verdict.sentence for each in words)
+
+
+@pytest.mark.parametrize(("closed", "stroke"), [(0.50, 0.25), (0.40, 0.40), (None, 0.25), (0.45, None)])
+def test_a_cylinder_that_fits(closed, stroke):
+    (verdict,) = Cylinder("A", "B", bore=0.1, rod=0.05, closed=closed, stroke=stroke).fits(Arm().sweep(11))
+    assert verdict
+
+
+def test_without_lengths_there_is_nothing_to_say():
+    assert Cylinder("A", "B", bore=0.1, rod=0.05).fits(Arm().sweep(3)) == []
+
+
+def test_standard_sizes():
+    assert Arm.lift.standard()
+    verdict = Cylinder("A", "B", bore=61 * mm, rod=40.5 * mm).standard()
+    assert not verdict and "50 and 63 mm" in verdict.sentence and "40 and 45 mm" in verdict.sentence
+    assert "does not suit" in Cylinder("A", "B", bore=100 * mm, rod=8 * mm).standard().sentence
+
+
+def test_offers_give_the_thrust_and_do_not_buckle():
+    offers = Arm.lift.offers(200 * kN, 160 * bar)
+    assert {offer.bore for offer in offers} == {0.09}
+    assert all(offer.thrust(160 * bar) >= 200 * kN for offer in offers)
+    long = Arm.lift.offers(200 * kN, 160 * bar, length=2.0)
+    assert 0 < len(long) < len(offers)
+    assert min(offer.rod for offer in long) > min(offer.rod for offer in offers)
+    with pytest.raises(DefinitionError, match="use more cylinders"):
+        Arm.lift.offers(1e9, 160 * bar)
+
+
+def test_buckling_is_of_one_of_the_cylinders_at_its_worst_pose():
+    motion = Arm().sweep(11)
+    verdict = Arm.lift.buckling(motion, np.linspace(50, 100, 11) * kN)
+    assert verdict and "50 kN on a 63 mm rod 750 mm long" in verdict.sentence
+    assert not Cylinder("A", "B", bore=0.1, rod=0.016).buckling(motion, 100 * kN)
+    assert [bool(each) for each in Arm.lift.checks(motion, 100 * kN)] == [True, True, True]
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"bore": -0.1}, {"bore": 0.05, "rod": 0.05}, {"rod": 0.0}, {"bore": float("nan")}, {"count": 0}, {"works": "both"}, {"stroke": -0.1},
+        {"closed": 0.0}, {"mounting": "loose"}, {"safety": 0.5},
+    ],
+    ids=str,
+)  # fmt: skip
+def test_what_cannot_be_is_refused(given):
+    with pytest.raises(DefinitionError):
+        Cylinder("A", "B", **({"bore": 0.1, "rod": 0.05} | given))
+
+
+def test_a_design_that_cannot_be_is_refused_when_asked():
+    with pytest.raises(DefinitionError, match="not smaller than bore 100 mm"):
+        Arm.lift.sized(Arm(**{"lift.rod": 0.11, "lift.bore": np.array([0.12, 0.10])}).sweep(3))
+
+
+def test_it_is_written_as_it_can_be_pasted_back():
+    assert str(Arm.lift) == "Cylinder(A, B, bore=0.11, rod=0.063, count=2, stroke=0.27, closed=0.48)"
+
+
+def test_sizes_of_a_batch_are_not_judged():
+    with pytest.raises(DefinitionError, match="one design at a time"):
+        Arm.lift.standard(Arm(**{"lift.bore": np.array([0.10, 0.11])}).sweep(3))

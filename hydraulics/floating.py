@@ -55,7 +55,7 @@ class FloatCircuit(ForceElement):
     def parts(self) -> tuple[Reference, ...]:
         return (*([self.cylinder] if is_named(self.cylinder) else []), *super().parts())
 
-    def check(self, members: Mapping[str, Any], title: str) -> None:
+    def examine(self, members: Mapping[str, Any], title: str) -> None:
         if is_named(self.cylinder):
             found_in(members, self.cylinder, f"{title}.{self.name}")
 

@@ -8,10 +8,11 @@ from functools import cached_property
 from typing import Any, TypeVar
 
 from ..errors import DefinitionError, unknown
-from ..graph import Body, gruebler, merged, ordered
+from ..graph import Body, ordered
 from ..program import Kernel, Level, Node, Tangent
 from ..quantities import Distance, Function, Length, Member, Number, Operation, Quantity, Stroke, Variable, needs, unnamed
 from ..steps import Arrow, Bar, Drawn, Ground, Group, Link, OnLink, Point
+from .bodies import gruebler_count, rigid_bodies
 from .reading import ArrayReading
 from .table import Table
 from .trace import Trace
@@ -123,18 +124,12 @@ class Plan:
     @cached_property
     def links(self) -> tuple[Body, ...]:
         """The rigid bodies, the frame first."""
-        groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in self.bars if bar not in self.cylinders]
-        groups += [body for name, point in self.points.items() if name not in self.telescopes for body in point.bodies()]
-        groups += [link.point_names for link in self.of_kind(Link).values() if len(link.point_names) > 2 or not self.is_cylinder(link)]
-        return merged(groups, self.ground)
+        return rigid_bodies(self)
 
     @cached_property
     def gruebler(self) -> int:
         """The Gruebler count 3 (n - 1) - 2 j1 - j2."""
-        halves = sum(len(point.half_joints()) for point in self.points.values()) + sum(len(group.slides) for group in self.groups.values())
-        bodies = {name for body in self.links for name in body.points} | {end for bar in self.cylinders for end in (bar.P, bar.Q)}
-        lone = sum(1 for name, point in self.points.items() if name not in bodies and (point.half_joints() or name in self.telescopes))
-        return gruebler(self.links, [(bar.P, bar.Q) for bar in self.cylinders]) - halves - len(self.telescopes) + 2 * lone
+        return gruebler_count(self)
 
     # -- the program -----------------------------------------------------------------------------------
 

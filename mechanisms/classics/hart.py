@@ -6,7 +6,7 @@ illustrative.
 
 from __future__ import annotations
 
-from linkage import LEFT, RIGHT, Crank, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, deg
+from linkage import LEFT, Crank, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, deg
 
 
 class Hart(Mechanism):

@@ -109,8 +109,8 @@ def test_buckling_is_of_one_of_the_cylinders_at_its_worst_pose():
 @pytest.mark.parametrize(
     "given",
     [
-        {"bore": -0.1}, {"bore": 0.05, "rod": 0.05}, {"rod": 0.0}, {"bore": float("nan")}, {"count": 0}, {"works": "both"}, {"stroke": -0.1},
-        {"closed": 0.0}, {"mounting": "loose"}, {"safety": 0.5},
+        {"bore": -0.1}, {"bore": 0.05, "rod": 0.05}, {"rod": 0.0}, {"bore": float("nan")}, {"count": 0}, {"works": "both"},
+        {"stroke": -0.1}, {"closed": 0.0}, {"mounting": "loose"}, {"safety": 0.5},
     ],
     ids=str,
 )  # fmt: skip

@@ -208,7 +208,8 @@ class Sheet:
         for _ in range(4000):
             P, Q = self.pick(2)
             A, D, B, F = (self.spot() for _ in range(4))
-            if abs(flat([self.at[P], A, D])) > 0.3 and abs(flat([self.at[Q], B, F])) > 0.3 and min(math.dist(A, B), math.dist(D, F)) > APART:
+            open_enough = abs(flat([self.at[P], A, D])) > 0.3 and abs(flat([self.at[Q], B, F])) > 0.3
+            if open_enough and min(math.dist(A, B), math.dist(D, F)) > APART:
                 rows = [[lever(self.at[P], X, Y), -lever(self.at[Q], Y, X)] for X, Y in ((A, B), (D, F))]
                 if abs(np.linalg.det(rows)) > 0.3:
                     break

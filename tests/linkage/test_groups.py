@@ -128,16 +128,17 @@ def test_two_groups_one_after_the_other():
 
         H0 = Ground(0.36, 0.02)
         K0 = Ground(0.30, 0.30)
-        one, two, three = Link("G H", GH=0.10), Link("H0 K", H0K=0.12), Link("K0 M", K0M=0.11)
-        plate = Link("H K M", HK=0.07, HM=0.08, KM=0.06)
-        H, K, M = Pin(near=(0.28, 0.15)), Pin(near=(0.345, 0.14)), Pin(near=(0.325, 0.20))
+        one, two, three, plate = Link("G H"), Link("H0 K"), Link("K0 M"), Link("H K M")
+        H, K, M = Pin(at=(0.28, 0.15)), Pin(at=(0.345, 0.14)), Pin(at=(0.325, 0.20))
 
     assert [set(group.pins) for group in Double.plan.groups.values()] == [set("BFG"), set("HKM")]
     span = np.radians(60) + np.linspace(-0.02, 0.02, 9)
     motion = Double().at(phi=span)
     assert_allclose(motion["G"], StephensonTwo().at(phi=span)["G"], rtol=0, atol=1e-12)
-    for P, Q, length in (("G", "H", 0.10), ("H0", "K", 0.12), ("K0", "M", 0.11), ("H", "K", 0.07), ("H", "M", 0.08), ("K", "M", 0.06)):
-        assert_allclose(motion.distance(P, Q), length, rtol=1e-11)
+    assert_allclose(motion["H"][:, 4], [0.28, 0.15], rtol=0, atol=1e-10)
+    assert_allclose(motion.distance("H0", "K"), np.hypot(0.015, 0.12), rtol=1e-11)
+    for P, Q in ("GH", ("K0", "M"), "HK", "HM", "KM"):
+        assert_allclose(motion.distance(P, Q), motion.distance(P, Q)[4], rtol=1e-11)
     assert_allclose(motion.ratio("M"), motion.ratio("M", method="central"), rtol=1e-7, atol=1e-9)
 
 
@@ -195,6 +196,7 @@ def test_a_rough_sketch_is_refused_when_it_is_out_of_reach():
 
 
 def test_a_flat_ternary_sketch_has_no_side():
-    flat = {"A": Pin(near=(0.0, 0.1)), "B": Pin(near=(0.1, 0.1)), "D": Pin(near=(0.2, 0.1)), "coupler": Link("A B D", AB=0.2, AD=0.09, BD=0.25)}
+    flat = {name: Pin(near=(place, 0.1)) for name, place in {"A": 0.0, "B": 0.1, "D": 0.2}.items()}
+    flat |= {"coupler": Link("A B D", AB=0.2, AD=0.09, BD=0.25)}
     with pytest.raises(DefinitionError, match="no side"):
         type("Flat", (StephensonThreeFar,), flat)

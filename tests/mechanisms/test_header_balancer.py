@@ -161,7 +161,8 @@ def test_the_criteria_can_be_kept_and_broken():
     good = {verdict.rule: bool(verdict) for verdict in criteria(with_header(1).at(h=0.0))}
     assert good["1 reaction follows"] and good["3 hysteresis"] and good["5 pressure level"] and good["relief valve"]
     assert not good["4 matching"]  # the arm H falls in the illustrative geometry
-    bad = {verdict.rule: bool(verdict) for verdict in criteria(with_header(1, pump=130 * kgf_cm2, valve=120 * kgf_cm2, **{"pin_O.coefficient": PLAIN}).at(h=0.0))}
+    poor = with_header(1, pump=130 * kgf_cm2, valve=120 * kgf_cm2, **{"pin_O.coefficient": PLAIN})
+    bad = {verdict.rule: bool(verdict) for verdict in criteria(poor.at(h=0.0))}
     assert not (bad["3 hysteresis"] or bad["5 pressure level"] or bad["relief valve"])
 
 

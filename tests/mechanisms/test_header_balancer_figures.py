@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from linkage import DefinitionError, FileError
 from linkage.cli import main
-from linkage.units import kgf, kgf_cm2, mm
+from linkage.units import bar, kgf, kgf_cm2, mm
 from mechanisms.header_balancer import deviations, figure, over_following, read_measured, with_header
 from mechanisms.header_balancer.figures import NUMBERS
 from mechanisms.header_balancer.following import Balance
@@ -59,7 +59,7 @@ def test_measured_values_are_compared_in_percent(tmp_path):
     motion = over_following(with_header(2).at(h=0.0), 5)
     calculated = Balance(motion)
     rows = [["R_y, mm", "F_R up, kgf", "P [bar]", "remark"]]
-    rows += [[R / mm, 1.05 * F / kgf, 0.98 * p / 1e5, "x"] for R, F, p in zip(calculated.height, calculated.up, calculated.pressure, strict=True)]
+    rows += [[*row, "x"] for row in zip(calculated.height / mm, 1.05 * calculated.up / kgf, 0.98 * calculated.pressure / bar, strict=True)]
     up, pressure = deviations(motion, read_measured(written(tmp_path / "m.csv", rows)))
     assert (up.curve, pressure.curve) == ("F_R up", "P")
     assert_allclose(up.percent, 5.0, rtol=1e-6)
@@ -71,8 +71,8 @@ def test_too_large_a_deviation_fails_and_is_drawn(tmp_path):
     machine = with_header(2)
     motion = over_following(machine.at(h=0.0), 3)
     height, down = Balance(motion).height, Balance(motion).down
-    text = "R_y, mm;F_R down, kgf\n" + "\n".join(f"{R / mm:.6f};{1.10 * F / kgf:.6f}".replace(".", ",") for R, F in zip(height, down, strict=True))
-    (tmp_path / "m.csv").write_text(text + "\n0;\n", encoding="utf-8")
+    rows = [f"{R / mm:.6f};{1.10 * F / kgf:.6f}".replace(".", ",") for R, F in zip(height, down, strict=True)]
+    (tmp_path / "m.csv").write_text("\n".join(["R_y, mm;F_R down, kgf", *rows, "0;", ""]), encoding="utf-8")
     (found,) = deviations(motion, read_measured(tmp_path / "m.csv"))
     assert len(found.percent) == 3
     assert not found.verdict and "above the paper's 7 %" in found.verdict.sentence

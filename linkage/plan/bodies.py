@@ -1,0 +1,39 @@
+"""The rigid bodies that the steps and links of a plan make, and the Gruebler count of their joints."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..graph import Body, gruebler, merged
+from ..quantities import name_of
+from ..steps import Guide, Link, OnGuide
+
+if TYPE_CHECKING:
+    from .plan import Plan
+
+
+def rigid_bodies(plan: Plan) -> tuple[Body, ...]:
+    """Return the rigid bodies, the frame first."""
+    groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in plan.bars if bar not in plan.cylinders]
+    groups += [body for name, point in plan.points.items() if name not in plan.telescopes for body in point.bodies()]
+    groups += [link.point_names for link in plan.of_kind(Link).values() if len(link.point_names) > 2 or not plan.is_cylinder(link)]
+    rest = resting(plan)
+    still = [name for name, guide in rest.items() if not guide.points]
+    groups += [(*guide.points, name) for name, guide in rest.items() if len(guide.points) == 2]
+    return merged(groups, (*plan.ground, *still))
+
+
+def resting(plan: Plan) -> dict[str, Guide]:
+    """Return the points at a fixed place on a guide, which are rigid with it."""
+    steps = {name: step for name, step in plan.of_kind(OnGuide).items() if not plan.moves(step.along)}
+    return {name: plan.of_kind(Guide)[name_of(step.guide)] for name, step in steps.items()}
+
+
+def gruebler_count(plan: Plan) -> int:
+    """Return 3 (n - 1) - 2 j1 - j2; a point that only guides hold counts as a pin of its own."""
+    rest = resting(plan)
+    free = {name: point for name, point in plan.points.items() if name not in rest}
+    halves = sum(len(point.half_joints()) for point in free.values()) + sum(len(group.slides) for group in plan.groups.values())
+    bodies = {name for body in plan.links for name in body.points} | {end for bar in plan.cylinders for end in (bar.P, bar.Q)}
+    lone = sum(1 for name, point in free.items() if name not in bodies and (point.half_joints() or name in plan.telescopes))
+    return gruebler(plan.links, [(bar.P, bar.Q) for bar in plan.cylinders]) - halves - len(plan.telescopes) + 2 * lone

@@ -25,12 +25,14 @@ from linkage import (
     Motion,
     OnLink,
     Stroke,
+    Weight,
     angle,
     distance,
+    driving_force,
 )  # fmt: skip
 from linkage.program import FloatArray
 from linkage.report import below_zero, closely, reached_span, spans_in_words
-from linkage.units import cm, deg, kgf, kgf_cm2, litre, mm
+from linkage.units import cm, deg, g0, kgf, kgf_cm2, litre, mm
 
 G_FROM_O = (1.07, -0.37)                    # centre of gravity from O at S = 0.55 m, as the input says, m
 BELOW = atan2(G_FROM_O[1], G_FROM_O[0])     # its direction from O, rad
@@ -73,6 +75,8 @@ class MowerLift(Mechanism):
     bore = Dimension(8 * cm, unit="mm")                         # D
     k_m = Dimension(0.85)                                       # mechanical efficiency
     k_g = Dimension(0.95)                                       # hydraulic efficiency
+
+    load = Weight(G, mass=weight / g0)
 
     def __init__(self, **dimensions: Any) -> None:
         """Set the design [SI]; DefinitionError also for a load, pressure or bore not above zero, an efficiency not in (0, 1]."""
@@ -117,8 +121,8 @@ def transfer_ratio(motion: Motion) -> FloatArray:
 
 
 def rod_force(motion: Motion) -> FloatArray:
-    """Return the thrust without friction, P I [N], by virtual work."""
-    return np.asarray(motion.inputs["weight"] * transfer_ratio(motion))
+    """Return the thrust without friction, P I [N]: the statics' driving force under the section's weight."""
+    return driving_force(motion, "load")
 
 
 def lifting_force(motion: Motion) -> FloatArray:

@@ -17,6 +17,11 @@ from .newton import Mask, Newton
 from .path import Path, follow, interpolated
 
 
+SAMPLED = 1024
+NEARBY = 0.05
+BLOCK = 4096
+
+
 @dataclass(frozen=True)
 class Solved:
     """The inputs a group's solution supplies, shape (designs, poses), and where branches cross on the way."""
@@ -39,7 +44,7 @@ def solve_groups(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, F
     else:
         u, crossed = _along_many(newton, designs, start, sketch, strokes)
         stops = ()
-    sine = newton.sine({**designs, **strokes}, u)
+    sine = sines(newton, designs, strokes, u)
     inputs = dict(zip(newton.names, u, strict=True)) | {group.inputs[-1]: sine for group in plan.groups.values()}
     return Solved(inputs, crossed, stops)
 
@@ -90,6 +95,25 @@ def _along_many(
     return np.where(path.ended == 1.0, path.solutions[-1], np.nan), path.crossed
 
 
+def sines(newton: Newton, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray], u: FloatArray) -> FloatArray:
+    """Return how near every pose is to a singular one, shape (designs, poses).
+
+    Of many poses along one stroke a sample is worked out and the rest read between its values, except near a singular pose.
+    """
+    n = u.shape[2]
+    if n <= SAMPLED or len(strokes) != 1:
+        return newton.sine({**designs, **strokes}, u)
+    ((name, values),) = strokes.items()
+    order = np.argsort(values, kind="stable")
+    sample = order[np.unique(np.linspace(0, n - 1, SAMPLED).astype(int))]
+    known = newton.sine({**designs, name: values[sample]}, u[:, :, sample])
+    found = np.array([np.interp(values, values[sample], row) for row in known])
+    close = ~(found > NEARBY).all(axis=0)
+    if close.any():
+        found[:, close] = newton.sine({**designs, name: values[close]}, u[:, :, close])
+    return np.where(np.isfinite(u).all(axis=0), found, np.nan)
+
+
 @dataclass(frozen=True)
 class Leg:
     """One way along a stroke from the sketch: place 0 there, 1 at the last value asked for."""
@@ -118,7 +142,8 @@ def _along_one(
         if side.any():
             leg = Leg(name, sketch, float(last(values[side])))
             path = follow(newton, lambda place, leg=leg: {**designs, name: leg.value(place)}, start)  # type: ignore[misc]
-            u[:, :, side] = _filled(newton, designs, leg, values[side], path)
+            parts = [_filled(newton, designs, leg, part, path) for part in np.array_split(values[side], -(-int(side.sum()) // BLOCK))]
+            u[:, :, side] = np.concatenate(parts, axis=2)
             stops += tuple(float(leg.value(place)) for place in path.ended[:, 0] if place < 1.0)
             crossed[:, side] = path.crossed & (leg.place(values[side])[None, :] > path.ended)
     return u, crossed, stops

@@ -14,6 +14,8 @@ from ..program import FloatArray, Kernel, Node, Tangent, solve_arrays
 
 Mask = npt.NDArray[np.bool_]
 CONVERGED = 1e-10
+#: A step so small, against the links' length, leaves an error of its square: 1e-14 and less.
+QUADRATIC = 1e-7
 
 
 class Newton:
@@ -40,26 +42,31 @@ class Newton:
         columns = [Tangent(graph, {each: float(each is root) for each in roots}) for root in roots]
         return Kernel([*residuals, *(column.of(residual) for residual in residuals for column in columns)])
 
-    def system(self, inputs: Mapping[str, Any], u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return the residuals [m], the Jacobian with rows of length one, and the rows' own lengths [m]."""
+    def raw(self, inputs: Mapping[str, Any], u: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the residuals and the Jacobian by rows as the constraints state them, shape (n, ...) and (n, n, ...)."""
         n = len(self.names)
         values = self._kernel(dict(inputs) | dict(zip(self.names, u, strict=True))).values
         shape = np.broadcast_shapes(values.shape[1:], u.shape[1:])
         values = np.broadcast_to(values, (len(values), *shape))
-        rows = values[n:].reshape(n, n, *shape)
+        return values[:n], values[n:].reshape(n, n, *shape)
+
+    def system(self, inputs: Mapping[str, Any], u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return the residuals [m], the Jacobian with rows of length one, and the rows' own lengths [m]."""
+        residual, rows = self.raw(inputs, u)
         size = np.sqrt((rows * rows).sum(axis=1))
         with np.errstate(all="ignore"):
-            return values[:n] / size, rows / size[:, None], size
+            return residual / size, rows / size[:, None], size
 
     def correct(self, inputs: Mapping[str, Any], guess: FloatArray, iterations: int = 8) -> tuple[FloatArray, Mask]:
         """Return the solution next to a guess and the mask of the poses where it was found."""
-        u, done = guess, np.zeros(guess.shape[1:], bool)
+        u, done, size = guess, np.zeros(guess.shape[1:], bool), None
         with np.errstate(all="ignore"):
             for _ in range(iterations):
-                residual, rows, size = self.system(inputs, u)
+                residual, rows = self.raw(inputs, u)
+                size = np.sqrt((rows * rows).sum(axis=1).max(axis=0)) if size is None else size
                 change = solve_arrays(*rows.reshape(-1, *rows.shape[2:]), *residual)
                 u = u - change
-                done = np.abs(change).max(axis=0) <= CONVERGED * size.max(axis=0)
+                done = np.abs(change).max(axis=0) <= QUADRATIC * size
                 if done.all() or np.isnan(change).all():
                     break
         return u, done

@@ -24,7 +24,7 @@ class Parts:
     shapes: dict[str, Shape] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self.shapes = {name: Shape(link, self.pins, self.place) for name, link in self.links.items()}
+        self.shapes = {name: Shape(link, self.pins, self.placed, self.place) for name, link in self.links.items()}
 
     def loose(self, link: Link) -> list[str]:
         """Return a link's points that are not placed."""

@@ -15,9 +15,9 @@ from ..steps import Link, OnLink, Pin, Step
 class Shape:
     """What is known of a link's shape. Lengths in m, angles in rad."""
 
-    def __init__(self, link: Link, pins: Mapping[str, Pin], place: Callable[[str], tuple[float, float]]) -> None:
+    def __init__(self, link: Link, pins: Mapping[str, Pin], placed: set[str], place: Callable[[str], tuple[float, float]]) -> None:
         self.points = link.point_names
-        self.pins, self.place = pins, place
+        self.pins, self.placed, self.place = pins, placed, place
         self.labels = {name: quantity(value) for name, value in link.labels.items()}
 
     def given(self, *points: str) -> tuple[str, Quantity] | None:
@@ -42,8 +42,14 @@ class Shape:
         """Return the distance of two points in the drawing [m]."""
         if not any(point in self.pins and self.pins[point].drawn_at for point in (P, Q)):
             return None
-        first, second = (self.pins[point].drawn_at if point in self.pins else self.place(point) for point in (P, Q))
+        first, second = self.drawn(P), self.drawn(Q)
         return None if first is None or second is None else Number(float(np.hypot(first[0] - second[0], first[1] - second[1])))
+
+    def drawn(self, point: str) -> tuple[float, float] | None:
+        """Return a point's place in the drawing, or where it is placed [m]; None for a pin with only a rough place."""
+        if point in self.pins and (self.pins[point].drawn_at or point not in self.placed):
+            return self.pins[point].drawn_at
+        return self.place(point)
 
     def attachment(self, firm: Sequence[str], pin: str) -> Step | None:
         """Return the step that places a point of this body from two placed ones, if the labels allow it."""

@@ -81,7 +81,7 @@ class Motion(Outputs):
         targets: tuple[Any, ...] = self.plan.moving if pass_of_all else (member.name or member,)
         key = (targets, along)
         if key not in self._ratios:
-            self._ratios[key] = self._full(self.plan.kernel(targets, along)(self._flat).values)
+            self._ratios[key] = self.full(self.plan.kernel(targets, along)(self.flat).values)
             self._ratios[key].flags.writeable = False
         values = self._ratios[key]
         if not self.reached.all():

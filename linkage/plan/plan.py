@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -195,10 +196,20 @@ class Plan:
 
     def kernel(self, targets: tuple[str | Quantity, ...], along: tuple[str, ...] = (), guarded: bool = False) -> Kernel:
         """Return the kernel of some targets' values or derivatives, made once."""
-        key = (targets, along, guarded)
+
+
+        def make(plan: Plan) -> Kernel:
+            nodes = [node for target in targets for node in plan.derived(plan.nodes(target), along)]
+            return Kernel(nodes, [guard.node for guard in plan.trace.guards] if guarded else ())
+
+        return self.made((targets, along, guarded), make)
+
+    def made(self, key: Any, make: Callable[[Plan], Kernel]) -> Kernel:
+        """Return a kernel by its key, made once, from a program of its own: it comes out the same in whatever order kernels are asked for."""
         if key not in self._kernels:
-            nodes = [node for target in targets for node in self.derived(self.nodes(target), along)]
-            self._kernels[key] = Kernel(nodes, [guard.node for guard in self.trace.guards] if guarded else ())
+            twin = copy(self)
+            vars(twin).pop("trace", None)
+            self._kernels[key] = make(twin)
         return self._kernels[key]
 
     @cached_property

@@ -34,6 +34,7 @@ class Trace(Reading):
         super().__init__(members, lengths, inputs)
         self.guards: list[Guard] = []
         self.noted: dict[str, Node] = {}
+        self.angles: list[Node] = []
 
     def root(self, radicand: Scalar, scale: Scalar, size: Scalar) -> Scalar:
         radicand = self.graph.node(radicand)
@@ -51,6 +52,11 @@ class Trace(Reading):
             self.guards.append(Guard(self.owner, np.abs(sine) - NEAR))
             self.noted[self.owner] = sine
         return sine
+
+    def angle_of(self, vector: Vec) -> Scalar:
+        angle = self.graph.node(super().angle_of(vector))
+        self.angles.append(angle)
+        return angle
 
     def watch_length(self, step: str, length: Quantity) -> None:
         """Keep a guard that is NaN where a length is negative."""

@@ -1,5 +1,6 @@
 """The traced straight-line program, its derivatives and its kernels."""
 
+from .adjoint import gradient as gradient
 from .arrays import FloatArray as FloatArray
 from .interpret import interpret as interpret
 from .kernel import Kernel as Kernel

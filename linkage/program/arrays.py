@@ -18,7 +18,7 @@ from .source import compiled
 from .text import GUARDED, function
 
 FloatArray = npt.NDArray[np.float64]
-SMALLEST, LARGEST = 4096, 16384
+SMALLEST, LARGEST = 8192, 16384
 
 
 class Arrays:

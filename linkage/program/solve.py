@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from .linear import unknowns
 from .node import Graph, Node
 
 
@@ -31,3 +32,9 @@ def _inverse(graph: Graph, determinant: Node, meaning: Node) -> Node:
     if determinant.op == "negative":
         return -_inverse(graph, determinant.args[0], -meaning)
     return 1.0 / graph.alias(determinant, meaning)
+
+
+def entries(system: Node) -> tuple[list[list[Node]], list[Node]]:
+    """Return the matrix and the right side of a system node."""
+    n = unknowns(len(system.args))
+    return [list(system.args[k * n : k * n + n]) for k in range(n)], list(system.args[n * n :])

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from .linear import unknowns
 from .node import Closure, Graph, Node
 from .operations import OPERATIONS
-from .solve import solution
+from .solve import entries, solution
 
 
 class Tangent:
@@ -57,7 +56,7 @@ class Tangent:
         """Return the derivative of one unknown of A u = b: the solution of A du = db - dA u."""
         system = node.args[0]
         if system not in self._systems:
-            matrix, right = _entries(system)
+            matrix, right = entries(system)
             found = [self.graph.apply("component", system, float(place)) for place in range(len(right))]
             drive = [
                 sum((-(self._lookup(entry) * u) for entry, u in zip(row, found, strict=True)), self._lookup(b))
@@ -83,12 +82,6 @@ class Tangent:
             for index, change in moving:
                 total = total + change * partials[index]
         self._known[node] = total
-
-
-def _entries(node: Node) -> tuple[list[list[Node]], list[Node]]:
-    """Return the matrix and the right side of a system node."""
-    n = unknowns(len(node.args))
-    return [list(node.args[k * n : k * n + n]) for k in range(n)], list(node.args[n * n :])
 
 
 def rates(graph: Graph, closure: Closure, along: Tangent) -> Sequence[Node]:

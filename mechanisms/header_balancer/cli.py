@@ -48,12 +48,13 @@ class Balance(Command):
         path = picture(options)
         motion = machine.at(h=machine.strokes["h"].start)
         over = over_following(motion, options.count)
+        compared = deviations(motion, read_measured(options.measured)) if options.measured else []
+        verdicts = [*criteria(motion), *(each.verdict for each in compared)]
         horizon = show(float(over["h_horizon"][0]), "mm", 4)
         print(f"Charged to {kgf_cm2_text(machine['charge'])} at the horizon, h = {horizon}. Pressures are gauge.\n")
-        written(setting_table(WANTED, changes=changes(options)) if options.table else reaction_columns(over), options.csv)
-        compared = deviations(motion, read_measured(options.measured)) if options.measured else []
+        written(setting_table(WANTED, changes(options)) if options.table else reaction_columns(over), options.csv)
         print()
-        for verdict in [*criteria(motion), *(each.verdict for each in compared)]:
+        for verdict in verdicts:
             print(verdict)
         draw(machine, options, path, compared)
         return 0

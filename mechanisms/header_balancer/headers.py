@@ -39,15 +39,17 @@ def with_header(number: int, **changes: Any) -> HeaderBalancer:
     return HeaderBalancer(**{**HEADERS[number], **changes})
 
 
-def setting_table(wanted: Sequence[float], way: Way = SLOW, changes: Mapping[str, Any] | None = None) -> list[Column]:
+def setting_table(wanted: Sequence[float], changes: Mapping[str, Any] | None = None) -> list[Column]:
     """Return the charge pressure at the horizon for each header and each wanted reaction of all shoes [N]. (35)
 
     Beside it stand the reaction that is left, at the least, moving down over the following range, and whether the
-    setting keeps the largest charge of `way` (1 yes, 0 no). NaN where the weights do not give so much reaction, or
-    the line would be charged below every gas charge and be rigid. `changes` are design variables [SI] of all headers.
+    setting keeps the largest charge without hang-up (1 yes, 0 no): slow, or fast where `changes` say n=1.4. NaN where
+    the weights do not give so much reaction, or the line would be charged below every gas charge and be rigid.
+    `changes` are design variables [SI] of all headers.
     """
     forces, changed = np.asarray(wanted, float), dict(changes or {})
-    shoes = float(HeaderBalancer(**changed)["shoes"])
+    design = HeaderBalancer(**changed)
+    shoes, way = float(design["shoes"]), SLOW if design["n"] == 1.0 else Way(f"n = {design['n']:g}", exponent=float(design["n"]))
     columns = [Column("F_R", forces, "kgf", 0), Column("per shoe", forces / shoes, "kgf", 0)]
     for number in HEADERS:
         machine = with_header(number, **changed)

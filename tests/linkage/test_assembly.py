@@ -72,7 +72,7 @@ def check(machine, sheet, tolerance, thoroughly):
     return True
 
 
-@pytest.mark.parametrize("first", blocks(1000, daily=200))
+@pytest.mark.parametrize("first", blocks(1000, daily=300))
 def test_random_dyads(first):
     kept = 0
     for seed in range(first, first + BLOCK):

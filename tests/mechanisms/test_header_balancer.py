@@ -242,3 +242,9 @@ def test_unknown_header_lists_the_headers():
 def test_the_machine_turned_a_little_keeps_its_horizon():
     machine = HeaderBalancer(BOR=6 * deg)
     assert_allclose(Balance(at_horizon(machine.at(h=0.0))).height, 0.0, atol=1e-12)
+
+
+def test_the_setting_table_of_a_fast_movement_is_stricter():
+    slow, fast = ({column.name: column.shown for column in setting_table([300 * kgf], {"n": n})} for n in (1.0, 1.4))
+    assert slow["safe 1"][0] == 1.0 and fast["safe 1"][0] == 0.0
+    assert slow["least 1"][0] > 0.0 > fast["least 1"][0]

@@ -14,6 +14,7 @@ from .newton import Mask, Newton
 FIRST = 1.0 / 64
 LEAST = 1e-10
 LARGEST = 1.0 / 8
+BEYOND = 1e-4
 
 
 @dataclass(frozen=True)
@@ -54,10 +55,18 @@ def follow(newton: Newton, inputs: Callable[[float], Mapping[str, Any]], start: 
             step *= 0.5
         else:
             stopped = alive & ~good
-            ended, crossed = np.where(stopped, places[-1], ended), crossed | (stopped & done & turned)
+            ended, crossed = np.where(stopped, places[-1], ended), crossed | (stopped & goes_on(newton, inputs, places, solutions))
             alive = alive & good
             step = FIRST
     return Path(np.array(places), np.array(solutions), ended, crossed)
+
+
+def goes_on(newton: Newton, inputs: Callable[[float], Mapping[str, Any]], places: list[float], solutions: list[FloatArray]) -> Mask:
+    """Return which paths have a solution beyond their end: branches cross there, where at a dead point they turn back."""
+    beyond = min(BEYOND, 1.0 - places[-1])
+    guess = predicted(places, solutions, beyond)
+    found, done = newton.correct(inputs(places[-1] + beyond), guess)
+    return np.asarray(done & (np.abs(found - guess).max(axis=0) <= 1e-2 * np.ptp(found, axis=0)))
 
 
 def predicted(places: list[float], solutions: list[FloatArray], step: float) -> FloatArray:

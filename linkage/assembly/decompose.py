@@ -24,6 +24,8 @@ class Row:
     attached: tuple[str, OnLink] | None = None
     slide: Slide | None = None
     half: int = 0
+    fault: str = ""
+    """Why it cannot be written down, should its turn come."""
 
 
 def rows_of(parts: Parts, title: str) -> list[Row]:
@@ -46,22 +48,32 @@ def link_rows(parts: Parts, name: str, title: str) -> list[Row]:
     points = [*parts.firm(link), *parts.loose(link)]
     first, second = points[:2]
     length = shape.distance(first, second)
-    if length is None:
-        raise DefinitionError(f"{title}: the length {first}{second} of {name} = {link} is missing; give it, or draw both pins at=(x, y).")
+    fault = "" if length is not None else f"the length {first}{second} of {name} = {link} is missing; give it, or draw both pins at=(x, y)."
 
     def loose(*pins: str) -> tuple[str, ...]:
         return tuple(pin for pin in pins if pin not in parts.placed)
 
-    rows = [Row(loose(first, second), length=(first, second, length))] if loose(first, second) else []
+    measured = None if length is None else (first, second, length)
+    rows = [Row(loose(first, second), length=measured, fault=fault)] if loose(first, second) else []
     for pin in points[2:]:
         step = shape.attachment((first, second), pin)
         if not isinstance(step, OnLink):
             raise DefinitionError(
                 f"{title}: the shape of {name} = {link} is not settled at {pin}; give two distances or a distance and an angle."
             )
-        step = as_sketched(parts, pin, step, f"{title}: {name} = {link}")
-        rows += [Row(loose(first, second, pin), attached=(pin, step), half=half) for half in (0, 1)]
+        fault = undrawn(parts, name, pin, step)
+        if not fault:
+            step = as_sketched(parts, pin, step, f"{title}: {name} = {link}")
+        rows += [Row(loose(first, second, pin), attached=(pin, step), half=half, fault=fault) for half in (0, 1)]
     return rows
+
+
+def undrawn(parts: Parts, name: str, pin: str, step: OnLink) -> str:
+    """Return what keeps a rigid point drawn at=(x, y) from being measured: a parent with only a rough place; else nothing."""
+    rough = [name_of(parent) for parent in step.parents if step.drawn_at and parts.shapes[name].drawn(name_of(parent)) is None]
+    if not rough:
+        return ""
+    return f"{pin} of {name} = {parts.links[name]} cannot be measured from {' '.join(rough)}; draw them at=(x, y) too, or give the lengths."
 
 
 def as_sketched(parts: Parts, pin: str, step: OnLink, what: str) -> OnLink:
@@ -100,6 +112,9 @@ def next_group(parts: Parts, title: str) -> Group:
     for block in nx.lexicographical_topological_sort(blocks):
         pins = blocks.nodes[block]["members"]
         own = sorted(row for (pin, _), row in matched.items() if pin in pins)
+        fault = next((rows[row].fault for row in own if rows[row].fault), "")
+        if fault:
+            raise DefinitionError(f"{title}: {fault}")
         return grouped([pin for pin in parts.pins if pin in pins], [rows[row] for row in own])
     raise DefinitionError(f"{title}: no pin is left to place.")
 

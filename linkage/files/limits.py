@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 FILE_BYTES = 1_000_000
+TOML_LINE = 5_000  # characters: a dotted key as long as a file takes the parser's memory by its square
 MEMBERS = 400
+SKETCHED = 100  # members that stand in a sketch: assembling them takes time by the cube
+LINKS = 200
 LINK_POINTS = 26
 LABELS = 100
 EXPRESSION_LENGTH = 1_000

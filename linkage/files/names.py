@@ -46,6 +46,9 @@ def member_name(name: object) -> str:
 
 def shortened(value: object, quote: bool = True) -> str:
     """Return a value as text for a message: not too long, in one line, nothing unprintable."""
-    text = ascii(value) if isinstance(value, str) and not value.isprintable() else repr(value)
+    try:
+        text = ascii(value) if isinstance(value, str) and not value.isprintable() else repr(value)
+    except (ValueError, RecursionError):
+        text = f"an endless {type(value).__name__}"
     text = text if quote or not isinstance(value, str) else text[1:-1]
     return text if len(text) <= NAME_LENGTH else f"{text[:NAME_LENGTH]}..."

@@ -16,7 +16,7 @@ from ..mechanism import Mechanism
 from ..quantities import Member
 from .entry import Entry
 from .faults import Faults, Key
-from .limits import MEMBERS
+from .limits import LINKS, MEMBERS, SKETCHED
 from .names import Names, member_name, shortened
 from .registry import registry
 from .source import source
@@ -81,9 +81,7 @@ def head(data: Mapping[str, Any], faults: Faults) -> tuple[str, str | None]:
 
 def names_of(sections: Mapping[str, Mapping[str, Any]], faults: Faults) -> Names:
     """Return all names with their sections and kinds; bad, double and too many ones are noted."""
-    count = sum(map(len, sections.values()))
-    if count > MEMBERS:
-        raise FileError(f"{faults.source}: {count} members are too many; up to {MEMBERS} are read.")
+    check_sizes(sections, faults.source)
     found: dict[str, str] = {}
     for section, entries in sections.items():
         for name in entries:
@@ -94,6 +92,16 @@ def names_of(sections: Mapping[str, Mapping[str, Any]], faults: Faults) -> Names
                     raise DefinitionError(f"{name} {taken}; give it another name.")
                 found[name] = section
     return Names(found, {name: registry().kind(section) for name, section in found.items()})
+
+
+def check_sizes(sections: Mapping[str, Mapping[str, Any]], where: str) -> None:
+    """Raise FileError for more members than any machine has."""
+    entries = [entry for table in sections.values() for entry in table.values()]
+    sketched = [entry for entry in entries if isinstance(entry, Mapping) and not {"near", "at"}.isdisjoint(entry)]
+    links = sections.get("links", {})
+    for found, limit, what in ((entries, MEMBERS, "members"), (sketched, SKETCHED, "sketch positions"), (links, LINKS, "links")):
+        if len(found) > limit:
+            raise FileError(f"{where}: {len(found)} {what} are too many; up to {limit} are read.")
 
 
 def ordered(order: Any, names: Names, faults: Faults) -> list[str]:

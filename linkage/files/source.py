@@ -6,14 +6,16 @@ import json
 import os
 import re
 import tomllib
+from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ..errors import FileError
-from .limits import FILE_BYTES
+from .limits import FILE_BYTES, TOML_LINE
 from .lines import line_of, lines
+from .names import shortened
 
 TEXT = "the text"
 
@@ -63,7 +65,7 @@ def decoded(name: str, raw: bytes, is_json: bool) -> Source:
     except UnicodeDecodeError as error:
         line = raw.count(b"\n", 0, error.start) + 1
         raise FileError(f"{name}, line {line}: the file is not UTF-8 text; save it in that encoding.") from None
-    parse: Callable[[str], Any] = from_json if is_json else tomllib.loads
+    parse: Callable[[str], Any] = from_json if is_json else from_toml
     try:
         return Source(name, parse(text), {} if is_json else lines(text))
     except RecursionError:
@@ -74,10 +76,20 @@ def decoded(name: str, raw: bytes, is_json: bool) -> Source:
 
 def located(name: str, message: str) -> str:
     """Return a parser's message with its line in front."""
+    if message.startswith("Exceeds the limit"):
+        message = "a number has too many digits"
     match = re.search(r"\s*\(?:?\s*\(?(?:at )?line (\d+)[,:]? column \d+(?: \(char \d+\))?\)?", message)
     if match is None:
         return f"{name}: {message}."
     return f"{name}, line {match.group(1)}: {(message[: match.start()] + message[match.end() :]).strip()}."
+
+
+def from_toml(text: str) -> Any:
+    """Return what a TOML text says; ValueError for lines that are too long."""
+    for number, line in enumerate(text.split("\n"), 1):
+        if len(line) > TOML_LINE:
+            raise ValueError(f"the line has {len(line)} characters, up to {TOML_LINE} are read (at line {number}, column 1)")
+    return tomllib.loads(text)
 
 
 def from_json(text: str) -> Any:
@@ -94,6 +106,6 @@ def unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """Return a table; ValueError for a key that stands twice."""
     table = dict(pairs)
     if len(table) < len(pairs):
-        keys = [key for key, _ in pairs]
-        raise ValueError(f"the key {next(key for key in keys if keys.count(key) > 1)!r} stands twice")
+        [(key, _)] = Counter(key for key, _ in pairs).most_common(1)
+        raise ValueError(f"the key {shortened(key)} stands twice")
     return table

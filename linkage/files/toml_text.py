@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterator, Mapping
+from textwrap import fill
 from typing import Any
 
 WIDTH = 120
@@ -46,7 +47,9 @@ def inline(value: Any) -> str:
 
 
 def long_text(value: Any) -> str:
-    """Return a value of the head; a text of several lines as such."""
+    """Return a value of the head; a text of several lines as such, a list of names filled into lines."""
+    if isinstance(value, list):
+        return "[\n" + fill(" ".join(f"{inline(each)}," for each in value), WIDTH, initial_indent="    ", subsequent_indent="    ") + "\n]"
     if not isinstance(value, str) or "\n" not in value:
         return inline(value)
     escaped = value.replace("\\", "\\\\").replace('"""', '""\\"')

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import DefinitionError, SingularError
 from ..program import FloatArray
-from ..steps import Dyad, Point
+from ..steps import Dyad, Pin, Point
 from ..units import deg
 from .limits import TOUCH as TOUCH
 from .limits import Extreme, Interval, Scanned, StrokeLimits, deepest, intervals, search
@@ -132,7 +132,9 @@ def refuse_crossing(motion: Motion) -> None:
     order = np.argsort(values, kind="stable")
     at = values[order]
     scan = scanner(motion.moved, name, {})
-    for loop, sine in motion.loop_sines.items():
+    # a group is followed step by step from the sketch and tells of its own crossings
+    alone = {loop: sine for loop, sine in motion.loop_sines.items() if loop not in motion.plan.of_kind(Pin)}
+    for loop, sine in alone.items():
         ordered = np.broadcast_to(np.abs(sine), values.shape)[order]
         for place in suspects(ordered):
             value, least = deepest(scan, loop, at[max(place - 1, 0)], at[min(place + 1, len(at) - 1)])

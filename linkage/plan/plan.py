@@ -205,7 +205,7 @@ class Plan:
         return self.made((targets, along, guarded), make)
 
     def made(self, key: Any, make: Callable[[Plan], Kernel]) -> Kernel:
-        """Return a kernel by its key, made once, from a program of its own: it comes out the same in whatever order kernels are asked for."""
+        """Return a kernel by its key, made once from a program of its own: it does not depend on what was asked for before."""
         if key not in self._kernels:
             twin = copy(self)
             vars(twin).pop("trace", None)

@@ -200,3 +200,9 @@ def test_a_flat_ternary_sketch_has_no_side():
     flat |= {"coupler": Link("A B D", AB=0.2, AD=0.09, BD=0.25)}
     with pytest.raises(DefinitionError, match="no side"):
         type("Flat", (StephensonThreeFar,), flat)
+
+
+def test_a_drawn_pin_is_not_measured_from_a_rough_one():
+    rough = {"D": Pin(at=(-0.038, 0.096)), "coupler": Link("A B D", AB=0.2)}
+    with pytest.raises(DefinitionError, match="cannot be measured from"):
+        type("Rough", (StephensonThreeFar,), rough)

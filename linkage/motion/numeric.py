@@ -55,7 +55,8 @@ def derivative(
 def _extrapolated(estimate: FloatArray, floor: FloatArray) -> Any:
     """Return estimates of second order, extrapolated to the fourth (two-sided) or third (one-sided), each with its error.
 
-    The error is the change from the next larger step, and not below rounding. It counts only where the changes
+    The error is the larger change to the steps on either side, one of which may be small by chance, and not below
+    rounding. It counts only where the changes
     shrink with the step: next to a dead point coarse steps agree with each other and not with the derivative.
     """
     better = (RATIO**2 * estimate[..., 1:] - estimate[..., :-1]) / (RATIO**2 - 1)
@@ -64,7 +65,7 @@ def _extrapolated(estimate: FloatArray, floor: FloatArray) -> Any:
     edge = np.full((*known.shape[:-1], 1), np.inf)
     before, after = np.concatenate([edge, known[..., :-1]], axis=-1), np.concatenate([known[..., 1:], edge], axis=-1)
     shrinks = (np.isfinite(before) & (known <= before)) | (after <= known) | (known <= 1e-3 * np.abs(better[..., 1:]))
-    error = np.maximum(change, floor)
+    error = np.maximum(np.maximum(change, np.where(np.isfinite(after), after, 0.0)), floor)
     return np.stack([better[..., 1:], np.where(shrinks, error, np.maximum(error, np.abs(better[..., 1:])))])
 
 

@@ -65,7 +65,8 @@ def _extrapolated(estimate: FloatArray, floor: FloatArray) -> Any:
     edge = np.full((*known.shape[:-1], 1), np.inf)
     before, after = np.concatenate([edge, known[..., :-1]], axis=-1), np.concatenate([known[..., 1:], edge], axis=-1)
     shrinks = (np.isfinite(before) & (known <= before)) | (after <= known) | (known <= 1e-3 * np.abs(better[..., 1:]))
-    error = np.maximum(np.maximum(change, np.where(np.isfinite(after), after, 0.0)), floor)
+    beside = np.where(np.isfinite(after), after, np.where(np.isfinite(before), before, 0.0))
+    error = np.maximum(np.maximum(change, beside), floor)
     return np.stack([better[..., 1:], np.where(shrinks, error, np.maximum(error, np.abs(better[..., 1:])))])
 
 

@@ -16,7 +16,6 @@ from ..units import mm
 from .newton import Mask, Newton
 from .path import Path, follow, interpolated
 
-
 SAMPLED = 1024
 NEARBY = 0.05
 BLOCK = 4096

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -11,8 +11,9 @@ from .assembly import Assembly, assembled, assemblies
 from .errors import DefinitionError, unknown
 from .graph import Body
 from .mobility import FourBar, Mobility, check, four_bars, mobility
-from .motion import Column, Motion, at_values, stroke_unit, sweep_values
+from .motion import Column, Grid, Motion, Request, at_values, evaluate, stroke_unit, sweep_values
 from .plan import Plan
+from .program import FloatArray, Way
 from .quantities import Dimension, Member, Quantity, Stroke
 
 
@@ -74,6 +75,27 @@ class Mechanism:
     def at(self, *, unreachable: str = "raise", **strokes: Any) -> Motion:
         """Return the motion at chosen strokes [SI]: `at(S=[0.0, 0.1])`. They may lie beyond the declared range."""
         return Motion(self.plan, self._values, at_values(strokes, self.plan.strokes, self.plan.title), unreachable)
+
+    def evaluate(
+        self,
+        of: Sequence[Request],
+        *,
+        out: FloatArray | None = None,
+        unreachable: str = "raise",
+        backend: str | None = None,
+        threads: int = 1,
+        **strokes: Any,
+    ) -> list[FloatArray]:
+        """Return values and ratios of many poses in one pass, and work out nothing else: `G, I = evaluate(["G", ratio("G")], S=...)`.
+
+        One array a request, shape (2, *designs, *strokes) of a point, (*designs, *strokes) of a quantity. `out`, shape
+        (components, *designs, *strokes), takes the results; the arrays returned are its rows. `backend` is "numpy", "numba"
+        or "floats"; without it the quickest for the work, on one thread. Poses are taken one by one: unlike `at` it does not look for
+        change points between them. Raises AssemblyError out of reach and SingularError for ratios at a dead point, unless
+        `unreachable="nan"`.
+        """
+        grid = Grid(self.plan, self._values, at_values(strokes, self.plan.strokes, self.plan.title), unreachable)
+        return evaluate(grid, of, out, Way(backend, threads))
 
     def columns(self, motion: Motion) -> list[Column]:
         """Return the table of results: strokes, moving points, named outputs. A machine replaces it by its own."""

@@ -1,4 +1,4 @@
-"""Machines by name: shipped or of another package (entry points), of a module, or of a file."""
+"""Machines by name: shipped or of another package (entry points), of a module, of a Python file, or of TOML or JSON."""
 
 from __future__ import annotations
 

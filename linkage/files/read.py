@@ -166,9 +166,6 @@ def made(title: str, doc: str | None, members: Mapping[str, Member], names: Name
 
 
 def key_of(message: str, names: Names) -> Key:
-    """Return the key of the member that a message speaks of first; empty where it names none."""
-    for name in re.findall(r"(\w+)(?= = )|(?<=\.)(\w+)(?=:)|(\w+)", message):
-        word = next(filter(None, name))
-        if word in names.sections:
-            return names.sections[word], word
-    return ()
+    """Return the key of the member that a message is about: `B = ...`, else the first name in it; empty where it names none."""
+    words = [*re.findall(r"(\w+) = ", message), *re.findall(r"\w+", message)]
+    return next(((names.sections[word], word) for word in words if word in names.sections), ())

@@ -1,9 +1,14 @@
 """Where everything is over the stroke: positions, ratios, angles, distances."""
 
+from .bulk import evaluate as evaluate
 from .column import Column as Column
+from .grid import Grid as Grid
 from .motion import Motion as Motion
 from .motion import Target as Target
 from .paired import Paired as Paired
 from .reach import stroke_unit as stroke_unit
+from .request import Ratio as Ratio
+from .request import Request as Request
+from .request import ratio as ratio
 from .strokes import at_values as at_values
 from .strokes import sweep_values as sweep_values

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -15,9 +15,11 @@ from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
 from . import numeric, reach, scan, singular
 from .asked import method_of, named, order_of, rates_of
+from .gradient import gradient_of
 from .outputs import Outputs
 from .outputs import Target as Target
 from .reach import Mask
+from .request import Request
 
 
 class Motion(Outputs):
@@ -61,10 +63,10 @@ class Motion(Outputs):
         stroke = self._stroke(wrt)
         order, method = order_of(order), method_of(method, step)
         member = self._member(target)
-        refused = self._singular(member, f"The ratio of {member.name or member}", order)
+        refused = self.refused(member, f"The ratio of {member.name or member}", order)
         found = self._exact(member, (stroke,) * order) if method == "exact" else self._numeric(member, stroke, order, step)
         found = np.where(refused, np.nan, found) if refused.any() else found
-        return self._finite(found, refused, f"The ratio of {member.name or member} by {stroke}")
+        return self.finite(found, refused, f"The ratio of {member.name or member} by {stroke}")
 
     def _stroke(self, wrt: str | None) -> str:
         if wrt is None and len(self.strokes) == 1:
@@ -111,7 +113,7 @@ class Motion(Outputs):
             warnings.warn(text, SingularWarning, stacklevel=3)
         return np.where(useless, np.nan, found)
 
-    def _singular(self, member: Member, what: str, order: int = 1) -> Mask:
+    def refused(self, member: Member, what: str, order: int = 1) -> Mask:
         """Return the mask of poses where a ratio is refused; raise or warn as asked."""
         nothing = np.zeros(self.shape, bool)
         if not self.is_near_singular:
@@ -123,6 +125,14 @@ class Motion(Outputs):
             raise singular.refusal(self.plan, found, refused, self.strokes, what, self)
         singular.warn(self.plan, found, self.strokes, what, order)
         return refused
+
+    def gradient(self, of: Request, wrt: Sequence[str]) -> FloatArray:
+        """Return the exact derivatives of a position, an output or a ratio by dimensions, all in one reverse pass.
+
+        `gradient("tilt", wrt=["OB", "CD", "M.x"])` has the shape (3, ...), that of a point (3, 2, ...);
+        `gradient(ratio("G"), ...)` is how the transfer ratio follows the dimensions. Raises SingularError at a dead point.
+        """
+        return gradient_of(self, of, wrt)
 
     # -- velocity --------------------------------------------------------------------------------------
 
@@ -136,7 +146,7 @@ class Motion(Outputs):
         given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title)
         driven = rates_of("accelerations", accelerations or {}, self.strokes, self.shape, self.plan.title)
         member = self._member(target)
-        refused = self._singular(member, f"The acceleration of {member.name or member}", 2)
+        refused = self.refused(member, f"The acceleration of {member.name or member}", 2)
         total = sum((self.ratio(target, wrt=name) * value for name, value in driven.items()), self._still(target))
         for first, u in given.items():
             for second, v in given.items():

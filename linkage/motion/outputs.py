@@ -53,9 +53,9 @@ class Outputs(Places):
         """Return a quantity over all poses [SI]; angles without jumps along the stroke."""
         with np.errstate(all="ignore"):
             found = np.broadcast_to(np.asarray(self._outputs.value(quantity), float), self.shape)
-        return self._finite(np.where(self.reached, found, np.nan), np.zeros((), bool), str(quantity.name or quantity))
+        return self.finite(np.where(self.reached, found, np.nan), np.zeros((), bool), str(quantity.name or quantity))
 
-    def _finite(self, values: FloatArray, excused: Mask, what: str) -> FloatArray:
+    def finite(self, values: FloatArray, excused: Mask, what: str) -> FloatArray:
         """Return values that are finite at every pose reached; NaN where they are not and NaN was asked for."""
         finite = np.isfinite(values)
         if finite.all():

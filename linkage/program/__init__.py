@@ -5,7 +5,9 @@ from .arrays import FloatArray as FloatArray
 from .interpret import interpret as interpret
 from .kernel import Kernel as Kernel
 from .kernel import Result as Result
+from .kernel import Way as Way
 from .linear import solve_arrays as solve_arrays
+from .lower import ancestors as ancestors
 from .node import Closure as Closure
 from .node import Graph as Graph
 from .node import Level as Level

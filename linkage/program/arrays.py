@@ -55,10 +55,14 @@ class Arrays:
             return list(floats(*(float(np.ravel(value)[0]) for value in design)))
         return list(arrays(*(np.asarray(value, float) for value in design)))
 
+    def turns(self, m: int, n: int) -> bool:
+        """Return whether designs, not poses, are best contiguous in the result."""
+        return m > n
+
     def run(self, design: Sequence[Any], poses: Sequence[Any], values: FloatArray, guards: FloatArray) -> None:
         """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
         m, n = values.shape[1:]
-        turned = m > n
+        turned = self.turns(m, n)
         target = values.transpose(0, 2, 1) if turned else values
         inputs = [along(np.transpose(value) if turned and is_table(value) else value, 0 if turned else 1) for value in poses]
         rows, length = target.shape[1:]

@@ -110,4 +110,4 @@ def statement(op: str, operands: str, target: str) -> str:
 
 def guard_lines(plan: Schedule, node: Node, operand: str) -> list[str]:
     """Return the lines that keep the least value of a guard."""
-    return [f"g[{place}] = least({operand})" for place, guard in enumerate(plan.guards) if guard is node]
+    return [f"g[{place}] = least({operand}, None)" for place, guard in enumerate(plan.guards) if guard is node]

@@ -56,6 +56,10 @@ class Floats:
                 found.append(self.careful["pose"](*passed, *row))
         return found
 
+    def turns(self, m: int, n: int) -> bool:
+        """Return whether designs, not poses, are best contiguous in the result."""
+        return False
+
     def run(self, design: Sequence[Any], poses: Sequence[Any], values: npt.NDArray[np.float64], guards: npt.NDArray[np.float64]) -> None:
         """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
         count, m, n = values.shape

@@ -12,11 +12,13 @@ from .node import Node
 from .operations import OPERATIONS
 
 
-def interpret(outputs: Sequence[Node], inputs: Mapping[str, Any]) -> list[Any]:
-    """Return the values of some nodes; every input is a float or an array, broadcast by NumPy."""
-    values: dict[Node, Any] = {}
+def interpret(outputs: Sequence[Node], inputs: Mapping[str, Any], known: Mapping[Node, Any] | None = None) -> list[Any]:
+    """Return the values of some nodes; every input is a float or an array, broadcast by NumPy. `known` holds values to start from."""
+    values: dict[Node, Any] = dict(known or {})
     with np.errstate(all="ignore"):
-        for node in ancestors(outputs):
+        for node in ancestors(outputs, known or {}):
+            if node in values:
+                continue
             if node.op == "constant":
                 values[node] = node.value
             elif node.op == "input":

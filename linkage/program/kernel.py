@@ -1,17 +1,21 @@
-"""A program made ready to run: floats for a handful of poses, NumPy blocks for more."""
+"""A program made ready to run: floats for a handful of poses, NumPy blocks or a compiled loop for more."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
+from ..errors import DefinitionError
 from .arrays import LARGEST, Arrays, FloatArray, is_table
+from .expand import expanded
 from .floats import Floats
+from .fused import Fused
 from .node import Node
 from .schedule import schedule
 
@@ -21,10 +25,37 @@ BLOCK = LARGEST
 
 @dataclass(frozen=True)
 class Result:
-    """What a kernel returns: values, shape (outputs, designs, poses), and the least value of each guard."""
+    """What a kernel returns: values, shape (outputs, designs, poses), and a number a guard, above zero where it is at all poses."""
 
     values: FloatArray
     guards: FloatArray
+
+
+@dataclass(frozen=True)
+class Way:
+    """How a kernel is run: "floats", "numpy" or "numba", by itself the quickest for the work; and on how many threads."""
+
+    backend: str | None = None
+    threads: int = 1
+
+    def __post_init__(self) -> None:
+        if self.backend not in (None, "floats", "numpy", "numba"):
+            raise DefinitionError(f'backend={self.backend!r}: say "numpy", "numba" or "floats", or nothing for the quickest.')
+        if not isinstance(self.threads, int) or self.threads < 1:
+            raise DefinitionError(f"threads={self.threads!r}: a whole number of at least 1 is expected.")
+
+
+QUICKEST = Way()
+
+
+class Backend(Protocol):
+    """What fills values, shape (outputs, designs, poses), and guards."""
+
+    def turns(self, m: int, n: int) -> bool:
+        """Return whether designs, not poses, are best contiguous in the result."""
+
+    def run(self, design: Sequence[Any], poses: Sequence[Any], values: FloatArray, guards: FloatArray) -> None:
+        """Fill values and guards."""
 
 
 class Kernel:
@@ -32,31 +63,41 @@ class Kernel:
 
     `kernel(inputs)` takes a float or an array (designs,) for every dimension and a float or an array (poses,)
     or (designs, poses) for every stroke and solved coordinate, and returns values of shape (outputs, designs, poses);
-    NaN where a pose cannot be assembled.
-    A guard is a node whose least value over all poses is wanted: NaN tells that some pose is unreachable.
+    NaN where a pose cannot be assembled. `out` of that shape takes the values; `size` says how many designs and poses
+    are meant where not all inputs are needed.
+    A guard is a node that is watched: whether it is above zero at all poses. NaN, out of reach, is not.
     """
 
     def __init__(self, outputs: Sequence[Node], guards: Sequence[Node] = ()) -> None:
+        self._wanted = (tuple(outputs), tuple(guards))
         self.plan = schedule(outputs, guards)
+        self._spent = 0
 
-    def __call__(self, inputs: Mapping[str, Any], out: FloatArray | None = None) -> Result:
+    def __call__(
+        self, inputs: Mapping[str, Any], out: FloatArray | None = None, way: Way = QUICKEST, size: tuple[int, int] | None = None
+    ) -> Result:
         design = [inputs[node.value] for node in self.plan.design_inputs]
         poses = [inputs[node.value] for node in self.plan.pose_inputs]
-        m = max((np.shape(value)[0] for value in (*design, *filter(is_table, poses)) if np.ndim(value)), default=1)
-        n = max((np.shape(value)[-1] for value in poses if np.ndim(value)), default=1)
+        m, n = size or (sized(design, poses) if out is None else out.shape[1:])
+        backend = self._backend(way, m, n)
+        values = allocated(len(self.plan.outputs), m, n, backend.turns(m, n)) if out is None else out
         guards = np.full(len(self.plan.guards), math.inf)
-        values = self._allocate(m, n) if out is None else out
         if m * n:
-            backend = self.floats if m == 1 and n <= FEW else self.arrays
             with np.errstate(all="ignore"):
-                backend.run(design, poses, values, guards)
+                run(backend, design, poses, values, guards, way.threads)
         return Result(values, guards)
 
-    def _allocate(self, m: int, n: int) -> FloatArray:
-        """Return the result array; the longer of designs and poses is contiguous."""
-        if m > n:
-            return np.empty((len(self.plan.outputs), n, m)).transpose(0, 2, 1)
-        return np.empty((len(self.plan.outputs), m, n))
+    def _backend(self, way: Way, m: int, n: int) -> Backend:
+        """Return what to run: the asked for, or the quickest for so many designs and poses."""
+        if way.backend is not None:
+            known: dict[str, Backend] = {"floats": self.floats, "numpy": self.arrays}
+            return known.get(way.backend) or self.fused
+        if m == 1 and n <= FEW:
+            return self.floats
+        if self.fused.is_worth(m, n, self._spent):
+            return self.fused
+        self._spent += m * n
+        return self.arrays
 
     @cached_property
     def floats(self) -> Floats:
@@ -67,3 +108,46 @@ class Kernel:
     def arrays(self) -> Arrays:
         """The program in NumPy blocks."""
         return Arrays(self.plan)
+
+    @cached_property
+    def fused(self) -> Fused:
+        """The program in one compiled loop."""
+        outputs, guards = self._wanted
+        written_out = expanded((*outputs, *guards))
+        plan = schedule(written_out[: len(outputs)], written_out[len(outputs) :])
+        return Fused(plan, Arrays(plan))
+
+
+def sized(design: Sequence[Any], poses: Sequence[Any]) -> tuple[int, int]:
+    """Return how many designs and poses the inputs are for."""
+    m = max((np.shape(value)[0] for value in (*design, *filter(is_table, poses)) if np.ndim(value)), default=1)
+    return m, max((np.shape(value)[-1] for value in poses if np.ndim(value)), default=1)
+
+
+def allocated(count: int, m: int, n: int, turned: bool) -> FloatArray:
+    """Return an array for results, shape (count, m, n); designs contiguous where it is turned, else poses."""
+    return np.empty((count, n, m)).transpose(0, 2, 1) if turned else np.empty((count, m, n))
+
+
+def run(backend: Backend, design: Sequence[Any], poses: Sequence[Any], values: FloatArray, guards: FloatArray, threads: int) -> None:
+    """Run a back end, on several threads if asked for, each with a part of the designs or of the poses."""
+    m, n = values.shape[1:]
+    count = min(threads, max(m, n))
+    if count <= 1:
+        backend.run(design, poses, values, guards)
+        return
+    edges = [max(m, n) * k // count for k in range(count + 1)]
+    least = [np.full(len(guards), math.inf) for _ in range(count)]
+
+    def part(k: int) -> None:
+        here = slice(edges[k], edges[k + 1])
+        with np.errstate(all="ignore"):
+            if m >= n:
+                rows = [value[here] if is_table(value) and len(value) > 1 else value for value in poses]
+                backend.run([value if np.size(value) == 1 else value[here] for value in design], rows, values[:, here], least[k])
+            else:
+                backend.run(design, [value if np.size(value) == 1 else value[..., here] for value in poses], values[:, :, here], least[k])
+
+    with ThreadPoolExecutor(count) as pool:
+        list(pool.map(part, range(count)))
+    guards[:] = np.min(least, axis=0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 
 from .node import Node
 
@@ -15,15 +15,15 @@ def plain(node: Node) -> Node:
     return node
 
 
-def ancestors(nodes: Iterable[Node]) -> list[Node]:
-    """Return the nodes and all they are computed from, in order of dependence, without other names of a value."""
+def ancestors(nodes: Iterable[Node], known: Container[Node] = ()) -> list[Node]:
+    """Return the nodes and all they are computed from, in order of dependence, each value once; nothing behind known ones."""
     found: set[Node] = set()
     stack = list(nodes)
     while stack:
         node = plain(stack.pop())
         if node not in found:
             found.add(node)
-            stack.extend(node.args)
+            stack.extend(node.args if node not in known else ())
     return sorted(found, key=lambda node: node.number)
 
 

@@ -129,4 +129,4 @@ QUICK: Mapping[str, Callable[..., Any]] = {**FLOATS, **{name: getattr(math, name
 NO_VALUE = (ZeroDivisionError, ValueError, OverflowError)
 
 #: The same names on arrays.
-ARRAYS: Mapping[str, Callable[..., Any]] = {name: each.array for name, each in OPERATIONS.items()} | {"least": np.min}
+ARRAYS: Mapping[str, Callable[..., Any]] = {name: each.array for name, each in OPERATIONS.items()} | {"least": np.minimum.reduce}

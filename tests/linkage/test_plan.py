@@ -3,6 +3,7 @@
 import pytest
 from numpy.testing import assert_allclose
 
+from hydraulics import Cylinder, LiftCircuit
 from linkage import (
     LEFT,
     RIGHT,
@@ -17,6 +18,7 @@ from linkage import (
     OnGuide,
     OnLink,
     Stroke,
+    Weight,
     angle,
     deg,
     distance,
@@ -25,6 +27,7 @@ from linkage import (
     y,
 )
 from linkage.program.schedule import schedule
+from linkage.quantities import Quantity
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.random_mechanisms import random_mechanism
 
@@ -45,6 +48,9 @@ WORDS = dict(
     x=x,
     y=y,
     deg=deg,
+    Weight=Weight,
+    Cylinder=Cylinder,
+    LiftCircuit=LiftCircuit,
 )
 
 
@@ -55,8 +61,8 @@ def test_a_printed_plan_can_be_pasted_back(machine):
     members = {}
     for line in str(machine.plan).splitlines():
         name, _, text = line.partition(" = ")
-        known = {each: ref(each) for each in machine.plan.members if each in machine.plan.strokes or each not in machine.plan.points}
-        members[name] = eval(text, WORDS, known | {each: each for each in machine.plan.points})
+        known = {each: ref(each) if isinstance(member, Quantity) else each for each, member in machine.plan.members.items()}
+        members[name] = eval(text, WORDS, known)
     again = type("Again", (Mechanism,), members)
     strokes = {name: (each.start + each.end) / 2 for name, each in machine.plan.strokes.items()}
     for name in machine.plan.points:

@@ -1,6 +1,7 @@
-"""The three-point hitch's reference results for its illustrative dimensions, 9 significant digits (I: 8), SI and degrees.
+"""The three-point hitch's reference results for its illustrative dimensions, 9 significant digits (I, capacity: 8), SI, kN and degrees.
 
-Computed with complex-number vector algebra, independent of this package; I = dG_y/dS by central differences.
+Computed with complex-number vector algebra, independent of this package; I = dG_y/dS by central differences;
+capacity with 2 cylinders of bore 110 mm, 18 MPa, full efficiency 0.85.
 Equations: Dyuzhev, Kotov, Chuprynin, "Universality of the hitch of the power vehicle UES-2-250A" (Minsk, 2008).
 """
 
@@ -60,6 +61,10 @@ REFERENCE = {
     "I": (
         3.0389653, 3.073628, 3.1158276, 3.1638842, 3.216725, 3.2737103,
         3.3345537, 3.3993089, 3.4684252, 3.5428986, 3.6246015,
+    ),
+    "capacity": (
+        95.690967, 94.611814, 93.330428, 91.912821, 90.402981, 88.82934,
+        87.20853, 85.547248, 83.842524, 82.080114, 80.229931,
     ),
     "tilt": (
         3.19365591, 4.45968175, 5.71810818, 6.98023832, 8.256905, 9.55909482,

@@ -1,0 +1,161 @@
+"""A program fused into one loop over poses, as text: what a compiler wants to see."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from .node import Node
+from .schedule import Schedule
+from .text import TEMPLATES, Dialect, Names
+
+#: Python as Numba compiles it: divisions and roots have a value everywhere.
+NUMBA = Dialect(
+    {
+        **TEMPLATES,
+        "arctan2": "atan2({}, {})",
+        "absolute": "abs({})",
+        "power": "{} ** {}",
+        "pick": "({2} if {0} <= {1} else {3})",
+    }
+)
+
+
+@dataclass(frozen=True)
+class Loop:
+    """The inside of a loop: one line an operation, and what the results are called."""
+
+    lines: tuple[str, ...]
+    outputs: tuple[str, ...]
+    guards: tuple[str, ...]
+
+
+def loop(plan: Schedule, dialect: Dialect) -> Loop:
+    """Return the pose part in a language; constants are called c0, c1, ..., inputs i0, i1, ..."""
+    given = numbered("c", plan.passed) | numbered("i", plan.pose_inputs)
+    names = Names(dialect, given)
+    lines = names.assign(plan.pose, "v")
+    return Loop(tuple(lines), tuple(map(names.read, plan.outputs)), tuple(map(names.read, plan.guards)))
+
+
+def numbered(letter: str, nodes: Sequence[Node]) -> dict[Node, str]:
+    """Return names for nodes: a letter and a number."""
+    return {node: f"{letter}{place}" for place, node in enumerate(nodes)}
+
+
+HEAD = '''"""Made by linkage; safe to delete."""
+
+from math import atan2, cos, exp, inf, log, nan, sin, sqrt, tan
+
+import numpy as np
+from numba import njit
+
+
+@njit(inline="always")
+def minimum(a, b):
+    return a if a <= b or a != a else b
+
+
+@njit(inline="always")
+def maximum(a, b):
+    return a if a >= b or a != a else b
+
+
+@njit(inline="always")
+def sign(a):
+    return a if a != a or a == 0.0 else (1.0 if a > 0.0 else -1.0)
+
+
+'''
+
+
+SIZES = ("layer, line = strides[0], strides[1]", "rows, columns = shape[0], shape[1]")
+OPEN = 16
+"""Up to so many outputs a compiler proves by itself that they do not overlap."""
+
+
+def numba_text(plan: Schedule, turned: bool) -> str:
+    """Return a module with `poses(c, i, o, bad, strides, shape)`: constants (count, rows), inputs (count, rows or 1, columns), results.
+
+    `o` is the memory of the results, `strides` how far apart outputs and rows are in it, `shape` the rows and columns.
+    `turned`: rows are poses and columns designs, so that the constants vary along the columns and the inputs do not. Many
+    arrays go through a short one of their own, `s`, where the compiler sees that they do not overlap. `bad` counts the
+    poses where a guard is not above zero.
+    """
+    inside = along_designs if turned else along_poses if len(plan.outputs) <= OPEN else along_poses_in_parts
+    lines = inside(plan)
+    return HEAD + "\n".join(["def poses(c, i, o, bad, strides, shape):", *lines]) + "\n"
+
+
+def along_poses(plan: Schedule) -> list[str]:
+    """Return the function's inside for few outputs: one loop a design."""
+    inside = loop(plan, NUMBA)
+    return [
+        *indented(1, *SIZES, "for row in range(rows):"),
+        *indented(2, *of_design(plan), *(f"x{k} = i[{k}, across]" for k in range(len(plan.pose_inputs)))),
+        *indented(2, *(f"o{k} = o[{k} * layer + row * line:{k} * layer + row * line + columns]" for k in range(len(plan.outputs)))),
+        *indented(2, *(f"missed{k} = 0" for k in range(len(plan.guards))), "for b in range(columns):"),
+        *indented(3, *(f"i{k} = x{k}[b]" for k in range(len(plan.pose_inputs))), *inside.lines),
+        *indented(3, *(f"o{k}[b] = {name}" for k, name in enumerate(inside.outputs)), *counted(inside)),
+        *indented(2, *(f"bad[{k}] += missed{k}" for k in range(len(plan.guards)))),
+    ]
+
+
+def along_poses_in_parts(plan: Schedule) -> list[str]:
+    """Return the function's inside for many outputs: a design's poses some hundred at a time, their results copied out."""
+    inside, width = loop(plan, NUMBA), part_of(len(plan.outputs))
+    return [
+        *indented(1, *SIZES, f"s = np.empty({len(plan.outputs) * width})", "for row in range(rows):"),
+        *indented(2, *of_design(plan), f"for start in range(0, columns, {width}):"),
+        *indented(3, f"count = min({width}, columns - start)"),
+        *indented(3, *(f"x{k} = i[{k}, across, start:start + count]" for k in range(len(plan.pose_inputs)))),
+        *indented(3, *(f"missed{k} = 0" for k in range(len(plan.guards))), "for b in range(count):"),
+        *indented(4, *(f"i{k} = x{k}[b]" for k in range(len(plan.pose_inputs))), *inside.lines),
+        *indented(4, *(f"s[{k * width} + b] = {name}" for k, name in enumerate(inside.outputs)), *counted(inside)),
+        *indented(3, *(f"bad[{k}] += missed{k}" for k in range(len(plan.guards)))),
+        *(line for k in range(len(plan.outputs)) for line in copied_out(3, k, k * width)),
+    ]
+
+
+def along_designs(plan: Schedule) -> list[str]:
+    """Return the function's inside for many designs of few poses: designs some hundred at a time, constants copied in."""
+    inside, count = loop(plan, NUMBA), len(plan.passed)
+    width = part_of(count + len(plan.outputs))
+    return [
+        *indented(1, *SIZES, f"s = np.empty({(count + len(plan.outputs)) * width})", f"for start in range(0, columns, {width}):"),
+        *indented(2, f"count = min({width}, columns - start)"),
+        *indented(2, *(f"s[{k * width}:{k * width} + count] = c[{k}, start:start + count]" for k in range(count))),
+        *indented(2, "for row in range(rows):", *(f"    i{k} = i[{k}, row, 0]" for k in range(len(plan.pose_inputs)))),
+        *indented(3, *(f"missed{k} = 0" for k in range(len(plan.guards))), "for b in range(count):"),
+        *indented(4, *(f"c{k} = s[{k * width} + b]" for k in range(count)), *inside.lines),
+        *indented(4, *(f"s[{(count + k) * width} + b] = {name}" for k, name in enumerate(inside.outputs)), *counted(inside)),
+        *indented(3, *(f"bad[{k}] += missed{k}" for k in range(len(plan.guards)))),
+        *(line for k in range(len(plan.outputs)) for line in copied_out(3, k, (count + k) * width)),
+    ]
+
+
+def part_of(arrays: int) -> int:
+    """Return how many poses of so many arrays fit into a first-level cache of 32 KiB, a multiple of a vector's length."""
+    return max(64, 4096 // max(arrays, 1) // 8 * 8)
+
+
+def of_design(plan: Schedule) -> list[str]:
+    """Return what a row takes out of the constants, and which row of the inputs it reads."""
+    constants = [f"c{k} = c[{k}, at]" for k in range(len(plan.passed))]
+    return ["at = row if c.shape[1] > 1 else 0", *constants, "across = row if i.shape[1] > 1 else 0"]
+
+
+def counted(inside: Loop) -> list[str]:
+    """Return the lines that count the poses where a guard is not above zero."""
+    return [f"missed{k} += 0 if {name} > 0.0 else 1" for k, name in enumerate(inside.guards)]
+
+
+def copied_out(depth: int, output: int, place: int) -> list[str]:
+    """Return the loop that copies results to where they belong."""
+    head = f"first = {output} * layer + row * line + start", f"t{output} = o[first:first + count]"
+    return indented(depth, *head, "for b in range(count):", f"    t{output}[b] = s[{place} + b]")
+
+
+def indented(depth: int, *lines: str) -> list[str]:
+    """Return lines under some levels of blocks."""
+    return ["    " * depth + line for line in lines]

@@ -1,0 +1,56 @@
+"""What a study asks a motion for: an output by name, or any function of the motion."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ..errors import DefinitionError, SingularWarning
+from ..mechanism import Mechanism
+from ..motion import Motion, Paired
+from ..plan import Plan
+from ..program import FloatArray
+from ..quantities import Quantity
+
+Asked: TypeAlias = str | Quantity | Callable[[Motion], FloatArray]
+"""A named output, a quantity, or a function of a motion that returns a number for each pose, NaN where it has none."""
+
+
+def title_of(asked: Asked) -> str:
+    """Return what is asked for, in words."""
+    if callable(asked):
+        name = str(getattr(asked, "__name__", ""))
+        return name.replace("_", " ") if name.isidentifier() else "the quantity"
+    return asked if isinstance(asked, str) else str(asked.name or asked)
+
+
+def unit_of(plan: Plan, name: str) -> str:
+    """Return the unit a dimension is shown in: its own, mm for lengths, deg for angles, "" where nothing says."""
+    found = plan.table.entries[plan.table.spellings[name][0]]
+    return found.unit or {"length": "mm", "coordinate": "mm", "angle": "deg"}.get(found.kind, "")
+
+
+def one_design(machine: Mechanism) -> None:
+    """Raise DefinitionError for a batch of designs."""
+    if any(np.ndim(value) for value in machine.dimensions.values()):
+        raise DefinitionError(f"{type(machine).__name__}: a study starts from one design, this is a batch; choose one of them.")
+
+
+def paired(machine: Mechanism, settings: Mapping[str, Any], strokes: Mapping[str, Any]) -> Paired:
+    """Return the poses of some settings (m,) of a machine, each at its own stroke (m,)."""
+    return Paired(machine.plan, machine.replaced(**settings).dimensions, strokes)
+
+
+def values(motion: Motion, asked: Asked) -> FloatArray:
+    """Return what is asked for at every pose of a motion, NaN where it has no value; nearness to a dead point is told by the study."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SingularWarning)
+        found = asked(motion) if callable(asked) else motion.value(asked) if isinstance(asked, Quantity) else motion[asked]
+    result = np.asarray(found, float)
+    if result.shape != motion.shape:
+        what = f"has the shape {result.shape} where {motion.shape} is expected"
+        raise DefinitionError(f"{motion.plan.title}: {title_of(asked)} {what}; ask for a number such as tilt, or lambda motion: motion.y('G').")
+    return np.where(np.isfinite(result) & motion.reached, result, np.nan)

@@ -1,0 +1,82 @@
+"""A box of settings: ranges of dimensions, and places to choose from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..mechanism import Mechanism
+from ..plan import Plan
+from ..program import FloatArray
+from ..quantities import is_number
+from ..units import mm, show
+from .asked import unit_of
+
+MOST = 8
+
+
+@dataclass(frozen=True, eq=False)
+class Box:
+    """Settings: `ranges` from low to high [SI] by name, times the `choices`, each a mapping of names to values."""
+
+    ranges: Mapping[str, tuple[float, float]]
+    choices: Sequence[Mapping[str, Any]] = ({},)
+
+    @classmethod
+    def of(cls, machine: Mechanism, over: Mapping[str, Any]) -> Box:
+        """Return the box that `dict(MK=(0.80, 0.96), M=[(0.22, 1.05), (0.22, 0.95)])` means: a pair is a range, a list the choices.
+
+        Raises DefinitionError for an unknown dimension, a range the wrong way round, or anything else.
+        """
+        ranges = {name: range_of(name, value) for name, value in over.items() if isinstance(value, tuple)}
+        lists = {name: choices_of(name, value) for name, value in over.items() if not isinstance(value, tuple)}
+        if len(ranges) > MOST:
+            raise DefinitionError(f"{len(ranges)} ranges are too many for one box; hold some, {MOST} are the most.")
+        box = cls(ranges, [dict(zip(lists, each, strict=True)) for each in product(*lists.values())])
+        for settings in (*box.choices, *({name: end} for name, pair in ranges.items() for end in pair)):
+            machine.replaced(**settings)
+        return box
+
+    def settings(self, unit: FloatArray, choice: Any) -> dict[str, Any]:
+        """Return settings (m,) by name, from coordinates (m, k) between 0 and 1 and the number of the choice (m,)."""
+        low, high = np.array([*self.ranges.values()], float).reshape(-1, 2).T
+        found: dict[str, Any] = {name: value for name, value in zip(self.ranges, (low + unit * (high - low)).T, strict=True)}
+        ends = {name: pair[1] for name, pair in self.ranges.items()}
+        for name, end in ends.items():  # the far end to its last digit
+            found[name] = np.where(unit[:, list(ends).index(name)] == 1.0, end, found[name])
+        for name in self.choices[0]:
+            table = np.array([each[name] for each in self.choices], float)[np.asarray(choice)]
+            found[name] = tuple(table.T) if table.ndim == 2 else table
+        return found
+
+
+def setting_words(plan: Plan, settings: Mapping[str, Any], place: int) -> str:
+    """Return one of some settings (m,) in words: `MK = 800 mm, M = (220, 950) mm`."""
+    return ", ".join(f"{name} = {spoken(plan, name, value, place)}" for name, value in settings.items())
+
+
+def spoken(plan: Plan, name: str, value: Any, place: int) -> str:
+    """Return one value of a setting as text; a point's is a pair."""
+    if isinstance(value, tuple):
+        return f"({', '.join(f'{part[place] / mm:.6g}' for part in value)}) mm"
+    unit = unit_of(plan, name)
+    return show(float(value[place]), unit) if unit else f"{value[place]:.6g}"
+
+
+def range_of(name: str, given: tuple[Any, ...]) -> tuple[float, float]:
+    """Return a range; DefinitionError unless it is (low, high)."""
+    if len(given) != 2 or not all(is_number(end) for end in given) or given[0] > given[1]:
+        raise DefinitionError(f"{name}={given!r} is no range; write (low, high) in SI, or a list [first, second] of choices.")
+    return float(given[0]), float(given[1])
+
+
+def choices_of(name: str, given: Any) -> list[Any]:
+    """Return a list of choices; DefinitionError for anything else."""
+    if isinstance(given, str) or not isinstance(given, Sequence) or not given:
+        raise DefinitionError(f"{name}={given!r}: write a range (low, high) or a list of choices such as [(0.22, 1.05), (0.22, 0.95)].")
+    return list(given)

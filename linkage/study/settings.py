@@ -1,0 +1,147 @@
+"""The setting that gives a wanted value: all roots in a range, or why there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..mechanism import Mechanism
+from ..program import FloatArray
+from ..units import show
+from .asked import Asked, one_design, paired, title_of, unit_of, values
+from .box import range_of
+
+SAMPLES = 1025
+ROUNDS = 12  # each looks 33 times closer
+TOUCH = 1e-9  # of the values' span: what comes as near as this to the target touches it
+
+Curve: TypeAlias = Callable[[FloatArray], FloatArray]
+
+
+@dataclass(frozen=True, eq=False)
+class Settings:
+    """All values [SI] of a dimension that give the target, ascending; `sentence` says so, or why there is none."""
+
+    name: str
+    values: tuple[float, ...]
+    sentence: str
+
+    def __str__(self) -> str:
+        return self.sentence
+
+
+def settings_for(
+    machine: Mechanism, name: str, quantity: Asked, target: float = 0.0, *, between: tuple[float, float], unit: str = "", **strokes: float
+) -> Settings:
+    """Return every value of a dimension in a range at which a quantity has a target value [SI], at one pose of one design.
+
+    `settings_for(hitch, "MK", "tilt", 0.0, between=(0.5, 1.3), S=0.1)`. Roots are found to rounding; two that lie closer than a
+    thousandth of the range may be missed. Settings that cannot be assembled are passed over. `unit` is the quantity's in the sentence.
+    """
+    one_design(machine)
+    low, high = range_of("between", between)
+    if set(strokes) != set(machine.strokes):
+        raise DefinitionError(f"{machine.plan.title}: say the pose, {', '.join(f'{each}=...' for each in machine.strokes)}.")
+
+    def curve(at: FloatArray) -> FloatArray:
+        return values(paired(machine, {name: at}, {each: np.full(at.shape, value) for each, value in strokes.items()}), quantity) - target
+
+    at = np.linspace(low, high, SAMPLES)
+    at = ends_of_reach(curve, at)
+    off = curve(at)
+    found = [root for root in (*crossings(curve, at, off), *touchings(curve, at, off)) if is_root(curve, root, off)]
+    unique = [root for place, root in enumerate(sorted(found)) if not place or root - sorted(found)[place - 1] > 1e-9 * (high - low)]
+    words = Words(name, unit_of(machine.plan, name), title_of(quantity), unit)
+    return Settings(name, tuple(unique), words.roots(unique, target) if unique else words.none(at, off + target, target))
+
+
+def ends_of_reach(curve: Curve, at: FloatArray) -> FloatArray:
+    """Return the samples with the ends of every reachable range added."""
+    known = np.isfinite(curve(at))
+    edges = np.flatnonzero(known[1:] != known[:-1])
+    ends = [end_between(curve, *(at[[edge, edge + 1]] if known[edge] else at[[edge + 1, edge]])) for edge in edges]
+    return np.sort(np.concatenate([at, ends]))
+
+
+def end_between(curve: Curve, inside: float, outside: float) -> float:
+    """Return the last value with a result, between one that has it and one that has not."""
+    for _ in range(ROUNDS):
+        near = np.linspace(inside, outside, 33)
+        lost = int(np.argmax(~np.isfinite(curve(near))))
+        inside, outside = float(near[max(lost - 1, 0)]), float(near[lost])
+    return inside
+
+
+def crossings(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
+    """Return where the curve goes through zero."""
+    with np.errstate(invalid="ignore"):
+        places = np.flatnonzero((np.sign(off[1:]) * np.sign(off[:-1])) < 0.0)
+    return [*at[off == 0.0].tolist(), *(crossing(curve, float(at[place]), float(at[place + 1])) for place in places)]
+
+
+def crossing(curve: Curve, low: float, high: float) -> float:
+    """Return the zero between two values of opposite sign."""
+    for _ in range(ROUNDS):
+        near = np.linspace(low, high, 33)
+        off = curve(near)
+        if np.isnan(off).any():
+            return float("nan")
+        turn = int(np.argmax(np.sign(off) != np.sign(off[0])))
+        low, high = float(near[turn - 1]), float(near[turn])
+    return low if abs(curve(np.array([low]))[0]) < abs(curve(np.array([high]))[0]) else high
+
+
+def touchings(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
+    """Return where the curve comes nearest to zero without going through it, at least between its neighbours."""
+    size = np.abs(off)
+    with np.errstate(invalid="ignore"):
+        dips = (size[1:-1] <= size[:-2]) & (size[1:-1] <= size[2:]) & (np.sign(off[2:]) == np.sign(off[:-2]))
+    return [nearest(curve, float(at[place]), float(at[place + 2])) for place in np.flatnonzero(dips)]
+
+
+def nearest(curve: Curve, low: float, high: float) -> float:
+    """Return where the curve is nearest to zero between two values."""
+    for _ in range(ROUNDS):
+        near = np.linspace(low, high, 33)
+        place = int(np.argmin(np.where(np.isnan(off := np.abs(curve(near))), np.inf, off)))
+        low, high = float(near[max(place - 1, 0)]), float(near[min(place + 1, 32)])
+    return 0.5 * (low + high)
+
+
+def is_root(curve: Curve, root: float, off: FloatArray) -> bool:
+    """Return whether the curve is zero there, and does not jump over zero."""
+    span = float(np.nanmax(off) - np.nanmin(off)) if np.isfinite(off).any() else 0.0
+    return bool(np.abs(curve(np.array([root]))[0]) <= max(TOUCH * span, 1e-13))
+
+
+@dataclass(frozen=True)
+class Words:
+    """How a dimension and a quantity are spoken of: names and units, "" for plain SI."""
+
+    name: str
+    unit: str
+    what: str
+    shown_in: str
+
+    def roots(self, roots: Sequence[float], target: float) -> str:
+        """Return the settings that give the target."""
+        return f"{self.what} = {spoken(target, self.shown_in)} with {self.name} = {' or '.join(spoken(root, self.unit) for root in roots)}."
+
+    def none(self, at: FloatArray, value: FloatArray, target: float) -> str:
+        """Return why no setting gives the target."""
+        known, looked = np.isfinite(value), f"{self.name} between {spoken(at[0], self.unit)} and {spoken(at[-1], self.unit)}"
+        if not known.any():
+            return f"No {looked} can be assembled there, so that {self.what} has no value. Look farther, or change the stroke."
+        least, most = (spoken(float(end), self.shown_in) for end in (value[known].min(), value[known].max()))
+        first, last = (spoken(float(end), self.unit) for end in (at[known].min(), at[known].max()))
+        reach = f"it can be assembled from {first} to {last}, where {self.what} goes from {least} to {most}"
+        return f"No {looked} gives {self.what} = {spoken(target, self.shown_in)}: {reach}."
+
+
+def spoken(value: float, unit: str) -> str:
+    """Return an SI value in a unit; as it is where the unit is ""."""
+    return show(value, unit) if unit else f"{value:.6g}"

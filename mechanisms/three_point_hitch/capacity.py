@@ -1,0 +1,73 @@
+"""What the hitch lifts: (28) and (29), at the centre of gravity, at the hitch points, and behind them. Pressures are gauge."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydraulics import LiftCircuit
+from linkage import ForceElement, Motion, driving_force
+from linkage.program import FloatArray
+from linkage.units import deg, mm
+
+BEHIND = 610 * mm
+"""Distance from the hitch points to the centre of the load at which tractors are tested (OECD Code 2)."""
+
+SHARE = 0.9
+"""Share of the relief valve's pressure that a tractor's test results are given for (OECD Code 2)."""
+
+NOT_OWN = ("load", "lift", "circuit")
+
+
+def circuit_of(motion: Motion) -> LiftCircuit:
+    """Return the motion's lift circuit."""
+    found = motion.plan.members["circuit"]
+    assert isinstance(found, LiftCircuit)
+    return found
+
+
+def own_thrust(motion: Motion) -> FloatArray:
+    """Return the thrust without friction that the hitch needs without its implement [N], shape (...): that of masses added to it."""
+    others = [name for name in motion.plan.of_kind(ForceElement) if name not in NOT_OWN]
+    return driving_force(motion, others) if others else np.zeros(motion.shape)
+
+
+def thrust(motion: Motion) -> FloatArray:
+    """Return the cylinders' thrust without friction that holds hitch and implement [N], shape (...)."""
+    return driving_force(motion)
+
+
+def capacity(motion: Motion, point: str = "G", share: float = 1.0) -> FloatArray:
+    """Return G_g = F_cyl eta / I (28) [N], shape (...), at a point and a `share` of the pump's pressure.
+
+    F_cyl = p_max area (29), I = dy/dS of the point. NaN where I is not above zero: not limited by this cylinder.
+    """
+    return circuit_of(motion).capacity(motion, point, own_thrust(motion), share=share)
+
+
+def at_hitch_points(motion: Motion, share: float = SHARE) -> FloatArray:
+    """Return the capacity with the load at the hitch points F [N], shape (...)."""
+    return capacity(motion, "F", share)
+
+
+def behind(motion: Motion, distance: float = BEHIND, share: float = SHARE) -> FloatArray:
+    """Return the capacity with the load's centre a distance [m] behind the hitch points, square to the upright [N], shape (...)."""
+    tested = {"FG": distance, "KFG": 90 * deg}
+    moved = Motion(motion.plan, motion.designs | tested, motion.strokes, motion.unreachable)
+    return circuit_of(moved).capacity(moved, "G", own_thrust(motion), share=share)
+
+
+def stroke_per_newton(motion: Motion) -> FloatArray:
+    """Return one over the capacity at G [1/N], shape (...); not above zero where the cylinder does not limit.
+
+    Unlike the capacity it has no gap where the ratio goes through zero, so that extremes are sought in it.
+    """
+    circuit = circuit_of(motion)
+    spare = circuit.largest(motion) * circuit.efficiency(motion, "mechanical") - own_thrust(motion)
+    with np.errstate(divide="ignore"):
+        return np.asarray(circuit.ratio(motion, "G") / np.maximum(spare, 0.0))
+
+
+def from_stroke_per_newton(value: FloatArray) -> FloatArray:
+    """Return the capacity [N] that `stroke_per_newton` stands for; NaN where the cylinder does not limit."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(np.where(value > 0.0, 1.0 / value, np.nan))

@@ -1,0 +1,193 @@
+"""The hitch's figures, one call each: `figure("zones")`. Matplotlib and the house's style are loaded when one is drawn.
+
+"zones" is figure 2 of the paper, over the admissible settings; "capacity" the capacity curve with its weakest point and
+the tractor's limits; "lift" the hitch at the ends of its lift range.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from linkage import DefinitionError, Motion
+from linkage.errors import unknown
+from linkage.program import FloatArray
+from linkage.report import closely
+from linkage.study import Zone
+from linkage.units import deg, g0, kN, mm
+
+from .capacity import at_hitch_points, behind, capacity
+from .machine import ThreePointHitch
+from .tractor import largest_mass, tipping_mass
+from .weakest import weakest
+from .zones import admissible, capacity_zone, tilt_zone
+
+NAMES = ("zones", "capacity", "lift")
+COUNT = 101
+
+
+def figure(name: str, hitch: ThreePointHitch | None = None) -> Any:
+    """Return a figure of a hitch, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch."""
+    shown = hitch if hitch is not None else ThreePointHitch()
+    if name not in NAMES:
+        raise unknown("Figure", name, NAMES)
+    if any(np.ndim(value) for value in shown.dimensions.values()):
+        raise DefinitionError(f"{shown.plan.title}: a figure shows one design, this is a batch; choose one of them.")
+    return {"zones": zones, "capacity": curves, "lift": lift_range}[name](shown)
+
+
+# -- figure 2 ----------------------------------------------------------------------------------------------
+
+
+def zones(hitch: ThreePointHitch) -> Any:
+    """Return the zones of capacity and tilt over the stroke, one band for each mounting hole, with the nominal curves."""
+    sheet, (left, right) = _sheet(2, "Zones over all admissible settings")
+    motion = hitch.at(S=np.linspace(hitch.strokes["S"].start, hitch.strokes["S"].end, COUNT), unreachable="nan")
+    over = admissible(hitch)
+    holes = over.get("M", [tuple(hitch["M"])])
+    for place, hole in enumerate(holes):
+        text = f"hole M{place + 1} at ({hole[0] / mm:.0f}, {hole[1] / mm:.0f}) mm"
+        for ax, band, unit in ((left, capacity_zone, kN), (right, tilt_zone, deg)):
+            _band(ax, band(hitch, {**over, "M": [hole]}, S=motion.strokes["S"]), unit, place, text)
+    set_to = ", ".join(f"{name} {hitch[name] / mm:.0f}" for name, value in over.items() if isinstance(value, tuple))
+    _curve(left, motion.strokes["S"] / mm, capacity(motion) / kN, "INK", f"set to {set_to} mm")
+    _curve(right, motion.strokes["S"] / mm, motion["tilt"] / deg, "INK", f"set to {set_to} mm")
+    _named(left, "Lifting capacity", "stroke S, mm", "capacity at G, kN")
+    _named(right, "Tilt of the upright", "stroke S, mm", "tilt, deg; + leans towards the tractor")
+    sheet.text(0.012, 0.012, _settings_words(over), fontsize=8.5, color="#67737f", ha="left")
+    right.axhline(0.0, color="#67737f", linewidth=0.8, zorder=2.0)
+    return sheet
+
+
+def _band(ax: Any, zone: Zone, unit: float, place: int, text: str) -> None:
+    from linkage.draw import style
+
+    colour = (style.CURVE, style.ACCENT, *style.BODIES)[place % 8]
+    S = zone.strokes["S"] / mm
+    ax.fill_between(S, zone.low / unit, zone.high / unit, color=colour, alpha=0.22, linewidth=0, zorder=3.0 + place, label=text)
+    for edge in (zone.low, zone.high):
+        ax.plot(S, edge / unit, color=colour, linewidth=1.3, zorder=4.0 + place)
+
+
+def _settings_words(over: Any) -> str:
+    """Return the ranges of the settings in words."""
+    ranges = [f"{name} {value[0] / mm:.0f} to {value[1] / mm:.0f}" for name, value in over.items() if isinstance(value, tuple)]
+    return f"settings, mm: {', '.join(ranges)}; extremes over the whole box, not only its corners"
+
+
+# -- the capacity curve ------------------------------------------------------------------------------------
+
+
+def curves(hitch: ThreePointHitch) -> Any:
+    """Return the capacity over the stroke with its weakest point, the test curves, and the tractor's limits."""
+    sheet, (ax,) = _sheet(1, "Lifting capacity")
+    start, end = hitch.strokes["S"].start, hitch.strokes["S"].end
+    motion = closely(hitch.at(S=np.linspace(start, end, COUNT), unreachable="nan"))
+    S = motion.strokes["S"] / mm
+    _curve(ax, S, capacity(motion) / kN, "CURVE", "at G, full pressure")
+    _curve(ax, S, at_hitch_points(motion) / kN, "PISTON", "at the hitch points F, 90 % of the pressure", "--")
+    _curve(ax, S, behind(motion) / kN, "PISTON", "610 mm behind F, 90 % of the pressure", ":")
+    _curve(ax, S, tipping_mass(motion) * g0 / kN, "ACCENT", "at G, where the tractor tips")
+    share = 100 * float(hitch["least_front"])
+    _curve(ax, S, largest_mass(motion) * g0 / kN, "ACCENT", f"at G, with {share:.0f} % of its weight left on the front axle", "--")
+    weight = float(hitch["load.mass"])
+    _curve(ax, S, np.full(S.shape, weight * g0 / kN), "INK", f"the implement, {weight:.0f} kg", "-", 1.2)
+    _mark(ax, motion)
+    _named(ax, "", "stroke S, mm", "load that can be lifted, kN")
+    ax.set_ylim(0.0, None)
+    _heights(ax, motion)
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, fontsize=8.5, frameon=False, labelcolor="#24313f")
+    return sheet
+
+
+def _mark(ax: Any, motion: Motion) -> None:
+    """Mark the weakest point of the capacity curve."""
+    from linkage.draw import style
+
+    found = weakest(motion)
+    if found is None:
+        return
+    at = found.stroke / mm, found.capacity / kN
+    ax.plot(*at, "o", color=style.CURVE, markersize=8, markeredgecolor=style.PAPER, zorder=8.0, clip_on=False)
+    right = found.stroke / mm > np.mean(ax.get_xlim())
+    ax.annotate(
+        f"weakest: {found.capacity / kN:.1f} kN at S = {found.stroke / mm:.0f} mm,\nG rises {found.ratio:.2f} mm for 1 mm of stroke",
+        at, xytext=(-8 if right else 8, -10), textcoords="offset points",
+        ha="right" if right else "left", va="top", fontsize=style.SMALL, color=style.CURVE, zorder=8.0,
+    )  # fmt: skip
+
+
+def _heights(ax: Any, motion: Motion) -> None:
+    """Add an upper axis with the height of the hitch points where it follows the stroke."""
+    height, S = motion.y("F") / mm, motion.strokes["S"] / mm
+    if not np.all(np.diff(height) > 0.0):
+        return
+    upper = ax.secondary_xaxis("top", functions=(lambda s: np.interp(s, S, height), lambda h: np.interp(h, height, S)))
+    upper.set_xticks(np.arange(np.ceil(height[0] / 100.0), np.floor(height[-1] / 100.0) + 1.0) * 100.0)
+    upper.set_xlabel("height of the hitch points F, mm", fontsize=10.0, color="#67737f")
+    upper.tick_params(colors="#67737f", labelsize=8.5, length=3)
+    upper.spines["top"].set_color("#c3cbd3")
+
+
+# -- the lift range ----------------------------------------------------------------------------------------
+
+
+def lift_range(hitch: ThreePointHitch) -> Any:
+    """Return the hitch lowered (faint) and lifted, with the lift range of the hitch points."""
+    from linkage.draw import poses, style
+
+    sheet = poses(hitch, path=["F", "G"])
+    (ax,) = sheet.axes
+    ends = hitch.at(S=[hitch.strokes["S"].start, hitch.strokes["S"].end])
+    low, high = ends.y("F")
+    at = float(np.max(ends.x("F"))) + 0.10
+    for x, y in zip(ends.x("F"), (low, high), strict=True):
+        ax.plot([x, at + 0.02], [y, y], color=style.INK, linewidth=0.8, zorder=19.0)
+    arrow = {"arrowstyle": "<->", "color": style.INK, "linewidth": 1.0, "shrinkA": 0, "shrinkB": 0}
+    ax.annotate("", (at, high), xytext=(at, low), arrowprops=arrow, zorder=19.0)
+    ax.annotate(
+        f"{(high - low) / mm:.0f} mm", (at, 0.5 * (low + high)), xytext=(5, 0), textcoords="offset points", va="center",
+        fontsize=style.TEXT, color=style.INK, zorder=20.0,
+        bbox={"boxstyle": "square,pad=0.15", "facecolor": style.PAPER, "edgecolor": "none"},
+    )  # fmt: skip
+    return sheet
+
+
+# -- the sheet ---------------------------------------------------------------------------------------------
+
+
+def _sheet(count: int, title: str) -> tuple[Any, list[Any]]:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    from linkage.draw import style
+    from linkage.draw.sheet import quiet
+
+    size = (10.6, 5.2) if count == 2 else (8.4, 6.2)
+    sheet: Any = Figure(figsize=size, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
+    FigureCanvasAgg(sheet)
+    below = 0.05 if count == 2 else 0.01
+    sheet.get_layout_engine().set(rect=(0.005, below, 0.98, 0.985 - below), w_pad=0.08, h_pad=0.08)
+    sheet.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
+    cells = [sheet.add_subplot(1, count, place + 1) for place in range(count)]
+    for ax in cells:
+        quiet(ax)
+    return sheet, cells
+
+
+def _curve(ax: Any, along: FloatArray, values: FloatArray, colour: str, text: str, line: str = "-", width: float = 2.0) -> None:
+    from linkage.draw import style
+
+    ax.plot(along, values, color=getattr(style, colour), linewidth=width, linestyle=line, label=text, zorder=6.0)
+    ax.set_xlim(float(along.min()), float(along.max()))
+
+
+def _named(ax: Any, title: str, along: str, value: str) -> None:
+    from linkage.draw import style
+
+    if title:
+        ax.set_title(title, loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
+        ax.legend(loc="best", fontsize=style.SMALL, frameon=False, labelcolor=style.INK)
+    ax.set_xlabel(along, fontsize=style.TEXT, color=style.MUTED)
+    ax.set_ylabel(value, fontsize=style.TEXT, color=style.MUTED)

@@ -1,0 +1,95 @@
+"""The hitch's tables, and what an engineer should know of it, in sentences."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydraulics import Verdict, lift_verdicts
+from linkage import Column, Mechanism, Motion, pin_forces
+from linkage.report import closely
+from linkage.statics import max_table, table_text
+from linkage.units import deg, g0, kN
+
+from .capacity import SHARE, at_hitch_points, behind, capacity, circuit_of, thrust
+from .mast import mast_words
+from .tractor import balance_verdict, front_axle, largest_mass, tipping_mass, tipping_slope
+from .upper_link import upper_link_force, upper_link_verdict
+from .weakest import limit_verdict, weakest_verdict
+
+
+def capacity_columns(motion: Motion) -> list[Column]:
+    """Return stroke and lift height, ratio, capacities, tilt, upper link (tension positive), and the tractor's balance."""
+    return [
+        Column("S", motion.strokes["S"], "mm", 1),
+        Column("F_y", motion.y("F"), "mm", 1),
+        Column("I", motion.ratio("G")[1], "", 4),
+        Column("capacity", capacity(motion), "kN", 2),
+        Column("F 90%", at_hitch_points(motion), "kN", 2),
+        Column("610 90%", behind(motion), "kN", 2),
+        Column("tilt", motion["tilt"], "deg", 3),
+        Column("MK", upper_link_force(motion), "kN", 2),
+        Column("front", front_axle(motion), "kN", 2),
+        Column("max", largest_mass(motion), "kg", 0),
+        Column("tips", tipping_mass(motion), "kg", 0),
+        Column("uphill", tipping_slope(motion), "deg", 1),
+    ]
+
+
+def verdicts(hitch: Mechanism, motion: Motion) -> list[str]:
+    """Return the sentences on a motion; of a batch, how many designs fall short."""
+    if not motion.reached.any():
+        return ["No pose of this motion can be assembled; there is nothing to lift."]
+    if motion.design_shape:
+        return [batch_verdict(motion)]
+    pressure = lift_verdicts(circuit_of(motion), motion, thrust, unit="MPa")
+    found = [
+        weakest_verdict(motion), limit_verdict(motion), *pressure, *cylinder_verdicts(motion), test_verdict(motion),
+        upper_link_verdict(motion), balance_verdict(motion), mast_verdict(hitch, motion),
+    ]  # fmt: skip
+    apart = [] if motion.reached.all() else [Verdict("reach", False, f"poses out of reach are left out of this. {motion.refusal()}")]
+    return [str(each) for each in (*found, *apart)]
+
+
+def cylinder_verdicts(motion: Motion) -> list[Verdict]:
+    """Return whether the cylinders fit the stroke, are standard, and do not buckle at the full pressure."""
+    circuit = circuit_of(motion)
+    fine = closely(motion)
+    return circuit.ram(motion).checks(fine, circuit.largest(fine) * np.ones(fine.shape))
+
+
+def test_verdict(motion: Motion) -> Verdict:
+    """Return what can be lifted through the whole range at 90 % of the pressure, the way tractors are tested."""
+    fine = closely(motion)
+    parts = []
+    for where, lifted in (("at the hitch points", at_hitch_points(fine)), ("610 mm behind them", behind(fine))):
+        least = f"{np.nanmin(lifted) / kN:.2f} kN" if np.isfinite(lifted).any() else "not limited by the cylinders"
+        parts.append(f"{where} {least}")
+    return Verdict("test", True, f"through the whole range at {100 * SHARE:.0f} % of the pressure (as OECD Code 2): {', '.join(parts)}.")
+
+
+def mast_verdict(hitch: Mechanism, motion: Motion) -> Verdict:
+    """Return the tilt over the motion, and the upper link that makes the mast vertical at its start."""
+    fine = closely(motion)
+    tilt, start = fine["tilt"], float(np.min(motion.strokes["S"][motion.reached]))
+    says = f"tilt {np.nanmin(tilt) / deg:.2f} to {np.nanmax(tilt) / deg:.2f} deg over this motion"
+    return Verdict("mast", True, f"{says}. At S = {start:.4f} m {mast_words(hitch, start)}")
+
+
+def batch_verdict(motion: Motion) -> str:
+    """Return how many designs of a batch cannot lift their implement or lose the front axle, and the extremes."""
+    poses = tuple(range(len(motion.design_shape), len(motion.shape)))
+    lifted = np.min(np.where(np.isnan(capacity(motion)), np.inf, capacity(motion)), axis=poses)
+    weight = np.broadcast_to(motion.inputs["load.mass"] * g0, motion.shape).min(axis=poses)
+    front = front_axle(motion) / (motion.inputs["vehicle_mass"] * g0) - motion.inputs["least_front"]
+    light = np.min(np.where(np.isnan(front), np.inf, front), axis=poses) < 0.0
+    whole = motion.reached.all(axis=poses)
+    return (
+        f"{int((lifted < weight).sum())} of {lifted.size} designs are too weak for their implement, {int(light.sum())} leave too little "
+        f"on the front axle, {int((~whole).sum())} do not reach all poses; the least capacity is {lifted.min() / kN:.2f} kN in the worst "
+        f"design and {lifted.max() / kN:.2f} kN in the best. Take one design for its sentences."
+    )
+
+
+def pin_table(motion: Motion) -> str:
+    """Return the largest force of every pin with its direction and pose, as text."""
+    return table_text(max_table([pin_forces(motion)]))

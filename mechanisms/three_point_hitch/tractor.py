@@ -1,0 +1,91 @@
+"""The tractor's balance: front-axle load, and the implement's mass and the slope at which it tips.
+
+Moments about the driving wheels' contact with the ground, the origin; tyres are rigid, inertia is left out. Heavy is the
+implement `load` at G and the tractor at (vehicle_x, vehicle_y); a slope turns gravity to (-sin, -cos).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydraulics import Verdict
+from linkage import Motion
+from linkage.program import FloatArray
+from linkage.report import closely
+from linkage.units import deg, g0, kN, mm
+
+
+def lever(motion: Motion, x: FloatArray, y: FloatArray) -> FloatArray:
+    """Return the lever of a weight at (x, y) about the driving wheels' contact [m], positive where it lifts the front axle."""
+    slope = motion.inputs["slope"]
+    return np.asarray(x * np.cos(slope) - y * np.sin(slope))
+
+
+def vehicle_lever(motion: Motion) -> FloatArray:
+    """Return the lever of the tractor's own weight [m]; negative where it loads the front axle."""
+    return lever(motion, motion.inputs["vehicle_x"], motion.inputs["vehicle_y"])
+
+
+def implement_lever(motion: Motion) -> FloatArray:
+    """Return the lever of the implement's weight [m], shape (...)."""
+    return lever(motion, motion.x("G"), motion.y("G"))
+
+
+def front_axle(motion: Motion) -> FloatArray:
+    """Return the front axle's load square to the ground [N], shape (...); below zero the tractor tips over backwards."""
+    given = motion.inputs
+    moment = given["vehicle_mass"] * vehicle_lever(motion) + given["load.mass"] * implement_lever(motion)
+    return np.asarray(-g0 * moment / given["wheelbase"])
+
+
+def mass_leaving(motion: Motion, share: FloatArray | float) -> FloatArray:
+    """Return the implement's mass [kg], shape (...), that leaves a share of the tractor's weight on the front axle.
+
+    0 where not even the bare tractor has it; NaN where the implement's weight does not lift the front axle: no limit.
+    """
+    given, arm = motion.inputs, implement_lever(motion)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        mass = given["vehicle_mass"] * -(vehicle_lever(motion) + share * given["wheelbase"]) / arm
+    return np.where(arm > 0.0, np.maximum(mass, 0.0), np.nan)
+
+
+def tipping_mass(motion: Motion) -> FloatArray:
+    """Return the implement's mass at which the tractor tips [kg], shape (...); NaN where none does."""
+    return mass_leaving(motion, 0.0)
+
+
+def largest_mass(motion: Motion) -> FloatArray:
+    """Return the largest implement's mass that leaves the front axle its least share [kg], shape (...); NaN where there is no limit."""
+    return mass_leaving(motion, motion.inputs["least_front"])
+
+
+def tipping_slope(motion: Motion) -> FloatArray:
+    """Return how steep it may go uphill until the tractor tips over backwards [rad], shape (...); 0 where it tips on level ground."""
+    given = motion.inputs
+    along = given["vehicle_mass"] * given["vehicle_x"] + given["load.mass"] * motion.x("G")
+    up = given["vehicle_mass"] * given["vehicle_y"] + given["load.mass"] * motion.y("G")
+    return np.asarray(np.maximum(np.arctan2(-along, up), 0.0))
+
+
+def balance_verdict(motion: Motion) -> Verdict:
+    """Return whether the front axle keeps its least share of the tractor's weight, with the tipping limits."""
+    fine = closely(motion)
+    (S,) = fine.strokes.values()
+    load, given = front_axle(fine), motion.inputs
+    worst, weight = int(np.nanargmin(load)), float(given["vehicle_mass"]) * g0
+    share, least = float(load[worst]) / weight, float(given["least_front"])
+    where = f"at S = {S[worst]:.4f} m, F {fine.y('F')[worst] / mm:.0f} mm high"
+    tip = tipping_mass(fine)
+    mass = f"It tips with {np.nanmin(tip):.0f} kg" if np.isfinite(tip).any() else "No implement tips it"
+    steep = float(np.nanmin(tipping_slope(fine))) / deg
+    if load[worst] <= 0.0:
+        spare = f"the tractor tips over backwards {where}. {mass}: take a lighter implement or ballast in front."
+        return Verdict("front axle", False, spare)
+    says = f"least load {load[worst] / kN:.2f} kN, {100 * share:.0f} % of the tractor's weight, {where}; steering needs {100 * least:.0f} %"
+    uphill = f"{mass}, and with this one uphill at {steep:.1f} deg."
+    if share >= least:
+        return Verdict("front axle", True, f"{says}. {uphill}")
+    most = float(np.nanmin(largest_mass(fine)))
+    ballast = (least - share) * float(given["vehicle_mass"]) / np.cos(float(given["slope"]))
+    remedy = f"At most {most:.0f} kg, or {ballast:.0f} kg of ballast over the front axle. "
+    return Verdict("front axle", False, f"{says}. {remedy}{uphill}")

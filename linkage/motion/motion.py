@@ -108,7 +108,7 @@ class Motion(Outputs):
             where = reach.where_words(self.plan, useless, self.strokes)
             text = f'{what} is refused {where}: differences do not settle so near a dead point. Ask for method="exact".'
             raise SingularError(text, mask=useless, motion=self)
-        if lost > numeric.WARN:
+        if lost > numeric.WARN[order]:
             text = f"{what} is off by up to about {lost:.0e} of its greatest value; the exact one is not."
             warnings.warn(text, SingularWarning, stacklevel=3)
         return np.where(useless, np.nan, found)

@@ -17,8 +17,8 @@ from ..program import FloatArray
 RATIO = 4.0
 STEPS = 14
 FIRST = 8e-2
-WARN = 1e-6
-"""The relative error above which a numerical derivative warns."""
+WARN = {1: 1e-6, 2: 1e-5}
+"""By order: the relative error above which a numerical derivative warns; a second difference loses twice the digits."""
 USELESS = 1e-3
 """The error, against the greatest value of all poses, above which a derivative as uncertain as it is large is refused."""
 STILL = {1: 1e-3, 2: 1e-1}

@@ -11,6 +11,7 @@ import numpy as np
 from ..assembly import Solved, solve_groups
 from ..plan import Plan
 from ..program import FloatArray
+from ..quantities import Angle, Reference
 from .motion import Motion
 from .outputs import OutputReading
 
@@ -18,10 +19,14 @@ from .outputs import OutputReading
 class Paired(Motion):
     """The poses of m designs, each at a stroke of its own; a position has the shape (2, m), what is out of reach is NaN.
 
-    `designs` and `strokes` are floats or arrays (m,) [SI]. Angles lie between -180 and 180 deg: there is no stroke to follow.
+    `designs` and `strokes` are floats or arrays (m,) [SI]. There is no stroke along which angles could be followed: they lie
+    within 180 deg of those of the poses `at` (m,) of another motion, `like`, or of zero.
     """
 
-    def __init__(self, plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any]) -> None:
+    def __init__(
+        self, plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], like: Motion | None = None, at: Any = slice(None)
+    ) -> None:
+        self._like, self._at = like, at
         size = np.broadcast_shapes((1,), *(np.shape(value) for value in (*designs.values(), *strokes.values())))
         self._each = {name: np.broadcast_to(np.asarray(value, float), size) for name, value in strokes.items()}
         full = {name: np.broadcast_to(np.asarray(value, float), size) for name, value in designs.items()}
@@ -54,6 +59,19 @@ class Paired(Motion):
 
     @cached_property
     def _outputs(self) -> OutputReading:
-        reading = OutputReading(self)
-        reading.axes = []
-        return reading
+        return PairedReading(self, self._like, self._at)
+
+
+class PairedReading(OutputReading):
+    """A reading of the outputs whose angles are within 180 deg of another motion's."""
+
+    def __init__(self, motion: Paired, like: Motion | None, at: Any) -> None:
+        super().__init__(motion)
+        self.axes, self._like, self._at = [], like, at
+
+    def value(self, quantity: Reference) -> Any:
+        found, member = super().value(quantity), self.members[quantity] if isinstance(quantity, str) else quantity
+        if self._like is None or not isinstance(member, Angle):
+            return found
+        turns = np.round((self._like.value(member)[self._at] - found) / (2.0 * np.pi))
+        return found + 2.0 * np.pi * np.nan_to_num(turns)

@@ -39,18 +39,19 @@ def one_design(machine: Mechanism) -> None:
         raise DefinitionError(f"{type(machine).__name__}: a study starts from one design, this is a batch; choose one of them.")
 
 
-def paired(machine: Mechanism, settings: Mapping[str, Any], strokes: Mapping[str, Any]) -> Paired:
-    """Return the poses of some settings (m,) of a machine, each at its own stroke (m,)."""
-    return Paired(machine.plan, machine.replaced(**settings).dimensions, strokes)
+def paired(machine: Mechanism, settings: Mapping[str, Any], base: Motion, place: Any) -> Paired:
+    """Return the poses of some settings (m,) of a machine, each at one of the poses (n,) of it as it is set, by its place (m,)."""
+    strokes = {name: value[place] for name, value in base.strokes.items()}
+    return Paired(machine.plan, machine.replaced(**settings).dimensions, strokes, base, place)
 
 
 def values(motion: Motion, asked: Asked) -> FloatArray:
     """Return what is asked for at every pose of a motion, NaN where it has no value; nearness to a dead point is told by the study."""
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore", SingularWarning)
         found = asked(motion) if callable(asked) else motion.value(asked) if isinstance(asked, Quantity) else motion[asked]
     result = np.asarray(found, float)
     if result.shape != motion.shape:
-        what = f"has the shape {result.shape} where {motion.shape} is expected"
-        raise DefinitionError(f"{motion.plan.title}: {title_of(asked)} {what}; ask for a number such as tilt, or lambda motion: motion.y('G').")
+        what = f"{title_of(asked)} has the shape {result.shape} where {motion.shape} is expected"
+        raise DefinitionError(f"{motion.plan.title}: {what}; ask for a number such as an output, or lambda motion: motion.y('G').")
     return np.where(np.isfinite(result) & motion.reached, result, np.nan)

@@ -111,7 +111,9 @@ def compass(
     return unit, value
 
 
-def best(tasks: int, k: int, task: Index, choice: Index, sense: FloatArray, unit: FloatArray, value: FloatArray, seen: FloatArray) -> Extremes:
+def best(
+    tasks: int, k: int, task: Index, choice: Index, sense: FloatArray, unit: FloatArray, value: FloatArray, seen: FloatArray
+) -> Extremes:
     """Return the best end of every task and sense."""
     values, units, choices = np.full((2, tasks), np.nan), np.full((2, tasks, k), np.nan), np.zeros((2, tasks), int)
     for end in np.argsort(-value, kind="stable"):

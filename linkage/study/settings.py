@@ -47,8 +47,10 @@ def settings_for(
     if set(strokes) != set(machine.strokes):
         raise DefinitionError(f"{machine.plan.title}: say the pose, {', '.join(f'{each}=...' for each in machine.strokes)}.")
 
+    base = machine.at(unreachable="nan", **{each: [value] for each, value in strokes.items()})
+
     def curve(at: FloatArray) -> FloatArray:
-        return values(paired(machine, {name: at}, {each: np.full(at.shape, value) for each, value in strokes.items()}), quantity) - target
+        return values(paired(machine, {name: at}, base, np.zeros(at.shape, int)), quantity) - target
 
     at = np.linspace(low, high, SAMPLES)
     at = ends_of_reach(curve, at)

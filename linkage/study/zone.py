@@ -52,7 +52,7 @@ def zone(machine: Mechanism, quantity: Asked, over: Mapping[str, Any], **strokes
     `over` are ranges and choices as in `Box.of`. The quantity is a named output, or a function of a motion that gives a number
     for each pose. Strokes as in `machine.at`, by default 51 poses over a single one. The search is deterministic. Settings
     that cannot be assembled, or where the quantity has no value, are left out, counted and told in `remarks`. Angles are taken
-    between -180 and 180 deg.
+    within 180 deg of those of the machine as it is set.
     """
     one_design(machine)
     box = Box.of(machine, over)
@@ -60,9 +60,10 @@ def zone(machine: Mechanism, quantity: Asked, over: Mapping[str, Any], **strokes
     poses = at_values(given, machine.plan.strokes, machine.plan.title)
     shape = next(iter(poses.values())).shape
     flat = {name: value.ravel() for name, value in poses.items()}
+    base = machine.at(unreachable="nan", **flat)
 
     def f(task: Index, unit: FloatArray, choice: Index) -> FloatArray:
-        return values(paired(machine, box.settings(unit, choice), {name: value[task] for name, value in flat.items()}), quantity)
+        return values(paired(machine, box.settings(unit, choice), base, task), quantity)
 
     tasks = int(np.prod(shape, dtype=int))
     found = extremes(f, tasks, len(box.ranges), len(box.choices))

@@ -37,7 +37,9 @@ class HitchCategory2(ThreePointHitch):
     circuit = LiftCircuit(lift, pressure=18 * MPa, flow=45 * litre / minute, mechanical_efficiency=0.85)
     vehicle_mass, vehicle_x, vehicle_y = Dimension(5500 * kg, unit="kg"), Dimension(-1.0, unit="mm"), Dimension(1.0, unit="mm")
     wheelbase = Dimension(2.5, unit="mm")
-    admissible: ClassVar[Mapping[str, Any]] = MappingProxyType({"MK": (0.71, 0.855), "CD": (0.50, 0.605), "M": [(0.195, 0.935), (0.195, 0.845)]})
+    admissible: ClassVar[Mapping[str, Any]] = MappingProxyType(
+        {"MK": (0.71, 0.855), "CD": (0.50, 0.605), "M": [(0.195, 0.935), (0.195, 0.845)]}
+    )
 
 
 class HitchCategory1(ThreePointHitch):
@@ -57,7 +59,9 @@ class HitchCategory1(ThreePointHitch):
     circuit = LiftCircuit(lift, pressure=16 * MPa, flow=25 * litre / minute, mechanical_efficiency=0.85)
     vehicle_mass, vehicle_x, vehicle_y = Dimension(2500 * kg, unit="kg"), Dimension(-0.80, unit="mm"), Dimension(0.80, unit="mm")
     wheelbase = Dimension(2.0, unit="mm")
-    admissible: ClassVar[Mapping[str, Any]] = MappingProxyType({"MK": (0.535, 0.645), "CD": (0.375, 0.455), "M": [(0.145, 0.705), (0.145, 0.64)]})
+    admissible: ClassVar[Mapping[str, Any]] = MappingProxyType(
+        {"MK": (0.535, 0.645), "CD": (0.375, 0.455), "M": [(0.145, 0.705), (0.145, 0.64)]}
+    )
 
 
 @dataclass(frozen=True)

@@ -21,9 +21,10 @@ from .weakest import pressure_words
 from .zones import capacity_zone, tilt_zone, zone_columns
 
 SUFFIXES = (".png", ".svg", ".pdf")
-LEGEND = """S stroke; F_y height of the hitch points; I = dG_y/dS; capacity at G at the full pressure; F 90%, 610 90%: at the hitch points and
-610 mm behind them at 90 % of the pressure; MK force in the upper link, tension positive; front: front axle's load; max: largest implement that
-leaves the front axle its least share; tips: the one that tips the tractor; uphill: the slope that does."""
+LEGEND = """S stroke; F_y height of the hitch points; I = dG_y/dS; capacity at G at the full pressure;
+F 90%, 610 90%: at the hitch points and 610 mm behind them at 90 % of the pressure; MK force in the upper link, tension positive;
+front: front axle's load; max: largest implement that leaves the front axle its least share; tips: the one that tips the tractor;
+uphill: the slope that does."""
 
 
 class Capacity(Command):
@@ -50,8 +51,10 @@ class Capacity(Command):
         if options.category:
             print(f"{CATEGORIES[options.category]}.\n")
         written(zone_table(machine, over) if options.zones else hitch_table(machine, over), options.csv)
-        for text in [*([pin_table(over)] if options.pins else []), *(["\n".join(mast_settings(machine, over))] if options.vertical else [])]:
-            print(f"\n{text}")
+        if options.pins:
+            print(f"\n{pin_table(over)}")
+        if options.vertical:
+            print("", *mast_settings(machine, over), sep="\n")
         print()
         for sentence in machine.verdicts(over):
             print(sentence)
@@ -65,7 +68,7 @@ def chosen(options: Namespace) -> ThreePointHitch:
     """Return the hitch that the options mean."""
     found = find(options.machine)
     if not issubclass(found, ThreePointHitch):
-        raise DefinitionError(f"{options.machine} is no three-point hitch; `capacity` takes three_point_hitch or a subclass of ThreePointHitch.")
+        raise DefinitionError(f"{options.machine} is no three-point hitch; `capacity` takes three_point_hitch or a subclass of its class.")
     if options.category and found is not ThreePointHitch:
         raise DefinitionError(f"--category {options.category} goes with three_point_hitch; {options.machine} has dimensions of its own.")
     machine = design(CATEGORIES[options.category].machine if options.category else found, options.settings)

@@ -42,7 +42,8 @@ class Weakest:
         """The weakest point and what limits it."""
         return (
             f"least at S = {self.stroke:.4f} m, F {self.height / mm:.0f} mm high: {self.capacity / kN:.2f} kN "
-            f"({self.capacity / g0:.0f} kg). There the pressure limits it: G rises {self.ratio:.3f} mm for 1 mm of the cylinder, {self.stage}. {self.remedy}"
+            f"({self.capacity / g0:.0f} kg). There the pressure limits it: G rises {self.ratio:.3f} mm for 1 mm of the cylinder, "
+            f"{self.stage}. {self.remedy}"
         )
 
 

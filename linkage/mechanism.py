@@ -11,7 +11,7 @@ from .assembly import Assembly, assembled, assemblies
 from .errors import DefinitionError, unknown
 from .graph import Body
 from .mobility import FourBar, Mobility, check, four_bars, mobility
-from .motion import Column, Grid, Motion, Request, at_values, evaluate, stroke_unit, sweep_values
+from .motion import Column, Grid, Motion, PoseFunction, Request, at_values, evaluate, function_of, stroke_unit, sweep_values
 from .plan import Plan
 from .program import FloatArray, Way
 from .quantities import Dimension, Member, Quantity, Stroke
@@ -96,6 +96,14 @@ class Mechanism:
         """
         grid = Grid(self.plan, self._values, at_values(strokes, self.plan.strokes, self.plan.title), unreachable)
         return evaluate(grid, of, out, Way(backend, threads))
+
+    def function(self, of: Sequence[Request]) -> PoseFunction:
+        """Return values and ratios of this design as a function of the strokes, in floats: `f = function(["G", ratio("G")])`.
+
+        `f(0.1)` returns all components one after the other, here (G_x, G_y, dG_x, dG_y), in some microseconds: for root
+        finders and other loops that take one pose at a time. It raises what `evaluate` raises.
+        """
+        return function_of(self.plan, self._values, of)
 
     def columns(self, motion: Motion) -> list[Column]:
         """Return the table of results: strokes, moving points, named outputs. A machine replaces it by its own."""

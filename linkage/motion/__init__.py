@@ -2,6 +2,8 @@
 
 from .bulk import evaluate as evaluate
 from .column import Column as Column
+from .function import PoseFunction as PoseFunction
+from .function import function_of as function_of
 from .grid import Grid as Grid
 from .motion import Motion as Motion
 from .motion import Target as Target

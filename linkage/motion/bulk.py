@@ -44,11 +44,15 @@ class Bulk:
         """The members that the requests are built from."""
         return set().union(*(each.names(self.grid.plan) for each in self.wanted))
 
+    @property
+    def kernel(self) -> Kernel:
+        """The kernel of the requests, watched by the guards of what they are built from."""
+        return self.grid.plan.made(("bulk", tuple(each.key for each in self.wanted)), self._make)
+
     def run(self, out: FloatArray | None) -> list[FloatArray]:
         """Return one array a request, in the usual shapes; rows of `out` where it is given."""
         grid, rows = self.grid, sum(each.rows for each in self.wanted)
-        kernel = grid.plan.made(("bulk", tuple(each.key for each in self.wanted)), self._make)
-        result = kernel(grid.flat, self._place(rows, out), self.way, grid.size)
+        result = self.kernel(grid.flat, self._place(rows, out), self.way, grid.size)
         if grid.plan.may_overflow or not np.all(result.guards > 0.0):
             self._settle(result.values)
         found = grid.full(result.values)

@@ -3,6 +3,7 @@
 from .adjoint import gradient as gradient
 from .arrays import FloatArray as FloatArray
 from .interpret import interpret as interpret
+from .kernel import QUICKEST as QUICKEST
 from .kernel import Kernel as Kernel
 from .kernel import Result as Result
 from .kernel import Way as Way
@@ -12,5 +13,6 @@ from .node import Closure as Closure
 from .node import Graph as Graph
 from .node import Level as Level
 from .node import Node as Node
+from .operations import NO_VALUE as NO_VALUE
 from .tangent import Tangent as Tangent
 from .tangent import jacobian as jacobian

@@ -63,10 +63,18 @@ class Floats:
     def run(self, design: Sequence[Any], poses: Sequence[Any], values: npt.NDArray[np.float64], guards: npt.NDArray[np.float64]) -> None:
         """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
         count, m, n = values.shape
-        designs = [np.broadcast_to(np.ravel(value), (m,)).tolist() for value in design]
-        tables = [np.broadcast_to(value, (m, n)).tolist() for value in poses]
+        designs = [listed(value, m) for value in design]
         for place in range(m):
-            rows = self.poses(self.design([each[place] for each in designs]), [each[place] for each in tables], n)
+            here = [value[place % len(value)] if np.ndim(value) == 2 else value for value in poses]
+            rows = self.poses(self.design([each[place] for each in designs]), [listed(value, n) for value in here], n)
             values[:, place] = np.array([row[:count] for row in rows], float).T.reshape(count, n)
             for k in range(len(guards)):
                 guards[k] = np.min([guards[k], *(row[count + k] for row in rows)])
+
+
+def listed(value: Any, count: int) -> list[float]:
+    """Return a number or an array as so many floats."""
+    if type(value) is float:
+        return [value] * count
+    floats: list[float] = np.asarray(value, float).ravel().tolist()
+    return floats * count if len(floats) == 1 else floats

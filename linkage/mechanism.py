@@ -37,6 +37,12 @@ class Mechanism:
     def __init__(self, **dimensions: Any) -> None:
         self._values = self.plan.table.settings(dimensions)
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            new = f"{type(self).__name__}({name}=...)"
+            raise DefinitionError(f"{type(self).__name__}.{name} = ...: an instance does not change; make a new one, {new}.")
+        super().__setattr__(name, value)
+
     @property
     def dimensions(self) -> Mapping[str, Any]:
         """Every design variable with its value [SI]."""
@@ -110,8 +116,9 @@ class Mechanism:
         units = {name: stroke_unit(self.plan, name) for name in self.plan.strokes}
         table = [Column(name, value, "deg" if units[name] == "rad" else "m") for name, value in motion.strokes.items()]
         table += [Column(f"{point}_{axis}", getattr(motion, axis)(point), "m") for point in self.plan.moving for axis in "xy"]
-        outputs = [name for name, member in self.plan.of_kind(Quantity).items() if not isinstance(member, (Stroke, Dimension))]
-        return table + [Column(name, motion[name]) for name in outputs]
+        outputs = {name: member for name, member in self.plan.of_kind(Quantity).items() if not isinstance(member, (Stroke, Dimension))}
+        shown = {"angle": "deg", "length": "m", "": ""}
+        return table + [Column(name, motion[name], shown[member.measures]) for name, member in outputs.items()]
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return what an engineer should know of this motion, in sentences. A machine replaces it by its own."""

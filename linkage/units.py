@@ -66,7 +66,8 @@ def parse(text: str, kind: str = "") -> float:
     factor, measured = UNITS[unit]
     if kind and measured != kind:
         valid = ", ".join(name for name, (_, what) in UNITS.items() if what == kind)
-        raise DefinitionError(f"{text!r} is a {measured} where a value of kind {kind} is wanted; use one of: {valid}.")
+        article = "an" if measured[0] in "aeiou" else "a"
+        raise DefinitionError(f"{text!r} is {article} {measured} where a value of kind {kind} is wanted; use one of: {valid}.")
     return finite(float(number) * factor, text)
 
 

@@ -44,7 +44,7 @@ def sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:
     yield "Strokes", aligned(list(stroke_rows(machine)))
     yield "Design variables", aligned(list(design_rows(machine)))
     yield "Bodies", bodies(machine)
-    yield "Construction, in order", construction(machine)
+    yield "Construction, in order, with the dimensions of the class", construction(machine)
 
 
 def bodies(machine: Mechanism) -> Iterator[str]:

@@ -36,7 +36,7 @@ def driven(motion: Motion) -> str:
     if motion.design_shape or len(motion.stroke_shape) != 1:
         raise DefinitionError(
             f"{plan.title}: curves over a stroke need one design and one row of poses, this motion has the shape {motion.shape}; "
-            "sweep one stroke, give the others a value: sweep(S1=101, S2=0.15)."
+            f"sweep one stroke and give every other a value: {', '.join(plan.strokes)}."
         )
     return max(motion.strokes, key=lambda name: float(np.ptp(motion.strokes[name])))
 

@@ -10,11 +10,16 @@ import numpy.typing as npt
 
 from ..errors import AssemblyError
 from ..plan import ArrayReading, Plan
+from ..program import FloatArray
 from ..quantities import Member, Negative, Quantity, Ref, Sum, quantity, spelled
 from ..steps import Point, Step
 from ..units import mm
 
 Mask = npt.NDArray[np.bool_]
+
+
+#: A side so many times longer than the others was given in another unit.
+MISTAKEN = 90.0
 
 
 def failures(plan: Plan, reading: ArrayReading, shape: tuple[int, ...]) -> Iterator[tuple[str, Mask]]:
@@ -77,7 +82,7 @@ def triangle_words(plan: Plan, name: str, reading: ArrayReading, lost: Mask) -> 
     """Return how a triangle misses, at its worst pose, and by how much [m]."""
     sides = plan.members[name].sides(reading)
     if not sides:
-        return shortage_words(plan.members[name], reading)
+        return shortage_words(plan, plan.members[name], reading)
     labels = [label for label, _ in sides]
     values = np.array(np.broadcast_arrays(*(value for _, value in sides), lost)[:-1], float).reshape(len(sides), -1)[:, lost]
     for label, value in zip(labels, values, strict=True):
@@ -90,25 +95,33 @@ def triangle_words(plan: Plan, name: str, reading: ArrayReading, lost: Mask) -> 
     gap = float(missing[worst])
     return (
         f"{' + '.join(labels[index] for index in others)} = {values[others, worst].sum():.4g} m is {gap / mm:.3g} mm short of "
-        f"{labels[longest]} = {values[longest, worst]:.4g} m. Shorten the stroke or {remedy(plan, labels, longest)}.",
+        f"{labels[longest]} = {values[longest, worst]:.4g} m. {remedy(plan, name, labels, longest, values[:, worst])}",
         gap,
     )
 
 
-def shortage_words(member: Member, reading: ArrayReading) -> tuple[str, float]:
+def shortage_words(plan: Plan, member: Member, reading: ArrayReading) -> tuple[str, float]:
     """Return what is too short, at the worst pose, and by how much [m]."""
     words, gaps = member.shortage(reading) if isinstance(member, Point) else ("it has no value", float("nan"))
     gap = float(np.max(gaps))
     missing = "" if np.isnan(gap) else f": {gap / mm:.3g} mm are missing"
-    return f"{words}{missing}. Shorten the stroke or change a dimension.", gap
+    start = "Shorten the stroke or change" if plan.moves(member) else "Change"
+    return f"{words}{missing}. {start} a dimension.", gap
 
 
-def remedy(plan: Plan, labels: Sequence[str], longest: int) -> str:
-    """Return what to change: a dimension that closes the gap."""
-    free = [label for index, label in enumerate(labels) if index != longest and label in plan.table.spellings]
-    if free:
-        return f"lengthen {free[-1]}"
-    return f"shorten {labels[longest]}" if labels[longest] in plan.table.spellings else "move its points closer"
+def remedy(plan: Plan, name: str, labels: Sequence[str], longest: int, values: FloatArray) -> str:
+    """Return what to change: the stroke where a side follows it, and a dimension that closes the gap; the unit where it looks mistaken."""
+    others = [index for index in range(len(labels)) if index != longest]
+    if values[longest] > MISTAKEN * values[others].max():
+        return f"Are all lengths in m? {values[longest]:.6g} m would be {values[longest]:.6g} * mm."
+    free = [labels[index] for index in others if labels[index] in plan.table.spellings]
+    other = f"shorten {labels[longest]}" if labels[longest] in plan.table.spellings else "move its points closer"
+    change = f"lengthen {free[-1]}" if free else other
+    if not plan.moves(plan.members[name]):
+        return f"{change[0].upper()}{change[1:]}."
+    following = [index for index, label in enumerate(labels) if label in plan.table.following]
+    start = "Shorten the stroke" if longest in following or not following else "Start the stroke later"
+    return f"{start} or {change}."
 
 
 def where_words(plan: Plan, mask: Mask, strokes: Mapping[str, Any]) -> str:

@@ -27,6 +27,10 @@ class Angle(Quantity):
     Q: Reference
     expects = (("P", "point"), ("Q", "point"))
 
+    @property
+    def measures(self) -> str:
+        return "angle"
+
     def parts(self) -> tuple[Reference, ...]:
         return self.P, self.Q
 
@@ -50,6 +54,10 @@ class Distance(Quantity):
     Q: Reference
     expects = (("P", "point"), ("Q", "point"))
 
+    @property
+    def measures(self) -> str:
+        return "length"
+
     def parts(self) -> tuple[Reference, ...]:
         return self.P, self.Q
 
@@ -68,6 +76,10 @@ class Coordinate(Quantity):
     axis: str
     expects = (("P", "point"),)
 
+    @property
+    def measures(self) -> str:
+        return "length"
+
     def parts(self) -> tuple[Reference, ...]:
         return (self.P,)
 
@@ -85,6 +97,10 @@ class Length(Quantity):
 
     vector: Reference
     expects = (("vector", "vector"),)
+
+    @property
+    def measures(self) -> str:
+        return "length"
 
     def parts(self) -> tuple[Reference, ...]:
         return (self.vector,)

@@ -25,6 +25,11 @@ class Quantity(Member):
 
     kind = "quantity"
 
+    @property
+    def measures(self) -> str:
+        """What it measures where that is plain from its rule: `angle`, `length`, or "" for a plain number."""
+        return ""
+
     @abstractmethod
     def rule(self, where: Where) -> Scalar:
         """Return the value [SI] in a reading."""
@@ -110,6 +115,8 @@ def quantity(value: Operand) -> Quantity:
     """Return a value as a quantity: a number, a quantity, or the name of one."""
     if isinstance(value, Quantity):
         return value
+    if isinstance(value, str) and not value.isidentifier():
+        raise DefinitionError(f"{value!r} stands where a number, a quantity or its name is expected; write a number without quotes.")
     if isinstance(value, str):
         return ref(value)
     if is_number(value):
@@ -195,6 +202,10 @@ class Sum(Quantity):
     b: Quantity
     binds = 1
 
+    @property
+    def measures(self) -> str:
+        return self.a.measures or self.b.measures
+
     def parts(self) -> tuple[Reference, ...]:
         return self.a, self.b
 
@@ -217,6 +228,10 @@ class Negative(Quantity):
 
     a: Quantity
     binds = 1
+
+    @property
+    def measures(self) -> str:
+        return self.a.measures
 
     def parts(self) -> tuple[Reference, ...]:
         return (self.a,)

@@ -81,7 +81,12 @@ def sense_of(direction: str) -> int:
 def gathered(motion: Motion, loads: Loads, case: Case, direction: str, without: str = "") -> Loaded:
     """Return the loads that act; DefinitionError for what is no force element or gives no proper force."""
     sense, chosen = sense_of(direction), case_of(motion, case)
-    kept = [(name, element) for name, element in elements_of(motion, loads) if chosen.factor(name) != 0.0 and name != without]
+    present = elements_of(motion, loads)
+    known = [name for name, _ in present] + [name for name, _ in elements_of(motion, None)]
+    for name in chosen.mentioned:
+        if name not in known:
+            raise unknown("Load", name, known, where=f"{motion.plan.title}, {chosen.label}")
+    kept = [(name, element) for name, element in present if chosen.factor(name) != 0.0 and name != without]
     acting: list[Acting] = []
     for name, element in kept:
         found = called(element.in_gravity(chosen.down), motion, sense, name)

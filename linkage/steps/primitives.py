@@ -91,6 +91,10 @@ class CosineAngle(Quantity):
     def __init__(self, a: Any, b: Any, c: Any) -> None:
         self.triangle = (quantity(a), quantity(b), quantity(c))
 
+    @property
+    def measures(self) -> str:
+        return "angle"
+
     def parts(self) -> tuple[Reference, ...]:
         return self.triangle
 

@@ -15,7 +15,7 @@ from linkage.program.operations import ARRAYS, FLOATS, OPERATIONS
 from linkage.program.schedule import schedule
 from linkage.program.solve import solution
 
-VALUES = {"a": 0.7, "b": -1.3, "s": 0.4, "t": 2.1}
+VALUES = {"a": 0.7133, "b": -1.3071, "s": 0.4217, "t": 2.1749}  # no sum of them is another
 BINARY = {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv}
 
 
@@ -43,11 +43,13 @@ def traced(tree):
 
 
 def plainly(tree, **changed):
-    """Return a tree's value in floats, and whether nothing in it divides by zero."""
+    """Return a tree's value in floats; NaN where something in it divides by zero, whose sign is nobody's."""
     at = VALUES | changed
-    with np.errstate(all="ignore"):
-        value = float(worked(tree, lambda leaf: np.float64(at[leaf] if isinstance(leaf, str) else leaf)))
-    return value
+    with np.errstate(all="raise", under="ignore"):
+        try:
+            return float(worked(tree, lambda leaf: np.float64(at[leaf] if isinstance(leaf, str) else leaf)))
+        except FloatingPointError:
+            return math.nan
 
 
 @given(trees())

@@ -110,9 +110,7 @@ def test_batch_of_designs():
     assert found.shape == (3, 7)
     for row, bore in zip(found, bores, strict=True):
         assert_allclose(row, capacity(ThreePointHitch(**{"lift.bore": bore}).sweep(7)), rtol=1e-12)
-    assert [column.values.shape for column in capacity_columns(hitch.sweep(7))][1:] == [np.broadcast_shapes((3, 7))] * 11 or all(
-        np.broadcast_shapes(column.values.shape, (3, 7)) == (3, 7) for column in capacity_columns(hitch.sweep(7))
-    )
+    assert all(np.broadcast_shapes(column.values.shape, (3, 7)) == (3, 7) for column in capacity_columns(hitch.sweep(7)))
     (text,) = hitch.verdicts(hitch.sweep(7))
     assert text.startswith("0 of 3 designs are too weak for their implement, 0 leave too little on the front axle, 0 do not reach")
 
@@ -136,7 +134,7 @@ def test_weakest_point_is_the_least_capacity(machine):
 
 
 def test_weakest_point_inside_the_stroke():
-    hitch = ThreePointHitch(MK=1.10, KFG=60 * deg, A=(0.42, 0.50), L0=0.46)
+    hitch = ThreePointHitch(MK=1.28, KFG=85 * deg, OB=0.28, CD=0.50, OC=0.35)
     fine = capacity(hitch.sweep(20_001))
     place = int(fine.argmin())
     assert 0 < place < 20_000
@@ -182,7 +180,8 @@ def test_unreached_poses_are_told():
     hitch = ThreePointHitch()
     text = hitch.verdicts(hitch.at(S=[0.0, 0.1, 0.45], unreachable="nan"))
     assert text[-1].startswith("FAIL reach: poses out of reach are left out of this. B = Dyad(A, O)")
-    assert hitch.verdicts(hitch.at(S=[0.5, 0.6], unreachable="nan")) == ["No pose of this motion can be assembled; there is nothing to lift."]
+    nowhere = hitch.at(S=[0.5, 0.6], unreachable="nan")
+    assert hitch.verdicts(nowhere) == ["No pose of this motion can be assembled; there is nothing to lift."]
 
 
 # -- the upper link ----------------------------------------------------------------------------------------------
@@ -217,8 +216,9 @@ def test_upper_link_that_changes_its_sense_is_told():
     start, end = map(float, re.findall(r"from S = ([0-9.]+) to ([0-9.]+) m", text)[0])
     force = upper_link_force(ThreePointHitch(KFG=10 * deg).sweep(2001))
     S = np.linspace(0.0, 0.25, 2001)
-    assert (force[(S > start + 2e-4) & (S < end - 2e-4)] < 0.0).all()
-    assert (force[(S < start - 2e-4) | (S > end + 2e-4)] > 0.0).all()
+    pressed, pulled = (S > start + 2e-4) & (S < end - 2e-4), (S < start - 2e-4) | (S > end + 2e-4)
+    assert pressed.any() and (force[pressed] < 0.0).all()
+    assert pulled.any() and (force[pulled] > 0.0).all()
 
 
 def test_forces_of_the_machine_agree_in_both_methods():
@@ -287,14 +287,14 @@ def test_no_mass_tips_a_tractor_whose_implement_stands_over_the_wheels():
 def test_front_axle_verdicts():
     assert verdict(ThreePointHitch, "front axle").startswith("ok")
     light = verdict(ThreePointHitch, "front axle", **{"load.mass": 3000})
-    assert light.startswith("FAIL") and "At most 2179 kg, or 749 kg of ballast over the front axle." in light
+    assert light.startswith("FAIL") and "At most 2179 kg, or 602 kg of ballast over the front axle." in light
     assert "the tractor tips over backwards" in verdict(ThreePointHitch, "front axle", **{"load.mass": 5000})
 
 
 def test_ballast_of_the_verdict_does():
-    """749 kg over the front axle: the tractor heavier by that, its centre of mass moved accordingly."""
-    mass = 8000 + 749.5
-    hitch = ThreePointHitch(vehicle_mass=mass, vehicle_x=-(8000 * 1.1 + 749.5 * 2.75) / mass, **{"load.mass": 3000})
+    """602 kg over the front axle: the tractor heavier by that, its centre of mass moved accordingly."""
+    mass = 8000 + 602
+    hitch = ThreePointHitch(vehicle_mass=mass, vehicle_x=-(8000 * 1.1 + 602 * 2.75) / mass, **{"load.mass": 3000})
     assert float(front_axle(hitch.sweep(2001)).min()) == pytest.approx(0.2 * 8000 * g0, rel=1e-3)
 
 
@@ -332,8 +332,8 @@ def test_zones_of_figure_2():
 
 def test_zone_without_an_upper_end_is_told():
     hitch = ThreePointHitch(KFG=-100 * deg, FG=3.0)
-    found = capacity_zone(hitch, {"MK": (0.80, 1.00)}, S=[0.0, 0.1])
-    assert np.isnan(found.high).any() and np.isfinite(found.low).all()
+    found = capacity_zone(hitch, {"MK": (0.80, 1.00)}, S=[0.1])
+    assert np.isnan(found.high).all() and np.isfinite(found.low).all()
     assert "some settings are not limited by this cylinder" in found.remarks[-1]
 
 
@@ -380,7 +380,7 @@ def test_figures():
 
 
 def test_figures_refuse_what_they_cannot_show():
-    with pytest.raises(DefinitionError, match="'zone' is unknown. Did you mean zones"):
+    with pytest.raises(DefinitionError, match=r"'zone' is unknown\. Did you mean zones"):
         figure("zone")
     with pytest.raises(DefinitionError, match="shows one design"):
         figure("capacity", ThreePointHitch(OB=[0.29, 0.30]))

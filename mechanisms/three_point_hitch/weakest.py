@@ -17,6 +17,7 @@ from .capacity import capacity, circuit_of, stroke_per_newton
 from .tractor import largest_mass, tipping_mass
 
 CHANGE = 10 * mm
+STILL = 1e-12  # a factor this small moves nothing
 DIMENSIONS = ("OB", "OC", "ED", "CD", "EF", "MK", "A.x", "A.y", "O.x", "O.y", "E.x", "E.y", "M.x", "M.y")
 """Dimensions of the tractor's side that a designer may change."""
 
@@ -82,7 +83,7 @@ def stages(motion: Motion) -> dict[str, tuple[float, str]]:
 def stage(there: Motion, best: Motion) -> str:
     """Return which factor of the ratio has grown most from the best point to the weakest, in words."""
     now, then = stages(there), stages(best)
-    name = max(now, key=lambda each: abs(now[each][0] / then[each][0]))
+    name = max(now, key=lambda each: abs(now[each][0]) / max(abs(then[each][0]), STILL))
     if now[name][0] == then[name][0]:
         return "the same at all poses of this motion"
     (S,) = best.strokes.values()

@@ -216,7 +216,7 @@ def test_upper_link_that_changes_its_sense_is_told():
     start, end = map(float, re.findall(r"from S = ([0-9.]+) to ([0-9.]+) m", text)[0])
     force = upper_link_force(ThreePointHitch(KFG=10 * deg).sweep(2001))
     S = np.linspace(0.0, 0.25, 2001)
-    pressed, pulled = (S > start + 2e-4) & (S < end - 2e-4), (S < start - 2e-4) | (S > end + 2e-4)
+    pressed, pulled = (start + 2e-4 < S) & (end - 2e-4 > S), (start - 2e-4 > S) | (end + 2e-4 < S)
     assert pressed.any() and (force[pressed] < 0.0).all()
     assert pulled.any() and (force[pulled] > 0.0).all()
 
@@ -233,7 +233,7 @@ def test_forces_of_the_machine_agree_in_both_methods():
 def test_vertical_mast(S):
     hitch = ThreePointHitch()
     (MK,) = vertical_mast(hitch, S).values
-    assert MK == pytest.approx(float(np.hypot(*(hitch.at(S=S)["F"] + [0.0, 0.685] - [0.22, 1.05]))), abs=1e-13)
+    assert pytest.approx(float(np.hypot(*(hitch.at(S=S)["F"] + [0.0, 0.685] - [0.22, 1.05]))), abs=1e-13) == MK
     assert float(hitch.replaced(MK=MK).at(S=S)["tilt"]) == pytest.approx(0.0, abs=1e-13)
 
 

@@ -20,9 +20,10 @@ from ..draw.traces import trace
 from .course import Course
 
 WIDTH, HEIGHT = 9.6, 4.8
+TITLE = 0.953
 SHEET = (0.065, 0.115, 0.535, 0.775)
 CURVE = (0.685, 0.115, 0.285, 0.775)
-"""The figure [inch], and the places of its two axes as shares of it."""
+"""The figure [inch]; the height of the titles and the places of its two axes as shares of it."""
 
 
 def untyped(canvas: Any) -> Any:
@@ -39,7 +40,8 @@ class Stage:
         self.canvas = untyped(FigureCanvasAgg(self.figure))
         self.drawing = self._mechanism(paths)
         self.live = self._curve(bound)
-        self.stroke = self.figure.text(SHEET[0] + SHEET[2], 0.935, "", fontsize=style.TITLE, color=style.INK, ha="right", va="center")
+        self.stroke = self.figure.text(SHEET[0] + SHEET[2], TITLE, "", fontsize=style.TITLE, color=style.INK, ha="right", va="center")
+        self._remarks()
         for artist in self._moving:
             artist.set_animated(True)
         self.canvas.draw()
@@ -65,11 +67,22 @@ class Stage:
         (self.run,) = ax.plot([], [], color=style.CURVE, linewidth=style.BOLD + 0.4, zorder=5.05, solid_capstyle="round")
         (self.marker,) = ax.plot([], [], "o", color=style.CURVE, markersize=9, markeredgecolor=style.PAPER, zorder=7.0, clip_on=False)
         self._title(CURVE[0], typeset(self.course.column.heading))
-        self.value = self.figure.text(CURVE[0] + CURVE[2], 0.935, "", fontsize=style.TITLE, color=style.CURVE, ha="right", va="center")
+        self.value = self.figure.text(CURVE[0] + CURVE[2], TITLE, "", fontsize=style.TITLE, color=style.CURVE, ha="right", va="center")
         return tuple(sorted([*ax.lines, *ax.texts], key=lambda artist: artist.get_zorder()))
 
+    def _remarks(self) -> None:
+        """Write under the title the strokes that are held, and what is not reached."""
+        motion = self.course.motion
+        moving = strokes.driven(motion)
+        held = strokes.held(motion.plan, motion.strokes, moving)
+        texts = ((SHEET[0], f"at {held}" if held else "", style.MUTED, "left"),)
+        texts += ((SHEET[0] + SHEET[2], strokes.unreached(motion, moving), style.ACCENT, "right"),)
+        for x, text, colour, side in texts:
+            if text:
+                self.figure.text(x, 0.91, text, fontsize=style.SMALL, color=colour, va="center", ha=side)
+
     def _title(self, left: float, text: str) -> None:
-        self.figure.text(left, 0.935, text, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
+        self.figure.text(left, TITLE, text, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
 
     @property
     def _moving(self) -> list[Artist]:

@@ -20,6 +20,7 @@ from .part import Part
 from .pins import StayPart, dot, pin
 from .scene import Places, Scene
 from .sheet import points_a_metre, sheet
+from .sliders import rails, sliders
 from .style import FAINT, STRONG, Look
 
 
@@ -28,10 +29,11 @@ class Drawing:
 
     def __init__(self, ax: Axes, scene: Scene, look: Look = STRONG) -> None:
         self.ax, self.scene, self.look = ax, scene, look
-        self.parts: list[Part] = [*bodies(ax, scene, look), *cylinders(ax, scene, look), *points(ax, scene, look)]
+        self.parts: list[Part] = [*bodies(ax, scene, look), *sliders(ax, scene, look), *cylinders(ax, scene, look), *points(ax, scene, look)]
 
     def ground(self) -> None:
         """Draw what never moves: the frame under its pins."""
+        rails(self.ax, self.scene, self.look)
         at = self.scene.at(0)
         for name, way in room.props(self.scene).items():
             ground(self.ax, at[name], way, self.scene.size, self.look)

@@ -41,25 +41,30 @@ def offsets(
 ) -> dict[str, FloatArray]:
     """Return where each name stands, from its point, shape (2,) each, in the unit of `font`.
 
-    One offset serves all `poses`; `clouds` are the points to keep clear at each [m]; `scale` is that unit per
+    One offset serves all `poses`; where there are several it stays short, so that each name keeps to its pin.
+    `clouds` are the points to keep clear at each [m]; `scale` is that unit per
     metre and `gap` the distance from the point's centre at which a label may begin. Greedy, crowded points first.
     """
     taken = [cloud * scale for cloud in clouds]
+    if len(poses) > 1:
+        pins = [np.array([at[name] for name in names]).reshape(-1, 2) * scale for at in poses]
+        taken = [np.concatenate([points, np.repeat(each, 4, axis=0)]) for points, each in zip(taken, pins, strict=True)]
+    far = max(gap, 0.9 * font) if len(poses) > 1 else np.inf
     chosen: dict[str, FloatArray] = {}
     for name in sorted(names, key=lambda each: -_crowd(each, poses, taken, scale, 3 * font)):
         half = 0.5 * font * np.array([0.68 * len(name) + 0.15, 0.95])
         anchors = [at[name] * scale for at in poses]
-        spots = candidates(half, gap)
+        spots = candidates(half, gap, far)
         costs = [_cost(spot, rank, half, anchors, taken) for rank, spot in enumerate(spots)]
         chosen[name] = spots[int(np.argmin(costs))]
         taken = [np.concatenate([points, _covered(anchor + chosen[name], half)]) for points, anchor in zip(taken, anchors, strict=True)]
     return chosen
 
 
-def candidates(half: FloatArray, gap: float) -> list[FloatArray]:
-    """Return the offsets a label of half that width and height tries, the preferred first."""
+def candidates(half: FloatArray, gap: float, far: float = np.inf) -> list[FloatArray]:
+    """Return the offsets a label of half that width and height tries, the preferred first, none beginning beyond `far`."""
     ways = [np.array([np.cos(way), np.sin(way)]) for way in WAYS]
-    return [reach * gap * way + half * np.clip(np.sqrt(2.0) * way, -1.0, 1.0) for reach in REACH for way in ways]
+    return [reach * gap * way + half * np.clip(np.sqrt(2.0) * way, -1.0, 1.0) for reach in REACH if reach * gap <= far for way in ways]
 
 
 def _cost(spot: FloatArray, rank: int, half: FloatArray, anchors: Sequence[FloatArray], taken: Sequence[FloatArray]) -> float:

@@ -35,7 +35,7 @@ def poses(machine: Mechanism, at: Any = None, path: Sequence[str] = (), count: i
     `at` are values of the first stroke [m or rad], or a mapping `dict(S=[0.0, 0.25])` for another or for several;
     without it, the two ends of the first stroke (of a full turn its middle and its start), the others in their
     middle. `path` names points whose paths are
-    drawn over that stroke, at `count` poses. Poses out of reach are left out; where none is in reach this raises
+    drawn over that stroke, at `count` poses. Poses out of reach are left out, and the picture says so; where none is in reach this raises
     AssemblyError.
     """
     moving, shown, swept = motions(machine, at, count)
@@ -46,8 +46,9 @@ def poses(machine: Mechanism, at: Any = None, path: Sequence[str] = (), count: i
     figure, ax = page(whole.box())
     for name in path:
         trace(ax, whole.places[name], f"path{'s' if len(path) > 1 else ''} of {', '.join(path)}" if name == path[0] else "")
-    draw(ax, shown, [whole.places[name].T for name in path])
+    draw(ax, shown, swept, [whole.places[name].T for name in path])
     heading(figure, ax, shown, moving)
+    remark(figure, ax, strokes.unreached(swept, moving))
     return figure
 
 
@@ -83,9 +84,9 @@ def page(box: Box) -> tuple[Figure, Axes]:
     return figure, ax
 
 
-def draw(ax: Axes, shown: Motion, keep_clear: Sequence[FloatArray]) -> None:
+def draw(ax: Axes, shown: Motion, swept: Motion, keep_clear: Sequence[FloatArray]) -> None:
     """Draw the poses of a motion, the last one in reach bold."""
-    scene = Scene(shown)
+    scene = Scene(shown, swept)
     *others, last = scene.reached
     for pose in others:
         Drawing(ax, scene, FAINT).update(pose)
@@ -94,6 +95,13 @@ def draw(ax: Axes, shown: Motion, keep_clear: Sequence[FloatArray]) -> None:
     bold.ground()
     bold.label([scene.at(last)], [points[np.isfinite(points).all(axis=1)] for points in keep_clear])
     bold.update(last)
+
+
+def remark(figure: Figure, ax: Axes, text: str) -> None:
+    """Write in a warning colour, above the sheet's right end, what the picture does not show."""
+    if text:
+        level = ax.get_position(original=True).y1 + 0.13 / float(figure.get_figheight())
+        figure.text(1.0 - RIGHT / WIDTH, level, text, fontsize=style.TEXT, color=style.ACCENT, va="center", ha="right")
 
 
 def heading(figure: Figure, ax: Axes, shown: Motion, moving: str) -> None:

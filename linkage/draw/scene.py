@@ -15,6 +15,7 @@ from ..motion import Motion
 from ..program import FloatArray
 from ..steps import Bar, Offset
 from .shapes import hull
+from .tracks import Track, tracks
 
 Places: TypeAlias = dict[str, FloatArray]
 Box: TypeAlias = tuple[float, float, float, float]
@@ -39,9 +40,13 @@ class Ram:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """The things to draw in a motion of one design. Raises DefinitionError for a batch of designs."""
+    """The things to draw in a motion of one design. Raises DefinitionError for a batch of designs.
+
+    `over` is a motion of the same machine whose travel the tracks allow for, where it goes further than this one.
+    """
 
     motion: Motion
+    over: Motion | None = None
     places: Places = field(init=False)
 
     def __post_init__(self) -> None:
@@ -71,7 +76,7 @@ class Scene:
 
     def at(self, pose: int) -> Places:
         """Return where every point is at a pose, each of shape (2,) [m]; NaN where it is not reached."""
-        return {name: place[:, pose] for name, place in self.places.items()}
+        return {name: place[:, pose] for name, place in (self.places | self.rims).items()}
 
     def some(self, count: int) -> list[Places]:
         """Return up to so many poses, spread over those that are reached."""
@@ -120,6 +125,22 @@ class Scene:
         return Motion(plan, self.motion.designs, values, "nan")
 
     @cached_property
+    def tracks(self) -> tuple[Track, ...]:
+        """The guides and slots that something slides on."""
+        return tracks(self.motion)
+
+    @cached_property
+    def rims(self) -> Places:
+        """The two ends of every track at every pose, shape (2, n) each [m]."""
+        wide = [] if self.over is None else list(zip(tracks(self.over), self.tracks, strict=True))
+        reach = {track.name: track.travel(self.places) for track in self.tracks}
+        for other, track in wide:
+            low, high = other.travel(Scene(self.over).places) if self.over is not None else reach[track.name]
+            reach[track.name] = min(low, reach[track.name][0]), max(high, reach[track.name][1])
+        placed = [track.placed(reach[track.name], self.size) for track in self.tracks]
+        return {name: place for each in placed for name, place in each.items()}
+
+    @cached_property
     def stays(self) -> tuple[tuple[str, str], ...]:
         """Pairs that a construction joins and no body does: drawn as thin lines."""
         bodies = [set(body.points) for body in self.motion.plan.links] + [{ram.P, ram.Q} for ram in self.rams]
@@ -131,6 +152,7 @@ class Scene:
         """How many bodies and cylinders each point belongs to."""
         uses = Counter(point for points in self.bodies for point in points)
         uses.update(end for bar in self.motion.plan.cylinders for end in (bar.P, bar.Q))
+        uses.update(rider for track in self.tracks for rider in track.riders)
         return uses
 
     @cached_property
@@ -179,5 +201,8 @@ class Scene:
     def box(self, margin: float = 5.0) -> Box:
         """Return the extent with a margin around it, in sizes [m]."""
         left, right, bottom, top = self.extent
-        pad = margin * self.size
-        return left - pad, right + pad, bottom - pad, top + pad
+        pad, near = margin * self.size, 2.5 * self.size
+        ends = np.concatenate([np.empty((2, 0)), *self.rims.values()], axis=1)
+        ends = ends[:, np.isfinite(ends).all(axis=0)]
+        (x0, y0), (x1, y1) = np.min(ends - near, axis=1, initial=np.inf), np.max(ends + near, axis=1, initial=-np.inf)
+        return min(left - pad, float(x0)), max(right + pad, float(x1)), min(bottom - pad, float(y0)), max(top + pad, float(y1))

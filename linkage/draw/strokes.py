@@ -60,6 +60,28 @@ def first(machine: Mechanism) -> str:
     return next(iter(machine.strokes))
 
 
+def unreached(motion: Motion, moving: str) -> str:
+    """Return which parts of a stroke a motion along it does not reach, in words; empty where it reaches all."""
+    values, reached = motion.strokes[moving].ravel(), motion.reached.ravel()
+    if reached.all() or not reached.any():
+        return ""
+    edges = np.flatnonzero(reached[1:] != reached[:-1])
+    said = []
+    for edge in edges.tolist():
+        inside, outside = (edge, edge + 1) if reached[edge] else (edge + 1, edge)
+        beyond = "beyond" if outside > inside else "before"
+        said.append(f"{beyond} {words(motion.plan, moving, _last(motion, moving, values[inside], values[outside]))}")
+    return "not reached " + " and ".join(said)
+
+
+def _last(motion: Motion, moving: str, inside: float, outside: float) -> float:
+    """Return the last value of a stroke in reach between one that is and one that is not [SI]."""
+    between = np.linspace(inside, outside, 501)
+    held_at = {name: np.full(between.size, np.ravel(value)[0]) for name, value in motion.strokes.items()}
+    near = Motion(motion.plan, motion.designs, held_at | {moving: between}, "nan").reached
+    return float(between[max(int(np.argmin(near)) - 1, 0)])
+
+
 def held(plan: Plan, strokes: Mapping[str, Any], moving: str) -> str:
     """Return the other strokes' values as text; empty where there is one stroke."""
     return ", ".join(words(plan, name, float(np.ravel(value)[0])) for name, value in strokes.items() if name != moving)

@@ -92,6 +92,6 @@ def dimensions_of(plan: Plan, names: Sequence[str]) -> list[tuple[str, int]]:
     for name in names:
         if f"{name}.x" in plan.table.spellings or f"{name}.y" in plan.table.spellings:
             raise DefinitionError(f'{plan.title}: wrt="{name}": a point has two coordinates; say "{name}.x" or "{name}.y".')
-        if name in plan.table.following:
+        if name in plan.table.following and name not in plan.table.spellings:
             raise DefinitionError(f"{plan.title}: {name} follows {plan.table.following[name]}; take the gradient by what it follows.")
     return [plan.table.spellings[named("Dimension", name, plan.table.spellings, plan.title)] for name in names]

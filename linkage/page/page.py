@@ -30,6 +30,7 @@ def page(motion: Motion, column: Column, paths: Sequence[str] = (), limit: Seque
         "title": motion.plan.heading,
         "turn": is_turn,
         "held": strokes.held(motion.plan, motion.strokes, moving),
+        "remark": strokes.unreached(motion, moving),
         "reached": scene.reached,
         "scene": scenery(scene, paths),
         "chart": curve,

@@ -49,6 +49,22 @@ function ram({ P, Q, bottom, mouth, rod, least, most }) {
   };
 }
 
+function slot([P, Q]) {
+  const common = { "stroke-linecap": "round" }, half = scene.slide.slot * size;
+  const outer = draw(sheet, "line", { ...common, stroke: css("ink"), "stroke-width": 2 * half + EDGE });
+  const inner = draw(sheet, "line", { ...common, stroke: css("paper"), "stroke-width": 2 * half - EDGE });
+  return (at) => { for (const line of [outer, inner]) set(line, { x1: at[P][0], y1: at[P][1], x2: at[Q][0], y2: at[Q][1] }); };
+}
+
+function block({ rider, ends: [P, Q], half }) {
+  const long = scene.slide.long * size, wide = half * size;
+  const rect = draw(sheet, "rect", { x: -long, y: -wide, width: 2 * long, height: 2 * wide, fill: css("rule"), stroke: css("ink"), "stroke-width": EDGE });
+  return (at) => {
+    const turn = (Math.atan2(at[Q][1] - at[P][1], at[Q][0] - at[P][0]) * 180) / Math.PI;
+    set(rect, { transform: `translate(${at[rider][0]} ${at[rider][1]}) rotate(${turn})` });
+  };
+}
+
 function circle(index, radius, fill, stroke, width) {
   const element = draw(sheet, "circle", { r: radius, fill, stroke, "stroke-width": width });
   return (at) => set(element, { cx: at[index][0], cy: at[index][1] });
@@ -78,9 +94,12 @@ for (const { triangle, lines } of scene.grounds) {
   draw(sheet, "polygon", { points: pairs(triangle), fill: css("rod"), stroke: css("ink"), "stroke-width": EDGE, "stroke-linejoin": "round" });
   for (const [from, to] of lines) draw(sheet, "line", { x1: from[0], y1: from[1], x2: to[0], y2: to[1], stroke: css("ink"), "stroke-width": 1 });
 }
+for (const lines of scene.rails) {
+  lines.forEach(([from, to], i) => draw(sheet, "line", { x1: from[0], y1: from[1], x2: to[0], y2: to[1], stroke: css("ink"), "stroke-width": i ? 1 : 1.8 }));
+}
 const plates = scene.bodies.filter((each) => each.points.length > 2), bars = scene.bodies.filter((each) => each.points.length <= 2);
 const parts = [
-  ...plates.map(body), ...bars.map(body), ...scene.stays.map(stay), ...scene.rams.map(ram),
+  ...plates.map(body), ...scene.slots.map(slot), ...scene.blocks.map(block), ...bars.map(body), ...scene.stays.map(stay), ...scene.rams.map(ram),
   ...scene.pins.map((i) => circle(i, 0.5 * size, css("paper"), css("ink"), 1.3 * EDGE)),
   ...scene.dots.map((i) => circle(i, 0.48 * size, css("ink"), css("paper"), 1)),
   ...scene.names.map((_, i) => name(i)),
@@ -196,7 +215,7 @@ document.addEventListener("keydown", (event) => {
   }
 });
 
-byId("held").textContent = data.held ? `at ${data.held}` : "";
+byId("held").textContent = [data.held ? `at ${data.held}` : "", data.remark].filter(Boolean).join("; ");
 byId("heading").textContent = chart.column.heading;
 slider.max = String(last);
 show(0);

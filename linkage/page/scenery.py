@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import cycle
 from typing import Any
 
@@ -13,6 +13,7 @@ from ..draw.cylinders import THICK, WIDTH
 from ..draw.grounds import support
 from ..draw.labels import offsets
 from ..draw.scene import Places, Scene
+from ..draw.sliders import LONG, SLOT, hatched, width
 from ..program import FloatArray
 
 ACROSS = 760.0
@@ -44,13 +45,14 @@ class Pixels:
 def scenery(scene: Scene, paths: Sequence[str]) -> dict[str, Any]:
     """Return what to draw: names as indices into `names`, places for every pose."""
     pixels, names = Pixels(scene), list(scene.places)
-    index = {name: number for number, name in enumerate(names)}
+    placed = scene.places | scene.rims
+    index = {name: number for number, name in enumerate(placed)}
     return {
         "width": ACROSS,
         "height": round(pixels.height, 1),
         "size": pixels.length(scene.size),
         "names": names,
-        "poses": [pixels.of(np.array([scene.places[name][:, pose] for name in names])) for pose in range(scene.motion.reached.size)],
+        "poses": [pixels.of(np.array([place[:, pose] for place in placed.values()])) for pose in range(scene.motion.reached.size)],
         "bodies": [
             {"points": [index[name] for name in points], "fill": fill, "edge": style.mixed(fill, style.INK, 0.65)}
             for points, fill in zip(scene.hulls, cycle(style.BODIES), strict=False)
@@ -58,6 +60,7 @@ def scenery(scene: Scene, paths: Sequence[str]) -> dict[str, Any]:
         "rams": [
             {"P": index[ram.P], "Q": index[ram.Q]} | {name: pixels.length(getattr(ram, name)) for name in RAM} for ram in scene.rams
         ],
+        **sliding(scene, pixels, index),
         "widths": WIDTH,
         "thick": THICK,
         "stays": [[index[P], index[X]] for P, X in scene.stays],
@@ -67,6 +70,19 @@ def scenery(scene: Scene, paths: Sequence[str]) -> dict[str, Any]:
         "labels": labels(scene, pixels),
         "paths": [pixels.of(scene.places[name].T) for name in paths],
     }
+
+
+def sliding(scene: Scene, pixels: Pixels, index: Mapping[str, int]) -> dict[str, Any]:
+    """Return the rails, the slots and the blocks."""
+    pairs = [(track, [index[name] for name in track.ends]) for track in scene.tracks]
+    return {
+        "slide": {"long": LONG, "slot": SLOT},
+        "rails": [[pixels.of(line) for line in lines] for lines in hatched(scene)],
+        "slots": [ends for track, ends in pairs if not track.fixed],
+        "blocks": [
+            {"rider": index[rider], "ends": ends, "half": width(track.fixed)} for track, ends in pairs for rider in track.riders
+        ],
+    }  # fmt: skip
 
 
 def grounds(scene: Scene, pixels: Pixels) -> list[dict[str, Any]]:

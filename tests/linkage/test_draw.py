@@ -400,5 +400,5 @@ def test_what_cannot_be_plotted_is_said_in_words():
     with pytest.raises(DefinitionError, match="no column to draw over S"):
         curves(motion, [Column("S", motion.strokes["S"], "m")])
     grid = Crane().sweep(S1=3, S2=3)
-    with pytest.raises(DefinitionError, match="sweep one stroke, give the others a value"):
+    with pytest.raises(DefinitionError, match="sweep one stroke and give every other a value"):
         curves(grid, [Column("T_x", grid.x("T"), "m")])

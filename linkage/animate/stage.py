@@ -75,8 +75,10 @@ class Stage:
         motion = self.course.motion
         moving = strokes.driven(motion)
         held = strokes.held(motion.plan, motion.strokes, moving)
-        texts = ((SHEET[0], f"at {held}" if held else "", style.MUTED, "left"),)
-        texts += ((SHEET[0] + SHEET[2], strokes.unreached(motion, moving), style.ACCENT, "right"),)
+        texts = (
+            (SHEET[0], f"at {held}" if held else "", style.MUTED, "left"),
+            (SHEET[0] + SHEET[2], strokes.unreached(motion, moving), style.ACCENT, "right"),
+        )
         for x, text, colour, side in texts:
             if text:
                 self.figure.text(x, 0.91, text, fontsize=style.SMALL, color=colour, va="center", ha=side)

@@ -29,7 +29,8 @@ class Drawing:
 
     def __init__(self, ax: Axes, scene: Scene, look: Look = STRONG) -> None:
         self.ax, self.scene, self.look = ax, scene, look
-        self.parts: list[Part] = [*bodies(ax, scene, look), *sliders(ax, scene, look), *cylinders(ax, scene, look), *points(ax, scene, look)]
+        made = bodies, sliders, cylinders, points
+        self.parts: list[Part] = [part for kind in made for part in kind(ax, scene, look)]
 
     def ground(self) -> None:
         """Draw what never moves: the frame under its pins."""

@@ -80,10 +80,14 @@ class Scene:
 
     def some(self, count: int) -> list[Places]:
         """Return up to so many poses, spread over those that are reached."""
+        return [self.at(pose) for pose in self.picks(count)]
+
+    def picks(self, count: int) -> list[int]:
+        """Return the flat indices of up to so many poses, spread over those that are reached."""
         if not self.reached:
             return []
         picks = np.unique(np.linspace(0, len(self.reached) - 1, count).round().astype(int))
-        return [self.at(self.reached[pick]) for pick in picks.tolist()]
+        return [self.reached[pick] for pick in picks.tolist()]
 
     # -- things ----------------------------------------------------------------------------------------
 
@@ -195,7 +199,7 @@ class Scene:
     def _nearest(self) -> float:
         """The least distance of two joined points [m]."""
         pairs = [(P, Q) for points in self.bodies for P in points for Q in points if P < Q]
-        gaps = [float(np.hypot(*(at[P] - at[Q]))) for at in self.some(3) for P, Q in pairs]
+        gaps = [float(np.hypot(*(self.places[P] - self.places[Q])[:, pose])) for pose in self.picks(3) for P, Q in pairs]
         return min((gap for gap in gaps if gap > 0), default=np.inf)
 
     def box(self, margin: float = 5.0) -> Box:

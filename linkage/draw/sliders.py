@@ -39,9 +39,9 @@ class BlockPart(Part):
     def __init__(self, ax: Axes, rider: str, ends: tuple[str, str], half: float, size: float, look: Look) -> None:
         self.points, self.half, self.size = (rider, *ends), half, size
         fill, edge = look.colour(style.RULE), look.colour(style.INK)
-        self.face = added(
-            ax, Polygon(np.zeros((1, 2)), facecolor=fill, edgecolor=edge, linewidth=style.OUTLINE, joinstyle="round", zorder=look.level + 0.17)
-        )  # fmt: skip
+        shape = Polygon(np.zeros((1, 2)), facecolor=fill, edgecolor=edge, linewidth=style.OUTLINE, joinstyle="round")
+        shape.set_zorder(look.level + 0.17)
+        self.face = added(ax, shape)
         self.artists = (self.face,)
 
     def move(self, at: Places) -> None:
@@ -82,7 +82,7 @@ def hatched(scene: Scene) -> list[FloatArray]:
         return []
     at = scene.at(scene.reached[0])
     pins = [at[name] for name in scene.grounds]
-    return [rail(*(at[name] for name in track.ends), pins, scene.size) for track in scene.tracks if track.fixed]
+    return [rail(at[track.ends[0]], at[track.ends[1]], pins, scene.size) for track in scene.tracks if track.fixed]
 
 
 def rail(start: FloatArray, end: FloatArray, pins: list[FloatArray], size: float) -> FloatArray:

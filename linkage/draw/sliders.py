@@ -14,7 +14,7 @@ from .scene import Places, Scene
 from .shapes import rounded
 from .style import Look
 
-LONG, HALF, SLOT, HATCH = 2.1, 1.25, 0.85, 0.9
+LONG, HALF, SLOT, HATCH = 2.1, 1.25, 0.7, 0.9
 """Half a block's length and width, half a slot's width, and the depth of the hatching, in sizes."""
 
 
@@ -25,7 +25,7 @@ class SlotPart(Part):
         self.points, self.size = ends, size
         edge = look.colour(style.INK)
         self.face = added(
-            ax, Polygon(np.zeros((1, 2)), facecolor=style.PAPER, edgecolor=edge, linewidth=style.OUTLINE, zorder=look.level + 0.15)
+            ax, Polygon(np.zeros((1, 2)), facecolor=style.PAPER, edgecolor=edge, linewidth=style.OUTLINE, zorder=look.level + 0.3)
         )  # fmt: skip
         self.artists = (self.face,)
 
@@ -40,7 +40,7 @@ class BlockPart(Part):
         self.points, self.half, self.size = (rider, *ends), half, size
         fill, edge = look.colour(style.RULE), look.colour(style.INK)
         shape = Polygon(np.zeros((1, 2)), facecolor=fill, edgecolor=edge, linewidth=style.OUTLINE, joinstyle="round")
-        shape.set_zorder(look.level + 0.17)
+        shape.set_zorder(look.level + (0.17 if half == HALF else 0.32))
         self.face = added(ax, shape)
         self.artists = (self.face,)
 

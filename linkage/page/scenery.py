@@ -80,7 +80,9 @@ def sliding(scene: Scene, pixels: Pixels, index: Mapping[str, int]) -> dict[str,
         "rails": [[pixels.of(line) for line in lines] for lines in hatched(scene)],
         "slots": [ends for track, ends in pairs if not track.fixed],
         "blocks": [
-            {"rider": index[rider], "ends": ends, "half": width(track.fixed)} for track, ends in pairs for rider in track.riders
+            {"rider": index[rider], "ends": ends, "half": width(track.fixed), "inside": not track.fixed}
+            for track, ends in pairs
+            for rider in track.riders
         ],
     }  # fmt: skip
 

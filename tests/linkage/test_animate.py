@@ -31,6 +31,8 @@ from linkage.animate.gif import palette_of
 from linkage.animate.stage import Stage
 from linkage.draw import style
 from linkage.page import page
+from mechanisms.classics.front_loader import FrontLoader
+from mechanisms.classics.slider_crank import SliderCrank
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 
@@ -119,6 +121,28 @@ def test_the_palette_holds_plain_colours_exactly():
     colours = {tuple(flat[i : i + 3]) for i in range(0, len(flat), 3)}
     assert (255, 255, 255) in colours
     assert tuple(int(style.BARREL[i : i + 2], 16) for i in (1, 3, 5)) in colours
+
+
+def test_strokes_held_and_poses_not_reached_are_said():
+    held = Stage(course(FrontLoader(), 5), [], None, 50)
+    assert any(text.get_text().startswith("at tilt = ") for text in held.figure.texts)
+    short = Stage(course(TooLong(), 40), [], None, 50)
+    assert any(text.get_text().startswith("not reached beyond S = ") for text in short.figure.texts)
+
+
+def test_names_keep_close_to_their_points():
+    stage = Stage(course(FrontLoader(), 9), [], None, 100)
+    for part in stage.drawing.parts:
+        if hasattr(part, "text"):
+            assert np.hypot(*part.text.xyann) < 1.7 * style.LABEL
+
+
+def test_a_page_has_the_rail_and_the_block():
+    motion = SliderCrank().sweep(9)
+    scene = data_of(page(motion, Column("d", motion["d"], "m")))["scene"]
+    assert len(scene["rails"]) == 1
+    assert [scene["names"][each["rider"]] for each in scene["blocks"]] == ["B"]
+    assert {len(pose) for pose in scene["poses"]} == {len(scene["names"]) + 2}
 
 
 # -- files -------------------------------------------------------------------------------------------------

@@ -36,6 +36,10 @@ from linkage.draw.limits import crossings
 from linkage.draw.scene import Scene
 from linkage.draw.shapes import hull, rounded
 from linkage.draw.sheet import sheet
+from linkage.draw.sliders import BlockPart, hatched
+from mechanisms.classics.inverted_slider_crank import InvertedSliderCrank
+from mechanisms.classics.scotch_yoke import ScotchYoke
+from mechanisms.classics.slider_crank import SliderCrank
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 
@@ -232,6 +236,40 @@ def test_a_batch_of_designs_is_refused():
         poses(ThreePointHitch(OB=[0.29, 0.30]))
     with pytest.raises(DefinitionError, match="one design and one row"):
         curves(motion, [Column("tilt", motion["tilt"], "deg")])
+
+
+# -- sliding ----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("cls", [SliderCrank, ScotchYoke, InvertedSliderCrank])
+def test_blocks_ride_on_their_points_and_tracks_hold_the_travel(cls):
+    motion = cls().sweep(25)
+    scene = Scene(motion)
+    drawing = mechanism(axes(), motion)
+    blocks = [part for part in drawing.parts if isinstance(part, BlockPart)]
+    assert blocks
+    for pose in scene.reached:
+        drawing.update(pose)
+        for part in blocks:
+            rider, start, end = (scene.at(pose)[name] for name in part.points)
+            assert_allclose(part.face.get_xy()[:4].mean(axis=0), rider, atol=1e-12)
+            share = (rider - start) @ (end - start) / ((end - start) @ (end - start))
+            assert 0.0 < share < 1.0
+            assert_allclose(start + share * (end - start), rider, atol=1e-9)
+
+
+def test_a_fixed_guide_is_a_rail_and_a_slot_moves():
+    (rail,) = hatched(Scene(SliderCrank().sweep(25)))
+    assert_allclose(rail[0][:, 1], rail[0][0, 1])
+    assert rail[0][0, 1] < -0.020
+    assert {track.fixed for track in Scene(ScotchYoke().sweep(25)).tracks} == {True, False}
+
+
+def test_what_is_not_reached_is_said_on_the_picture():
+    (remark,) = [text.get_text() for text in poses(TooLong()).texts if "reached" in text.get_text()]
+    limit = float(remark.removeprefix("not reached beyond S = ").removesuffix(" mm")) / 1e3
+    assert TooLong().at(unreachable="nan", S=[limit - 1e-3, limit + 1e-3]).reached.tolist() == [True, False]
+    assert not [text for text in poses(MowerLift()).texts if "reached" in text.get_text()]
 
 
 # -- labels ------------------------------------------------------------------------------------------------

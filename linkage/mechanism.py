@@ -11,7 +11,7 @@ from .assembly import Assembly, assembled, assemblies
 from .errors import DefinitionError, unknown
 from .graph import Body
 from .mobility import FourBar, Mobility, check, four_bars, mobility
-from .motion import Column, Grid, Motion, PoseFunction, Request, at_values, evaluate, function_of, stroke_unit, sweep_values
+from .motion import Column, Grid, Motion, PoseFunction, Request, as_given, at_values, evaluate, function_of, stroke_unit, sweep_values
 from .plan import Plan
 from .program import FloatArray, Way
 from .quantities import Dimension, Member, Quantity, Stroke
@@ -100,7 +100,7 @@ class Mechanism:
         change points between them. Raises AssemblyError out of reach and SingularError for ratios at a dead point, unless
         `unreachable="nan"`.
         """
-        grid = Grid(self.plan, self._values, at_values(strokes, self.plan.strokes, self.plan.title), unreachable)
+        grid = Grid(self.plan, self._values, at_values(strokes, self.plan.strokes, self.plan.title, as_given), unreachable)
         return evaluate(grid, of, out, Way(backend, threads))
 
     def function(self, of: Sequence[Request]) -> PoseFunction:

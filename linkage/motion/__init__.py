@@ -12,5 +12,6 @@ from .reach import stroke_unit as stroke_unit
 from .request import Ratio as Ratio
 from .request import Request as Request
 from .request import ratio as ratio
+from .strokes import as_given as as_given
 from .strokes import at_values as at_values
 from .strokes import sweep_values as sweep_values

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -22,21 +22,28 @@ def known_strokes(given: Mapping[str, Any], strokes: Mapping[str, Stroke], title
         raise DefinitionError(f"{title}: the stroke {', '.join(missing)} is not given; say {', '.join(f'{name}=...' for name in missing)}.")
 
 
-def at_values(given: Mapping[str, Any], strokes: Mapping[str, Stroke], title: str) -> dict[str, FloatArray]:
-    """Return chosen stroke values, broadcast against each other."""
+def at_values(
+    given: Mapping[str, Any], strokes: Mapping[str, Stroke], title: str, take: Callable[[Any], FloatArray] = real
+) -> dict[str, FloatArray]:
+    """Return chosen stroke values, broadcast against each other; `take` makes arrays of them."""
     known_strokes(given, strokes, title)
     try:
-        arrays = [real(given[name]) for name in strokes]
+        arrays = [take(given[name]) for name in strokes]
     except ValueError:
         raise DefinitionError(f"{title}: strokes are numbers or arrays of numbers (SI); given {dict(given)!r}.") from None
     for name, array in zip(strokes, arrays, strict=True):
-        if not np.all(np.isfinite(array)):
+        if not np.all(np.isfinite([np.min(array, initial=0.0), np.max(array, initial=0.0)])):
             raise DefinitionError(f"{title}: the stroke {name} holds a value that is not finite.")
     try:
         return dict(zip(strokes, np.broadcast_arrays(*arrays), strict=True))
     except ValueError:
         shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(strokes, arrays, strict=True))
         raise DefinitionError(f"{title}: the strokes' shapes do not fit each other: {shapes}.") from None
+
+
+def as_given(value: Any) -> FloatArray:
+    """Return an array of floats as it is, not copied; anything else as `real` does."""
+    return value if type(value) is np.ndarray and value.dtype == np.float64 else real(value)
 
 
 def sweep_values(count: int | None, given: Mapping[str, Any], strokes: Mapping[str, Stroke], title: str) -> dict[str, FloatArray]:

@@ -26,6 +26,7 @@ class Arrays:
 
     def __init__(self, plan: Schedule) -> None:
         self.plan = plan
+        self._kept: tuple[tuple[float, ...], list[Any]] = (), []
 
     @cached_property
     def _pose(self) -> Any:
@@ -37,9 +38,9 @@ class Arrays:
 
     @cached_property
     def block(self) -> int:
-        """The poses of a block: registers, inputs and outputs fill the second-level cache."""
+        """The poses of a block: registers, inputs and outputs, of which half are in use at a time, fill the second-level cache."""
         rows = self._code.registers + len(self.plan.outputs) + len(self.plan.pose_inputs)
-        fits: int = cache_size() // (8 * max(rows, 1))
+        fits: int = 2 * cache_size() // (8 * max(rows, 1))
         return min(max(1 << (fits.bit_length() - 1), SMALLEST), LARGEST)
 
     @cached_property
@@ -51,9 +52,20 @@ class Arrays:
     def passed(self, design: Sequence[Any]) -> list[Any]:
         """Return the design part: floats where nothing varies, else floats or arrays over the designs."""
         floats, arrays = self._design
-        if all(np.size(value) == 1 for value in design):
-            return list(floats(*(float(np.ravel(value)[0]) for value in design)))
+        if all(map(is_number, design)):
+            return list(floats(*map(number, design)))
         return list(arrays(*(np.asarray(value, float) for value in design)))
+
+    def _constants(self, design: Sequence[Any]) -> list[Any]:
+        """Return the design part as it stands in a block; that of the last single design is kept."""
+        if not all(map(is_number, design)):
+            return [along(value, 0) for value in self.passed(design)]
+        key = tuple(map(number, design))
+        kept, found = self._kept
+        if kept != key or not found:
+            found = [along(value, 0) for value in self.passed(key)]
+            self._kept = key, found
+        return found
 
     def turns(self, m: int, n: int) -> bool:
         """Return whether designs, not poses, are best contiguous in the result."""
@@ -69,11 +81,11 @@ class Arrays:
         columns = min(length, self.block)
         height = max(1, min(rows, self.block // columns))
         pool = aligned(self._code.registers, height * columns)
-        constants = [] if turned else [along(value, 0) for value in self.passed(design)]
+        constants = [] if turned else self._constants(design)
         for left in range(0, length, columns):
             part = slice(left, min(left + columns, length))
             if turned:
-                constants = [along(value, 1) for value in self.passed([value if np.size(value) == 1 else value[part] for value in design])]
+                constants = [along(value, 1) for value in self.passed([value if is_number(value) else value[part] for value in design])]
             for top in range(0, rows, height):
                 band = slice(top, min(top + height, rows))
                 here = slice(0, part.stop - part.start) if turned else part
@@ -84,11 +96,17 @@ class Arrays:
         if block.shape[1] == 1:
             block = block[:, 0]
         shape = block.shape[1:]
-        least = np.full(len(guards), math.inf)
-        seen = [[window(value, band, part, shape) for value in values] for values, band, part in (constants, inputs)]
-        registers = [register[: math.prod(shape)].reshape(shape) for register in pool]
-        self._pose(*seen, registers, list(block), least)
-        np.minimum(guards, least, out=guards)
+        places = (constants, inputs)
+        seen = [[window(value, band, part, shape) if value.ndim else value for value in values] for values, band, part in places]
+        size = math.prod(shape)
+        if pool and pool[0].size != size:
+            pool = [register[:size] for register in pool]
+        if len(shape) > 1:
+            pool = [register.reshape(shape) for register in pool]
+        least = np.full(len(guards), math.inf) if len(guards) else guards
+        self._pose(*seen, pool, list(block), least)
+        if len(guards):
+            np.minimum(guards, least, out=guards)
 
 
 @cache
@@ -101,6 +119,16 @@ def cache_size() -> int:
         return 1 << 20
 
 
+def is_number(value: Any) -> bool:
+    """Return whether an input is one number."""
+    return type(value) is float or np.size(value) == 1
+
+
+def number(value: Any) -> float:
+    """Return an input that is one number."""
+    return value if type(value) is float else float(np.ravel(value)[0])
+
+
 def is_table(value: Any) -> bool:
     """Return whether an input varies over designs and poses."""
     return np.ndim(value) == 2
@@ -108,8 +136,8 @@ def is_table(value: Any) -> bool:
 
 def along(value: Any, axis: int) -> Any:
     """Return a value as it stands in a block: a number without dimensions, or an array that varies along one axis or both."""
-    if np.size(value) == 1:
-        return np.array(np.ravel(value)[0], float)
+    if is_number(value):
+        return np.array(number(value))
     array = np.ascontiguousarray(value, float)
     if is_table(value):
         return array
@@ -118,8 +146,6 @@ def along(value: Any, axis: int) -> Any:
 
 def window(value: Any, band: slice, part: slice, shape: tuple[int, ...]) -> Any:
     """Return the part of a value that a block sees."""
-    if value.ndim == 0:
-        return value
     seen = value[band if value.shape[0] > 1 else slice(None), part if value.shape[1] > 1 else slice(None)]
     return seen if len(shape) == 2 else seen[0] if seen.shape[1] > 1 or shape[0] == 1 else seen[0, 0, ...]
 
@@ -128,5 +154,6 @@ def aligned(count: int, size: int) -> list[FloatArray]:
     """Return arrays, one a register, each at a multiple of 64 bytes, from one pool of memory."""
     stride = -(-size // 8) * 8
     memory = np.empty(count * stride + 8)
-    start = -(memory.ctypes.data // 8) % 8
+    address: int = memory.__array_interface__["data"][0]
+    start = -(address // 8) % 8
     return [memory[start + k * stride : start + k * stride + size] for k in range(count)]

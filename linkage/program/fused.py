@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 
 from ..errors import LinkageError
-from .arrays import Arrays, FloatArray, is_table
+from .arrays import Arrays, FloatArray, is_number, is_table
 from .loop import numba_text
 from .schedule import Schedule
 from .source import compiled_in_file, is_kept
 
 #: NaN stays NaN: a pose out of reach is told by it.
 FLAGS = {"contract", "arcp", "nsz", "reassoc"}
-PART = 8192
+PART, WIDE = 8192, 1 << 18
 SHORT = 16
 """With fewer poses than this the designs run along the inner loop."""
 COMPILE, LOAD = 2e10, 2e9
@@ -77,17 +77,30 @@ class Fused:
         target = values.transpose(0, 2, 1) if turned else values
         for left in range(0, m, PART):
             part = slice(left, min(left + PART, m))
-            constants = table(self.arrays.passed([value if np.size(value) == 1 else value[part] for value in design]), part)
-            inputs = cube([value[part] if is_table(value) and len(value) > 1 else value for value in poses], n)
+            constants = table(self.arrays.passed([value if is_number(value) else value[part] for value in design]), part)
             if turned:
                 constants = np.array(np.broadcast_to(constants, (len(constants), part.stop - left)))
-                inputs = np.array(inputs.transpose(0, 2, 1))
-            block = target[:, :, part] if turned else target[:, part]
-            inside = block if block.strides[2] == block.itemsize else np.empty(block.shape)
-            loop(constants, inputs, memory(inside), bad, np.array(inside.strides[:2]) // inside.itemsize, np.array(inside.shape[1:]))
-            if inside is not block:
-                block[...] = inside
+            for first in range(0, n, WIDE):
+                here = slice(first, min(first + WIDE, n))
+                inputs = cube([seen(value, part, here) for value in poses], here.stop - first)
+                if turned:
+                    inputs = np.array(inputs.transpose(0, 2, 1))
+                self._part(loop, constants, inputs, target[:, here, part] if turned else target[:, part, here], bad)
         guards[bad[: len(guards)] > 0] = -1.0
+
+    def _part(self, loop: Callable[..., None], constants: FloatArray, inputs: FloatArray, block: FloatArray, bad: Any) -> None:
+        """Fill a block, shape (outputs, rows, columns)."""
+        inside = block if block.strides[2] == block.itemsize else np.empty(block.shape)
+        loop(constants, inputs, memory(inside), bad, np.array(inside.strides[:2]) // inside.itemsize, np.array(inside.shape[1:]))
+        if inside is not block:
+            block[...] = inside
+
+
+def seen(value: Any, part: slice, here: slice) -> Any:
+    """Return what some designs and poses see of an input of the poses."""
+    if is_table(value):
+        return value[part if len(value) > 1 else slice(None), here if value.shape[1] > 1 else slice(None)]
+    return value if is_number(value) else value[here]
 
 
 def memory(block: FloatArray) -> FloatArray:

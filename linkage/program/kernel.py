@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+import threading
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -16,8 +16,10 @@ from .arrays import LARGEST, Arrays, FloatArray, is_table
 from .expand import expanded
 from .floats import Floats
 from .fused import Fused
+from .lower import plain
 from .node import Node
-from .schedule import schedule
+from .schedule import Schedule, schedule
+from .trig import halved
 
 FEW = 20
 BLOCK = LARGEST
@@ -107,15 +109,21 @@ class Kernel:
     @cached_property
     def arrays(self) -> Arrays:
         """The program in NumPy blocks."""
-        return Arrays(self.plan)
+        return Arrays(self._planned(halved))
 
     @cached_property
     def fused(self) -> Fused:
         """The program in one compiled loop."""
-        outputs, guards = self._wanted
-        written_out = expanded((*outputs, *guards))
-        plan = schedule(written_out[: len(outputs)], written_out[len(outputs) :])
+        plan = self._planned(expanded)
         return Fused(plan, Arrays(plan))
+
+    def _planned(self, change: Callable[[Sequence[Node]], list[Node]]) -> Schedule:
+        """Return the schedule after a change that leaves the values as they are."""
+        outputs, guards = self._wanted
+        nodes = change((*outputs, *guards))
+        if nodes == list(map(plain, (*outputs, *guards))):
+            return self.plan
+        return schedule(nodes[: len(outputs)], nodes[len(outputs) :])
 
 
 def sized(design: Sequence[Any], poses: Sequence[Any]) -> tuple[int, int]:
@@ -148,6 +156,24 @@ def run(backend: Backend, design: Sequence[Any], poses: Sequence[Any], values: F
             else:
                 backend.run(design, [value if np.size(value) == 1 else value[..., here] for value in poses], values[:, :, here], least[k])
 
-    with ThreadPoolExecutor(count) as pool:
-        list(pool.map(part, range(count)))
+    together(part, count)
     guards[:] = np.min(least, axis=0)
+
+
+def together(part: Callable[[int], None], count: int) -> None:
+    """Do some parts of a work, each on a thread of its own; raise the first error."""
+    errors: list[Exception] = []
+
+    def kept(k: int) -> None:
+        try:
+            part(k)
+        except Exception as error:
+            errors.append(error)
+
+    threads = [threading.Thread(target=kept, args=(k,)) for k in range(count)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    if errors:
+        raise errors[0]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from .loop_head import HEAD
 from .node import Node
 from .schedule import Schedule
 from .text import TEMPLATES, Dialect, Names
@@ -13,6 +14,8 @@ from .text import TEMPLATES, Dialect, Names
 NUMBA = Dialect(
     {
         **TEMPLATES,
+        "sin": "sine({})",
+        "cos": "cosine({})",
         "arctan2": "atan2({}, {})",
         "absolute": "abs({})",
         "power": "{} ** {}",
@@ -41,32 +44,6 @@ def loop(plan: Schedule, dialect: Dialect) -> Loop:
 def numbered(letter: str, nodes: Sequence[Node]) -> dict[Node, str]:
     """Return names for nodes: a letter and a number."""
     return {node: f"{letter}{place}" for place, node in enumerate(nodes)}
-
-
-HEAD = '''"""Made by linkage; safe to delete."""
-
-from math import atan2, cos, exp, inf, log, nan, sin, sqrt, tan
-
-import numpy as np
-from numba import njit
-
-
-@njit(inline="always")
-def minimum(a, b):
-    return a if a <= b or a != a else b
-
-
-@njit(inline="always")
-def maximum(a, b):
-    return a if a >= b or a != a else b
-
-
-@njit(inline="always")
-def sign(a):
-    return a if a != a or a == 0.0 else (1.0 if a > 0.0 else -1.0)
-
-
-'''
 
 
 SIZES = ("layer, line = strides[0], strides[1]", "rows, columns = shape[0], shape[1]")

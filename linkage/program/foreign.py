@@ -1,0 +1,99 @@
+"""A program in other languages: a C function over the poses of one design, a JavaScript function of one pose."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from .expand import expanded
+from .loop import loop, numbered
+from .node import Node
+from .schedule import Schedule, schedule
+from .text import TEMPLATES, Dialect, Names
+
+CHOICES = {
+    "sign": "({0} > 0.0 ? 1.0 : {0} < 0.0 ? -1.0 : {0})",
+    "minimum": "({0} <= {1} || {0} != {0} ? {0} : {1})",
+    "maximum": "({0} >= {1} || {0} != {0} ? {0} : {1})",
+    "pick": "({0} <= {1} ? {2} : {3})",
+}
+
+
+def number(value: float, infinite: str, nothing: str) -> str:
+    """Return a number as a language writes it."""
+    if math.isnan(value):
+        return nothing
+    return repr(value) if math.isfinite(value) else infinite if value > 0.0 else f"-{infinite}"
+
+
+C = Dialect(
+    {**TEMPLATES, **CHOICES, "arctan2": "atan2({}, {})", "absolute": "fabs({})", "power": "pow({}, {})"},
+    lambda value: number(value, "INFINITY", "NAN"),
+    "const double {} = {};",
+)
+JAVASCRIPT = Dialect(
+    {
+        **TEMPLATES,
+        **CHOICES,
+        **{name: f"Math.{name}({{}})" for name in ("sqrt", "sin", "cos", "tan", "exp", "log")},
+        "arctan2": "Math.atan2({}, {})",
+        "absolute": "Math.abs({})",
+        "power": "Math.pow({}, {})",
+    },
+    lambda value: number(value, "Infinity", "NaN"),
+    "const {} = {};",
+)
+
+
+def c_text(outputs: Sequence[Node], name: str = "poses") -> str:
+    """Return C99 text of `void poses(long n, const double *d, const double *const *p, double *const *o)`.
+
+    `d` holds the dimensions, `p` the strokes and solved coordinates, each n long, `o` the outputs, each n long; a comment
+    names them. For its full speed compile it with `-O3 -march=native -fno-math-errno -fno-trapping-math`.
+    """
+    plan = schedule(expanded(outputs))
+    inside = loop(plan, C)
+    lines = [
+        "#include <math.h>",
+        comment(plan),
+        f"void {name}(long n, const double *d, const double *const *p, double *const *o) {{",
+        *(f"    {line}" for line in design_lines(plan, C)),
+        *(f"    const double *restrict x{k} = p[{k}];" for k in range(len(plan.pose_inputs))),
+        *(f"    double *restrict o{k} = o[{k}];" for k in range(len(plan.outputs))),
+        "    for (long b = 0; b < n; b++) {",
+        *(f"        const double i{k} = x{k}[b];" for k in range(len(plan.pose_inputs))),
+        *(f"        {line}" for line in inside.lines),
+        *(f"        o{k}[b] = {result};" for k, result in enumerate(inside.outputs)),
+        "    }",
+        "}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def javascript_text(outputs: Sequence[Node], name: str = "poses") -> str:
+    """Return the text of a JavaScript `function poses(d, p)`: dimensions and strokes in arrays, as a comment names them; outputs in one."""
+    plan = schedule(expanded(outputs))
+    inside = loop(plan, JAVASCRIPT)
+    lines = [
+        comment(plan),
+        f"function {name}(d, p) {{",
+        *(f"    {line}" for line in design_lines(plan, JAVASCRIPT)),
+        *(f"    const i{k} = p[{k}];" for k in range(len(plan.pose_inputs))),
+        *(f"    {line}" for line in inside.lines),
+        f"    return [{', '.join(inside.outputs)}];",
+        "}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def design_lines(plan: Schedule, dialect: Dialect) -> list[str]:
+    """Return the design part, its results called as the loop calls them."""
+    names = Names(dialect, {node: f"d[{k}]" for k, node in enumerate(plan.design_inputs)})
+    lines = names.assign(plan.design, "w")
+    return lines + [dialect.assignment.format(name, names.read(node)) for node, name in numbered("c", plan.passed).items()]
+
+
+def comment(plan: Schedule) -> str:
+    """Return which inputs are which."""
+    given, moved = (" ".join(str(node.value) for node in nodes) or "none" for nodes in (plan.design_inputs, plan.pose_inputs))
+    return f"/* d: {given}; p: {moved}; {len(plan.outputs)} outputs */"

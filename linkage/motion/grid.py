@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,7 @@ class Grid:
         if unreachable not in ("raise", "nan"):
             raise DefinitionError(f'unreachable={unreachable!r}: say "raise" or "nan".')
         self.plan, self.designs, self.strokes, self.unreachable = plan, dict(designs), dict(strokes), unreachable
-        arrays = [np.shape(value) for value in self.designs.values() if np.ndim(value)]
+        arrays = [np.shape(value) for value in self.designs.values() if varies(value)]
         try:
             self.design_shape = np.broadcast_shapes(*arrays)
         except ValueError:
@@ -31,17 +32,17 @@ class Grid:
         self.stroke_shape = next((value.shape for value in self.strokes.values()), ())
         self.shape = (*self.design_shape, *self.stroke_shape)
 
-    @property
+    @cached_property
     def size(self) -> tuple[int, int]:
         """The number of designs and of poses of each."""
-        return int(np.prod(self.design_shape, dtype=int)), int(np.prod(self.stroke_shape, dtype=int))
+        return prod(self.design_shape), prod(self.stroke_shape)
 
     @cached_property
     def flat(self) -> dict[str, Any]:
         """The inputs as a kernel takes them: designs (m,), poses (n,)."""
         flat: dict[str, Any] = {}
         for name, value in self.designs.items():
-            flat[name] = np.broadcast_to(value, self.design_shape).ravel() if np.ndim(value) else float(value)
+            flat[name] = np.broadcast_to(value, self.design_shape).ravel() if varies(value) else float(value)
         flat |= {name: value.ravel() for name, value in self.strokes.items()}
         return flat | dict(self.solved.inputs)
 
@@ -51,14 +52,14 @@ class Grid:
         if not self.plan.groups:
             return Solved({}, np.zeros((1, 1), bool))
         shape = self.design_shape
-        designs = {name: np.broadcast_to(value, shape).ravel() if np.ndim(value) else value for name, value in self.designs.items()}
+        designs = {name: np.broadcast_to(value, shape).ravel() if varies(value) else value for name, value in self.designs.items()}
         return solve_groups(self.plan, designs, {name: value.ravel() for name, value in self.strokes.items()})
 
     @cached_property
     def inputs(self) -> dict[str, Any]:
         """The inputs shaped to broadcast against results: designs first, strokes last."""
         tail = (1,) * len(self.stroke_shape)
-        shaped = {name: np.reshape(value, np.shape(value) + tail) if np.ndim(value) else value for name, value in self.designs.items()}
+        shaped = {name: np.reshape(value, np.shape(value) + tail) if varies(value) else value for name, value in self.designs.items()}
         solved = {name: self.full(value[None])[0] for name, value in self.solved.inputs.items()}
         shaped = {name: np.float64(value) if np.ndim(value) == 0 else value for name, value in shaped.items()}
         return shaped | dict(self.strokes) | solved
@@ -73,3 +74,8 @@ class Grid:
         """Return the eager reading of some poses."""
         with np.errstate(all="ignore"):
             return self.plan.read({name: np.broadcast_to(value, self.shape)[mask] for name, value in self.inputs.items()})
+
+
+def varies(value: Any) -> bool:
+    """Return whether a dimension differs from design to design."""
+    return type(value) is not float and np.ndim(value) > 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -32,7 +33,7 @@ def at_values(
     except ValueError:
         raise DefinitionError(f"{title}: strokes are numbers or arrays of numbers (SI); given {dict(given)!r}.") from None
     for name, array in zip(strokes, arrays, strict=True):
-        if not np.all(np.isfinite([np.min(array, initial=0.0), np.max(array, initial=0.0)])):
+        if array.size and not (isfinite(array.min()) and isfinite(array.max())):
             raise DefinitionError(f"{title}: the stroke {name} holds a value that is not finite.")
     try:
         return dict(zip(strokes, np.broadcast_arrays(*arrays), strict=True))

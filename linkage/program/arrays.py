@@ -52,15 +52,16 @@ class Arrays:
     def passed(self, design: Sequence[Any]) -> list[Any]:
         """Return the design part: floats where nothing varies, else floats or arrays over the designs."""
         floats, arrays = self._design
-        if all(map(is_number, design)):
-            return list(floats(*map(number, design)))
+        single = numbers(design)
+        if single is not None:
+            return list(floats(*single))
         return list(arrays(*(np.asarray(value, float) for value in design)))
 
     def _constants(self, design: Sequence[Any]) -> list[Any]:
         """Return the design part as it stands in a block; that of the last single design is kept."""
-        if not all(map(is_number, design)):
+        key = numbers(design)
+        if key is None:
             return [along(value, 0) for value in self.passed(design)]
-        key = tuple(map(number, design))
         kept, found = self._kept
         if kept != key or not found:
             found = [along(value, 0) for value in self.passed(key)]
@@ -74,6 +75,9 @@ class Arrays:
     def run(self, design: Sequence[Any], poses: Sequence[Any], values: FloatArray, guards: FloatArray) -> None:
         """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
         m, n = values.shape[1:]
+        if m == 1 and n <= self.block and not any(map(is_table, poses)):
+            self._pose(self._constants(design), list(map(row, poses)), aligned(self._code.registers, n), list(values[:, 0]), guards)
+            return
         turned = self.turns(m, n)
         target = values.transpose(0, 2, 1) if turned else values
         inputs = [along(np.transpose(value) if turned and is_table(value) else value, 0 if turned else 1) for value in poses]
@@ -129,9 +133,21 @@ def number(value: Any) -> float:
     return value if type(value) is float else float(np.ravel(value)[0])
 
 
+def numbers(values: Sequence[Any]) -> tuple[float, ...] | None:
+    """Return inputs that are one number each; None where one of them is not."""
+    if set(map(type, values)) <= {float}:
+        return tuple(values)
+    return tuple(map(number, values)) if all(map(is_number, values)) else None
+
+
+def is_array(value: Any) -> bool:
+    """Return whether an input has a value of its own for each design or pose."""
+    return type(value) is not float and np.ndim(value) > 0
+
+
 def is_table(value: Any) -> bool:
     """Return whether an input varies over designs and poses."""
-    return np.ndim(value) == 2
+    return type(value) is not float and np.ndim(value) == 2
 
 
 def along(value: Any, axis: int) -> Any:
@@ -144,6 +160,11 @@ def along(value: Any, axis: int) -> Any:
     return array[None, :] if axis == 1 else array[:, None]
 
 
+def row(value: Any) -> Any:
+    """Return an input of the poses as it stands in the only block of one design."""
+    return np.array(number(value)) if is_number(value) else np.ascontiguousarray(value, float)
+
+
 def window(value: Any, band: slice, part: slice, shape: tuple[int, ...]) -> Any:
     """Return the part of a value that a block sees."""
     seen = value[band if value.shape[0] > 1 else slice(None), part if value.shape[1] > 1 else slice(None)]
@@ -151,9 +172,12 @@ def window(value: Any, band: slice, part: slice, shape: tuple[int, ...]) -> Any:
 
 
 def aligned(count: int, size: int) -> list[FloatArray]:
-    """Return arrays, one a register, each at a multiple of 64 bytes, from one pool of memory."""
-    stride = -(-size // 8) * 8
+    """Return arrays, one a register, each at a multiple of 64 bytes, from one pool of memory.
+
+    They lie an odd number of cache lines apart: at a power of two they would fall on the same lines of the cache.
+    """
+    stride = 8 * (-(-size // 8) | 1)
     memory = np.empty(count * stride + 8)
     address: int = memory.__array_interface__["data"][0]
     start = -(address // 8) % 8
-    return [memory[start + k * stride : start + k * stride + size] for k in range(count)]
+    return list(memory[start : start + count * stride].reshape(count, stride)[:, :size])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any
@@ -69,7 +70,12 @@ class Floats:
             rows = self.poses(self.design([each[place] for each in designs]), [listed(value, n) for value in here], n)
             values[:, place] = np.array([row[:count] for row in rows], float).T.reshape(count, n)
             for k in range(len(guards)):
-                guards[k] = np.min([guards[k], *(row[count + k] for row in rows)])
+                guards[k] = min(guards[k], *(worth(row[count + k]) for row in rows))
+
+
+def worth(guard: float) -> float:
+    """Return a guard's value; NaN, which no comparison sees, as the least of all."""
+    return guard if guard == guard else -math.inf
 
 
 def listed(value: Any, count: int) -> list[float]:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import LinkageError
-from .arrays import Arrays, FloatArray, is_number, is_table
+from .arrays import Arrays, FloatArray, is_number, is_table, numbers
 from .loop import numba_text
 from .schedule import Schedule
 from .source import compiled_in_file, is_kept
@@ -34,6 +34,7 @@ class Fused:
 
     def __init__(self, plan: Schedule, arrays: Arrays) -> None:
         self.plan, self.arrays = plan, arrays
+        self._kept: tuple[tuple[float, ...], FloatArray] = (), np.empty((0, 1))
         self._ready: dict[bool, Callable[..., None]] = {}
 
     @cached_property
@@ -77,7 +78,7 @@ class Fused:
         target = values.transpose(0, 2, 1) if turned else values
         for left in range(0, m, PART):
             part = slice(left, min(left + PART, m))
-            constants = table(self.arrays.passed([value if is_number(value) else value[part] for value in design]), part)
+            constants = self._constants(design, part)
             if turned:
                 constants = np.array(np.broadcast_to(constants, (len(constants), part.stop - left)))
             for first in range(0, n, WIDE):
@@ -87,6 +88,17 @@ class Fused:
                     inputs = np.array(inputs.transpose(0, 2, 1))
                 self._part(loop, constants, inputs, target[:, here, part] if turned else target[:, part, here], bad)
         guards[bad[: len(guards)] > 0] = -1.0
+
+    def _constants(self, design: Sequence[Any], part: slice) -> FloatArray:
+        """Return the design part as one array, shape (count, designs or 1); that of the last single design is kept."""
+        key = numbers(design)
+        if key is None:
+            return table(self.arrays.passed([value if is_number(value) else value[part] for value in design]), part)
+        kept, found = self._kept
+        if kept != key or not found.size:
+            found = table(self.arrays.passed(key), part)
+            self._kept = key, found
+        return found
 
     def _part(self, loop: Callable[..., None], constants: FloatArray, inputs: FloatArray, block: FloatArray, bad: Any) -> None:
         """Fill a block, shape (outputs, rows, columns)."""
@@ -105,6 +117,8 @@ def seen(value: Any, part: slice, here: slice) -> Any:
 
 def memory(block: FloatArray) -> FloatArray:
     """Return the memory that a block lies in, from its first element to its last; rows of the block are contiguous."""
+    if block.flags.c_contiguous:
+        return block.reshape(-1)
     last = sum((size - 1) * stride for size, stride in zip(block.shape, block.strides, strict=True))
     return np.lib.stride_tricks.as_strided(block, (last // block.itemsize + 1,), (block.itemsize,))
 

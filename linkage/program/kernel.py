@@ -12,7 +12,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..errors import DefinitionError
-from .arrays import LARGEST, Arrays, FloatArray, is_table
+from .arrays import LARGEST, Arrays, FloatArray, is_array, is_table
 from .expand import expanded
 from .floats import Floats
 from .fused import Fused
@@ -128,8 +128,8 @@ class Kernel:
 
 def sized(design: Sequence[Any], poses: Sequence[Any]) -> tuple[int, int]:
     """Return how many designs and poses the inputs are for."""
-    m = max((np.shape(value)[0] for value in (*design, *filter(is_table, poses)) if np.ndim(value)), default=1)
-    return m, max((np.shape(value)[-1] for value in poses if np.ndim(value)), default=1)
+    m = max((np.shape(value)[0] for value in (*design, *filter(is_table, poses)) if is_array(value)), default=1)
+    return m, max((np.shape(value)[-1] for value in poses if is_array(value)), default=1)
 
 
 def allocated(count: int, m: int, n: int, turned: bool) -> FloatArray:

@@ -1,6 +1,5 @@
 """Cylinders, gas and accumulators: what moves a linkage and what it rests on."""
 
-from .accumulator import Accumulator as Accumulator
 from .accumulator import AccumulatorBlock as AccumulatorBlock
 from .buckling import Buckling as Buckling
 from .cylinder import CylinderSize as CylinderSize
@@ -20,3 +19,4 @@ from .sizes import next_rod as next_rod
 from .sizes import standard_bores as standard_bores
 from .sizes import standard_rods as standard_rods
 from .verdict import Verdict as Verdict
+from .vessel import Accumulator as Accumulator

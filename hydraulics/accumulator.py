@@ -14,19 +14,24 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import final
+from typing import Any, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError
+from linkage.loads import Poses
+from linkage.loads.element import written
+from linkage.quantities import Quantity, spelled
 from linkage.units import bar, cm3, litre
 
 from .bank import GasBank
 from .gas import Gas, Polytropic, isothermal
 from .inputs import Array, absolute, finite, over_poses, positive
 from .rules import WorkingRange
+from .settings import following, follows, setting
 from .verdict import Verdict
+from .vessel import Accumulator
 
 ROUNDING = 1e-12
 """Relative; a line charged to the lowest gas charge is not below it for a last digit."""
@@ -37,33 +42,18 @@ SMALLEST = 1e-9
 
 @final
 @dataclass(frozen=True, eq=False)
-class Accumulator:
-    """A vessel of `volume` [m3] charged with gas to `charge` [Pa gauge], the fluid out, at the gas's temperature.
-
-    Either may be an array: one design per element. DefinitionError for a volume not above zero.
-    """
-
-    volume: float | Array
-    charge: float | Array
-
-    def __post_init__(self) -> None:
-        positive(self.volume, "Accumulator volume")
-        finite(self.charge, "Accumulator charge")
-
-
-@final
-@dataclass(frozen=True, eq=False)
 class AccumulatorBlock:
     """Accumulators on one line, any number and any charges; pressures are gauge [Pa].
 
     Below its charge an accumulator holds no fluid. `gas` is the law of all of them, `atmosphere` [Pa] what turns gauge
     into absolute; `atmosphere=0` puts gauge pressures straight into the law, as Rekhlitski and Chuprynin (2013) do.
+    Where a charge, a volume or the atmosphere follows dimensions, `sized(motion)` is the block with numbers.
     DefinitionError for no accumulators, something that is no gas law, a charge at or below zero absolute.
     """
 
     accumulators: Sequence[Accumulator]
     gas: Gas = isothermal
-    atmosphere: float = 101325.0
+    atmosphere: Any = 101325.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "accumulators", tuple(self.accumulators))
@@ -74,10 +64,30 @@ class AccumulatorBlock:
                 raise DefinitionError(f"{one!r} is no Accumulator; write Accumulator(volume, charge).")
         if not isinstance(self.gas, Gas):
             raise DefinitionError(f"gas = {self.gas!r} is no gas law; take isothermal, adiabatic, polytropic(1.2) or real_nitrogen().")
-        if finite(self.atmosphere, "Atmosphere") < 0.0:
+        if not follows(self.atmosphere) and np.any(single(self.atmosphere) < 0.0):
             raise DefinitionError(f"Atmosphere = {self.atmosphere:.6g} Pa is below zero; give 101325, or 0 for the paper's way.")
-        for charge in self._bank.charges:
-            positive(charge, "Absolute accumulator charge", "give the charge as gauge pressure [Pa]; an accumulator needs gas")
+        if not self.following:
+            for charge in self._bank.charges:
+                positive(charge, "Absolute accumulator charge", "give the charge as gauge pressure [Pa]; an accumulator needs gas")
+
+    @property
+    def following(self) -> tuple[Quantity, ...]:
+        """What its charges, its volumes and the atmosphere follow, where they are no numbers."""
+        return following(self.atmosphere, *(value for one in self.accumulators for value in (one.volume, one.charge)))
+
+    def sized(self, motion: Poses) -> AccumulatorBlock:
+        """Return the block as a motion's designs have it; charges and volumes broadcast against the motion."""
+        if not self.following:
+            return self
+        filled = [
+            Accumulator(setting(motion, each.volume, "Accumulator volume"), setting(motion, each.charge, "Accumulator charge"))
+            for each in self.accumulators
+        ]
+        return AccumulatorBlock(filled, self.gas, single(setting(motion, self.atmosphere, "Atmosphere"))[()])
+
+    def __str__(self) -> str:
+        vessels = ", ".join(map(str, self.accumulators))
+        return f"AccumulatorBlock([{vessels}], gas={self.gas.spelled}, atmosphere={written(self.atmosphere)})"
 
     def gas_volume(self, pressure: ArrayLike) -> Array:
         """Return the gas volume [m3] at a pressure, same shape. DefinitionError below zero absolute or outside the gas law."""
@@ -143,7 +153,7 @@ class AccumulatorBlock:
     def charges_at(self, temperature: ArrayLike) -> Array:
         """Return the charges at gas temperatures [K], shape (accumulators, ...): the setting table of the same gas filling."""
         pressures = [self.gas.charge_at(charge, temperature) for charge in self._bank.charges]
-        return np.stack(pressures) - self.atmosphere
+        return np.asarray(np.stack(pressures) - self.atmosphere)
 
     def at(self, temperature: float) -> AccumulatorBlock:
         """Return the same gas filling at another temperature [K]. DefinitionError for one outside the gas law."""
@@ -168,10 +178,17 @@ class AccumulatorBlock:
 
     @cached_property
     def _bank(self) -> GasBank:
+        self._check_sized()
         charges = tuple(absolute(one.charge, self.atmosphere, "Accumulator charge") for one in self.accumulators)
         return GasBank(self.gas, charges, tuple(positive(one.volume, "Accumulator volume") for one in self.accumulators))
 
+    def _check_sized(self) -> None:
+        if self.following:
+            names = ", ".join(map(spelled, self.following))
+            raise DefinitionError(f"{self}: it follows {names}; ask sized(motion) for the block of a design.")
+
     def _absolute(self, pressure: ArrayLike) -> Array:
+        self._check_sized()
         return absolute(pressure, self.atmosphere, "Pressure")
 
     def _charged(self, p1: ArrayLike) -> Array:
@@ -207,3 +224,10 @@ class AccumulatorBlock:
         bank = self._bank
         pressure = bank.pressure(np.minimum(volume, bank.total)) - self.atmosphere
         return np.where(volume > bank.total, 0.0, pressure)[()]
+
+
+def single(atmosphere: Any) -> Array:
+    """Return the atmosphere [Pa]; DefinitionError where a batch gives several."""
+    if np.ndim(atmosphere):
+        raise DefinitionError("atmosphere is one number for all designs of a batch; give a float.")
+    return finite(atmosphere, "Atmosphere")

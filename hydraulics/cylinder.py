@@ -49,8 +49,9 @@ class CylinderSize:
     def __post_init__(self) -> None:
         positive(self.bore, "Bore")
         positive(self.rod, "Rod")
-        rod, bore = np.broadcast_arrays(self.rod, self.bore)
-        if np.any(thick := rod >= bore):
+        if np.any(np.greater_equal(self.rod, self.bore)):
+            rod, bore = np.broadcast_arrays(self.rod, self.bore)
+            thick = rod >= bore
             rods, bores = f"Rod {rod[thick][0] / mm:.6g} mm", f"bore {bore[thick][0] / mm:.6g} mm"
             raise DefinitionError(f"{rods} is not smaller than {bores}; exchange them or take a thinner rod.")
         if finite(self.count, "Count of cylinders") < 1 or self.count != int(self.count):

@@ -21,9 +21,10 @@ from linkage.plan import ArrayReading
 from linkage.quantities import Distance, Reference, label, name_of
 
 from .accumulator import AccumulatorBlock
-from .inputs import Array, finite
+from .inputs import Array, finite, is_traced
 from .lift import drive
 from .member import Cylinder, found_in, is_named, the_cylinder
+from .settings import number_set
 
 Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
 
@@ -34,8 +35,9 @@ class FloatCircuit(ForceElement):
     """A cylinder on a closed accumulator block: `FloatCircuit(lift, block, charge_pressure=94 * kgf_cm2, at=h_horizon)`.
 
     The line has `charge_pressure` [Pa gauge] where the stroke that drives the cylinder is `at` [m]; `seal_friction` is what
-    the seals take off that pressure [Pa]. `block` is an AccumulatorBlock, or a function of the motion that returns one,
-    where its charges or volumes are design variables.
+    the seals take off that pressure [Pa]. `exponent` 1 is a slow movement, by the block's own gas law; above 1 the block has
+    settled at the charge pressure and moves fast, by p V^exponent. `block` is an AccumulatorBlock, whose charges and volumes
+    may follow dimensions, or a function of the motion that returns one.
     """
 
     cylinder: Reference
@@ -43,8 +45,11 @@ class FloatCircuit(ForceElement):
     charge_pressure: Any
     at: Any = 0.0
     seal_friction: Any = 0.0
+    exponent: Any = 1.0
     places: ClassVar[tuple[str, ...]] = ()
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"charge_pressure": "bar", "at": "m", "seal_friction": "bar"})
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {"charge_pressure": "bar", "at": "m", "seal_friction": "bar", "exponent": ""}
+    )
     not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
 
     def __post_init__(self) -> None:
@@ -53,23 +58,28 @@ class FloatCircuit(ForceElement):
             raise DefinitionError(f"{self}: block={self.block!r} is no AccumulatorBlock; write AccumulatorBlock([Accumulator(...)]).")
 
     def parts(self) -> tuple[Reference, ...]:
-        return (*([self.cylinder] if is_named(self.cylinder) else []), *super().parts())
+        followed = self.block.following if isinstance(self.block, AccumulatorBlock) else ()
+        return (*([self.cylinder] if is_named(self.cylinder) else []), *super().parts(), *followed)
 
     def examine(self, members: Mapping[str, Any], title: str) -> None:
         if is_named(self.cylinder):
             found_in(members, self.cylinder, f"{title}.{self.name}")
 
     def __str__(self) -> str:
-        given = ", ".join(f"{name}={getattr(self, name)!s}" for name in self.parameters)
-        return f"FloatCircuit({label(self.cylinder)}, block, {given})"
+        block = str(self.block) if isinstance(self.block, AccumulatorBlock) else getattr(self.block, "__name__", "block")
+        return f"FloatCircuit({', '.join([label(self.cylinder), block, *self.words()])})"
+
+    def feeds(self, members: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
+        found = found_in(members, self.cylinder, str(self)) if is_named(self.cylinder) else self.cylinder
+        return found.cylinders() if isinstance(found, Cylinder) else ()
 
     def ram(self, motion: Poses) -> Cylinder:
         """Return its cylinder, as the motion's class has it."""
         return the_cylinder(motion, self.cylinder)
 
     def accumulators(self, motion: Poses) -> AccumulatorBlock:
-        """Return its block, as the motion's designs have it."""
-        return self.block(motion) if callable(self.block) else self.block
+        """Return its block as the motion's designs have it, before a movement: settled at the charge pressure, by its own gas law."""
+        return self.block(motion) if callable(self.block) else self.block.sized(motion)
 
     # -- over the stroke -----------------------------------------------------------------------------------
 
@@ -77,13 +87,17 @@ class FloatCircuit(ForceElement):
         """Return the fluid [m3] that has left the block since the charging stroke, shape (...); negative: pushed in. (36)"""
         ram = self.ram(motion)
         size = ram.sized(motion)
-        charged = length_at(_motion(motion), ram, self.number(motion, "at"))
+        charged = length_at(motion, ram, self.number(motion, "at"))
         return np.asarray((motion.distance(ram.A, ram.B) - charged) * size.area * size.sense)
 
     def pressure(self, motion: Poses) -> Array:
         """Return the block's pressure [Pa gauge], shape (...); 0 where the line is empty."""
-        charge = finite(self.number(motion, "charge_pressure"), "Charge pressure")
-        return self.accumulators(motion).pressure(charge, self.withdrawn(motion))
+        charge, left = finite(self.number(motion, "charge_pressure"), "Charge pressure"), self.withdrawn(motion)
+        block, exponent = self.accumulators(motion), number_set(self, motion, "exponent")
+        if not is_traced(exponent) and np.all(exponent == 1.0):
+            return block.pressure(charge, left)
+        fast = block.settled(number_set(self, motion, "charge_pressure"), exponent).pressure(charge, left)
+        return np.where(exponent == 1.0, block.pressure(charge, left), fast) if is_traced(exponent) or np.any(exponent == 1.0) else fast
 
     def thrust(self, motion: Poses, sense: int = 0) -> Array:
         """Return the thrust [N], shape (...): frictionless, or while the drive goes on (`sense` 1) or back (-1). (37), (39)"""
@@ -109,17 +123,17 @@ class FloatCircuit(ForceElement):
         return [Load(A, -push), Load(B, push)]
 
 
-def length_at(motion: Motion, ram: Cylinder, at: Array) -> Array:
+def length_at(motion: Poses, ram: Cylinder, at: Array) -> Any:
     """Return a cylinder's length [m] where the stroke that drives it is `at`, the other strokes as they are; broadcasts."""
     plan, stroke = motion.plan, drive(motion, ram)
     reading = ArrayReading(plan.members, plan.table.lengths, motion.inputs | {stroke: at})
     length = plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
     if length is not None:
-        return np.asarray(reading.value(length))
+        return reading.value(length)
     if plan.groups:
         raise DefinitionError(f"{ram}: its length follows from a group of links; declare it by a step, AB=... + {stroke}.")
     with np.errstate(all="ignore"):
-        found = np.asarray((reading.at(name_of(ram.B)) - reading.at(name_of(ram.A))).length(), float)
+        found = (reading.at(name_of(ram.B)) - reading.at(name_of(ram.A))).length()
     if not np.all(np.isfinite(found)):
         raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {stroke} = {np.ravel(at)[0]:.6g}.")
     return found

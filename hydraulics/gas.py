@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError
+from linkage.quantities.numbers import plain
 
 from .inputs import Array, finite, kelvin, positive
 
@@ -35,6 +36,11 @@ class Gas(ABC):
 
     temperature: float
     """K; the charges of accumulators are stated at it."""
+
+    @property
+    def spelled(self) -> str:
+        """The law as it is written in a class."""
+        return repr(self)
 
     @abstractmethod
     def specific(self, pressure: Array) -> Array:
@@ -99,6 +105,14 @@ class Polytropic(Gas):
         if np.ndim(self.n):
             return f"polytropic gas (p V^n = const, n = {np.min(self.n):.4g}..{np.max(self.n):.4g})"
         return "isothermal gas (p V = const)" if self.n == 1.0 else f"polytropic gas (p V^{self.n:.4g} = const)"
+
+    @property
+    def spelled(self) -> str:
+        if self.temperature != ROOM:
+            return f"polytropic({plain(self.n)!r}, temperature={plain(self.temperature)!r})"
+        known = {1.0: "isothermal", DIATOMIC: "adiabatic"}
+        name = "" if np.ndim(self.n) else known.get(float(self.n), "")
+        return name or f"polytropic({plain(self.n)!r})"
 
     def specific(self, pressure: Array) -> Array:
         return pressure ** (-1.0 / self.n)

@@ -6,12 +6,13 @@ was not reached; a lone NaN is a mistake and refused like any other.
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkage.errors import DefinitionError
+from linkage.program import Traced
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -19,7 +20,7 @@ Array: TypeAlias = NDArray[np.float64]
 def finite(value: ArrayLike, what: str) -> Array:
     """Return the value as floats, its shape kept; DefinitionError if it is text, NaN or infinite."""
     array = _floats(value, what)
-    if not np.all(np.isfinite(array)):
+    if not is_traced(array) and not np.all(np.isfinite(array)):
         raise DefinitionError(f"{what} = {array[~np.isfinite(array)][0]} is not finite; give a number in SI units.")
     return array
 
@@ -35,6 +36,8 @@ def positive(value: ArrayLike, what: str, remedy: str = "give a positive number 
 def over_poses(value: ArrayLike, what: str) -> Array:
     """Return a value over poses as floats: NaN stays where an array marks an unreached pose, else DefinitionError."""
     array = _floats(value, what)
+    if is_traced(array):
+        return array
     if array.ndim == 0 or np.any(np.isinf(array)):
         return finite(value, what)
     return array
@@ -58,8 +61,15 @@ def kelvin(value: ArrayLike, what: str, low: float = 200.0, high: float = 400.0)
     return array
 
 
+def is_traced(value: Any) -> bool:
+    """Return whether a value is a number of a law that is being traced: it has no value yet; what has none later is told then."""
+    return isinstance(value, Traced)
+
+
 def _floats(value: ArrayLike, what: str) -> Array:
     array = np.asarray(value)
+    if is_traced(array[()]):
+        return array[()]
     if array.dtype.kind not in "iuf":
         raise DefinitionError(f"{what} = {value!r} is not a number; give a number in SI units.")
     return array.astype(np.float64)

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError
 from linkage.loads import ForceElement, Load, Poses
 from linkage.motion import Motion
+from linkage.plan import Plan
 from linkage.quantities import Distance, Reference, label, name_of
 
 from .cylinder import CylinderSize
@@ -59,8 +60,7 @@ class LiftCircuit(ForceElement):
         return []
 
     def __str__(self) -> str:
-        given = [label(self.cylinder), *(f"{name}={getattr(self, name)!r}" for name in self.parameters)]
-        return f"LiftCircuit({', '.join(given)})"
+        return f"LiftCircuit({', '.join([label(self.cylinder), *self.words()])})"
 
     # -- what it is made of --------------------------------------------------------------------------------
 
@@ -225,13 +225,14 @@ def for_designs(motion: Motion, value: ArrayLike) -> Array:
     return np.asarray(array.reshape(array.shape[: array.ndim - len(tail)]) if array.ndim else array)
 
 
-def drive(motion: Motion, ram: Cylinder) -> str:
+def drive(motion: Poses, ram: Cylinder) -> str:
     """Return the stroke that a cylinder's length follows: the only one, else the one named in its bar's length."""
-    if len(motion.strokes) == 1:
-        return next(iter(motion.strokes))
+    plan: Plan = motion.plan
+    if len(plan.strokes) == 1:
+        return next(iter(plan.strokes))
     ends = {name_of(ram.A), name_of(ram.B)}
-    bars = [bar for bar in motion.plan.cylinders if {bar.P, bar.Q} == ends]
-    found = [name for bar in bars for name in motion.strokes if name in motion.plan.reaches(bar.length)]
+    bars = [bar for bar in plan.cylinders if {bar.P, bar.Q} == ends]
+    found = [name for bar in bars for name in plan.strokes if name in plan.reaches(bar.length)]
     if len(found) != 1:
-        raise DefinitionError(f"{ram}: its length follows {len(found)} strokes of {', '.join(motion.strokes)}; one is expected.")
+        raise DefinitionError(f"{ram}: its length follows {len(found)} strokes of {', '.join(plan.strokes)}; one is expected.")
     return found[0]

@@ -20,12 +20,13 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, unknown
 from linkage.loads import ForceElement, Load, Poses
-from linkage.quantities import Quantity, Reference, label, name_of
+from linkage.quantities import Reference, label, name_of
 from linkage.units import mm
 
 from .buckling import Buckling
 from .cylinder import CylinderSize
 from .inputs import Array, positive
+from .settings import follows, number_set
 from .sizes import BORES_MM, RODS_MM, standard_rods
 from .verdict import Verdict
 
@@ -68,11 +69,6 @@ class Cylinder(ForceElement):
     def cylinders(self) -> tuple[tuple[str, str], ...]:
         return ((name_of(self.A), name_of(self.B)),)
 
-    def __str__(self) -> str:
-        more = {"count": 1, "works": "piston", "stroke": None, "closed": None, "mounting": "pin-pin", "safety": 3.5}
-        said = [f"{name}={getattr(self, name)!r}" for name, usual in more.items() if getattr(self, name) != usual]
-        return ", ".join([super().__str__()[:-1], *said]) + ")"
-
     # -- its size ------------------------------------------------------------------------------------------
 
     @property
@@ -85,11 +81,11 @@ class Cylinder(ForceElement):
     @property
     def _follows(self) -> bool:
         """Whether bore or rod follow a quantity of the class."""
-        return any(isinstance(value, (str, Quantity)) for value in (self.bore, self.rod))
+        return follows(self.bore, self.rod)
 
     def sized(self, motion: Poses) -> CylinderSize:
         """Return the size that a motion's designs have; bore and rod [m] broadcast against the motion."""
-        bore, rod = self.number(motion, "bore"), self.number(motion, "rod")
+        bore, rod = number_set(self, motion, "bore"), number_set(self, motion, "rod")
         return CylinderSize(bore[()], rod[()], self.count, self.works)
 
     def thrust(self, pressure: ArrayLike, back: ArrayLike = 0.0) -> Array:

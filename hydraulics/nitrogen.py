@@ -18,10 +18,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError
+from linkage.quantities.numbers import plain
 from linkage.units import bar
 
 from .gas import ROOM, Gas
-from .inputs import Array, kelvin, positive
+from .inputs import Array, is_traced, kelvin, positive
 
 R = 8.314462618  # J/(mol K)
 HIGHEST = 500 * bar
@@ -50,6 +51,10 @@ class RealNitrogen(Gas):
 
     def __str__(self) -> str:
         return f"real nitrogen at {self.temperature:.2f} K"
+
+    @property
+    def spelled(self) -> str:
+        return f"real_nitrogen({'' if self.temperature == ROOM else repr(plain(self.temperature))})"
 
     def specific(self, pressure: Array) -> Array:
         """Return the molar volume [m3/mol] at an absolute pressure [Pa], same shape; DefinitionError above 500 bar."""
@@ -108,6 +113,8 @@ def _stiffness(x: Array, T: float) -> Array:
 
 def _density(pressure: Array, T: float) -> Array:
     """Return the density x at a pressure, by Newton's method kept inside a bracket, to the last digits."""
+    if is_traced(pressure):
+        raise DefinitionError("real_nitrogen finds its density by iteration; isothermal and polytropic gases have exact derivatives.")
     target = pressure / (DENSITY * R * T)
     low = 0.0 * target  # NaN where the target is: an unreached pose stays one
     high = low + DENSEST

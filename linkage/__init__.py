@@ -9,6 +9,7 @@ from .errors import FileError as FileError
 from .errors import LinkageError as LinkageError
 from .errors import SingularError as SingularError
 from .errors import SingularWarning as SingularWarning
+from .errors import StudyError as StudyError
 from .loads import Force as Force
 from .loads import ForceElement as ForceElement
 from .loads import GuideFriction as GuideFriction
@@ -35,8 +36,10 @@ from .quantities import y as y
 from .statics import PinForces as PinForces
 from .statics import driving_force as driving_force
 from .statics import max_table as max_table
+from .statics import pin_force as pin_force
 from .statics import pin_forces as pin_forces
 from .statics import reaction as reaction
+from .statics import thrust as thrust
 from .steps import CosineAngle as CosineAngle
 from .steps import Crank as Crank
 from .steps import Dyad as Dyad

@@ -48,6 +48,17 @@ class FileError(LinkageError):
     """A file that cannot be understood: the line or the key, and the remedy."""
 
 
+class StudyError(LinkageError):
+    """A study stopped before its end: what stopped it, and whether it can go on from there.
+
+    `designs` are the first and the last design of the part that failed, where it was one of them; the cause is chained.
+    """
+
+    def __init__(self, message: str, *, designs: tuple[int, int] | None = None) -> None:
+        super().__init__(message)
+        self.designs = designs
+
+
 def unknown(kind: str, name: object, known: Iterable[str], where: str = "") -> DefinitionError:
     """Return the error for a name that is not there: it lists the valid names and the nearest one."""
     names = list(known)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -11,10 +12,23 @@ from .assembly import Assembly, assembled, assemblies
 from .errors import DefinitionError, unknown
 from .graph import Body
 from .mobility import FourBar, Mobility, check, four_bars, mobility
-from .motion import Column, Grid, Motion, PoseFunction, Request, as_given, at_values, evaluate, function_of, stroke_unit, sweep_values
+from .motion import (
+    Column,
+    Grid,
+    Motion,
+    PoseFunction,
+    Request,
+    as_given,
+    at_values,
+    columns_of,
+    evaluate,
+    function_of,
+    source_of,
+    sweep_values,
+)
 from .plan import Plan
 from .program import FloatArray, Way
-from .quantities import Dimension, Member, Quantity, Stroke
+from .quantities import Member, Stroke
 
 
 class Mechanism:
@@ -35,6 +49,10 @@ class Mechanism:
         check(cls.plan)
 
     def __init__(self, **dimensions: Any) -> None:
+        for name in dimensions:
+            if name in self.plan.strokes:
+                error = unknown("Dimension", name, self.plan.table.names(), where=self.plan.title)
+                raise DefinitionError(f"{error} {name} is a stroke; give it to sweep({name}=...) or at({name}=...).")
         self._values = self.plan.table.settings(dimensions)
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -53,7 +71,7 @@ class Mechanism:
         if not isinstance(name, str):
             raise unknown("Dimension", name, self.plan.table.names(), where=self.plan.title)
         if {f"{name}.x", f"{name}.y"} <= self._values.keys():
-            return np.array([self._values[f"{name}.x"], self._values[f"{name}.y"]])
+            return np.array(np.broadcast_arrays(self._values[f"{name}.x"], self._values[f"{name}.y"]))
         owner, sign = self.plan.table.spellings.get(name, ("", 1))
         if not owner:
             self.plan.table.settings({name: 0.0})
@@ -65,6 +83,12 @@ class Mechanism:
         touched = {owner for name, value in dimensions.items() for owner in changed._owners(name)}
         changed._values = {name: changed._values[name] if name in touched else value for name, value in self._values.items()}
         return changed
+
+    def _part(self, start: int, stop: int) -> Self:
+        """Return the designs from start to before stop of a batch, whose dimensions are floats or arrays (m,)."""
+        part = copy(self)
+        part._values = {name: value if type(value) is float else value[start:stop] for name, value in self._values.items()}
+        return part
 
     def _owners(self, name: str) -> set[str]:
         spellings = self.plan.table.spellings
@@ -92,7 +116,7 @@ class Mechanism:
         threads: int = 1,
         **strokes: Any,
     ) -> list[FloatArray]:
-        """Return values and ratios of many poses in one pass, and work out nothing else: `G, I = evaluate(["G", ratio("G")], S=...)`.
+        """Return values, ratios and forces of many poses in one pass, nothing else: `G, T = evaluate(["G", thrust()], S=...)`.
 
         One array a request, shape (2, *designs, *strokes) of a point, (*designs, *strokes) of a quantity. `out`, shape
         (components, *designs, *strokes), takes the results; the arrays returned are its rows. `backend` is "numpy", "numba"
@@ -104,21 +128,24 @@ class Mechanism:
         return evaluate(grid, of, out, Way(backend, threads))
 
     def function(self, of: Sequence[Request]) -> PoseFunction:
-        """Return values and ratios of this design as a function of the strokes, in floats: `f = function(["G", ratio("G")])`.
+        """Return values, ratios and forces of this design as a function of the strokes, in floats: `f = function(["G", ratio("G")])`.
 
         `f(0.1)` returns all components one after the other, here (G_x, G_y, dG_x, dG_y), in some microseconds: for root
         finders and other loops that take one pose at a time. It raises what `evaluate` raises.
         """
         return function_of(self.plan, self._values, of)
 
+    def source(self, of: Sequence[Request], *, language: str = "c", name: str = "poses") -> str:
+        """Return values and ratios as the text of a function in "c" or "javascript", for a controller or a page of one's own.
+
+        Dimensions and strokes are its arguments, in the order that its first comment gives, SI and radians; NaN out of reach. Pins
+        that are found by iteration have no closed form and are refused by name.
+        """
+        return source_of(self.plan, self._values, of, language, name)
+
     def columns(self, motion: Motion) -> list[Column]:
         """Return the table of results: strokes, moving points, named outputs. A machine replaces it by its own."""
-        units = {name: stroke_unit(self.plan, name) for name in self.plan.strokes}
-        table = [Column(name, value, "deg" if units[name] == "rad" else "m") for name, value in motion.strokes.items()]
-        table += [Column(f"{point}_{axis}", getattr(motion, axis)(point), "m") for point in self.plan.moving for axis in "xy"]
-        outputs = {name: member for name, member in self.plan.of_kind(Quantity).items() if not isinstance(member, (Stroke, Dimension))}
-        shown = {"angle": "deg", "length": "m", "": ""}
-        return table + [Column(name, motion[name], shown[member.measures]) for name, member in outputs.items()]
+        return columns_of(motion)
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return what an engineer should know of this motion, in sentences. A machine replaces it by its own."""

@@ -47,6 +47,7 @@ UNITS: dict[str, tuple[float, str]] = {
 }  # fmt: skip
 
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\s\d]\S*)?\s*\Z")
+_COMMA = re.compile(r"\s*[-+]?\d*,\d+\s*[^\s\d,]*\s*\Z")
 
 
 def parse(text: str, kind: str = "") -> float:
@@ -56,6 +57,8 @@ def parse(text: str, kind: str = "") -> float:
     Raises DefinitionError naming the text and the valid units.
     """
     match = _QUANTITY.match(text)
+    if _COMMA.match(text):
+        raise DefinitionError(f"{text!r}: decimals are written with a point, {text.replace(',', '.')!r}.")
     if match is None:
         raise DefinitionError(f"{text!r} is not a value; write a number and a unit, such as 180mm or -75deg.")
     number, unit = match.groups()

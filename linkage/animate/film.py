@@ -12,7 +12,8 @@ import numpy.typing as npt
 from ..errors import DefinitionError, FileError, unknown
 from ..mechanism import Mechanism
 from ..page import page
-from .course import course
+from ..report import NOTHING, At
+from .course import Course, course, whole
 from .gif import write_gif
 from .mp4 import write_mp4
 from .stage import Stage
@@ -32,25 +33,29 @@ def animate(
     column: str | None = None,
     trace: Sequence[str] = (),
     limit: Sequence[Any] | None = None,
+    at: At = NOTHING,
     progress: Progress | None = None,
 ) -> Path:
     """Return the path of the animation it wrote: a .gif, an .mp4 (extra `video`) or an .html page that works offline.
 
     The mechanism runs over its first stroke, there and back (a full turn goes round), at `count` poses; beside it
-    the live curve of a column of `machine.columns`, the last unless named. `trace` names points whose paths are
+    the live curve of a column of its results, the last unless named. `at=dict(tilt=0.1)` holds another stroke, `at=dict(S=(0.1, 0.2))`
+    says where one runs [m or rad]; strokes not named stand in their middle. `trace` names points whose paths are
     drawn; `limit` is the column's limit, `(value [SI], text, "above" or "below")`. `progress(done, total)` is called
     as it goes. Raises DefinitionError for another kind of file, a batch of designs or an unknown name.
     """
-    target = Path(path)
-    kinds = {".gif": gif, ".mp4": mp4, ".html": html}
-    if target.suffix.lower() not in kinds:
+    target, poses = Path(path), whole(count)
+    kind = target.suffix.lower()
+    if kind not in KINDS:
         raise DefinitionError(f"{target.name}: an animation is written as .gif, .mp4 or .html; give a name with one of these endings.")
     for name in trace:
         if name not in machine.plan.points:
             raise unknown("Point", name, machine.plan.points, where=machine.plan.title)
     if not target.parent.is_dir():
         raise FileError(f"{target}: the folder {target.parent} is not there; make it first or choose another.")
-    kinds[target.suffix.lower()](machine, target, count, column, trace, limit, progress or silent)
+    write, fineness = KINDS[kind]
+    run = course(machine, fineness * (poses - 1) + 1, column, at=at, eased=fineness == 1)
+    write(run, target, trace, limit, progress or silent)
     return target
 
 
@@ -58,31 +63,31 @@ def silent(done: int, total: int) -> None:
     """Say nothing."""
 
 
-def gif(machine: Mechanism, target: Path, count: int, column: str | None, trace: Sequence[str], limit: Any, progress: Progress) -> None:
+def gif(run: Course, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
     """Write a GIF; a pose that comes twice is drawn once."""
-    run = course(machine, count, column)
     stage = Stage(run, trace, limit, GIF_DPI)
     sample = np.concatenate([stage.frame(pose) for pose in (run.order[0], run.order[len(run.order) // 2])])
     poses = list(dict.fromkeys(run.order))
     write_gif(target, counted(frames(stage, poses), len(poses), progress), run.order, sample)
 
 
-def mp4(machine: Mechanism, target: Path, count: int, column: str | None, trace: Sequence[str], limit: Any, progress: Progress) -> None:
+def mp4(run: Course, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
     """Write an MP4."""
-    run = course(machine, count, column)
     stage = Stage(run, trace, limit, MP4_DPI)
     width, height = stage.canvas.get_width_height()
     write_mp4(target, counted(frames(stage, run.order), len(run.order), progress), (width, height))
 
 
-def html(machine: Mechanism, target: Path, count: int, column: str | None, trace: Sequence[str], limit: Any, progress: Progress) -> None:
-    """Write a page; it moves between more poses than a GIF shows."""
-    run = course(machine, count, column)
-    fine = course(machine, PAGE_FINENESS * (count - 1) + 1, run.column.name, eased=False)
-    text = page(fine.motion, fine.column, trace, limit, is_turn=fine.is_turn)
+def html(run: Course, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
+    """Write a page."""
+    text = page(run.motion, run.column, trace, limit, is_turn=run.is_turn)
     progress(1, 2)
     target.write_text(text, encoding="utf-8")
     progress(2, 2)
+
+
+KINDS = {".gif": (gif, 1), ".mp4": (mp4, 1), ".html": (html, PAGE_FINENESS)}
+"""An ending -> what writes it, and between how many times as many poses it moves: a page runs at its own pace."""
 
 
 def frames(stage: Stage, poses: Iterable[int]) -> Iterator[npt.NDArray[np.uint8]]:

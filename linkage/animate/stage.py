@@ -17,6 +17,7 @@ from ..draw.panel import panel, typeset
 from ..draw.scene import Scene
 from ..draw.sheet import sheet
 from ..draw.traces import trace
+from ..program import FloatArray
 from .course import Course
 
 WIDTH, HEIGHT = 9.6, 4.8
@@ -24,6 +25,9 @@ TITLE = 0.953
 SHEET = (0.065, 0.115, 0.535, 0.775)
 CURVE = (0.685, 0.115, 0.285, 0.775)
 """The figure [inch]; the height of the titles and the places of its two axes as shares of it."""
+
+MOST = 9
+"""Decimals that a value is shown with, at most."""
 
 
 def untyped(canvas: Any) -> Any:
@@ -103,9 +107,18 @@ class Stage:
         """Move everything to a pose."""
         motion, column = self.course.motion, self.course.column
         moving = strokes.driven(motion)
-        along, shown = strokes.shown(motion.plan, moving, motion.strokes[moving]), column.shown
+        along, shown = strokes.shown(motion.plan, moving, motion.strokes[moving]), column.drawn
         self.drawing.update(pose)
         self.run.set_data(along[: pose + 1], shown[: pose + 1])
         self.marker.set_data(along[pose : pose + 1], shown[pose : pose + 1])
         self.stroke.set_text(strokes.words(motion.plan, moving, float(motion.strokes[moving][pose]), fixed=True))
-        self.value.set_text(f"{shown[pose]:#.4g}".rstrip(".") if np.isfinite(shown[pose]) else "")
+        self.value.set_text(spoken(shown, pose))
+
+
+def spoken(values: FloatArray, pose: int) -> str:
+    """Return one of a column's values as text, all with so many decimals that the greatest has four digits; empty where it has none."""
+    if not np.isfinite(values[pose]):
+        return ""
+    greatest = float(np.nanmax(np.abs(values)))
+    decimals = int(np.clip(3 - np.floor(np.log10(greatest)), 0, MOST)) if greatest > 0.0 else 0
+    return f"{values[pose]:z.{decimals}f}".replace("-", "\N{MINUS SIGN}")

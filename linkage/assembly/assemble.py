@@ -8,6 +8,7 @@ from copy import copy
 from ..quantities import Member, needs
 from ..steps import Group, Guide, Link, Pin, Slide, Step
 from .decompose import next_group
+from .names import check_names
 from .parts import Parts, check_held, next_step
 from .sketch import Place, Sketch, measured, sided
 
@@ -20,6 +21,7 @@ def assembled(members: Mapping[str, Member], title: str) -> dict[str, Member]:
     """
     if not any(isinstance(member, Pin) or sketched(member) for member in members.values()):
         return dict(members)
+    check_names(members, title)
     return Assembler(members, title).run()
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from copy import copy
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
@@ -12,6 +14,7 @@ from ..quantities import Quantity, name_of
 from ..steps import Group, OnLink, Slide
 from ..vectors import Side
 from .parts import Parts
+from .shape import Shape
 from .sketch import missing_labels
 
 
@@ -43,10 +46,12 @@ def rows_of(parts: Parts, title: str) -> list[Row]:
 
 
 def link_rows(parts: Parts, name: str, title: str) -> list[Row]:
-    """Return a link's equations: one length, and two for every further point that is rigid with the first two."""
+    """Return a link's equations: one length, and two for every further point that is rigid with two points before it."""
     link, shape = parts.links[name], parts.shapes[name]
     points = [*parts.firm(link), *parts.loose(link)]
-    first, second = points[:2]
+    known = (pair for pair in combinations(points, 2) if shape.distance(*pair) is not None)
+    first, second = points[:2] if len(parts.firm(link)) > 1 else next(known, tuple(points[:2]))
+    points = [first, second, *(point for point in points if point not in (first, second))]
     length = shape.distance(first, second)
     fault = "" if length is not None else f"the length {first}{second} of {name} = {link} is missing; give it, or draw both pins at=(x, y)."
 
@@ -55,17 +60,26 @@ def link_rows(parts: Parts, name: str, title: str) -> list[Row]:
 
     measured = None if length is None else (first, second, length)
     rows = [Row(loose(first, second), length=measured, fault=fault)] if loose(first, second) else []
-    for pin in points[2:]:
-        step = shape.attachment((first, second), pin)
-        if not isinstance(step, OnLink):
-            raise DefinitionError(
-                f"{title}: the shape of {name} = {link} is not settled at {pin}; give two distances or a distance and an angle."
-            )
+    for pin, step in attachments(points, shape, f"{title}: the shape of {name} = {link}"):
         fault = undrawn(parts, name, pin, step)
         if not fault:
-            step = as_sketched(parts, pin, step, f"{title}: {name} = {link}")
-        rows += [Row(loose(first, second, pin), attached=(pin, step), half=half, fault=fault) for half in (0, 1)]
+            step = as_sketched(parts, pin, step, f"{title}: {name} = {link}", shape)
+        held = (*map(name_of, step.parents), pin)
+        rows += [Row(loose(*held), attached=(pin, step), half=half, fault=fault) for half in (0, 1)]
     return rows
+
+
+def attachments(points: list[str], shape: Shape, what: str) -> Iterator[tuple[str, OnLink]]:
+    """Yield each further point of a link with the step that makes it rigid with two points before it, in an order that works."""
+    known, left = points[:2], points[2:]
+    while left:
+        steps = {pin: shape.attachment(known, pin) for pin in left}
+        pin, step = next(((pin, step) for pin, step in steps.items() if isinstance(step, OnLink)), (left[0], None))
+        if step is None:
+            raise DefinitionError(f"{what} is not settled at {pin}; give two distances or a distance and an angle.")
+        yield pin, step
+        known.append(pin)
+        left.remove(pin)
 
 
 def undrawn(parts: Parts, name: str, pin: str, step: OnLink) -> str:
@@ -76,7 +90,7 @@ def undrawn(parts: Parts, name: str, pin: str, step: OnLink) -> str:
     return f"{pin} of {name} = {parts.links[name]} cannot be measured from {' '.join(rough)}; draw them at=(x, y) too, or give the lengths."
 
 
-def as_sketched(parts: Parts, pin: str, step: OnLink, what: str) -> OnLink:
+def as_sketched(parts: Parts, pin: str, step: OnLink, what: str, shape: Shape) -> OnLink:
     """Return a group's rigid point with the side its link's pins have in the sketch, and what is not given measured there."""
     parents = [name_of(parent) for parent in step.parents]
     if step.near is None and step.drawn_at is None:
@@ -88,9 +102,9 @@ def as_sketched(parts: Parts, pin: str, step: OnLink, what: str) -> OnLink:
         found.labels |= missing_labels(pin, step, parents, np.array(X), parts.sketched)
     if {parents[1] + pin, pin + parents[1]} & set(found.labels):
         cross = (qx - px) * (X[1] - py) - (qy - py) * (X[0] - px)
-        if cross == 0.0:
+        if cross == 0.0 and not shape.is_straight(parents[0], parents[1], pin):
             raise DefinitionError(f"{what}: its pins are in one line in the sketch, so that {pin} has no side; move a near=(x, y).")
-        found.side = Side.LEFT if cross > 0.0 else Side.RIGHT
+        found.side = Side.LEFT if cross >= 0.0 else Side.RIGHT
     found.near = found.drawn_at = None
     return found
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import AssemblyError
-from ..plan import Plan
+from ..plan import Plan, strokes_text
 from ..program import FloatArray
 from ..steps import Pin
 from ..units import mm
@@ -56,7 +56,7 @@ def at_sketch(plan: Plan, newton: Newton) -> FloatArray:
     found, done, missing = newton.start(inputs, rough)
     if not done:
         names = " ".join(pin.name for pin in pins)
-        strokes = ", ".join(f"{name} = {value:.4g}" for name, value in plan.sketch_strokes.items())
+        strokes = strokes_text(plan, plan.sketch_strokes)
         raise AssemblyError(
             f"{plan.title}: the pins {names} cannot be assembled from their sketch at {strokes}: {missing / mm:.3g} mm are missing in the "
             "nearest pose. Move their near=(x, y) closer to the real pose, or change a length.",

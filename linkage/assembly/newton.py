@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ..plan import Plan
-from ..program import FloatArray, Kernel, Node, Tangent, solve_arrays
+from ..program import FloatArray, Kernel, Tangent, solve_arrays
 
 Mask = npt.NDArray[np.bool_]
 CONVERGED = 1e-10
@@ -29,18 +28,9 @@ class Newton:
         self.plan = plan
         self.names = [name for group in plan.groups.values() for name in group.inputs[:-1]]
 
-    @cached_property
-    def _roots(self) -> list[Node]:
-        pins = [self.plan.trace.at(pin) for group in self.plan.groups.values() for pin in group.pins]
-        return [part for place in pins for part in (place.x, place.y)]
-
-    @cached_property
+    @property
     def _kernel(self) -> Kernel:
-        graph, roots = self.plan.trace.graph, self._roots
-        closures = dict.fromkeys(root.closure for root in roots)
-        residuals = [residual for closure in closures if closure for residual in closure.residuals]
-        columns = [Tangent(graph, {each: float(each is root) for each in roots}) for root in roots]
-        return Kernel([*residuals, *(column.of(residual) for residual in residuals for column in columns)])
+        return self.plan.made("newton", equations)
 
     def raw(self, inputs: Mapping[str, Any], u: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the residuals and the Jacobian by rows as the constraints state them, shape (n, ...) and (n, n, ...)."""
@@ -112,3 +102,13 @@ class Newton:
             size = np.sqrt(sum((column * column).sum(axis=0) for column in inverse))
             sine = np.minimum(1.0, 2.0 * np.sqrt(n) / size)
         return np.where(np.isfinite(u).all(axis=0), np.where(np.isnan(sine), 0.0, sine), np.nan)
+
+
+def equations(plan: Plan) -> Kernel:
+    """Return the kernel of the residuals of all groups and of their derivatives by the pins' coordinates."""
+    pins = [plan.trace.at(pin) for group in plan.groups.values() for pin in group.pins]
+    roots = [part for place in pins for part in (place.x, place.y)]
+    closures = dict.fromkeys(root.closure for root in roots)
+    residuals = [residual for closure in closures if closure for residual in closure.residuals]
+    columns = [Tangent(plan.trace.graph, {each: float(each is root) for each in roots}) for root in roots]
+    return Kernel([*residuals, *(column.of(residual) for residual in residuals for column in columns)])

@@ -38,6 +38,14 @@ class Shape:
                 return derived
         return self.measured(P, Q)
 
+    def is_straight(self, P: str, Q: str, R: str) -> bool:
+        """Return whether three distances put three points in one line: such a link has no sides."""
+        sides = [self.distance(*pair) for pair in ((P, Q), (P, R), (Q, R))]
+        if not all(isinstance(side, Number) for side in sides):
+            return False
+        longest = max(lengths := [side.number for side in sides if isinstance(side, Number)])
+        return abs(2.0 * longest - sum(lengths)) <= 1e-9 * longest
+
     def measured(self, P: str, Q: str) -> Quantity | None:
         """Return the distance of two points in the drawing [m]."""
         if not any(point in self.pins and self.pins[point].drawn_at for point in (P, Q)):

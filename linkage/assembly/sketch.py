@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import AssemblyError, DefinitionError
-from ..plan import Plan
+from ..plan import ArrayReading, Plan, missing_words, strokes_text
 from ..quantities import Member, name_of
 from ..steps import Point, Step
 from .groups import solve_groups
@@ -34,8 +34,16 @@ def places_at(plan: Plan, strokes: Mapping[str, float]) -> tuple[dict[str, Place
     places = {name: (float(reading.at(name).x), float(reading.at(name).y)) for name in plan.points}
     lost = [name for name, place in places.items() if not np.isfinite(place).all()]
     if lost:
-        raise AssemblyError(f"{plan.title}: {lost[0]} cannot be assembled at {dict(strokes)}.", point=lost[0], mask=np.ones((), bool))
+        raise unplaced(plan, lost[0], reading, f"at {strokes_text(plan, strokes)}")
     return places, inputs
+
+
+@np.errstate(all="ignore")
+def unplaced(plan: Plan, name: str, reading: ArrayReading, where: str) -> AssemblyError:
+    """Return the error for a point that cannot be assembled at one pose, which `where` names."""
+    words, shortfall = missing_words(plan, name, reading, np.ones(1, bool))
+    text = f"{plan.title}: {name} cannot be assembled {where}: {words.removesuffix('.')}, or say drawn(...) with other strokes."
+    return AssemblyError(text, point=name, mask=np.ones((), bool), shortfall=shortfall)
 
 
 class Sketch:
@@ -52,15 +60,9 @@ class Sketch:
         place = self.reading.at(name)
         x, y = float(place.x), float(place.y)
         if not np.isfinite([x, y]).all():
-            raise AssemblyError(
-                f"{self.plan.title}: {name} cannot be assembled at the sketch ({self.strokes()}); say drawn(S=...) with a stroke "
-                "it can be assembled at, or change a length.", point=name, mask=np.ones((), bool),
-            )  # fmt: skip
+            where = f"at the sketch ({strokes_text(self.plan, self.plan.sketch_strokes)})"
+            raise unplaced(self.plan, name, self.reading, where)
         return x, y
-
-    def strokes(self) -> str:
-        """Return the sketch's strokes as text."""
-        return ", ".join(f"{name} = {value:.4g}" for name, value in self.plan.sketch_strokes.items())
 
 
 def sided(name: str, step: Step, settled: Mapping[str, Member], title: str) -> Step:
@@ -78,7 +80,8 @@ def sided(name: str, step: Step, settled: Mapping[str, Member], title: str) -> S
     distance = {side: float(np.hypot(*np.subtract(sketch.at(name), place))) for side, sketch in sketches.items()}
     side, other = sorted(distance, key=lambda each: distance[each])
     apart = float(np.hypot(*np.subtract(sketches[side].at(name), sketches[other].at(name))))
-    if distance[other] - distance[side] <= 1e-6 * max(apart, 1e-12) or apart == 0.0:
+    flat = type(step).measures == "angle" and apart <= 1e-6 * extent(step, sketches[side])  # a straight link has no sides
+    if not flat and distance[other] - distance[side] <= 1e-6 * max(apart, 1e-12):
         raise DefinitionError(
             f"{title}: {name} = {step} does not choose an assembly mode: both poses are equally near, the sketch lies on the dead line. "
             "Move near=(x, y) to the side that is meant, or say side=LEFT or side=RIGHT."
@@ -86,6 +89,12 @@ def sided(name: str, step: Step, settled: Mapping[str, Member], title: str) -> S
     chosen = copy(step)
     chosen.side, chosen.near = side, None
     return chosen
+
+
+def extent(step: Step, sketch: Sketch) -> float:
+    """Return the distance of a step's parents in a sketch [m]."""
+    P, Q = (sketch.at(name_of(parent)) for parent in step.parents)
+    return float(np.hypot(*np.subtract(P, Q)))
 
 
 def modes(name: str, step: Step, settled: Mapping[str, Member], title: str) -> tuple[Any, ...]:

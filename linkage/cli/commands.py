@@ -11,11 +11,12 @@ from .animate import Animate
 from .command import Command
 from .listing import List
 from .plot import Plot
+from .save import Save
 from .show import Show
 from .table import Table
 
 GROUP = "hydrolinkage.commands"
-BUILT_IN: tuple[Command, ...] = (List(), Show(), Table(), Plot(), Animate())
+BUILT_IN: tuple[Command, ...] = (List(), Show(), Table(), Plot(), Animate(), Save())
 
 
 def chosen(arguments: Sequence[str]) -> tuple[Command, ...]:

@@ -10,12 +10,17 @@ from importlib.metadata import EntryPoint, entry_points
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, TypeVar
 
 from ..errors import DefinitionError, LinkageError, unknown
-from ..mechanism import Mechanism
+from ..loads import ForceElement
+from ..mechanism import Mechanism, declared
+from ..quantities import Member
+
+Kind = TypeVar("Kind", bound=Mechanism)
 
 GROUP = "hydrolinkage.machines"
+SHOWN = 5
 OWN = "A machine of your own is written package.module:Class, file.py, file.py:Class, file.toml or file.json."
 
 
@@ -39,6 +44,36 @@ def find(text: str) -> type[Mechanism]:
             sys.path.insert(0, str(Path.cwd()))
         return of_module(guarded(lambda: import_module(place), f"The module {place}"), name, place)
     raise DefinitionError(f"{unknown('Machine', text, entries)} {OWN}")
+
+
+def find_like(text: str, base: type[Kind], what: str, **instead: Any) -> type[Kind]:
+    """Return the machine that a text names as one of a kind: a subclass, or a variant of the kind with all the members of a file.
+
+    A file holds the linkage, not the functions of a class: they are the kind's. `instead` are attributes in the place of those
+    that a file does not hold either. DefinitionError, with what is missing, for any other machine.
+    """
+    found = find(text)
+    if issubclass(found, base):
+        return found
+    missing = lacking(found, base)
+    if missing:
+        more = f" and {len(missing) - SHOWN} more" if len(missing) > SHOWN else ""
+        takes = f"take a {base.__name__}, a subclass of it, or a file that has all of its members and dimensions"
+        raise DefinitionError(f"{text} is no {what}: it has no {', '.join(missing[:SHOWN])}{more}; {takes}.")
+    made: type[Kind] = type(found.__name__, (base,), {"__doc__": found.__doc__, **declared(found), **instead})
+    return made
+
+
+def lacking(found: type[Mechanism], base: type[Mechanism]) -> list[str]:
+    """Return the members and the dimensions of a class that another one does not have."""
+    own, other = declared(base), declared(found)
+    members = [name for name, member in own.items() if not (name in other and is_such(other[name], member))]
+    return members + [name for name in base.plan.defaults if name not in found.plan.defaults and name not in members]
+
+
+def is_such(found: Member, wanted: Member) -> bool:
+    """Return whether a member may stand for another: of the same kind, a force element of the same class."""
+    return found.kind == wanted.kind and (type(found) is type(wanted) or not isinstance(wanted, ForceElement))
 
 
 def of_file(path: str) -> type[Mechanism]:
@@ -105,4 +140,6 @@ def machine(found: Any, what: str) -> type[Mechanism]:
     """Return it as a class of mechanism; DefinitionError where it is none."""
     if not is_machine(found):
         raise DefinitionError(f"{what} is not a class of Mechanism. {OWN}")
+    if not found.plan.points:
+        raise DefinitionError(f"{what}: {found.__name__} declares no points; begin with A = Ground(0, 0) and a step such as Crank or Dyad.")
     return found  # type: ignore[no-any-return]

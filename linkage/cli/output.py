@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
+from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 from pathlib import Path
 
 from ..errors import DefinitionError
 from ..mechanism import Mechanism
 
+PICTURES = (".png", ".svg", ".pdf")
 
-def picture(given: str | None, machine: type[Mechanism], text: str, suffixes: Sequence[str]) -> Path:
+
+def picture_argument(parser: ArgumentParser, what: str) -> None:
+    """Declare the argument that names a picture's file."""
+    parser.add_argument("-o", "--output", metavar="FILE", help=f"{', '.join(PICTURES)} ({what})")
+
+
+def picture(given: str | None, machine: type[Mechanism], text: str, suffixes: Sequence[str] = PICTURES) -> Path:
     """Return the path of a picture; by default the machine's name with the first suffix, in this folder.
 
     Raises DefinitionError for a suffix that is not among them and a folder that is not there.
@@ -20,3 +28,10 @@ def picture(given: str | None, machine: type[Mechanism], text: str, suffixes: Se
     if not path.parent.is_dir():
         raise DefinitionError(f"-o {path}: the folder {path.parent} is not there; make it first.")
     return path
+
+
+def figure_path(options: Namespace, machine: type[Mechanism], command: str) -> Path | None:
+    """Return where a command's figure goes, checked before the work is done; None where neither a file nor a figure is asked for."""
+    if options.output is None and options.figure is None:
+        return None
+    return picture(options.output, machine, f"{command}_{options.figure}")

@@ -8,10 +8,8 @@ from typing import Any
 from ..mechanism import Mechanism
 from .command import Command, machine_arguments, motion_arguments, path_argument
 from .machines import find
-from .output import picture
-from .settings import chosen, design, motion, picked, run_of_first, traced
-
-SUFFIXES = (".png", ".svg", ".pdf")
+from .output import picture, picture_argument
+from .settings import along, chosen, design, motion, picked, traced
 
 
 class Plot(Command):
@@ -22,14 +20,14 @@ class Plot(Command):
 
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
-        parser.add_argument("columns", metavar="COLUMN", nargs="*", default=[], help="curves of these columns of `table` instead")
-        parser.add_argument("-o", "--output", metavar="FILE", help=f"{', '.join(SUFFIXES)} (default: NAME.png)")
+        parser.add_argument("columns", metavar="COLUMN", nargs="*", default=[], help="curves of these columns of `table` over a stroke")
+        picture_argument(parser, "default: NAME.png")
         path_argument(parser)
         motion_arguments(parser, 101)
 
     def run(self, options: Namespace) -> int:
         found = find(options.machine)
-        path = picture(options.output, found, options.machine, SUFFIXES)
+        path = picture(options.output, found, options.machine)
         machine = design(found, options.settings)
         figure = curves(machine, options) if options.columns else poses(machine, options)
         figure.savefig(path)
@@ -38,9 +36,11 @@ class Plot(Command):
 
 
 def curves(machine: Mechanism, options: Namespace) -> Any:
-    """Return the figure of the columns named."""
-    over = motion(machine, options.strokes, options.count)
-    columns = picked(machine.columns(over), options.columns, [], machine.plan.title)
+    """Return the figure of the columns named, along one stroke."""
+    given = dict(chosen(machine.plan, text) for text in options.strokes)
+    many = [name for name, values in given.items() if len(values) > 1]
+    over = motion(machine, options.strokes, options.count) if many else along(machine, options.count, given)
+    columns = picked(machine, over, options.columns, [])
     from ..draw import curves as drawn
 
     return drawn(over, columns)
@@ -52,7 +52,7 @@ def poses(machine: Mechanism, options: Namespace) -> Any:
     if at:
         machine.at(**{name: 0.5 * (stroke.start + stroke.end) for name, stroke in machine.strokes.items()} | at)
     else:
-        run_of_first(machine, options.count)
+        along(machine, options.count)
     from ..draw import poses as drawn
 
     return drawn(machine, at or None, traced(machine, options.path), options.count)

@@ -11,7 +11,7 @@ from ..errors import DefinitionError, unknown
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, stroke_unit
 from ..plan import Plan
-from ..report import measure
+from ..report import NOTHING, At, measure, results, run_of
 from ..units import parse
 
 
@@ -26,11 +26,20 @@ def setting(plan: Plan, text: str) -> tuple[str, Any]:
     if name in plan.table.spellings:
         return name, number(value, measure(plan, plan.table.spellings[name][0]), f"--set {name}")
     if f"{name}.x" in plan.table.spellings or f"{name}.y" in plan.table.spellings:
-        return name, tuple(number(part, "length", f"--set {name}") for part in value.split(","))
+        return name, place(name, value)
     if name in plan.strokes:
         raise DefinitionError(f"--set {text}: {name} is a stroke of {plan.title}, not a dimension; `table` takes --at {text}.")
     plan.table.settings({name: 0.0})
     raise unknown("Dimension", name, plan.table.names(), where=plan.title)
+
+
+def place(name: str, text: str) -> tuple[float, ...]:
+    """Return a point's two coordinates [m]."""
+    parts = text.split(",")
+    if len(parts) != 2:
+        example = f"{name}=0.22,950mm; decimals are written with a point"
+        raise DefinitionError(f"--set {name}={text}: a point takes two coordinates, such as {example}.")
+    return tuple(number(part, "length", f"--set {name}") for part in parts)
 
 
 def pair(text: str, option: str, example: str) -> tuple[str, str]:
@@ -61,15 +70,13 @@ def motion(machine: Mechanism, texts: Sequence[str], count: int) -> Motion:
     return machine.at(**{name: grids.get(name, axis[0]) for name, axis in axes.items()})
 
 
-def run_of_first(machine: Mechanism, count: int) -> Motion:
-    """Return the motion over the first stroke, the others in their middle: what a picture of the whole shows.
+def along(machine: Mechanism, count: int, at: At = NOTHING) -> Motion:
+    """Return the motion along one stroke, the others held as `at` says, else in their middle: what a picture of the whole shows.
 
     Raises AssemblyError where it cannot be assembled; a picture would leave those poses out.
     """
-    values: dict[str, Any] = {name: 0.5 * (stroke.start + stroke.end) for name, stroke in machine.strokes.items()}
-    for name, stroke in list(machine.strokes.items())[:1]:
-        values[name] = np.linspace(stroke.start, stroke.end, count)
-    return machine.at(**values)
+    run = run_of(machine, at)
+    return machine.at(**run.over(np.linspace(run.start, run.end, count)))
 
 
 def chosen(plan: Plan, text: str) -> tuple[str, Any]:
@@ -81,14 +88,18 @@ def chosen(plan: Plan, text: str) -> tuple[str, Any]:
     return name, np.array([number(value, kind, f"--at {name}") for value in values.split(",")])
 
 
-def picked(columns: Sequence[Column], names: Sequence[str], strokes: Sequence[str], title: str) -> list[Column]:
+def picked(machine: Mechanism, motion: Motion, names: Sequence[str], strokes: Sequence[str]) -> list[Column]:
     """Return the columns of some names, in their order, after the strokes'; all where none is named."""
-    if not names:
-        return list(columns)
+    plan, columns = machine.plan, results(machine, motion)
     known = {column.name: column for column in columns}
+    if not known:
+        raise DefinitionError(f"{plan.title} has no results: it declares no stroke, no point that moves and no output.")
+    if not names:
+        return columns
     for name in names:
         if name not in known:
-            raise unknown("Column", name, known, where=f"the table of {title}")
+            is_point = f" {name} is a point; `plot --path {name}` draws its path." if name in plan.points else ""
+            raise DefinitionError(f"{unknown('Column', name, known, where=f'the table of {plan.title}')}{is_point}")
     return [known[name] for name in dict.fromkeys([*(name for name in strokes if name in known), *names])]
 
 

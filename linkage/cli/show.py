@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from inspect import cleandoc
 
 from ..mechanism import Mechanism
+from ..plan import printed
 from ..quantities import Dimension
 from ..report import aligned, design_rows, stroke_rows
 from .command import Command, machine_arguments
@@ -44,7 +45,7 @@ def sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:
     yield "Strokes", aligned(list(stroke_rows(machine)))
     yield "Design variables", aligned(list(design_rows(machine)))
     yield "Bodies", bodies(machine)
-    yield "Construction, in order, with the dimensions of the class", construction(machine)
+    yield "Construction, in order", construction(machine)
 
 
 def bodies(machine: Mechanism) -> Iterator[str]:
@@ -57,9 +58,10 @@ def bodies(machine: Mechanism) -> Iterator[str]:
 
 
 def construction(machine: Mechanism) -> Iterator[str]:
-    """Yield the members in the order they are worked out, without the dimensions listed already."""
-    dimensions = machine.plan.of_kind(Dimension)
-    yield from (f"{name} = {member}" for name, member in machine.plan.members.items() if name not in dimensions)
+    """Yield the members in the order they are worked out, as this design has them, without the dimensions listed already."""
+    dimensions, defaults = machine.plan.of_kind(Dimension), machine.plan.defaults
+    changed = {name: value for name, value in machine.dimensions.items() if value != defaults[name]}
+    yield from (f"{name} = {text}" for name, text in printed(machine.plan, changed).items() if name not in dimensions)
 
 
 def equations(machine: Mechanism) -> str:

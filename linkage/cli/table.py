@@ -28,23 +28,33 @@ class Table(Command):
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
         parser.add_argument("columns", metavar="COLUMN", nargs="*", default=[], help="only these columns (default: all)")
-        parser.add_argument("--csv", metavar="FILE", help="write CSV in full precision; - for stdout")
+        csv_argument(parser)
         motion_arguments(parser, 11)
 
     def run(self, options: Namespace) -> int:
         machine = design(find(options.machine), options.settings)
         poses = motion(machine, options.strokes, options.count)
-        columns = picked(machine.columns(poses), options.columns, list(poses.strokes), machine.plan.title)
-        if options.csv is None:
-            print_table(columns, poses.reached.size)
-        elif options.csv == "-":
-            keep_line_ends(sys.stdout)
-            save(columns, sys.stdout)
-        else:
-            with open(options.csv, "w", newline="", encoding="utf-8") as stream:
-                save(columns, stream)
-            print(f"{options.csv}: {poses.reached.size} rows")
+        columns = picked(machine, poses, options.columns, list(poses.strokes))
+        write_table(columns, poses.reached.size, options.csv)
         return 0
+
+
+def csv_argument(parser: ArgumentParser) -> None:
+    """Declare the argument that has a table written as CSV."""
+    parser.add_argument("--csv", metavar="FILE", help="write the table as CSV in full precision instead; - for stdout")
+
+
+def write_table(columns: Sequence[Column], rows: int, csv: str | None) -> None:
+    """Print a table, or write it as CSV where a file is named, "-" being stdout."""
+    if csv is None:
+        print_table(columns, rows)
+    elif csv == "-":
+        keep_line_ends(sys.stdout)
+        save(columns, sys.stdout)
+    else:
+        with open(csv, "w", newline="", encoding="utf-8") as stream:
+            save(columns, stream)
+        print(f"{csv}: {rows} rows")
 
 
 def save(columns: Sequence[Column], stream: TextIO) -> None:

@@ -10,7 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ..errors import DefinitionError, unknown
-from ..motion import Column, Motion
+from ..motion import Column, Motion, columns_of
 from . import strokes, style
 from .panel import panel
 
@@ -18,20 +18,21 @@ PANEL = (4.6, 3.0)
 """The size of a panel with its share of the margins [inch]."""
 
 
-def curves(motion: Motion, columns: Sequence[Column], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
+def curves(motion: Motion, columns: Sequence[Column | str], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
     """Return a figure of columns over the stroke, a panel each; a column that is the stroke itself is left out.
 
+    A column may go by its name: a named output, or a point's coordinate such as "G_y".
     `limits` are, by the column's name, `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the
     side that fails, above unless said, is shaded. Raises DefinitionError for a batch, a grid, or an unknown name.
     """
-    moving = strokes.driven(motion)
+    moving, columns = strokes.driven(motion), named(motion, columns)
     given = dict(limits or {})
     wanted = [column for column in columns if column.name not in motion.strokes]
     for name in given:
         if name not in [column.name for column in columns]:
             raise unknown("Column", name, [column.name for column in columns], where="limits")
     if not wanted:
-        raise DefinitionError(f"{motion.plan.title}: there is no column to draw over {moving}.")
+        raise DefinitionError(f"{motion.plan.title}: there is no column to draw over {moving}; name a result, not a stroke.")
     figure, cells = grid(len(wanted))
     held = strokes.held(motion.plan, motion.strokes, moving)
     title = motion.plan.heading + (f" at {held}" if held else "")
@@ -39,6 +40,16 @@ def curves(motion: Motion, columns: Sequence[Column], *, limits: Mapping[str, Se
     for ax, column in zip(cells, wanted, strict=True):
         panel(ax, motion, column, given.get(column.name))
     return figure
+
+
+def named(motion: Motion, columns: Sequence[Column | str]) -> list[Column]:
+    """Return columns, those that go by their names from the motion's own table; DefinitionError for an unknown name."""
+    names = [each for each in columns if isinstance(each, str)]
+    own = {column.name: column for column in columns_of(motion)} if names else {}
+    for name in names:
+        if name not in own:
+            raise unknown("Column", name, own, where=motion.plan.title)
+    return [own[each] if isinstance(each, str) else each for each in columns]
 
 
 def grid(count: int) -> tuple[Figure, list[Any]]:

@@ -21,7 +21,7 @@ def panel(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None 
     """Draw a column over the stroke that a motion runs along, with its limit `(value [SI], text, fails)`."""
     stroke = strokes.driven(motion)
     along = strokes.shown(motion.plan, stroke, motion.strokes[stroke])
-    ax.plot(along, column.shown, color=colour, linewidth=style.BOLD, zorder=5.0, marker="o" if len(along) == 1 else None)
+    ax.plot(along, column.drawn, color=colour, linewidth=style.BOLD, zorder=5.0, marker="o" if len(along) == 1 else None)
     axes(ax, motion, column, along)
     if bound is not None:
         bar(ax, along, column, limit(bound), strokes.unit(motion.plan, stroke))
@@ -38,7 +38,7 @@ def axes(ax: Axes, motion: Motion, column: Column, along: FloatArray) -> None:
     turning = strokes.unit(motion.plan, stroke) == "deg" and np.ptp(along) >= 90.0
     ax.xaxis.set_major_locator(MaxNLocator(6, steps=[1, 3, 4.5, 6, 9, 10] if turning else [1, 2, 2.5, 5, 10]))
     ax.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 2.5, 5, 10]))
-    ax.set_ylim(*span(column.shown))
+    ax.set_ylim(*span(column.drawn))
 
 
 def span(values: FloatArray) -> tuple[float, float]:
@@ -60,12 +60,12 @@ def bar(ax: Axes, along: FloatArray, column: Column, bound: Limit, unit: str) ->
     ax.set_ylim(low, high)
     ax.axhspan(bottom, top, color=style.ACCENT, alpha=0.10, linewidth=0, zorder=1.0)
     ax.axhline(value, color=style.ACCENT, linewidth=1.3, linestyle=(0, (5, 2.5)), zorder=4.0)
-    short = np.where(bound.failing(column.values), column.shown, np.nan)
+    short = np.where(bound.failing(column.values), column.drawn, np.nan)
     ax.plot(along, short, color=style.ACCENT, linewidth=style.BOLD + 0.6, zorder=5.1)
-    for place in crossings(along, column.shown, value):
+    for place in crossings(along, column.drawn, value):
         ax.plot([place], [value], marker="o", markersize=6, color=style.ACCENT, markeredgecolor=style.PAPER, zorder=6.0)
         _note(ax, f"{place:.4g} {unit}", place, value, along, bound)
-    _name(ax, bound, value, along, column.shown)
+    _name(ax, bound, value, along, column.drawn)
 
 
 def _note(ax: Axes, text: str, place: float, value: float, along: FloatArray, bound: Limit) -> None:

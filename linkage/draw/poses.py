@@ -15,6 +15,7 @@ from ..errors import unknown
 from ..mechanism import Mechanism
 from ..motion import Motion
 from ..program import FloatArray
+from ..report import Run, first, middle
 from . import strokes, style
 from .drawing import Drawing
 from .room import cloud
@@ -54,14 +55,14 @@ def poses(machine: Mechanism, at: Any = None, path: Sequence[str] = (), count: i
 
 def motions(machine: Mechanism, at: Any, count: int) -> tuple[str, Motion, Motion]:
     """Return the stroke that moves, the motion at the chosen values, and the one over the whole stroke."""
-    given: dict[str, Any] = dict(at) if isinstance(at, Mapping) else {strokes.first(machine): at}
-    moving = max(given, key=lambda name: np.size(given[name])) if given else strokes.first(machine)
+    given: dict[str, Any] = dict(at) if isinstance(at, Mapping) else {first(machine): at}
+    moving = max(given, key=lambda name: np.size(given[name])) if given else first(machine)
     if moving not in machine.strokes:
         raise unknown("Stroke", moving, machine.strokes, where=machine.plan.title)
     start, end = machine.strokes[moving].start, machine.strokes[moving].end
-    usual = (0.5 * (start + end), start) if strokes.is_turn(machine, moving) else (start, end)
+    usual = (0.5 * (start + end), start) if strokes.is_turn(machine, Run(moving, start, end, {})) else (start, end)
     chosen = {name: np.atleast_1d(np.array(usual if value is None else value, float)) for name, value in given.items()}
-    held: dict[str, Any] = strokes.middle(machine) | chosen
+    held: dict[str, Any] = middle(machine) | chosen
     shown = machine.at(unreachable="nan", **held)
     if not shown.reached.any():
         machine.at(**held)

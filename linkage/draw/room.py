@@ -9,6 +9,7 @@ import numpy as np
 from ..program import FloatArray
 from .scene import Places, Scene
 from .shapes import segment
+from .sliders import hatched
 
 DOWN, LEFT, RIGHT, UP = -np.pi / 2, np.pi, 0.0, np.pi / 2
 WORTH = {DOWN: 0.0, LEFT: 3.0, RIGHT: 3.0, UP: 6.0}
@@ -55,9 +56,10 @@ def symbol(pin: FloatArray, way: float, size: float) -> FloatArray:
 
 
 def taken(scene: Scene, poses: Sequence[Places]) -> list[FloatArray]:
-    """Return points that no label should cover at each pose, shape (m, 2) [m]; ground symbols count double."""
+    """Return points that no label should cover at each pose, shape (m, 2) [m]; ground symbols count double, rails with their hatches."""
     symbols = [np.tile(symbol(scene.at(0)[name], way, scene.size), (2, 1)) for name, way in props(scene).items()]
-    return [np.concatenate([cloud(scene, at), *symbols]) for at in poses]
+    rails = [segment(start, end, 0.5 * scene.size) for lines in hatched(scene) for start, end in lines]
+    return [np.concatenate([cloud(scene, at), *symbols, *rails]) for at in poses]
 
 
 def _crowding(crowd: FloatArray, way: float) -> float:

@@ -11,6 +11,7 @@ from ..errors import DefinitionError
 from ..mechanism import Mechanism
 from ..motion import Motion, stroke_unit
 from ..plan import Plan
+from ..report import Run
 from ..units import UNITS
 
 
@@ -41,23 +42,10 @@ def driven(motion: Motion) -> str:
     return max(motion.strokes, key=lambda name: float(np.ptp(motion.strokes[name])))
 
 
-def middle(machine: Mechanism) -> dict[str, float]:
-    """Return the middle of every stroke [SI]."""
-    return {name: 0.5 * (stroke.start + stroke.end) for name, stroke in machine.strokes.items()}
-
-
-def is_turn(machine: Mechanism, name: str) -> bool:
-    """Return whether a stroke is a full turn, which ends where it began."""
-    stroke = machine.strokes[name]
-    turns = abs(stroke.end - stroke.start) / (2 * np.pi)
-    return unit(machine.plan, name) == "deg" and round(turns) >= 1 and abs(turns - round(turns)) < 1e-9
-
-
-def first(machine: Mechanism) -> str:
-    """Return the first stroke; DefinitionError for a structure without one."""
-    if not machine.strokes:
-        raise DefinitionError(f"{machine.plan.title} has no stroke, so there is nothing to move; declare one, S = Stroke(0, 0.25).")
-    return next(iter(machine.strokes))
+def is_turn(machine: Mechanism, run: Run) -> bool:
+    """Return whether a run goes full turns, so that a crank ends where it began."""
+    turns = abs(run.end - run.start) / (2 * np.pi)
+    return unit(machine.plan, run.stroke) == "deg" and round(turns) >= 1 and abs(turns - round(turns)) < 1e-9
 
 
 def unreached(motion: Motion, moving: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ..motion.reach import stroke_unit, terms
+from ..motion import stroke_unit
 from ..plan import Plan
 from ..quantities import Quantity, unnamed
 from ..steps import CosineAngle, Turn
@@ -66,16 +66,10 @@ KINDS = {"length": LENGTH, "coordinate": LENGTH, "angle": ANGLE}
 
 def input_units(plan: Plan) -> dict[str, Unit]:
     """Return what each stroke and design variable measures; a `Dimension` by the place where it is used."""
-    lengths: set[str] = set()
-    angles: set[str] = set()
-    for length in used_as_lengths(plan):
-        lengths |= terms(length)
-    for member in plan.members.values():
-        for angle in (getattr(member, "angle", None), getattr(member, "QPX", None)):
-            angles |= terms(angle) if isinstance(angle, Quantity) else set()
-    units = {name: ANGLE if name in angles or stroke_unit(plan, name) == "rad" else LENGTH for name in plan.strokes}
+    lengths = set().union(*map(plan.terms, used_as_lengths(plan)))
+    units = {name: ANGLE if stroke_unit(plan, name) == "rad" else LENGTH for name in plan.strokes}
     for name, entry in plan.table.entries.items():
-        used = ANGLE if name in angles else LENGTH if name in lengths else NUMBER
+        used = ANGLE if name in plan.turning else LENGTH if name in lengths else NUMBER
         units[name] = Unit(known=True, named=entry.unit) if entry.unit and UNITS[entry.unit][0] != 1.0 else KINDS.get(entry.kind, used)
     return units
 

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from copy import copy
 from itertools import permutations
+from math import isfinite
 from typing import Any
 
 import numpy as np
 
 from ..errors import DefinitionError
 from ..mechanism import Mechanism, declared
-from ..quantities import Member, Number, Quantity, name_of, quantity, spelled
+from ..quantities import Member, Number, Quantity, is_number, label, name_of, quantity, spelled
+from ..quantities.numbers import plain
 from ..steps import Link, Pin, Step
-from ..units import deg, parse
+from ..units import UNITS, parse
 from .expression import arrow, expression
+from .form import form, own_form
 from .names import Names
 
 
@@ -34,6 +37,20 @@ class Design:
         self.written.add(name)
         return float(self.set.get(name, given.number))
 
+    def amount(self, given: Any, unit: str = "", name: str = "") -> Any:
+        """Return a number of a load as it is given, in its unit where that is exact, or the expression in its place.
+
+        `name` is that of its design variable, where it is one.
+        """
+        value = plain(given)
+        if not is_number(value):
+            value = quantity(value)
+            if not isinstance(value, Number):
+                return self.scalar(value)
+            value = value.number
+        self.written.add(name)
+        return in_unit(self.set.get(name, value), unit)
+
     def label(self, spelling: str, given: Any) -> float | str:
         """Return the value of a label [SI], or the expression that stands for it."""
         value = quantity(given)
@@ -48,28 +65,52 @@ class Design:
         """Return a quantity as a number or as text that reads back as the same; DefinitionError where there is none."""
         if isinstance(given, Number):
             return given.number
-        return self.text(spelled(given))
+        return self.checked(spelled(given), form(given), expression)
 
-    def text(self, text: str) -> str:
-        """Return an expression's text; DefinitionError unless it reads back as the same."""
-        if str(expression(text, self.names)) != text:
-            raise DefinitionError(f"the expression {text} does not read back as it is; give its parts names of their own.")
-        return text
+    def own(self, given: Quantity) -> str:
+        """Return the text of a quantity's own rule, whatever its name; DefinitionError unless it reads back as the same."""
+        return self.checked(str(given), own_form(given), expression)
 
     def arrow(self, given: Member | str) -> str:
-        """Return a vector as text, or its name."""
-        text = given if isinstance(given, str) else given.name or str(given)
-        if str(arrow(text, self.names)) != text:
-            raise DefinitionError(f"the vector {text} does not read back as it is; give its parts names of their own.")
+        """Return a vector as text, or its name; DefinitionError unless it reads back as the same."""
+        return self.checked(label(given), form(given), arrow)
+
+    def own_arrow(self, given: Member) -> str:
+        """Return the text of a vector's own rule, whatever its name; DefinitionError unless it reads back as the same."""
+        return self.checked(str(given), own_form(given), arrow)
+
+    def checked(self, text: str, says: Any, read: Callable[[str, Names], Any]) -> str:
+        """Return a text; DefinitionError unless it is read as what it says."""
+        if own_form(read(text, self.names)) != says:
+            raise DefinitionError(f"{text} does not read back as it is; give its parts names of their own.")
         return text
 
 
 def in_degrees(value: float) -> float | str:
     """Return an angle [rad] as text in degrees where that is short and reads back as the same, else as it is."""
-    if not isinstance(value, float) or not 0.0 < abs(value) < 1e9:
+    return in_unit(value, "deg") if isinstance(value, float) and abs(value) < 1e9 else value
+
+
+def in_unit(value: float, unit: str) -> float | str:
+    """Return a value [SI] as text in a unit where that is short and reads back as the same, else as it is."""
+    factor = UNITS[unit][0] if unit else 1.0
+    if factor == 1.0 or not isinstance(value, float) or value == 0.0 or not isfinite(value / factor):
         return value
-    text = f"{value / deg:.9g} deg"
+    text = f"{value / factor:.9g} {unit}"
     return text if parse(text) == value else value
+
+
+def option(value: Any) -> Any:
+    """Return an option of a load as a file holds it: a number, a word, a name, a list of them; DefinitionError for anything else."""
+    return [one_option(each) for each in value] if isinstance(value, (tuple, list, np.ndarray)) and np.ndim(value) else one_option(value)
+
+
+def one_option(value: Any) -> Any:
+    """Return a number, a word or a member's name; DefinitionError for anything else."""
+    value = name_of(value) if isinstance(value, Member) else plain(value)
+    if is_number(value) or isinstance(value, str):
+        return value
+    raise DefinitionError(f"{value!r} is neither a number nor a word; a file cannot hold it.")
 
 
 def changed(machine: Mechanism) -> dict[str, float]:
@@ -108,16 +149,16 @@ def settled(name: str, member: Member, machine: Mechanism) -> Member:
 def measured(design: Design, members: Mapping[str, Member]) -> dict[str, dict[str, float]]:
     """Return the labels that the class measured from its drawing, by the link that they belong to [m, rad]."""
     found: dict[str, dict[str, float]] = {}
-    for label, entry in design.plan.table.entries.items():
-        if label not in design.written and entry.kind in ("length", "angle"):
-            owner = next((name for name, member in members.items() if isinstance(member, Link) and joined(label, member)), "")
+    for each, entry in design.plan.table.entries.items():
+        if each not in design.written and entry.kind in ("length", "angle"):
+            owner = next((name for name, member in members.items() if isinstance(member, Link) and joined(each, member)), "")
             if not owner:
-                raise DefinitionError(f"{label} was measured from the drawing and belongs to no link; give it in the class.")
-            found.setdefault(owner, {})[label] = float(design.set.get(label, entry.default))
+                raise DefinitionError(f"{each} was measured from the drawing and belongs to no link; give it in the class.")
+            found.setdefault(owner, {})[each] = float(design.set.get(each, entry.default))
     return found
 
 
-def joined(label: str, link: Link) -> bool:
+def joined(text: str, link: Link) -> bool:
     """Return whether a label is made of a link's own points."""
     names = [name_of(point) for point in link.points]
-    return label in {"".join(several) for count in (2, 3) for several in permutations(names, count)}
+    return text in {"".join(several) for count in (2, 3) for several in permutations(names, count)}

@@ -70,6 +70,30 @@ class Entry(BaseModel):
         member.enter(table)
 
 
+class Worded(Entry):
+    """An entry that is told apart by its class's name, under which stands what it is built from: `{ Dyad = ["A", "O"], ... }`.
+
+    A subclass says the field `parents`, with that name as its alias, and one for each keyword of its class.
+    What a file leaves out is left to the class.
+    """
+
+    parents: Any
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        if "describes" in vars(cls):
+            cls.word = cls.describes.__name__
+
+    def given(self) -> dict[str, Any]:
+        """Return the keywords that the file gives."""
+        return {name: getattr(self, name) for name in type(self).model_fields if name in self.model_fields_set - {"parents", "labels"}}
+
+    def member(self) -> Member:
+        parents = self.parents if isinstance(self.parents, tuple) else (self.parents,)
+        made: Member = self.describes(*parents, **self.given())
+        return made
+
+
 class Labelled(Entry):
     """An entry with labels: every key that is not its own is a length or an angle of its points."""
 

@@ -15,7 +15,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ..errors import DefinitionError, unknown
-from ..quantities import Member, Number, Quantity, Ref
+from ..quantities import Member, Number, Quantity
 from ..steps import Arrow
 from ..units import UNITS
 from .functions import CALLS, Call, number
@@ -164,7 +164,7 @@ class Parser:
             return made
         if token.text not in self.names.kinds and token.text in CONSTANTS:
             return Number(CONSTANTS[token.text])
-        return Ref(self.checked(token.text, "quantity"))
+        return self.names.quantity(self.checked(token.text, "quantity"))
 
     # -- functions -------------------------------------------------------------------------------------
 

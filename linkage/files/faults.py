@@ -15,7 +15,10 @@ from .names import shortened
 
 Key = tuple[str, ...]
 
-WORDS = {"missing": "is missing.", "extra_forbidden": "is not a key of it."}
+WORDS = {
+    "missing": "is missing.", "extra_forbidden": "is not a key of it.", "tuple_type": "is not a list [...].",
+    "dict_type": "is not a table { key = value }.", "model_type": "is not a table { key = value }.",
+}  # fmt: skip
 HIDDEN = ("labels", "bare")
 
 
@@ -72,4 +75,4 @@ def described(error: ValidationError) -> Iterator[tuple[Key, str]]:
 
 def shown(part: str) -> str:
     """Return a part of a key for a message."""
-    return part if part.isidentifier() else shortened(part)
+    return part if part.isidentifier() or part.isdecimal() else shortened(part)

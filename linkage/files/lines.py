@@ -37,5 +37,7 @@ def outside(text: str) -> Iterator[tuple[int, str]]:
 
 
 def line_of(found: Mapping[tuple[str, ...], int], key: tuple[str, ...]) -> int:
-    """Return the line of a key, else of the nearest table around it; 0 where none is known."""
-    return next((found[key[:end]] for end in range(len(key), 0, -1) if key[:end] in found), 0)
+    """Return the line of a key, else the first one inside it, else that of the nearest table around it; 0 where none is known."""
+    inside = [line for path, line in found.items() if key and path[: len(key)] == key]
+    around = (found[key[:end]] for end in range(len(key), 0, -1) if key[:end] in found)
+    return found[key] if key in found else min(inside, default=next(around, 0))

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from keyword import iskeyword
 from unicodedata import normalize
 
 from ..errors import DefinitionError, unknown
+from ..quantities import Member, Quantity, Ref
 from .limits import NAME_LENGTH
 
 
@@ -17,6 +18,13 @@ class Names:
 
     sections: Mapping[str, str]
     kinds: Mapping[str, str]
+    built: dict[str, Member] = field(default_factory=dict)
+    """The members that are read already."""
+
+    def quantity(self, name: str) -> Quantity:
+        """Return the quantity of a name as a class has it: itself where it stands above, else by its name."""
+        found = self.built.get(self.checked(name, "quantity"))
+        return found if isinstance(found, Quantity) else Ref(name)
 
     def checked(self, name: object, kind: str) -> str:
         """Return a name that stands for a member of a kind; DefinitionError, with those there are, for any other."""

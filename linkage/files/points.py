@@ -10,11 +10,11 @@ from ..plan import Table
 from ..quantities import Member, label, name_of
 from ..steps import Crank, Dyad, Ground, GuideCross, Offset, OnGuide, OnLink, Pin, PinSlotDyad, Point, SliderDyad, YokeDyad
 from .design import Design, in_degrees
-from .entry import Entry, Labelled
+from .entry import Entry, Labelled, Worded
 from .fields import Coordinates, GuideName, Place, PointAndArrow, PointAndGuide, PointName, SideWord, TwoGuides, TwoPoints, Value
 
 
-class PointEntry(Entry):
+class PointEntry(Worded):
     """The base of entries in [points]."""
 
     section: ClassVar[str] = "points"
@@ -27,17 +27,6 @@ class PointEntry(Entry):
 
 class StepEntry(PointEntry):
     """The base of entries of steps."""
-
-    parents: Any
-
-    def given(self) -> dict[str, Any]:
-        """Return the keywords of the step."""
-        return {name: getattr(self, name) for name in type(self).model_fields if name not in ("parents", "labels")}
-
-    def member(self) -> Member:
-        parents = self.parents if isinstance(self.parents, tuple) else (self.parents,)
-        made: Member = self.describes(*parents, **self.given())
-        return made
 
     @classmethod
     def written(cls, member: Any, design: Design) -> Any:
@@ -57,47 +46,46 @@ class LabelledStep(Labelled, StepEntry):
         return super().written(member, design) | cls.written_labels(member.labels, design) | chosen
 
 
-class DyadEntry(LabelledStep):
+class SidedStep(LabelledStep):
+    """The base of entries of steps with two assembly modes: a side, or a position in a sketch, chooses one."""
+
+    side: SideWord | None = None
+    near: Place | None = None
+
+
+class DrawnStep(SidedStep):
+    """The base of entries of steps that may be measured from a drawing."""
+
+    at: Place | None = None
+
+
+class DyadEntry(DrawnStep):
     """`B = { Dyad = ["A", "O"], AB = "L0 + S", OB = 0.30, side = "RIGHT" }`"""
 
     describes: ClassVar[type[Member]] = Dyad
-    word: ClassVar[str] = "Dyad"
     parents: TwoPoints = Field(alias="Dyad")
-    side: SideWord | None = None
-    near: Place | None = None
-    at: Place | None = None
 
 
-class OnLinkEntry(LabelledStep):
+class OnLinkEntry(DrawnStep):
     """`C = { OnLink = ["O", "B"], OC = 0.36, BC = 0.16, side = "LEFT" }`"""
 
     describes: ClassVar[type[Member]] = OnLink
-    word: ClassVar[str] = "OnLink"
     parents: TwoPoints = Field(alias="OnLink")
-    side: SideWord | None = None
-    near: Place | None = None
-    at: Place | None = None
 
 
-class SliderDyadEntry(LabelledStep):
+class SliderDyadEntry(SidedStep):
     """`C = { SliderDyad = ["A", "rail"], AC = 0.4, side = "RIGHT" }`"""
 
     describes: ClassVar[type[Member]] = SliderDyad
-    word: ClassVar[str] = "SliderDyad"
     parents: PointAndGuide = Field(alias="SliderDyad")
-    side: SideWord | None = None
-    near: Place | None = None
 
 
-class PinSlotDyadEntry(LabelledStep):
+class PinSlotDyadEntry(SidedStep):
     """`R = { PinSlotDyad = ["O", "A"], OR = 0.5, offset = 0.02, side = "RIGHT" }`"""
 
     describes: ClassVar[type[Member]] = PinSlotDyad
-    word: ClassVar[str] = "PinSlotDyad"
     parents: TwoPoints = Field(alias="PinSlotDyad")
-    offset: Value = Field(default=0.0, validate_default=True)
-    side: SideWord | None = None
-    near: Place | None = None
+    offset: Value | None = None
 
     @classmethod
     def written(cls, member: Any, design: Design) -> Any:
@@ -109,7 +97,6 @@ class GuideCrossEntry(StepEntry):
     """`C = { GuideCross = ["rail", "post"] }`"""
 
     describes: ClassVar[type[Member]] = GuideCross
-    word: ClassVar[str] = "GuideCross"
     parents: TwoGuides = Field(alias="GuideCross")
 
 
@@ -117,9 +104,8 @@ class YokeDyadEntry(StepEntry):
     """`X = { YokeDyad = ["A", "rail"], angle = "90 deg" }`"""
 
     describes: ClassVar[type[Member]] = YokeDyad
-    word: ClassVar[str] = "YokeDyad"
     parents: PointAndGuide = Field(alias="YokeDyad")
-    angle: Value = Field(default="90 deg", validate_default=True)
+    angle: Value | None = None
 
     @classmethod
     def written(cls, member: Any, design: Design) -> Any:
@@ -131,7 +117,6 @@ class CrankEntry(LabelledStep):
     """`A = { Crank = "O", OA = 0.1, angle = "phi" }`"""
 
     describes: ClassVar[type[Member]] = Crank
-    word: ClassVar[str] = "Crank"
     parents: PointName = Field(alias="Crank")
     angle: Value
 
@@ -145,11 +130,7 @@ class OffsetEntry(PointEntry):
     """`B = { Offset = ["A", "AB"] }`"""
 
     describes: ClassVar[type[Member]] = Offset
-    word: ClassVar[str] = "Offset"
     parents: PointAndArrow = Field(alias="Offset")
-
-    def member(self) -> Member:
-        return Offset(*self.parents)
 
     @classmethod
     def written(cls, member: Any, design: Design) -> Any:
@@ -160,12 +141,8 @@ class OnGuideEntry(PointEntry):
     """`C = { OnGuide = "rail", at = "S" }`"""
 
     describes: ClassVar[type[Member]] = OnGuide
-    word: ClassVar[str] = "OnGuide"
-    guide: GuideName = Field(alias="OnGuide")
+    parents: GuideName = Field(alias="OnGuide")
     at: Value
-
-    def member(self) -> Member:
-        return OnGuide(self.guide, at=self.at)
 
     @classmethod
     def written(cls, member: Any, design: Design) -> Any:

@@ -43,10 +43,10 @@ def built(data: Any, faults: Faults) -> type[Mechanism]:
     sections = sections_of(data, faults)
     title, doc = head(data, faults)
     names = names_of(sections, faults)
-    members = members_of(sections, names, title, faults)
-    order = ordered(data.get("order", []), names, faults)
+    order = ordered(data, names, faults)
+    members = members_of(order, sections, names, title, faults)
     faults.check()
-    return made(title, doc, {name: members[name] for name in order}, names, faults)
+    return made(title, doc, members, names, faults)
 
 
 # -- the tables --------------------------------------------------------------------------------------------
@@ -62,8 +62,8 @@ def sections_of(data: Any, faults: Faults) -> dict[str, Mapping[str, Any]]:
         if key in known and isinstance(value, Mapping):
             found[key] = value
         elif key not in HEAD:
-            what = "must be a table of members" if key in known else f"is not a section; there are {', '.join([*HEAD, *known])}"
-            faults.add((str(key),), f"{what}.")
+            what = "must be a table of members." if key in known else f"is not a section; there are {', '.join([*HEAD, *known])}."
+            faults.add((str(key),), f"{what}{'' if key in known else registry().absent()}")
     return found
 
 
@@ -104,30 +104,30 @@ def check_sizes(sections: Mapping[str, Mapping[str, Any]], where: str) -> None:
             raise FileError(f"{where}: {len(found)} {what} are too many; up to {limit} are read.")
 
 
-def ordered(order: Any, names: Names, faults: Faults) -> list[str]:
+def ordered(data: Mapping[str, Any], names: Names, faults: Faults) -> list[str]:
     """Return the names in the order that the file says; those it does not mention stand behind."""
-    given = order if isinstance(order, list) and all(isinstance(each, str) for each in order) else [None]
-    unknown = [shortened(each) for each in given if each not in names.sections]
+    order = data.get("order", [])
+    given: list[Any] = order if isinstance(order, list) and all(isinstance(each, str) for each in order) else [None]
+    anywhere = {name for table in data.values() if isinstance(table, Mapping) for name in table}
+    unknown = [shortened(each) for each in given if each not in anywhere]
     if unknown or len(set(given)) < len(given):
         faults.add(("order",), f"a list of names is expected, each once; {', '.join(unknown[:3]) or 'one'} is not such a name.")
-        return []
-    return list(dict.fromkeys([*given, *names.sections]))
+    return list(dict.fromkeys([*(each for each in given if each in names.sections), *names.sections]))
 
 
 # -- the members -------------------------------------------------------------------------------------------
 
 
-def members_of(sections: Mapping[str, Mapping[str, Any]], names: Names, title: str, faults: Faults) -> dict[str, Member]:
-    """Return the members by name, each sound by itself; the mistakes of the others are noted."""
-    found: dict[str, Member] = {}
-    for section, entries in sections.items():
-        for name, given in entries.items():
-            if names.sections.get(name) != section:
-                continue
-            with faults.at(section, name), np.errstate(all="ignore"):
-                kind = registry().reading(section, given)
-                found[name] = member_of(kind, name, given, names, title)
-    return found
+def members_of(
+    order: list[str], sections: Mapping[str, Mapping[str, Any]], names: Names, title: str, faults: Faults
+) -> dict[str, Member]:
+    """Return the members by name, in an order, each sound by itself; the mistakes of the others are noted."""
+    for name in order:
+        section = names.sections[name]
+        given = sections[section][name]
+        with faults.at(section, name), np.errstate(all="ignore"):
+            names.built[name] = member_of(registry().reading(section, given), name, given, names, title)
+    return names.built
 
 
 def member_of(kind: type[Entry], name: str, given: Any, names: Names, title: str) -> Member:

@@ -11,6 +11,17 @@ from typing import Any
 from ..errors import DefinitionError, unknown
 from ..quantities import Member
 from .entry import Entry
+from .loads import (
+    CaseEntry,
+    ForceEntry,
+    GuideFrictionEntry,
+    LinkMassEntry,
+    MomentEntry,
+    PinFrictionEntry,
+    SpringEntry,
+    SupportEntry,
+    WeightEntry,
+)
 from .names import shortened
 from .parts import GroupEntry, GuideEntry, LinkEntry, SlideEntry
 from .points import (
@@ -29,11 +40,14 @@ from .points import (
 from .scalars import DimensionEntry, DrawnEntry, OutputEntry, StrokeEntry, VectorEntry
 
 GROUP = "hydrolinkage.files"
+SHIPPED = {"hydraulics": "hydrolinkage"}
+"""Sections that packages beside this one bring, each with what to install for it."""
 
 OWN: tuple[type[Entry], ...] = (
     StrokeEntry, DimensionEntry, DrawnEntry, GroundEntry, GuideEntry,
     DyadEntry, OnLinkEntry, CrankEntry, OffsetEntry, SliderDyadEntry, PinSlotDyadEntry, GuideCrossEntry, YokeDyadEntry, OnGuideEntry,
     VectorEntry, LinkEntry, PinEntry, SlideEntry, GroupEntry, OutputEntry,
+    WeightEntry, ForceEntry, MomentEntry, LinkMassEntry, SpringEntry, SupportEntry, PinFrictionEntry, GuideFrictionEntry, CaseEntry,
 )  # fmt: skip
 
 
@@ -71,14 +85,28 @@ class Registry:
         example = next(iter(words.values())).__doc__
         key = next((key for key in given if isinstance(key, str)), "") if isinstance(given, Mapping) else ""
         what = unknown("Kind", shortened(key, quote=False), words) if key else f"{shortened(given)} is no entry of [{section}]."
-        raise DefinitionError(f"{what} Write it like {example}.")
+        raise DefinitionError(f"{what} Write it like {example}.{self.elsewhere(given)}{self.absent()}")
+
+    def elsewhere(self, given: Any) -> str:
+        """Return in which section an entry would be known, in words; "" where in none."""
+        keys = set(given) if isinstance(given, Mapping) else set()
+        found = [(word, section) for section, words in self.sections.items() for word in words if word and word in keys]
+        return "".join(f" {word} stands in [{section}]." for word, section in found[:1])
+
+    def absent(self) -> str:
+        """Return which packages of this distribution are not registered, in words; "" where all are."""
+        return "".join(
+            f" The kinds of [{section}] are not registered here: install {package}, which brings them (pip install {package})."
+            for section, package in SHIPPED.items()
+            if section not in self.sections
+        )
 
     def writing(self, member: Member) -> type[Entry]:
         """Return the kind of entry that a member is written as; DefinitionError where a file cannot hold it."""
         by_class = {entry.describes: entry for entry in self.entries}
         found = next((by_class[base] for base in type(member).__mro__ if base in by_class), None)
         if found is None or not (found.family or found.describes is type(member)):
-            raise DefinitionError(f"{member.name} = {member}: a file cannot hold a {type(member).__name__}.")
+            raise DefinitionError(f"{member.name} = {member}: a file cannot hold a {type(member).__name__}.{self.absent()}")
         return found
 
 

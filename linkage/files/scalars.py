@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import isfinite
 from typing import Annotated, Any, ClassVar
 
 from pydantic import PlainValidator, ValidationInfo
 
 from ..errors import DefinitionError, unknown
 from ..motion import stroke_unit
-from ..quantities import Dimension, Member, Quantity, Stroke
+from ..quantities import Dimension, Member, Quantity, Stroke, ref
 from ..quantities.numbers import plain
 from ..steps import Arrow, Drawn
 from ..units import UNITS, parse
@@ -17,7 +18,9 @@ from .design import Design, in_degrees
 from .entry import Entry
 from .fields import AnArrow, Ends, Value, names_of, number_of
 from .names import shortened
-from .tokens import tokens
+from .tokens import one_unit
+
+LONGER = 4  # characters that a dimension may be longer in its unit than in SI
 
 
 class StrokeEntry(Entry):
@@ -42,8 +45,7 @@ def dimension_of(given: Any, info: ValidationInfo) -> tuple[float, str]:
         if not {"value"} <= set(given) <= {"value", "unit"} or not isinstance(given.get("unit", ""), str):
             raise DefinitionError(f'{shortened(dict(given))}: a dimension is a number, "500 mm", or {{ value = 0.5, unit = "mm" }}.')
         return number_of(given["value"], info), given.get("unit", "")
-    words = tokens(given) if isinstance(given, str) else []
-    return number_of(given, info), words[0].unit if len(words) == 2 else ""
+    return number_of(given, info), one_unit(given) if isinstance(given, str) else ""
 
 
 class DimensionEntry(Entry):
@@ -63,8 +65,9 @@ class DimensionEntry(Entry):
         if not member.unit:
             return value
         shown = value / UNITS[member.unit][0]
-        texts = (f"{each} {member.unit}" for each in (f"{shown:.12g}", repr(shown)))
-        return next((text for text in texts if parse(text) == value), {"value": value, "unit": member.unit})
+        texts = [f"{shown:.12g}", *([repr(shown)] if len(repr(shown)) <= len(repr(value)) + LONGER else [])]
+        found = (f"{text} {member.unit}" for text in texts if isfinite(shown) and parse(f"{text} {member.unit}") == value)
+        return next(found, {"value": value, "unit": member.unit})
 
 
 class OutputEntry(Entry):
@@ -76,11 +79,11 @@ class OutputEntry(Entry):
     bare: Value
 
     def member(self) -> Member:
-        return self.bare
+        return ref(self.bare.name) if self.bare.name else self.bare
 
     @classmethod
     def written(cls, member: Any, design: Design) -> Any:
-        return member.number if member.is_constant else design.text(str(member))
+        return member.number if member.is_constant else design.own(member)
 
 
 class VectorEntry(Entry):
@@ -99,7 +102,7 @@ class VectorEntry(Entry):
 
     @classmethod
     def written(cls, member: Any, design: Design) -> Any:
-        return design.arrow(str(member))
+        return design.own_arrow(member)
 
 
 def strokes_of(given: Any, info: ValidationInfo) -> dict[str, float]:

@@ -45,4 +45,10 @@ def tokens(text: str) -> list[Token]:
     return found
 
 
+def one_unit(text: str) -> str:
+    """Return the unit of a text that is one number with a unit, its sign apart; "" for any other. DefinitionError for no expression."""
+    values = [word for word in tokens(text) if word.kind in ("number", "name")]
+    return values[0].unit if len(values) == 1 else ""
+
+
 GRAMMAR = "an expression is made of numbers with units, names, + - * / **, brackets and functions such as angle(P, Q)"

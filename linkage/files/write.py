@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import DefinitionError, FileError
-from ..mechanism import Mechanism
+from ..mechanism import Mechanism, declared
 from .design import Design, measured, members_of
 from .json_text import json_text
 from .names import Names
@@ -52,6 +52,14 @@ def head(machine: Machine, order: list[str]) -> dict[str, Any]:
     if not all(each.isprintable() or each in "\n\t" for each in doc):
         raise DefinitionError(f"{cls.__name__}: its docstring holds characters that cannot be printed; take them out.")
     return {"name": cls.__name__} | ({"doc": doc} if doc else {}) | ({"order": order} if order else {})
+
+
+def left_out(machine: Machine) -> tuple[str, ...]:
+    """Return the names of what a class has beside its members, which a file does not hold: functions, checks, values of its own."""
+    cls = type(machine) if isinstance(machine, Mechanism) else machine
+    own = [base for base in cls.__mro__ if issubclass(base, Mechanism) and base is not Mechanism]
+    names = {name for base in own for name in vars(base) if name == "__init__" or not name.startswith("__")}
+    return tuple(sorted(names - {"plan", *declared(cls)}))
 
 
 def to_toml(machine: Machine) -> str:

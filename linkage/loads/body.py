@@ -10,9 +10,9 @@ from typing import Any, ClassVar, TypeAlias, final
 import numpy as np
 
 from ..errors import DefinitionError, unknown
-from ..quantities import Member, Reference, name_of
+from ..quantities import Member, Reference, label, name_of
 from ..steps import Link, Point
-from .element import ForceElement, Poses, written
+from .element import ForceElement, Poses
 from .load import Array, Load, couple
 from .point import DOWN, two, vector
 
@@ -59,9 +59,7 @@ class OnBody(ForceElement):
         return P, Q, arm
 
     def __str__(self) -> str:
-        words = " ".join(each if isinstance(each, str) else each.name or str(each) for each in self.named())
-        given = (f"{name}={written(getattr(self, name))}" for name in self.parameters)
-        return f"{type(self).__name__}({', '.join([repr(words), *given])})"
+        return f"{type(self).__name__}({', '.join([repr(' '.join(map(label, self.named()))), *self.words()])})"
 
 
 @final
@@ -83,7 +81,8 @@ class LinkMass(OnBody):
     """A body's own mass [kg] at its centre of gravity: `own = LinkMass("E D F", mass=30)`.
 
     `at=(along, across)` [m] is that centre in the body's axes: from its first point towards the second, and to the left.
-    Without it the centre lies in the middle of the points named, as that of a uniform bar does.
+    Without it the centre lies in the middle of the points named, as that of a uniform bar does; each point bears an equal
+    share, so that the mass of a cylinder or a telescope goes out with its ends.
     """
 
     link: Body
@@ -102,14 +101,14 @@ class LinkMass(OnBody):
     def loads(self, motion: Poses) -> list[Load]:
         P, Q, arm = self.axis(motion)
         weight = vector(self.number(motion, "mass"), self.gravity)
-        r = self.centre(motion, P, arm)
-        return [Load(P, weight, (P, Q)), *couple(P, Q, arm, r[0] * weight[1] - r[1] * weight[0])]
-
-    def centre(self, motion: Poses, P: str, arm: Array) -> Array:
-        """Return the centre of gravity's position from P, shape (2, ...) [m]."""
         if self.at is None:
             points = self.points(motion.plan.members, motion.plan.title)
-            return np.asarray(np.mean([motion[point] - motion[P] for point in points], axis=0))
+            return [Load(point, weight / len(points), (P, Q)) for point in points]
+        r = self.centre(arm)
+        return [Load(P, weight, (P, Q)), *couple(P, Q, arm, r[0] * weight[1] - r[1] * weight[0])]
+
+    def centre(self, arm: Array) -> Array:
+        """Return the centre of gravity's position from P as `at` says, shape (2, ...) [m]."""
         along = arm / np.hypot(arm[0], arm[1])
         centre: Array = along * float(self.at[0]) + np.stack([-along[1], along[0]]) * float(self.at[1])
         return centre

@@ -8,8 +8,9 @@ from math import cos, sin
 from typing import ClassVar, final
 
 from ..errors import DefinitionError, unknown
-from ..quantities import Member, Reference, is_number, name_of
-from ..units import deg, g0
+from ..quantities import Member, Reference, in_degrees, is_number, name_of
+from ..quantities.numbers import plain
+from ..units import g0
 from .element import ForceElement
 
 
@@ -67,9 +68,10 @@ class LoadCase(Member):
         return -self.gravity * sin(self.slope), -self.gravity * cos(self.slope)
 
     def __str__(self) -> str:
+        scale = {name: plain(value) for name, value in self.scale.items()}
         words = [repr(self.title)] if self.title else []
-        words += [f"scale={dict(self.scale)!r}"] if self.scale else []
+        words += [f"scale={scale!r}"] if scale else []
         words += [f"only={[name_of(each) for each in self.only]!r}"] if self.only is not None and not isinstance(self.only, str) else []
-        words += [f"slope={self.slope / deg:.6g} * deg"] if is_number(self.slope) and self.slope else []
-        words += [f"gravity={self.gravity!r}"] if self.gravity != g0 else []
+        words += [f"slope={in_degrees(float(self.slope))}"] if is_number(self.slope) and self.slope else []
+        words += [f"gravity={plain(self.gravity)!r}"] if self.gravity != g0 else []
         return f"LoadCase({', '.join(words)})"

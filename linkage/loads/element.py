@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, Protocol, Self
 
@@ -12,6 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..quantities import Member, Number, Quantity, Reference, label, name_of, quantity, real, spelled
+from ..quantities.numbers import plain
 from ..steps import Point
 from .load import Array, Load
 
@@ -93,6 +94,10 @@ class ForceElement(Member):
         """Return the pairs of points that this element holds apart as a driven member, declared by no step."""
         return ()
 
+    def feeds(self, members: Mapping[str, Member]) -> tuple[tuple[str, str], ...]:
+        """Return the ends of cylinders whose force this element gives, as a charged line does; the class's members by name."""
+        return ()
+
     # -- what follows --------------------------------------------------------------------------------------
 
     def parts(self) -> tuple[Reference, ...]:
@@ -121,7 +126,8 @@ class ForceElement(Member):
         given, key = getattr(self, name), f"{self.name}.{name}"
         member = motion.plan.members.get(self.name)
         if key in motion.inputs and type(member) is type(self) and getattr(member, name) is given:
-            return np.asarray(motion.inputs[key], float)
+            found: Array = motion.inputs[key]
+            return found
         if isinstance(given, (str, Quantity)):
             return motion.value(quantity(given))
         return np.asarray(given, float)
@@ -137,24 +143,39 @@ class ForceElement(Member):
         try:
             value = real(given)
         except ValueError:
-            raise DefinitionError(f"{self}: {name}={given!r} is not a number; give it in SI.") from None
+            raise DefinitionError(f"{self._opening()}: {name}={given!r} is not a number; give it in SI.") from None
         if not np.all(np.isfinite(value)):
-            raise DefinitionError(f"{self}: {name}={given!r} is not a finite number; give it in SI.")
+            raise DefinitionError(f"{self._opening()}: {name}={given!r} is not a finite number; give it in SI.")
         if name in self.not_negative and np.any(value < 0.0):
-            raise DefinitionError(f"{self}: {name}={given!r} is negative; give zero or more.")
+            raise DefinitionError(f"{self._opening()}: {name}={given!r} is negative; give zero or more.")
+
+    def _opening(self) -> str:
+        """Return the element as it is written; its kind alone where its points have no names yet, as in a class."""
+        places = [getattr(self, place) for place in self.places]
+        is_named = all(isinstance(each, str) or (isinstance(each, Member) and each.name) for each in places)
+        return str(self) if is_named else type(self).__name__
+
+    def options(self) -> dict[str, Any]:
+        """Return what it was given beside its places and parameters, where that is not the usual, by name."""
+        declared: tuple[Field[Any], ...] = fields(self) if is_dataclass(self) else ()
+        others = [each for each in declared if each.name not in (*self.places, *self.parameters) and each.default is not MISSING]
+        return {each.name: getattr(self, each.name) for each in others if repr(getattr(self, each.name)) != repr(each.default)}
+
+    def words(self) -> list[str]:
+        """Return its parameters and options as they are written."""
+        given = {name: written(getattr(self, name)) for name in self.parameters}
+        more = {name: label(value) if isinstance(value, Member) else repr(plain(value)) for name, value in self.options().items()}
+        return [f"{name}={text}" for name, text in (given | more).items()]
 
     def __str__(self) -> str:
-        places = [label(getattr(self, place)) for place in self.places]
-        return f"{type(self).__name__}({', '.join([*places, *(f'{name}={written(getattr(self, name))}' for name in self.parameters)])})"
+        places = (label(getattr(self, place)) for place in self.places)
+        return f"{type(self).__name__}({', '.join([*places, *self.words()])})"
 
-    def renewed(self, **changes: Any) -> Self:
-        """Return this element with attributes changed, under its own name."""
-        changed = object.__new__(type(self))
-        for name, value in {**vars(self), **changes}.items():
-            object.__setattr__(changed, name, value)
-        return changed
+    def having(self, values: Mapping[str, float]) -> Self:
+        keys = {name: f"{self.name}.{name}" for name in self.parameters}
+        return self.renewed(**{name: values[key] for name, key in keys.items() if key in values})
 
 
 def written(value: Any) -> str:
-    """Return a parameter as it is written."""
-    return spelled(value) if isinstance(value, Quantity) else repr(value)
+    """Return a parameter as it is written: a number, an expression, a name."""
+    return spelled(quantity(value)) if isinstance(value, (str, Quantity)) else repr(plain(value))

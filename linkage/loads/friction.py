@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, final
 
-from ..quantities import Reference, name_of
+from ..quantities import Reference, label, name_of
 from .element import ForceElement, Friction, Poses
 from .load import Load
 
@@ -49,6 +49,9 @@ class GuideFriction(ForceElement):
 
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), *([self.guide] if self.guide else []))
+
+    def words(self) -> list[str]:
+        return [f"guide={label(self.guide)}" if word.startswith("guide=") else word for word in super().words()]
 
     def loads(self, motion: Poses) -> list[Load]:
         return []

@@ -78,6 +78,9 @@ class Force(Pair):
     def pair(self) -> tuple[Any, Any]:
         return two(self.vector, "Force")
 
+    def having(self, values: Mapping[str, float]) -> Force:
+        return self.renewed(vector=(values.get(f"{self.name}.x", self.x), values.get(f"{self.name}.y", self.y)))
+
     def loads(self, motion: Poses) -> list[Load]:
         return [Load(name_of(self.point), vector(1.0, (self.number(motion, "x"), self.number(motion, "y"))))]
 
@@ -116,9 +119,10 @@ class Support(ForceElement):
         return [Load(name_of(self.point), vector(self.number(motion, "force"), (self.unit[0], self.unit[1])))]
 
     def __str__(self) -> str:
-        return f"Support({label(self.point)}, {self.direction!r}, force={written(self.force)})"
+        x, y = two(self.direction, "Support")
+        return f"Support({label(self.point)}, ({written(x)}, {written(y)}), {', '.join(self.words())})"
 
 
 def vector(size: Any, direction: tuple[Any, Any]) -> Array:
     """Return a size times a direction, shape (2, ...)."""
-    return np.stack(np.broadcast_arrays(*(np.asarray(size * part, float) for part in direction)))
+    return np.stack(np.broadcast_arrays(*(size * part for part in direction)))

@@ -10,7 +10,7 @@ import numpy as np
 from ..assembly import places_at
 from ..errors import AssemblyError, DefinitionError
 from ..graph import merged
-from ..plan import Plan, Reading
+from ..plan import Plan, Reading, strokes_text
 from ..program import FloatArray
 from ..quantities import name_of
 from ..steps import Guide, Link, Offset, Slide, YokeDyad
@@ -38,19 +38,20 @@ class Mobility:
 
 
 def mobility(plan: Plan) -> Mobility:
-    """Return the mobility at the sketch; where branches cross there, in the middle of the strokes.
+    """Return the mobility at the sketch; where branches cross there, in the middle of the strokes or aside of it.
 
     AssemblyError where the mechanism cannot be assembled at the sketch.
     """
-    here = mobility_at(plan, plan.sketch_strokes)
-    if here.rank <= here.strokes:
-        return here
-    middle = {name: 0.5 * (stroke.start + stroke.end) for name, stroke in plan.strokes.items()}
-    try:
-        there = mobility_at(plan, middle)
-    except AssemblyError:
-        return here
-    return there if there.rank < here.rank else here
+    found = mobility_at(plan, plan.sketch_strokes)
+    for share in (0.5, 0.37):  # of whole turns, the middle may be in line as well
+        if found.rank <= found.strokes:
+            break
+        aside = {name: stroke.start + share * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()}
+        try:
+            found = min(mobility_at(plan, aside), found, key=lambda each: each.rank)
+        except AssemblyError:
+            continue
+    return found
 
 
 def mobility_at(plan: Plan, strokes: dict[str, float]) -> Mobility:
@@ -60,7 +61,7 @@ def mobility_at(plan: Plan, strokes: dict[str, float]) -> Mobility:
     links = link_rows(plan, places, steps.unknowns)
     both = Rows(np.vstack([steps.matrix, links.matrix]), (*steps.owners, *links.owners), steps.unknowns)
     active = np.abs(both.matrix).sum(axis=0) > 0.0
-    free = int((active | [name not in plan.strokes for name in both.unknowns]).sum())
+    free = int((active | np.array([name not in plan.strokes for name in both.unknowns], bool)).sum())
     full = rank(both.matrix)
     extra = [name for name in dict.fromkeys((*links.owners, *plan.of_kind(Slide))) if name not in implied(plan)]
     needed = len(steps.unknowns) - len(plan.strokes)
@@ -157,8 +158,9 @@ def check_slides(plan: Plan) -> None:
         for name, slide in plan.of_kind(Slide).items():
             off = abs(float(slide.miss(reading)))
             if off > 1e-9 * max(1.0, abs(float(reading.at(slide.point).x)), abs(float(reading.at(slide.point).y))):
+                where = strokes_text(plan, strokes)
                 raise DefinitionError(
-                    f"{plan.title}: {name} = {slide}: {name_of(slide.point)} is {off / mm:.3g} mm off the guide at {strokes}. "
+                    f"{plan.title}: {name} = {slide}: {name_of(slide.point)} is {off / mm:.3g} mm off the guide at {where}. "
                     "Take the slide out, or let it place the point: declare the point as a Pin."
                 )
 

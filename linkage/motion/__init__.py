@@ -11,7 +11,12 @@ from .paired import Paired as Paired
 from .reach import stroke_unit as stroke_unit
 from .request import Ratio as Ratio
 from .request import Request as Request
+from .request import Value as Value
 from .request import ratio as ratio
+from .source import source_of as source_of
 from .strokes import as_given as as_given
 from .strokes import at_values as at_values
 from .strokes import sweep_values as sweep_values
+from .table import columns_of as columns_of
+from .wanted import Asked as Asked
+from .wanted import Wanted as Wanted

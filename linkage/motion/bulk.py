@@ -8,19 +8,17 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from ..errors import DefinitionError, SingularWarning
 from ..plan import ArrayReading, Plan
-from ..program import FloatArray, Kernel, Level, Node, Way, ancestors, interpret
-from ..quantities import Quantity
-from ..steps import Arrow, Point
+from ..program import FloatArray, Kernel, Node, Way
 from . import reach, singular
+from .angles import Angles, angles_of
 from .grid import Grid
 from .motion import Motion
 from .reach import Mask
-from .request import Request, Wanted, wanted
-from .unwrap import unwrapped
+from .request import Request, all_wanted
+from .wanted import Wanted, astray
 
 PIECE = 1 << 18
 """Poses that are looked at again at a time."""
@@ -28,7 +26,7 @@ PIECE = 1 << 18
 
 def evaluate(grid: Grid, requests: Sequence[Request], out: FloatArray | None, way: Way) -> list[FloatArray]:
     """Return the values of requests over a grid; see Mechanism.evaluate."""
-    return Bulk(grid, tuple(wanted(grid.plan, request) for request in requests), way).run(out)
+    return Bulk(grid, all_wanted(grid.plan, requests), way).run(out)
 
 
 @dataclass(frozen=True)
@@ -47,18 +45,27 @@ class Bulk:
     @property
     def kernel(self) -> Kernel:
         """The kernel of the requests, watched by the guards of what they are built from."""
+        return self._program[0]
+
+    @property
+    def _program(self) -> tuple[Kernel, list[Angles | None]]:
+        """The kernel, and for each request that follows angles these, made once."""
         return self.grid.plan.made(("bulk", tuple(each.key for each in self.wanted)), self._make)
+
+    @property
+    def may_fail(self) -> bool:
+        """Whether there may be poses without a value that no guard tells of."""
+        return self.grid.plan.may_overflow or any(each.may_fail for each in self.wanted)
 
     def run(self, out: FloatArray | None) -> list[FloatArray]:
         """Return one array a request, in the usual shapes; rows of `out` where it is given."""
         grid, rows = self.grid, sum(each.rows for each in self.wanted)
         result = self.kernel(grid.flat, self._place(rows, out), self.way, grid.size)
-        if grid.plan.may_overflow or not np.all(result.guards > 0.0):
+        if not np.all(result.guards > 0.0) or (self.may_fail and not np.isfinite(result.values).all()):
             self._settle(result.values)
         found = grid.full(result.values)
-        for first, each in self._starts():
-            if isinstance(each.member, Quantity) and not each.along:
-                self._unwrap(each, found[first])
+        if any(value.ndim for value in grid.strokes.values()):
+            self._unwrap(found)
         return [found[first : first + 2] if each.rows > 1 else found[first] for first, each in self._starts()]
 
     def _starts(self) -> Iterator[tuple[int, Wanted]]:
@@ -68,13 +75,23 @@ class Bulk:
             yield first, each
             first += each.rows
 
-    def _make(self, plan: Plan) -> Kernel:
-        nodes = [node for each in self.wanted for node in each.nodes(plan)]
-        return Kernel(nodes, [guard.node for guard in plan.trace.guards if guard.step in self.names])
+    def _make(self, plan: Plan) -> tuple[Kernel, list[Angles | None]]:
+        nodes = [each.nodes(plan) for each in self.wanted]
+        kernel = Kernel([node for each in nodes for node in each], [*self._assumed(plan), *self._guards(plan)])
+        return kernel, [angles_of(plan, each) if request.turns else None for request, each in zip(self.wanted, nodes, strict=True)]
 
-    def _guards(self, plan: Plan) -> Kernel:
-        """Return the kernel of the guards themselves, pose by pose."""
-        return Kernel([guard.node for guard in plan.trace.guards if guard.step in self.names])
+    def _guards(self, plan: Plan) -> list[Node]:
+        """Return the guards of what the requests are built from."""
+        return [guard.node for guard in plan.trace.guards if guard.step in self.names]
+
+    def _assumed(self, plan: Plan) -> list[Node]:
+        """Return what the requests take to be above zero."""
+        return [node for each in self.wanted for node in each.notes(plan).assumed]
+
+    def _watch(self, plan: Plan) -> tuple[int, Kernel]:
+        """Return how many of its outputs are assumptions, and the kernel of these and of the guards, pose by pose."""
+        assumed = self._assumed(plan)
+        return len(assumed), Kernel([*assumed, *self._guards(plan)])
 
     def _place(self, rows: int, out: FloatArray | None) -> FloatArray | None:
         """Return where the caller wants the results, shape (rows, designs, poses)."""
@@ -94,7 +111,8 @@ class Bulk:
 
     def _settle(self, place: FloatArray) -> None:
         """Put right the poses where a guard tells: place them to rounding, refuse or mask those out of reach or singular."""
-        plan, kernel = self.grid.plan, self.grid.plan.made(("guards", tuple(sorted(self.names))), self._guards)
+        plan = self.grid.plan
+        assumed, kernel = plan.made(("guards", tuple(each.key for each in self.wanted)), self._watch)
         worst: dict[str, float] = {}
         for band, part in pieces(*self.grid.size):
             inputs = {name: cut(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
@@ -104,7 +122,7 @@ class Bulk:
                 bad = ~np.all(least > 0.0, axis=0) | ~np.isfinite(block).all(axis=0)
             if bad.any():
                 paired = {name: spread(value, name in plan.table.entries, bad) for name, value in inputs.items()}
-                self._put_right(block, bad, paired, worst)
+                self._put_right(block, bad, paired, worst, ~np.all(least[:assumed, bad] > 0.0, axis=0))
         for name, condition in worst.items():
             warnings.warn(
                 f"{plan.title}: {name} comes near a dead point (condition {condition:.1e}); expect ratios there to be off by "
@@ -113,67 +131,60 @@ class Bulk:
                 stacklevel=5,
             )
 
-    def _put_right(self, block: FloatArray, bad: Mask, inputs: dict[str, Any], worst: dict[str, float]) -> None:
-        """Fill the poses of a block that a mask names, from their paired inputs."""
-        plan, count = self.grid.plan, int(bad.sum())
+    def _put_right(self, block: FloatArray, bad: Mask, inputs: dict[str, Any], worst: dict[str, float], broken: Mask) -> None:
+        """Fill the poses of a block that a mask names, from their paired inputs; `broken`: where an assumption does not hold."""
+        plan, shape = self.grid.plan, (int(bad.sum()),)
         with np.errstate(all="ignore"):
             reading = plan.read(inputs)
-            lost = np.zeros(count, bool)
-            for name, mask in reach.failures(plan, reading, (count,)):
+            lost = np.zeros(shape, bool)
+            for name, mask in reach.failures(plan, reading, shape):
                 if name in self.names:
                     lost |= mask
-            conditions = {name: np.where(lost, np.nan, cond) for name, cond in singular.conditions(plan, reading, self.names).items()}
-            refused = singular.refused(plan, conditions, (count,))
-            if self.grid.unreachable == "raise" and (lost.any() or (refused.any() and any(each.along for each in self.wanted))):
+            steep = [each.steep(plan) for each in self.wanted]
+            found = singular.conditions(plan, reading, set[str]().union(*steep))
+            conditions = {name: np.where(lost, np.nan, cond) for name, cond in found.items()}
+            refused = [singular.refused(plan, {name: conditions[name] for name in names & conditions.keys()}, shape) for names in steep]
+            if (broken & ~lost & ~np.any(refused, axis=0)).any() or (self._raises and np.any([lost, *refused])):
                 self._refuse()
-            for first, each in self._starts():
-                values = block[first : first + each.rows, bad] if each.along else components(reading, each, count)
-                block[first : first + each.rows, bad] = np.where(lost | (refused & bool(each.along)), np.nan, values)
+            self._fill(block, bad, reading, [lost | mask for mask in refused])
         for name, cond in conditions.items():
             near = cond[(cond > singular.WARN) & (cond <= singular.REFUSE)]
-            if near.size and any(each.along for each in self.wanted):
+            if near.size:
                 worst[name] = max(worst.get(name, 0.0), float(near.max()))
+
+    def _fill(self, block: FloatArray, bad: Mask, reading: ArrayReading, without: Sequence[Mask]) -> None:
+        """Fill the bad poses of a block: from their eager reading where that holds there, with NaN where a request has no value."""
+        for (first, each), mask in zip(self._starts(), without, strict=True):
+            rows, placed = slice(first, first + each.rows), each.placed(reading, mask.size)
+            found = np.where(mask, np.nan, block[rows, bad] if placed is None else placed)
+            if self._raises and each.may_fail and not np.isfinite(found).all():
+                self._refuse()
+            block[rows, bad] = found
+
+    @property
+    def _raises(self) -> bool:
+        """Whether poses without a value are an error."""
+        return self.grid.unreachable == "raise"
 
     def _refuse(self) -> None:
         """Raise the error of these poses, in the words of a motion."""
         grid = self.grid
-        motion = Motion(grid.plan, grid.designs, grid.strokes)
+        motion = Motion(grid.plan, grid.designs, grid.strokes, grid.unreachable)
         for each in self.wanted:
-            target: Any = each.member.name or each.member
-            if each.along:
-                motion.ratio(target, wrt=each.along[0], order=len(each.along))
+            each.refuse(motion)
+        for each in self.wanted:
+            if each.may_fail:
+                raise astray(grid.plan, each)
 
     # -- angles ----------------------------------------------------------------------------------------
 
-    def _unwrap(self, each: Wanted, values: FloatArray) -> None:
-        """Make the angles in a quantity continuous along the stroke, in place."""
-        grid = self.grid
-        axes = [value for value in grid.strokes.values() if value.ndim]
-        (node,) = each.nodes(grid.plan)
-        angles = angles_of(grid.plan, node)
-        if not angles or not axes:
-            return
-        kernel = grid.plan.made(("angles", each.key), lambda _: Kernel(angles))
-        raw = grid.full(kernel(grid.flat, way=self.way).values)
-        joined = [unwrapped(angle, axes) for angle in raw]
-        if any(np.any((after != before) & np.isfinite(after)) for before, after in zip(raw, joined, strict=True)):
-            known: dict[Node, Any] = dict(zip(angles, joined, strict=True))
-            values[...] = np.where(np.isnan(values), np.nan, interpret([node], grid.inputs, known)[0])
-
-
-def angles_of(plan: Plan, node: Node) -> list[Node]:
-    """Return the angles that a node is built from and that move."""
-    behind = set(ancestors([node]))
-    return [angle for angle in plan.trace.angles if angle in behind and angle.level is Level.POSE]
-
-
-def components(reading: ArrayReading, each: Wanted, count: int) -> npt.NDArray[np.float64]:
-    """Return a request's values in an eager reading, shape (rows, count)."""
-    member = each.member
-    if isinstance(member, (Point, Arrow)):
-        place = reading.at(member) if isinstance(member, Point) else reading.vector(member)
-        return np.array([np.broadcast_to(part, (count,)) for part in (place.x, place.y)], float)
-    return np.array(np.broadcast_to(reading.value(member), (1, count)), float)
+    def _unwrap(self, found: FloatArray) -> None:
+        """Make the angles in requests continuous along the stroke, in place."""
+        for (first, each), angles in zip(self._starts(), self._program[1], strict=True):
+            continued = None if angles is None else angles.continued(self.grid, self.way)
+            if continued is not None:
+                values = found[first : first + each.rows]
+                values[...] = np.where(np.isnan(values), np.nan, continued)
 
 
 def pieces(m: int, n: int) -> Iterator[tuple[slice, slice]]:

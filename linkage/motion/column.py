@@ -9,6 +9,10 @@ import numpy as np
 from ..program import FloatArray
 from ..units import UNITS
 
+NOISE = 1e-12
+LEAST = 1e-9
+"""A value that is smaller, compared with the greatest of its column or in the column's unit, is rounding noise."""
+
 
 @dataclass(frozen=True, eq=False)
 class Column:
@@ -23,6 +27,13 @@ class Column:
     def shown(self) -> FloatArray:
         """The values in the column's unit."""
         return np.asarray(self.values) / (UNITS[self.unit][0] if self.unit else 1.0)
+
+    @property
+    def drawn(self) -> FloatArray:
+        """The values in the column's unit, rounding noise as zero: for pictures."""
+        size = float(np.nanmax(np.abs(self.shown), initial=0.0))
+        noise = max(NOISE * size, LEAST if self.unit else 0.0)
+        return np.where(np.abs(self.shown) < noise, 0.0, self.shown)
 
     @property
     def heading(self) -> str:

@@ -13,7 +13,8 @@ from ..plan import Plan
 from ..program import NO_VALUE, QUICKEST, Kernel
 from .bulk import Bulk
 from .grid import Grid
-from .request import Request, wanted
+from .request import Request, all_wanted
+from .strokes import known_strokes
 
 PoseFunction: TypeAlias = Callable[..., tuple[float, ...]]
 
@@ -22,7 +23,7 @@ def function_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Reque
     """Return requests as a function of the strokes; see Mechanism.function."""
     if any(np.ndim(value) for value in designs.values()):
         raise DefinitionError(f"{plan.title}: a function of floats is of one design; use evaluate for several.")
-    asked = tuple(wanted(plan, request) for request in requests)
+    asked = all_wanted(plan, requests)
 
     def bulk(strokes: Sequence[float]) -> Bulk:
         if len(strokes) != len(plan.strokes):
@@ -30,23 +31,32 @@ def function_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Reque
         values = {name: np.asarray(value, float) for name, value in zip(plan.strokes, strokes, strict=True)}
         return Bulk(Grid(plan, designs, values), asked, QUICKEST)
 
-    def careful(*strokes: float) -> tuple[float, ...]:
-        return tuple(float(part) for values in bulk(strokes).run(None) for part in np.ravel(values))
+    def careful(*strokes: float, **named: float) -> tuple[float, ...]:
+        return tuple(float(part) for values in bulk((*strokes, *rest(plan, len(strokes), named))).run(None) for part in np.ravel(values))
 
     if plan.groups:
         return careful
-    return quick(plan, designs, bulk([stroke.start for stroke in plan.strokes.values()]).kernel, careful)
+    first = bulk([stroke.start for stroke in plan.strokes.values()])
+    return quick(plan, designs, first.kernel, careful, first.may_fail)
 
 
-def quick(plan: Plan, designs: Mapping[str, Any], kernel: Kernel, careful: PoseFunction) -> PoseFunction:
+def rest(plan: Plan, count: int, named: Mapping[str, float]) -> list[float]:
+    """Return the strokes given by name, which follow so many given in order."""
+    known_strokes(named, dict(list(plan.strokes.items())[count:]), plan.title)
+    return [named[name] for name in list(plan.strokes)[count:]]
+
+
+def quick(plan: Plan, designs: Mapping[str, Any], kernel: Kernel, careful: PoseFunction, watched: bool) -> PoseFunction:
     """Return the pose part with its design worked out; a pose where a guard or a failing operation tells is taken carefully."""
     floats, count = kernel.floats, len(kernel.plan.outputs)
     passed = floats.design([float(designs[node.value]) for node in kernel.plan.design_inputs])
-    pose, watched = floats.quick["pose"], plan.may_overflow
+    pose = floats.quick["pose"]
     places = [list(plan.strokes).index(node.value) for node in kernel.plan.pose_inputs]
     together = places == list(range(len(plan.strokes)))
 
-    def at(*strokes: float) -> tuple[float, ...]:
+    def at(*strokes: float, **named: float) -> tuple[float, ...]:
+        if named:
+            return careful(*strokes, **named)
         try:
             found: tuple[float, ...] = pose(*passed, *(strokes if together else [strokes[place] for place in places]))
         except (*NO_VALUE, TypeError, IndexError):

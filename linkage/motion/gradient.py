@@ -2,34 +2,76 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..errors import DefinitionError
 from ..plan import Plan
-from ..program import FloatArray, Kernel, gradient
+from ..program import FloatArray, Kernel, ancestors, gradient
+from .angles import Angles, angles_of
+from .reach import Mask
 from .request import Request, dimensions_of, wanted
+from .wanted import Wanted, astray
 
 if TYPE_CHECKING:
     from .motion import Motion
+
+
+@dataclass(frozen=True, eq=False)
+class Slopes:
+    """The kernel of a request's derivatives by some dimensions, then of what it assumes, then of its switches by those dimensions."""
+
+    kernel: Kernel
+    angles: Angles
+    assumed: int
+    touched: tuple[str, ...]
+
+
+def slopes_of(plan: Plan, what: Wanted, names: Sequence[str]) -> Slopes:
+    """Return the derivatives of a request by dimensions, as a kernel."""
+    inputs = [plan.trace.inputs[name] for name in names]
+    shares, notes = [share for node in what.nodes(plan) for share in gradient(node, inputs)], what.notes(plan)
+    touched = [
+        (switch, f"{name}: the law of {owner} compares what follows {name} with a number")
+        for switch, owner in notes.switches.items()
+        for name, each in zip(names, inputs, strict=True)
+        if each in ancestors([switch])
+    ]
+    kernel = Kernel([*shares, *notes.assumed, *(switch for switch, _ in touched)])
+    return Slopes(kernel, angles_of(plan, shares), len(notes.assumed), tuple(words for _, words in touched))
 
 
 def gradient_of(motion: Motion, of: Request, wrt: Sequence[str]) -> FloatArray:
     """Return the derivatives of a request by dimensions, shape (len(wrt), ...), of a point (len(wrt), 2, ...); see Motion.gradient."""
     plan = motion.plan
     what, dimensions = wanted(plan, of), dimensions_of(plan, wrt)
-    names = tuple(name for name, _ in dimensions)
+    names, title = tuple(name for name, _ in dimensions), f"The gradient of {what}"
+    refused = motion.refused_of(what.names(plan), title, 1 + what.order)
+    good = motion.reached & ~refused
+    slopes = plan.made(("gradient", what.key, names), lambda plan: slopes_of(plan, what, names))
+    rest = what.rows * len(names)
+    values, assumed, switches = np.split(motion.full(slopes.kernel(motion.flat).values), [rest, rest + slopes.assumed])
+    check(motion, what, good, assumed, zip(slopes.touched, switches, strict=True))
+    continued = slopes.angles.continued(motion)
+    signs = np.tile([float(sign) for _, sign in dimensions], what.rows).reshape(-1, *(1,) * len(motion.shape))
+    found = values if continued is None else continued
+    if not (good.all() and np.all(signs > 0.0) and found.flags.writeable):
+        found = np.where(good, found * signs, np.nan)
+    rows = motion.finite(found, refused, title)
+    return np.stack(np.split(rows, what.rows), axis=1) if what.rows > 1 else rows
 
-    def make(plan: Plan) -> Kernel:
-        inputs = [plan.trace.inputs[name] for name in names]
-        return Kernel([share for node in what.nodes(plan) for share in gradient(node, inputs)])
 
-    title = f"The gradient of {what}"
-    refused = motion.refused(what.member, title, 1 + len(what.along))
-    values = motion.full(plan.made(("gradient", what.key, names), make)(motion.flat).values)
-    signs = np.array([sign for _, sign in dimensions], float).reshape(-1, *(1,) * len(motion.shape))
-    parts = [signs * each for each in np.split(values, what.rows)]
-    found = np.stack(parts, axis=1) if what.rows > 1 else parts[0]
-    rows = np.where(motion.reached & ~refused, found, np.nan).reshape(-1, *motion.shape)
-    return motion.finite(rows, refused, title).reshape(found.shape)
+def check(motion: Motion, what: Wanted, good: Mask, assumed: FloatArray, switches: Iterable[tuple[str, FloatArray]]) -> None:
+    """Raise the error of poses where a law is another than the one traced, or changes to another with a dimension."""
+    if np.any(good & ~np.all(assumed > 0.0, axis=0)):
+        what.refuse(motion)
+        raise astray(motion.plan, what)
+    for words, values in switches:
+        if np.any(good & (values > 0.0)):
+            raise DefinitionError(
+                f"{motion.plan.title}: {what} has no derivative by {words} that it equals here, and is another law next to it. "
+                "Leave that dimension out of wrt=, or set it beside that number."
+            )

@@ -12,8 +12,9 @@ import numpy as np
 from ..assembly import Solved, solve_groups
 from ..errors import DefinitionError
 from ..plan import ArrayReading, Plan
-from ..program import FloatArray
+from ..program import FloatArray, Kernel
 from .reach import Mask
+from .unwrap import unwrapped
 
 
 class Grid:
@@ -63,6 +64,14 @@ class Grid:
         solved = {name: self.full(value[None])[0] for name, value in self.solved.inputs.items()}
         shaped = {name: np.float64(value) if np.ndim(value) == 0 else value for name, value in shaped.items()}
         return shaped | dict(self.strokes) | solved
+
+    def array(self, values: Any) -> FloatArray:
+        """Return numbers as arrays of floats."""
+        return np.asarray(values, float)
+
+    def joined(self, angles: FloatArray, kernel: Kernel) -> FloatArray:
+        """Return the angles that a kernel gives [rad], shape (angles, ...), without jumps along the stroke."""
+        return np.array([unwrapped(angle, [value for value in self.strokes.values() if value.ndim]) for angle in angles])
 
     def full(self, values: FloatArray) -> FloatArray:
         """Return a kernel's values in the grid's shape."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,8 +14,21 @@ from ..units import deg
 SAMPLES = 1441
 TOUCH = 1e-6
 
+READ_IN = {"m": (1.0, "m"), "rad": (deg, "deg")}
+"""The unit of a stroke -> the one it is read in: its factor and its name."""
+
 Scan = Callable[[FloatArray], "Scanned"]
 """A look at some stroke values: which are reached, how near each loop is to its dead point, and what fails."""
+
+
+def number(value: float, unit: str, digits: int = 9) -> str:
+    """Return a value of a stroke [m or rad] as it is read, without its unit; angles in degrees."""
+    return f"{value / READ_IN[unit][0]:.{digits}g}"
+
+
+def as_read(value: float, unit: str, digits: int = 9) -> str:
+    """Return a value of a stroke [m or rad] as it is read: `0.25 m`, `90 deg`."""
+    return f"{number(value, unit, digits)} {READ_IN[unit][1]}"
 
 
 @dataclass(frozen=True)
@@ -53,8 +66,32 @@ class Extreme:
 
 
 @dataclass(frozen=True)
+class Held:
+    """A stroke that is held, and where [m or rad, which its unit says]."""
+
+    stroke: str
+    value: float
+    unit: str
+
+    def __str__(self) -> str:
+        return f"{self.stroke} = {as_read(self.value, self.unit, 6)}"
+
+
+@dataclass(frozen=True)
+class Open:
+    """The pins of groups that do not stand where they began after one turn, and after how many they do; 0 where not after six."""
+
+    pins: tuple[str, ...]
+    turns: int
+
+    def __str__(self) -> str:
+        end = f"the motion repeats after {self.turns} turns ({360 * self.turns} deg)" if self.turns else "nor after a few more"
+        return f"after one turn the pins {' '.join(self.pins)} do not stand where they began; {end}"
+
+
+@dataclass(frozen=True)
 class StrokeLimits:
-    """The limits along one stroke, the others held. Values in m or rad, as the stroke."""
+    """The limits along one stroke, the others held. Values in m or rad, as the stroke; printed, angles are in degrees."""
 
     stroke: str
     unit: str
@@ -62,11 +99,9 @@ class StrokeLimits:
     end: float
     intervals: tuple[Interval, ...]
     change_points: tuple[tuple[float, str], ...]
-    transmission: tuple[Extreme, ...] = field(default=())
-
-    def _whole(self, interval: Interval) -> str:
-        """Return the line of an interval that nothing stops."""
-        return f"  reachable all the way from {interval.low:.9g} to {interval.high:.9g} {self.unit}"
+    transmission: tuple[Extreme, ...] = ()
+    held: tuple[Held, ...] = ()
+    open_turn: Open | None = None
 
     @property
     def dead_points(self) -> tuple[tuple[float, str], ...]:
@@ -75,18 +110,25 @@ class StrokeLimits:
         return tuple((value, stop) for value, stop in ends if stop)
 
     def __str__(self) -> str:
-        lines = [f"{self.stroke}: declared {self.start:.6g} to {self.end:.6g} {self.unit}"]
+        held = f", with {', '.join(map(str, self.held))} held" if self.held else ""
+        lines = [f"{self.stroke}: declared {number(self.start, self.unit, 6)} to {as_read(self.end, self.unit, 6)}{held}"]
         for each in self.intervals:
-            ends = (each.low, each.low_stop), (each.high, each.high_stop)
-            low, high = (f"{value:.9g}" if stop else f"{value:.9g} (looked no farther)" for value, stop in ends)
-            lines.append(f"  reachable from {low} to {high} {self.unit}" if each.low_stop or each.high_stop else self._whole(each))
-            lines += [f"    {value:.9g}: dead point of {stop}" for value, stop in ends if stop]
-        lines += [f"  change point at {value:.9g} {self.unit}: the branches of {step} cross" for value, step in self.change_points]
+            lines += self._reach(each)
+        lines += [f"  change point at {as_read(value, self.unit)}: the branches of {step} cross" for value, step in self.change_points]
         lines += [
-            f"  least transmission angle at {each.joint}: {each.angle / deg:.4g} deg at {each.stroke:.6g} {self.unit}"
+            f"  least transmission angle at {each.joint}: {each.angle / deg:.4g} deg at {as_read(each.stroke, self.unit, 6)}"
             for each in self.transmission
         ]
-        return "\n".join(lines)
+        return "\n".join([*lines, *([f"  {self.open_turn}"] if self.open_turn else [])])
+
+    def _reach(self, interval: Interval) -> list[str]:
+        """Return the lines of an interval."""
+        ends = (interval.low, interval.low_stop), (interval.high, interval.high_stop)
+        if not (interval.low_stop or interval.high_stop):
+            return [f"  reachable all the way from {number(interval.low, self.unit)} to {as_read(interval.high, self.unit)}"]
+        low, high = (number(value, self.unit) + ("" if stop else " (looked no farther)") for value, stop in ends)
+        stops = [f"    {number(value, self.unit)}: dead point of {stop}" for value, stop in ends if stop]
+        return [f"  reachable from {low} to {high} {READ_IN[self.unit][1]}", *stops]
 
 
 class Limits(dict[str, StrokeLimits]):
@@ -117,7 +159,9 @@ def search(scan: Scan, low: float, high: float) -> tuple[list[Interval], list[tu
 
 
 def dips(sine: FloatArray) -> list[int]:
-    """Return the places where a sine may come down to zero between its samples: sharp local minima."""
+    """Return the places where a sine may come down to zero between its samples: sharp local minima; none where it does not change."""
+    if not np.nanmax(sine, initial=0.0) - np.nanmin(sine, initial=1.0) > TOUCH:
+        return []
     before, here, after = sine[:-2], sine[1:-1], sine[2:]
     with np.errstate(invalid="ignore"):
         lowest = (here <= before) & (here <= after)

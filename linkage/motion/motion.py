@@ -14,6 +14,7 @@ from ..program import FloatArray
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
 from . import numeric, reach, scan, singular
+from .angles import angles_of
 from .asked import method_of, named, order_of, rates_of
 from .gradient import gradient_of
 from .outputs import Outputs
@@ -34,6 +35,12 @@ class Motion(Outputs):
         self._ratios: dict[Any, FloatArray] = {}
         if unreachable == "raise" and scan.is_watched(self):
             scan.refuse_crossing(self)
+
+    def __repr__(self) -> str:
+        spans = [f"{name} = {reach.span_read(values, reach.stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
+        poses = f"{', '.join(spans) or 'no stroke'}; shape {self.shape}"
+        reached = "all reached" if self.reached.all() else f"{int(self.reached.sum())} of {self.reached.size} reached"
+        return f"<Motion of {self.plan.title}: {poses}, {reached}>"
 
     def refusal(self) -> AssemblyError:
         """Return the error for the poses that are not reached: out of reach, or behind a change point."""
@@ -83,7 +90,9 @@ class Motion(Outputs):
         targets: tuple[Any, ...] = self.plan.moving if pass_of_all else (member.name or member,)
         key = (targets, along)
         if key not in self._ratios:
-            self._ratios[key] = self.full(self.plan.kernel(targets, along)(self.flat).values)
+            found = self.full(self.plan.kernel(targets, along)(self.flat).values)
+            continued = self._continued(targets[0], along) if isinstance(member, Quantity) else None
+            self._ratios[key] = found if continued is None else continued
             self._ratios[key].flags.writeable = False
         values = self._ratios[key]
         if not self.reached.all():
@@ -92,6 +101,11 @@ class Motion(Outputs):
             index = 2 * self.plan.moving.index(member.name)
             return values[index : index + 2]
         return values if isinstance(member, Arrow) else values[0]
+
+    def _continued(self, target: Any, along: tuple[str, ...]) -> FloatArray | None:
+        """Return the derivative of a quantity that holds angles, which are continued along the stroke; None where they need not be."""
+        key = ("angles", target, along)
+        return self.plan.made(key, lambda plan: angles_of(plan, plan.derived(plan.nodes(target), along))).continued(self)
 
     def _numeric(self, member: Member, stroke: str, order: int, step: float | None) -> FloatArray:
         def values(offsets: FloatArray) -> FloatArray:
@@ -115,10 +129,13 @@ class Motion(Outputs):
 
     def refused(self, member: Member, what: str, order: int = 1) -> Mask:
         """Return the mask of poses where a ratio is refused; raise or warn as asked."""
-        nothing = np.zeros(self.shape, bool)
+        names = self.plan.reaches(member.name or member) if self.is_near_singular else set[str]()
+        return self.refused_of(names, what, order)
+
+    def refused_of(self, names: set[str], what: str, order: int = 1) -> Mask:
+        """Return the mask of poses where ratios of what is built from some members are refused; raise or warn as asked."""
         if not self.is_near_singular:
-            return nothing
-        names = self.plan.reaches(member.name) if member.name else self.plan.reaches(member)
+            return np.zeros(self.shape, bool)
         found = {name: np.where(self.reached, cond, np.nan) for name, cond in singular.conditions(self.plan, self.reading, names).items()}
         refused = singular.refused(self.plan, found, self.shape)
         if refused.any() and self.unreachable == "raise":
@@ -127,10 +144,11 @@ class Motion(Outputs):
         return refused
 
     def gradient(self, of: Request, wrt: Sequence[str]) -> FloatArray:
-        """Return the exact derivatives of a position, an output or a ratio by dimensions, all in one reverse pass.
+        """Return the exact derivatives of a position, an output, a ratio or a force by dimensions, all in one reverse pass.
 
-        `gradient("tilt", wrt=["OB", "CD", "M.x"])` has the shape (3, ...), that of a point (3, 2, ...);
-        `gradient(ratio("G"), ...)` is how the transfer ratio follows the dimensions. Raises SingularError at a dead point.
+        `gradient("tilt", wrt=["OB", "CD", "M.x"])` has the shape (3, ...), that of a point (3, 2, ...); `gradient(ratio("G"), ...)` is
+        how the transfer ratio follows the dimensions, `gradient(thrust(), wrt=["OB", "load.mass"])` how the drive's force does.
+        Raises SingularError at a dead point, DefinitionError for the law of a load that cannot be traced.
         """
         return gradient_of(self, of, wrt)
 

@@ -11,7 +11,7 @@ from ..errors import DefinitionError, SingularError
 from ..plan import ArrayReading
 from ..program import FloatArray
 from ..quantities import Angle, Distance, Member, Quantity
-from ..steps import Arrow, Dyad, Point
+from ..steps import Arrow, Point
 from ..vectors import Vec
 from . import reach
 from .asked import named
@@ -93,13 +93,31 @@ class Outputs(Places):
         return self.value(Distance(P, Q))
 
     def transmission_angle(self, point: Target) -> FloatArray:
-        """Return the angle between the two links that meet in a dyad's joint [rad], 0 to pi; best near pi / 2."""
-        step = self.plan.members[named("Point", point, self.plan.points, self.plan.title)]
-        if not isinstance(step, Dyad):
-            joints = [name for name, each in self.plan.points.items() if isinstance(each, Dyad)]
-            raise DefinitionError(f"{self.plan.title}: {point} is not the joint of a dyad; those are: {', '.join(joints) or 'none'}.")
-        (ux, uy), (wx, wy) = self._place(step.P) - self._place(step.X), self._place(step.Q) - self._place(step.X)
-        return np.asarray(np.arctan2(np.abs(ux * wy - uy * wx), ux * wx + uy * wy))
+        """Return the transmission angle of a dyad's joint [rad], shape (...), 0 to pi; best near pi / 2.
+
+        Between the two links that meet in it (Dyad); between the link and the normal to its guide (SliderDyad: a
+        slider-crank's connecting rod and the normal to the slide); between the line to the pin and the normal to the slot
+        (PinSlotDyad); between the two guides (GuideCross); between slot and guide (YokeDyad). Its sine is the share of the
+        force on the way from link to link that moves the second one. DefinitionError for a point that is no such joint.
+        Sources: H. Alt, Werkstattstechnik 26 (1932); S. S. Balli, S. Chand, Mech. Mach. Theory 37 (2002) 175-195.
+        """
+        name = named("Point", point, self.plan.points, self.plan.title)
+        directions = self._meeting(name)
+        if not directions:
+            raise reach.no_joint(self.plan, name, self.joints)
+        u, w = directions
+        with np.errstate(all="ignore"):
+            angle = np.arctan2(np.abs(u.cross(w)), u.dot(w))
+        return np.where(self.reached, np.broadcast_to(angle, self.shape), np.nan)
+
+    @cached_property
+    def joints(self) -> tuple[str, ...]:
+        """The points that have a transmission angle: the joints of dyads."""
+        return tuple(name for name in self.plan.points if self._meeting(name))
+
+    def _meeting(self, name: str) -> tuple[Vec, ...]:
+        with np.errstate(all="ignore"):
+            return self.plan.points[name].meeting(self._outputs)
 
     def _member(self, target: Target) -> Member:
         return target if isinstance(target, Quantity) and not target.name else self._known(target)

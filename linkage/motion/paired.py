@@ -10,7 +10,7 @@ import numpy as np
 
 from ..assembly import Solved, solve_groups
 from ..plan import Plan
-from ..program import FloatArray
+from ..program import FloatArray, Kernel
 from ..quantities import Angle, Reference
 from .motion import Motion
 from .outputs import OutputReading
@@ -56,6 +56,13 @@ class Paired(Motion):
     def inputs(self) -> dict[str, Any]:
         """The inputs, shape (m,)."""
         return self.designs | self._each | {name: self.full(value[None])[0] for name, value in self.solved.inputs.items()}
+
+    def joined(self, angles: FloatArray, kernel: Kernel) -> FloatArray:
+        """Return the angles that a kernel gives [rad], within 180 deg of the other motion's: there is no stroke to continue them along."""
+        if self._like is None:
+            return angles
+        others = self._like.joined(self._like.full(kernel(self._like.flat).values), kernel)[:, self._at]
+        return angles + 2.0 * np.pi * np.nan_to_num(np.round((others - angles) / (2.0 * np.pi)))
 
     @cached_property
     def _outputs(self) -> OutputReading:

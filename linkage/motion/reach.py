@@ -1,45 +1,21 @@
-"""Where a mechanism cannot be assembled, in words: the point, its triangle, the strokes, the missing millimetres."""
+"""Where a mechanism cannot be assembled, in words: the strokes, and what is missing there."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from ..errors import AssemblyError
+from ..errors import AssemblyError, DefinitionError
 from ..plan import ArrayReading, Plan
-from ..program import FloatArray
-from ..quantities import Member, Negative, Quantity, Ref, Sum, quantity, spelled
-from ..steps import Point, Step
-from ..units import mm
-
-Mask = npt.NDArray[np.bool_]
-
-
-#: A side so many times longer than the others was given in another unit.
-MISTAKEN = 90.0
-
-
-def failures(plan: Plan, reading: ArrayReading, shape: tuple[int, ...]) -> Iterator[tuple[str, Mask]]:
-    """Yield the members that cannot be placed at some poses of a reading, in the order of construction, with those poses."""
-    for name in plan.members:
-        mask = negative(plan, reading, shape, name) | np.isnan(reading.sines.get(name, 0.0))
-        if name in plan.points:
-            place = reading.at(name)
-            mask |= ~(np.isfinite(place.x) & np.isfinite(place.y))
-        if mask.any():
-            yield name, mask
-
-
-def negative(plan: Plan, reading: ArrayReading, shape: tuple[int, ...], point: str = "") -> Mask:
-    """Return the poses where a length that follows others is negative: of one point, or any."""
-    mask = np.zeros(shape, bool)
-    for owner, length in plan.following:
-        if point in (owner, ""):
-            mask |= np.asarray(reading.value(length)) < 0.0
-    return mask
+from ..plan import Mask as Mask
+from ..plan import called as called
+from ..plan import failures as failures
+from ..plan import missing_words as missing_words
+from ..plan import negative as negative
+from ..plan import opening as opening
+from .limits import as_read, number
 
 
 @np.errstate(all="ignore")
@@ -49,79 +25,16 @@ def refusal(plan: Plan, reading: ArrayReading, mask: Mask, strokes: Mapping[str,
     `reading` holds the failing poses, `mask` all of them (designs first, strokes last), `strokes` their values.
     """
     name, lost = next(failures(plan, reading, (int(mask.sum()),)))
-    member = plan.members[name]
-    opening = member.sentence() if isinstance(member, Step) else f"{name} = {member}"
-    told = negative_words(plan, name, reading) or coinciding_words(plan, name, reading)
-    words, shortfall = told or triangle_words(plan, name, reading, lost)
-    text = f"{opening} cannot be assembled {where_words(plan, mask, strokes)}:\n{words}{stop}"
+    words, shortfall = missing_words(plan, name, reading, lost)
+    text = f"{opening(plan, name)} cannot be assembled {where_words(plan, mask, strokes)}:\n{words}{stop}"
     return AssemblyError(text, point=name, mask=mask, shortfall=shortfall)
 
 
-def negative_words(plan: Plan, name: str, reading: ArrayReading) -> tuple[str, float] | None:
-    """Return which length of a point is negative, at its worst pose, and by how much [m]; None where none is."""
-    for owner, length in plan.following:
-        least = float(np.min(reading.value(length)))
-        if owner == name and least < 0.0:
-            return f"the length {spelled(length)} = {least:.4g} m is negative. Keep the stroke where it is positive.", -least
-    return None
-
-
-def coinciding_words(plan: Plan, name: str, reading: ArrayReading) -> tuple[str, float] | None:
-    """Return which two points of a step coincide, so that no direction goes from one to the other; None where they do not."""
-    step = plan.members[name]
-    names = [getattr(step, letter) for letter in step.parent_letters] if isinstance(step, Step) else []
-    if len(names) == 2 and set(names) <= set(plan.points):
-        base = reading.at(names[1]) - reading.at(names[0])
-        if np.any((base.x == 0.0) & (base.y == 0.0)):
-            words = f"{names[0]} and {names[1]} coincide there, so that no direction goes from one to the other. Move one of them."
-            return words, float("nan")
-    return None
-
-
-def triangle_words(plan: Plan, name: str, reading: ArrayReading, lost: Mask) -> tuple[str, float]:
-    """Return how a triangle misses, at its worst pose, and by how much [m]."""
-    sides = plan.members[name].sides(reading)
-    if not sides:
-        return shortage_words(plan, plan.members[name], reading)
-    labels = [label for label, _ in sides]
-    values = np.array(np.broadcast_arrays(*(value for _, value in sides), lost)[:-1], float).reshape(len(sides), -1)[:, lost]
-    for label, value in zip(labels, values, strict=True):
-        if not np.all(np.isfinite(value)):
-            return f"{label} has no finite value there. Change the strokes or what it follows.", float("nan")
-    missing = 2 * values.max(axis=0) - values.sum(axis=0)
-    worst = int(np.nanargmax(missing))
-    longest = int(values[:, worst].argmax())
-    others = [index for index in range(3) if index != longest]
-    gap = float(missing[worst])
-    return (
-        f"{' + '.join(labels[index] for index in others)} = {values[others, worst].sum():.4g} m is {gap / mm:.3g} mm short of "
-        f"{labels[longest]} = {values[longest, worst]:.4g} m. {remedy(plan, name, labels, longest, values[:, worst])}",
-        gap,
-    )
-
-
-def shortage_words(plan: Plan, member: Member, reading: ArrayReading) -> tuple[str, float]:
-    """Return what is too short, at the worst pose, and by how much [m]."""
-    words, gaps = member.shortage(reading) if isinstance(member, Point) else ("it has no value", float("nan"))
-    gap = float(np.max(gaps))
-    missing = "" if np.isnan(gap) else f": {gap / mm:.3g} mm are missing"
-    start = "Shorten the stroke or change" if plan.moves(member) else "Change"
-    return f"{words}{missing}. {start} a dimension.", gap
-
-
-def remedy(plan: Plan, name: str, labels: Sequence[str], longest: int, values: FloatArray) -> str:
-    """Return what to change: the stroke where a side follows it, and a dimension that closes the gap; the unit where it looks mistaken."""
-    others = [index for index in range(len(labels)) if index != longest]
-    if values[longest] > MISTAKEN * values[others].max():
-        return f"Are all lengths in m? {values[longest]:.6g} m would be {values[longest]:.6g} * mm."
-    free = [labels[index] for index in others if labels[index] in plan.table.spellings]
-    other = f"shorten {labels[longest]}" if labels[longest] in plan.table.spellings else "move its points closer"
-    change = f"lengthen {free[-1]}" if free else other
-    if not plan.moves(plan.members[name]):
-        return f"{change[0].upper()}{change[1:]}."
-    following = [index for index, label in enumerate(labels) if label in plan.table.following]
-    start = "Shorten the stroke" if longest in following or not following else "Start the stroke later"
-    return f"{start} or {change}."
+def no_joint(plan: Plan, name: str, joints: Sequence[str]) -> DefinitionError:
+    """Return the error for a point that has no transmission angle."""
+    known = ", ".join(joints) or "none"
+    why = f"has no transmission angle, {name} is not the joint of a dyad"
+    return DefinitionError(f"{plan.title}: {opening(plan, name)} {why}; those are: {known}.")
 
 
 def where_words(plan: Plan, mask: Mask, strokes: Mapping[str, Any]) -> str:
@@ -143,15 +56,14 @@ def span(values: Any, unit: str) -> str:
     return f"{low:.4f} {unit}" if low == high else f"{low:.4f} to {high:.4f} {unit}"
 
 
+def span_read(values: Any, unit: str) -> str:
+    """Return the range of some stroke values as it is read: `0 to 0.25 m`, `90 deg`."""
+    if not np.size(values):
+        return "nothing"
+    low, high = float(np.min(values)), float(np.max(values))
+    return as_read(low, unit, 6) if low == high else f"{number(low, unit, 6)} to {as_read(high, unit, 6)}"
+
+
 def stroke_unit(plan: Plan, name: str) -> str:
-    """Return the unit of a stroke: rad where it turns a crank or a vector, else m."""
-    turning = [getattr(member, "angle", None) for member in plan.members.values()]
-    return "rad" if any(angle is not None and name in terms(angle) for angle in turning) else "m"
-
-
-def terms(angle: Quantity) -> set[str]:
-    """Return the names an angle is a sum of."""
-    if angle.name:
-        return {angle.name}
-    parts = (quantity(part) for part in angle.parts() if isinstance(part, (str, Quantity)))
-    return {str(angle)} if isinstance(angle, Ref) else set().union(*map(terms, parts)) if isinstance(angle, (Sum, Negative)) else set()
+    """Return the unit of a stroke: rad where it is an angle or a part of one, else m."""
+    return "rad" if name in plan.turning else "m"

@@ -4,26 +4,39 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, final
+
+import numpy as np
 
 from ..errors import DefinitionError
-from ..plan import Plan
-from ..program import Node
+from ..plan import ArrayReading, Plan
+from ..program import FloatArray, Node
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
 from .asked import named, order_of
+from .wanted import Asked, Wanted
+
+if TYPE_CHECKING:
+    from .motion import Motion
 
 
+@final
 @dataclass(frozen=True)
-class Ratio:
+class Ratio(Asked):
     """The derivative of a point or a quantity by a stroke: the transfer ratio, as something to ask for."""
 
     target: str | Member
     wrt: str | None = None
     order: int = 1
 
+    def settled(self, plan: Plan) -> Value:
+        along = (stroke_of(plan, self.wrt),) * self.order if self.order else ()
+        if isinstance(self.target, Quantity) and not self.target.name:
+            return Value(self.target, along)
+        return Value(plan.members[named("Name", self.target, plan.named(), plan.title)], along)
 
-Request: TypeAlias = str | Member | Ratio
+
+Request: TypeAlias = str | Member | Asked
 
 
 def ratio(target: str | Member, wrt: str | None = None, order: int = 1) -> Ratio:
@@ -34,31 +47,52 @@ def ratio(target: str | Member, wrt: str | None = None, order: int = 1) -> Ratio
     return Ratio(target, wrt, order_of(order))
 
 
+@final
 @dataclass(frozen=True)
-class Wanted:
-    """A request settled: a member, and the strokes that it is differentiated by, one after the other."""
+class Value(Wanted):
+    """A member, and the strokes that it is differentiated by, one after the other."""
 
     member: Member
     along: tuple[str, ...]
 
     @property
-    def key(self) -> tuple[Any, ...]:
-        """What tells this request from others of the same plan."""
-        return self.member.name or self.member, self.along
+    def target(self) -> Any:
+        """The member by its name, or itself where it has none."""
+        return self.member.name or self.member
+
+    @property
+    def key(self) -> Any:
+        return self.target, self.along
 
     @property
     def rows(self) -> int:
-        """The number of its components."""
         return 2 if isinstance(self.member, (Point, Arrow)) else 1
 
+    @property
+    def order(self) -> int:
+        return len(self.along)
+
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        """Return its nodes in a plan's program."""
-        target: Any = self.member.name or self.member
-        return plan.derived(plan.nodes(target), self.along)
+        return plan.derived(plan.nodes(self.target), self.along)
 
     def names(self, plan: Plan) -> set[str]:
-        """Return the members that it is built from."""
-        return plan.reaches(self.member.name or self.member)
+        return plan.reaches(self.target)
+
+    def refuse(self, motion: Motion) -> None:
+        if self.along:
+            motion.ratio(self.target, wrt=self.along[0], order=self.order)
+
+    @property
+    def turns(self) -> bool:
+        return isinstance(self.member, Quantity)
+
+    def placed(self, reading: ArrayReading, count: int) -> FloatArray | None:
+        if self.along:
+            return None
+        if isinstance(self.member, (Point, Arrow)):
+            place = reading.at(self.member) if isinstance(self.member, Point) else reading.vector(self.member)
+            return np.array([np.broadcast_to(part, (count,)) for part in (place.x, place.y)], float)
+        return np.array(np.broadcast_to(reading.value(self.member), (1, count)), float)
 
     def __str__(self) -> str:
         what = self.member.name or str(self.member)
@@ -67,13 +101,14 @@ class Wanted:
 
 def wanted(plan: Plan, request: Request) -> Wanted:
     """Return a request settled; DefinitionError where there is nothing of that name, or no saying by which stroke."""
-    asked = request if isinstance(request, Ratio) else Ratio(request, order=0)
-    along = (stroke_of(plan, asked.wrt),) * asked.order if asked.order else ()
-    target = asked.target
-    if isinstance(target, Quantity) and not target.name:
-        return Wanted(target, along)
-    member = plan.members[named("Name", target, plan.named(), plan.title)]
-    return Wanted(member, along)
+    return (request if isinstance(request, Asked) else Ratio(request, order=0)).settled(plan)
+
+
+def all_wanted(plan: Plan, requests: Sequence[Request]) -> tuple[Wanted, ...]:
+    """Return a list of requests settled; DefinitionError for a lone one, whose letters would be taken for names."""
+    if isinstance(requests, (str, Member, Asked)):
+        raise DefinitionError(f"{plan.title}: {requests!r}: a list of what is asked for is expected, [{requests!r}].")
+    return tuple(wanted(plan, request) for request in requests)
 
 
 def stroke_of(plan: Plan, name: str | None) -> str:

@@ -9,12 +9,14 @@ import numpy as np
 
 from ..errors import DefinitionError, SingularError
 from ..program import FloatArray
-from ..steps import Dyad, Pin, Point
+from ..steps import Pin, Point
 from ..units import deg
 from .limits import TOUCH as TOUCH
-from .limits import Extreme, Interval, Scanned, StrokeLimits, deepest, intervals, search
+from .limits import Held, Scanned, StrokeLimits, deepest, intervals, search
 from .limits import Limits as Limits
-from .reach import failures, stroke_unit, where_words
+from .reach import called, failures, stroke_unit, where_words
+from .transmission import transmission
+from .turns import open_turn
 
 if TYPE_CHECKING:
     from .motion import Motion
@@ -42,9 +44,12 @@ def stroke_limits(motion: Motion, name: str, held: Mapping[str, float]) -> Strok
     span = end - start
     turn = max(0.0, np.pi - 0.5 * span)
     low, high = (start - span, end + span) if unit == "m" else (start - turn, end + turn)
-    scan = scanner(motion.moved, name, held)
-    found, touches = search(scan, low, high)
-    return StrokeLimits(name, unit, stroke.start, stroke.end, tuple(found), tuple(touches), transmission(motion, name, held, found))
+    found, touches = search(scanner(motion.moved, name, held), low, high)
+    crossings = tuple((value, called(motion.plan, step)) for value, step in touches)
+    others = tuple(Held(each, value, stroke_unit(motion.plan, each)) for each, value in held.items() if each != name)
+    least = transmission(motion, name, held, found)
+    turns = open_turn(motion, name, held, found) if unit == "rad" else None
+    return StrokeLimits(name, unit, stroke.start, stroke.end, tuple(found), crossings, least, others, turns)
 
 
 def scanner(moved: Moved, name: str, held: Mapping[str, float]) -> Callable[[FloatArray], Scanned]:
@@ -59,35 +64,8 @@ def scanner(moved: Moved, name: str, held: Mapping[str, float]) -> Callable[[Flo
 
 
 def failing(motion: Motion) -> str:
-    """Return the first step that cannot be placed at a motion's pose."""
-    return next((name for name, mask in failures(motion.plan, motion.reading, motion.shape) if mask.any()), "")
-
-
-def transmission(motion: Motion, name: str, held: Mapping[str, float], found: list[Interval]) -> tuple[Extreme, ...]:
-    """Return the least transmission angle of every dyad over the declared and reachable part of a stroke."""
-    stroke = motion.plan.strokes[name]
-    ends = sorted((stroke.start, stroke.end))
-    parts = [(max(each.low, ends[0]), min(each.high, ends[1])) for each in found]
-    joints = [joint for joint, step in motion.plan.of_kind(Dyad).items() if motion.plan.moves(step)]
-    extremes = []
-    for joint in joints:
-        best = min((least_angle(motion, name, held, joint, *part) for part in parts if part[0] < part[1]), default=None)
-        if best is not None:
-            extremes.append(Extreme(joint, *best))
-    return tuple(extremes)
-
-
-def least_angle(motion: Motion, name: str, held: Mapping[str, float], joint: str, low: float, high: float) -> tuple[float, float]:
-    """Return a joint's least transmission angle between two strokes, and where."""
-    count = 721
-    for _ in range(6):
-        at = np.linspace(low, high, count)
-        angle = motion.moved({**held, name: at}).transmission_angle(joint)
-        folded = np.where(np.isnan(angle), np.inf, np.minimum(angle, np.pi - angle))
-        place = int(np.argmin(folded))
-        low, high = at[max(place - 1, 0)], at[min(place + 1, count - 1)]
-        count = 17
-    return float(folded[place]), float(at[place])
+    """Return what cannot be placed first at a motion's pose, by its name."""
+    return next((called(motion.plan, name) for name, mask in failures(motion.plan, motion.reading, motion.shape) if mask.any()), "")
 
 
 def is_watched(motion: Motion) -> bool:

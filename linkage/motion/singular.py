@@ -17,8 +17,8 @@ from ..errors import SingularError, SingularWarning
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray
 from ..quantities import Member
-from ..steps import Point, Step
-from .reach import Mask, where_words
+from ..steps import Point
+from .reach import Mask, called, opening, where_words
 
 WARN = 1e4
 REFUSE = 1e6
@@ -67,14 +67,12 @@ def refused(plan: Plan, found: Mapping[str, FloatArray], shape: tuple[int, ...])
 def refusal(plan: Plan, found: Mapping[str, FloatArray], mask: Mask, strokes: Mapping[str, Any], what: str, motion: Any) -> SingularError:
     """Return the error for ratios asked at singular poses."""
     name = max((each for each in found if np.any(found[each] > REFUSE)), key=lambda each: float(np.nanmax(found[each])))
-    member = plan.members[name]
-    opening = member.sentence() if isinstance(member, Step) else f"{name} = {member}"
     crossing = ", where its two branches cross" if crosses(motion, name) else ""
     kind = f"{'change' if crossing else 'dead'} point{crossing}: its links are in line"
     worst = float(np.nanmax(found[name]))
     size = "infinite" if np.isinf(worst) else f"{worst:.1e}"
     return SingularError(
-        f"{what} is refused {where_words(plan, mask, strokes)}: {opening} stands at a {kind} "
+        f"{what} is refused {where_words(plan, mask, strokes)}: {opening(plan, name)} stands at a {kind} "
         f"(condition {size}, refused above {REFUSE:.0e}). The positions hold; shorten the stroke, or ask with "
         f'unreachable="nan" for the other poses.',
         point=name, mask=mask, motion=motion,
@@ -98,7 +96,7 @@ def warn(plan: Plan, found: Mapping[str, FloatArray], strokes: Mapping[str, Any]
         if np.any(near):
             worst = float(np.nanmax(np.where(near, cond, np.nan)))
             warnings.warn(
-                f"{what} {where_words(plan, near, strokes)}: {name} is near a dead point (condition {worst:.1e}); "
+                f"{what} {where_words(plan, near, strokes)}: {called(plan, name)} is near a dead point (condition {worst:.1e}); "
                 f"expect a relative error of about {loss(worst, order):.0e}.",
                 SingularWarning,
                 stacklevel=4,

@@ -50,9 +50,14 @@ def as_given(value: Any) -> FloatArray:
 def sweep_values(count: int | None, given: Mapping[str, Any], strokes: Mapping[str, Stroke], title: str) -> dict[str, FloatArray]:
     """Return strokes over their ranges: an int is a count, a float a value; two counts give a grid."""
     if count is not None:
+        if not strokes:
+            raise DefinitionError(f"{title} has no stroke, so there is nothing to sweep; declare one, S = Stroke(0, 0.25), or ask at().")
         if len(strokes) != 1 or given:
             each = ", ".join(f"{name}=..." for name in strokes)
             raise DefinitionError(f"{title} has {len(strokes)} strokes: say sweep({each}), an int for a count and a float for a value.")
+        if not isinstance(count, (int, np.integer)) or isinstance(count, bool):
+            remedy = f"for a value write at({next(iter(strokes))}={count!r})"
+            raise DefinitionError(f"{title}: sweep({count!r}): a whole number of poses is expected; {remedy}.")
         given = {next(iter(strokes)): count}
     known_strokes(given, strokes, title)
     axes = [_axis(name, given[name], strokes[name], title) for name in strokes]

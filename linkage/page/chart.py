@@ -21,7 +21,7 @@ def chart(motion: Motion, column: Column, bound: Sequence[Any] | None) -> dict[s
     moving = strokes.driven(motion)
     along = strokes.shown(motion.plan, moving, motion.strokes[moving])
     turning = strokes.unit(motion.plan, moving) == "deg" and float(np.ptp(along)) >= 90.0
-    low, high = span(column.shown)
+    low, high = span(column.drawn)
     edge: dict[str, Any] | None = None
     if bound is not None:
         found = limit(bound)
@@ -31,7 +31,7 @@ def chart(motion: Motion, column: Column, bound: Sequence[Any] | None) -> dict[s
     unit = strokes.unit(motion.plan, moving)
     return {
         "stroke": {"name": moving, "unit": unit, "values": rounded(along), "ticks": ticks(float(along[0]), float(along[-1]), turning)},
-        "column": {"heading": typeset(column.heading), "unit": typeset(column.unit), "values": rounded(column.shown)},
+        "column": {"heading": typeset(column.heading), "unit": typeset(column.unit), "values": rounded(column.drawn)},
         "range": [low, high],
         "ticks": ticks(low, high),
         "limit": edge,

@@ -9,10 +9,10 @@ from ..quantities import name_of
 from ..steps import Guide, Link, OnGuide
 
 if TYPE_CHECKING:
-    from .plan import Plan
+    from .members import Members
 
 
-def rigid_bodies(plan: Plan) -> tuple[Body, ...]:
+def rigid_bodies(plan: Members) -> tuple[Body, ...]:
     """Return the rigid bodies, the frame first."""
     groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in plan.bars if bar not in plan.cylinders]
     groups += [body for name, point in plan.points.items() if name not in plan.telescopes for body in point.bodies()]
@@ -23,13 +23,13 @@ def rigid_bodies(plan: Plan) -> tuple[Body, ...]:
     return merged(groups, (*plan.ground, *still))
 
 
-def resting(plan: Plan) -> dict[str, Guide]:
+def resting(plan: Members) -> dict[str, Guide]:
     """Return the points at a fixed place on a guide, which are rigid with it."""
     steps = {name: step for name, step in plan.of_kind(OnGuide).items() if not plan.moves(step.along)}
     return {name: plan.of_kind(Guide)[name_of(step.guide)] for name, step in steps.items()}
 
 
-def gruebler_count(plan: Plan) -> int:
+def gruebler_count(plan: Members) -> int:
     """Return 3 (n - 1) - 2 j1 - j2; a point that only guides hold counts as a pin of its own."""
     rest = resting(plan)
     free = {name: point for name, point in plan.points.items() if name not in rest}

@@ -1,138 +1,41 @@
-"""The ordered steps of a mechanism: printable, traceable, the same for every design."""
+"""The plan of a mechanism: its members in order, and the program that works them out."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping, Sequence
-from copy import copy
 from functools import cached_property
 from typing import Any, TypeVar
+from uuid import uuid4
 
 from ..errors import DefinitionError, unknown
-from ..graph import Body, ordered
 from ..program import Kernel, Level, Node, Tangent
-from ..quantities import Distance, Function, Length, Member, Number, Operation, Quantity, Stroke, Variable, needs, unnamed
-from ..steps import Arrow, Bar, Drawn, Ground, Group, Link, OnLink, Point
-from .bodies import gruebler_count, rigid_bodies
+from ..quantities import Member, Quantity
+from ..steps import Arrow, Point
+from .members import Members
 from .reading import ArrayReading
-from .table import Table
+from .sent import sent
 from .trace import Trace
 
-Kind = TypeVar("Kind", bound=Member)
+Made = TypeVar("Made")
+
+KEPT = 512
+"""The kernels of a plan that are kept: loads with numbers of their own make one for each number."""
 
 
-class Plan:
-    """The members of a mechanism in an order in which each can be worked out.
-
-    Raises DefinitionError for unknown names, cycles, and dimensions that are missing, double or impossible.
-    """
+class Plan(Members):
+    """The ordered members of a mechanism with their program: printable, traceable, the same for every design."""
 
     def __init__(self, members: Mapping[str, Member], title: str) -> None:
-        self.title = title
-        order = ordered({name: self._needs(name, member) for name, member in members.items()}, title)
-        self.table = Table(title)
-        self.members: dict[str, Member] = {}
-        for name in order:
-            self.members[name] = self._bound(name, members[name])
-        strokes = self.of_kind(Stroke)
-        self.strokes = {name: strokes[name] for name in members if name in strokes}
-        self._kernels: dict[Any, Kernel] = {}
-        self._check_kinds()
-
-    def _needs(self, name: str, member: Member) -> list[str]:
-        """Return the names that a member needs; DefinitionError, with the place, where a part of it cannot be one."""
-        try:
-            return list(needs(member))
-        except DefinitionError as error:
-            raise DefinitionError(f"{self.title}.{name}: {error}") from None
-
-    def _bound(self, name: str, member: Member) -> Member:
-        """Return a member with its dimensions entered in the table."""
-        for variable, default, kind, unit in member.variables():
-            self.table.add(variable, default, kind, f"{name} = {member}", unit)
-        member.enter(self.table)
-        return member.bind(name, self.table) if isinstance(member, Point) else member
-
-    def of_kind(self, kind: type[Kind]) -> dict[str, Kind]:
-        """Return the members of a kind by name, in order."""
-        return {name: member for name, member in self.members.items() if isinstance(member, kind)}
+        super().__init__(members, title)
+        self._kernels: dict[Any, Any] = {}
 
     @cached_property
-    def points(self) -> dict[str, Point]:
-        """The points by name, in order."""
-        return self.of_kind(Point)
+    def key(self) -> str:
+        """A name that no other plan has, in any process."""
+        return uuid4().hex
 
-    @cached_property
-    def ground(self) -> tuple[str, ...]:
-        """The names of the fixed points."""
-        return tuple(self.of_kind(Ground))
-
-    def _check_kinds(self) -> None:
-        """Raise DefinitionError where a point, a vector or a quantity stands in the place of another kind."""
-        for name, member in self.members.items():
-            member.examine(self.members, self.title)
-            for part in self.with_parts(name):
-                for length in part.lengths():
-                    if isinstance(length, Number) and not length.number > 0.0:
-                        raise DefinitionError(f"{self.title}: {name} = {member}: the length {length.number:.6g} m is not positive.")
-                for attribute, kind in part.expects:
-                    reference = getattr(part, attribute)
-                    found = self.members[reference] if isinstance(reference, str) else reference
-                    if reference is not None and found.kind != kind:
-                        raise DefinitionError(f"{self.title}: {name} = {member}: {found.name or found} is not a {kind}.")
-            if isinstance(member, Ground) and self.moves(member):
-                text = f"{self.title}: {name} = {member} follows a stroke, but is fixed; drive a point by OnGuide, Dyad or Crank."
-                raise DefinitionError(text)
-
-    # -- what moves with what --------------------------------------------------------------------------
-
-    def reaches(self, start: Member | str) -> set[str]:
-        """Return the names of all members that something is built from, itself included."""
-        stack = [start] if isinstance(start, str) else list(needs(start))
-        found: set[str] = set()
-        while stack:
-            name = stack.pop()
-            if name not in found:
-                found.add(name)
-                stack.extend(needs(self.members[name]))
-        return found
-
-    def moves(self, quantity: Member) -> bool:
-        """Return whether a quantity follows a stroke."""
-        return isinstance(quantity, Stroke) or any(name in self.strokes for name in self.reaches(quantity))
-
-    @cached_property
-    def bars(self) -> tuple[Bar, ...]:
-        """The links of two points that the steps bring."""
-        steps = [bar for point in self.points.values() for bar in point.bars()]
-        return (*steps, *(rod for group in self.groups.values() for rod in group.rods))
-
-    @cached_property
-    def cylinders(self) -> tuple[Bar, ...]:
-        """The bars whose length follows a stroke."""
-        return tuple(bar for bar in self.bars if self.moves(bar.length))
-
-    @cached_property
-    def telescopes(self) -> tuple[str, ...]:
-        """The points that move along their body because a label of theirs follows a stroke."""
-        return tuple(name for name, step in self.of_kind(OnLink).items() if any(map(self.moves, step.dimensions())))
-
-    def is_cylinder(self, link: Link) -> bool:
-        """Return whether a link of two points follows a stroke."""
-        length = self.table.lengths.get(frozenset(link.point_names))
-        return length is not None and self.moves(length)
-
-    @cached_property
-    def links(self) -> tuple[Body, ...]:
-        """The rigid bodies, the frame first."""
-        return rigid_bodies(self)
-
-    @cached_property
-    def gruebler(self) -> int:
-        """The Gruebler count 3 (n - 1) - 2 j1 - j2."""
-        return gruebler_count(self)
-
-    # -- the program -----------------------------------------------------------------------------------
+    def __reduce__(self) -> tuple[Any, ...]:
+        return sent(self.key, self)
 
     @cached_property
     def trace(self) -> Trace:
@@ -144,26 +47,6 @@ class Plan:
         for name, length in self.following:
             trace.watch_length(name, length)
         return trace
-
-    @cached_property
-    def following(self) -> tuple[tuple[str, Quantity], ...]:
-        """The lengths that follow other quantities, and so can become negative, each with the member that it places."""
-        place = list(self.members).index
-        found = [(max(ends, key=place), length) for ends, length in self.table.lengths.items()]
-        names = set().union(*map(self.reaches, self.points))
-        found += [(name, length) for name in sorted(names, key=place) for part in self.with_parts(name) for length in part.lengths()]
-        return tuple((name, length) for name, length in found if not isinstance(length, (Variable, Number, Length, Distance)))
-
-    def with_parts(self, name: str) -> tuple[Member, ...]:
-        """Return a member and its parts that have no name of their own."""
-        return (self.members[name], *unnamed(self.members[name]))
-
-    @cached_property
-    def may_overflow(self) -> bool:
-        """Whether a place depends on arithmetic that has no value everywhere: quotients, powers, functions."""
-        names = set().union(*map(self.reaches, self.points))
-        parts = [part for name in names for part in self.with_parts(name)]
-        return any(isinstance(part, Function) or (isinstance(part, Operation) and part.symbol != "*") for part in parts)
 
     def read(self, inputs: Mapping[str, Any]) -> ArrayReading:
         """Return the eager reading on arrays, every point placed."""
@@ -197,57 +80,29 @@ class Plan:
     def kernel(self, targets: tuple[str | Quantity, ...], along: tuple[str, ...] = (), guarded: bool = False) -> Kernel:
         """Return the kernel of some targets' values or derivatives, made once."""
 
-
         def make(plan: Plan) -> Kernel:
             nodes = [node for target in targets for node in plan.derived(plan.nodes(target), along)]
             return Kernel(nodes, [guard.node for guard in plan.trace.guards] if guarded else ())
 
         return self.made((targets, along, guarded), make)
 
-    def made(self, key: Any, make: Callable[[Plan], Kernel]) -> Kernel:
-        """Return a kernel by its key, made once from a program of its own: it does not depend on what was asked for before."""
-        if key not in self._kernels:
-            twin = copy(self)
-            vars(twin).pop("trace", None)
-            self._kernels[key] = make(twin)
-        return self._kernels[key]
+    def made(self, key: Any, make: Callable[[Plan], Made]) -> Made:
+        """Return a kernel, or what holds one, made once from a program of its own: it does not depend on what was asked for before."""
+        found: Made | None = self._kernels.get(key)
+        if found is None:
+            found = self._kernels[key] = make(self._twin())
+            for old in list(self._kernels)[:-KEPT]:
+                self._kernels.pop(old, None)
+        return found
 
-    @cached_property
-    def groups(self) -> dict[str, Group]:
-        """The groups whose pins are found together, in order."""
-        return self.of_kind(Group)
+    def _twin(self) -> Plan:
+        """Return the same plan, not traced yet."""
+        twin = object.__new__(type(self))
+        vars(twin).update(vars(self))
+        vars(twin).pop("trace", None)
+        return twin
 
     @cached_property
     def solved(self) -> tuple[str, ...]:
         """The inputs that a group's solution supplies: its pins' coordinates and its distance from a singular pose."""
         return tuple(name for group in self.groups.values() for name in group.inputs)
-
-    @cached_property
-    def defaults(self) -> dict[str, float]:
-        """The design variables at their defaults [SI]."""
-        return {name: entry.default for name, entry in self.table.entries.items()}
-
-    @cached_property
-    def sketch_strokes(self) -> dict[str, float]:
-        """The strokes at which sketch positions hold: the start of each, unless the class says `drawn(...)`."""
-        said = {name: value for drawing in self.of_kind(Drawn).values() for name, value in drawing.strokes.items()}
-        return {name: float(said.get(name, stroke.start)) for name, stroke in self.strokes.items()}
-
-    @cached_property
-    def moving(self) -> tuple[str, ...]:
-        """The points that are not fixed."""
-        return tuple(name for name in self.points if name not in self.ground)
-
-    @property
-    def heading(self) -> str:
-        """The title as words, for pictures: `MowerLift` is `Mower lift`."""
-        return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", self.title).capitalize()
-
-    def named(self) -> list[str]:
-        """Return the names that have a value: points, vectors and quantities."""
-        return [name for name, member in self.members.items() if isinstance(member, (Point, Arrow, Quantity))]
-
-    def __str__(self) -> str:
-        return "\n".join(f"{name} = {member}" for name, member in self.members.items())
-
-    __repr__ = __str__

@@ -109,6 +109,9 @@ class Table:
         return list(dict.fromkeys(name.removesuffix(".x").removesuffix(".y") for name in self.entries))
 
 
+TURN = 2.0 * np.pi * (1.0 + 1e-9)
+
+
 def signed(value: Any, sign: int, entry: Entry) -> Any:
     """Return a setting under its owner's sign; raise DefinitionError for what is not a number."""
     try:
@@ -124,6 +127,9 @@ def checked(entry: Entry, value: Any) -> Any:
         raise DefinitionError(f"{entry.where}: {entry.name}={value!r} is not a finite number; give a value in SI.")
     if entry.kind == "not negative" and np.any(np.asarray(value) < 0.0):
         raise DefinitionError(f"{entry.where}: {entry.name}={np.min(value):.6g} is negative; give zero or more.")
+    if entry.kind == "angle" and np.any(np.abs(value) > TURN):
+        large = f"{float(np.ravel(value)[np.argmax(np.abs(value))]):.6g}"
+        raise DefinitionError(f"{entry.where}: the angle {entry.name}={large} rad is more than a full turn; write {large} * deg.")
     if entry.kind == "length" and np.any(np.asarray(value) <= 0.0):
         what = "has no length" if np.all(np.asarray(value) >= 0.0) else "is negative"
         raise DefinitionError(f"{entry.where}: the length {entry.name}={np.min(value):.6g} m {what}; give a positive one.")

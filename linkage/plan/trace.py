@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,6 +36,13 @@ class Trace(Reading):
         self.guards: list[Guard] = []
         self.noted: dict[str, Node] = {}
         self.angles: list[Node] = []
+
+    def view(self) -> Trace:
+        """Return this trace as it stands, for reading more: what is read there leaves nothing here but nodes."""
+        view = copy(self)
+        view.guards, view.angles, view.placing = list(self.guards), list(self.angles), []
+        view.positions, view.noted, view._values = dict(self.positions), dict(self.noted), dict(self._values)
+        return view
 
     def root(self, radicand: Scalar, scale: Scalar, size: Scalar) -> Scalar:
         radicand = self.graph.node(radicand)

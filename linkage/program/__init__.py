@@ -2,6 +2,9 @@
 
 from .adjoint import gradient as gradient
 from .arrays import FloatArray as FloatArray
+from .expand import eliminated as eliminated
+from .foreign import c_text as c_text
+from .foreign import javascript_text as javascript_text
 from .interpret import interpret as interpret
 from .kernel import QUICKEST as QUICKEST
 from .kernel import Kernel as Kernel
@@ -14,5 +17,9 @@ from .node import Graph as Graph
 from .node import Level as Level
 from .node import Node as Node
 from .operations import NO_VALUE as NO_VALUE
+from .pin import pinned as pinned
 from .tangent import Tangent as Tangent
 from .tangent import jacobian as jacobian
+from .traced import Notes as Notes
+from .traced import Traced as Traced
+from .traced import node_of as node_of

@@ -19,7 +19,7 @@ def expanded(outputs: Sequence[Node]) -> list[Node]:
     for node in ancestors(wanted):
         args = tuple(better[plain(arg)] for arg in node.args)
         if node.op == "solve":
-            found[node] = eliminated(node.graph.made("solve", args))
+            found[node] = eliminated(*entries(node.graph.made("solve", args)))
             better[node] = node
         elif node.op == "component":
             better[node] = found[plain(node.args[0])][int(node.args[1].value)]
@@ -28,24 +28,51 @@ def expanded(outputs: Sequence[Node]) -> list[Node]:
     return [better[each] for each in wanted]
 
 
-def eliminated(system: Node) -> list[Node]:
-    """Return the unknowns of a system; NaN or infinity where it is singular."""
-    graph = system.graph
-    matrix, right = entries(system)
+def eliminated(matrix: Sequence[Sequence[Node]], right: Sequence[Node]) -> list[Node]:
+    """Return the unknowns of `matrix @ u = right` as plain operations; NaN or infinity where it is singular.
+
+    The unknown that stands in the fewest rows goes next; what is zero by its structure is neither compared nor subtracted.
+    """
     rows = [[*row, b] for row, b in zip(matrix, right, strict=True)]
-    n = len(rows)
-    for k in range(n):
-        for other in range(k + 1, n):  # the row with the largest entry comes up, by exchange with each below
-            a, b = np.abs(rows[other][k]), np.abs(rows[k][k])
-            pairs = list(zip(rows[k], rows[other], strict=True))
-            rows[k] = [graph.pick(a, b, x, y) for x, y in pairs]
-            rows[other] = [graph.pick(a, b, y, x) for x, y in pairs]
-        inverse = 1.0 / rows[k][k]
-        for other in range(k + 1, n):
-            factor = rows[other][k] * inverse
-            rows[other] = [*rows[other][: k + 1], *(x - factor * y for x, y in zip(rows[other][k + 1 :], rows[k][k + 1 :], strict=True))]
-    unknowns: list[Node] = [right[0]] * n
-    for k in reversed(range(n)):
-        rest = sum((rows[k][j] * unknowns[j] for j in range(k + 1, n)), graph.constant(0.0))
-        unknowns[k] = (rows[k][n] - rest) / rows[k][k]
-    return unknowns
+    left = list(range(len(right)))
+    done: list[tuple[int, list[Node]]] = []
+    while left:
+        column = min(left, key=lambda each: sum(not is_zero(row[each]) for row in rows))
+        left.remove(column)
+        pivot, rows = cleared(rows, column)
+        done.append((column, pivot))
+    found: dict[int, Node] = {}
+    for column, pivot in reversed(done):
+        rest = [pivot[known] * value for known, value in found.items() if not is_zero(pivot[known])]
+        found[column] = (pivot[-1] - sum(rest[1:], rest[0]) if rest else pivot[-1]) / pivot[column]
+    return [found[column] for column in range(len(right))]
+
+
+def cleared(rows: Sequence[list[Node]], column: int) -> tuple[list[Node], list[list[Node]]]:
+    """Return the row with the largest entry in a column, and the others without that column."""
+    (pivot, *used), others = parted(rows, column)
+    below: list[list[Node]] = []
+    for row in used:  # the largest comes up, by exchange with each below
+        graph, a, b = row[column].graph, np.abs(row[column]), np.abs(pivot[column])
+        pairs = list(zip(pivot, row, strict=True))
+        pivot = [graph.pick(a, b, x, y) for x, y in pairs]
+        below.append([graph.pick(a, b, y, x) for x, y in pairs])
+    inverse = 1.0 / pivot[column]
+    for row in below:
+        factor = row[column] * inverse
+        row[column] = inverse.graph.constant(0.0)
+        others.append([x if is_zero(y) or each == column else x - factor * y for each, (x, y) in enumerate(zip(row, pivot, strict=True))])
+    return pivot, others
+
+
+def parted(rows: Sequence[list[Node]], column: int) -> tuple[list[list[Node]], list[list[Node]]]:
+    """Return the rows with an entry in a column, at least one, and the others."""
+    used = [row for row in rows if not is_zero(row[column])]
+    if not used:  # no unknown is there: the division by zero tells
+        return [rows[0]], list(rows[1:])
+    return used, [row for row in rows if is_zero(row[column])]
+
+
+def is_zero(node: Node) -> bool:
+    """Return whether a node is zero by the structure of its system."""
+    return node.op == "constant" and node.value == 0.0

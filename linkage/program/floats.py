@@ -70,12 +70,12 @@ class Floats:
             rows = self.poses(self.design([each[place] for each in designs]), [listed(value, n) for value in here], n)
             values[:, place] = np.array([row[:count] for row in rows], float).T.reshape(count, n)
             for k in range(len(guards)):
-                guards[k] = min(guards[k], *(worth(row[count + k]) for row in rows))
+                guards[k] = least([guards[k], *(row[count + k] for row in rows)])
 
 
-def worth(guard: float) -> float:
-    """Return a guard's value; NaN, which no comparison sees, as the least of all."""
-    return guard if guard == guard else -math.inf
+def least(values: Sequence[float]) -> float:
+    """Return the least of some numbers; NaN, which no comparison sees, where one of them is."""
+    return min(values) if all(value == value for value in values) else math.nan
 
 
 def listed(value: Any, count: int) -> list[float]:

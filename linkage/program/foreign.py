@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from .expand import expanded
 from .loop import loop, numbered
@@ -11,6 +12,7 @@ from .node import Node
 from .schedule import Schedule, schedule
 from .text import TEMPLATES, Dialect, Names
 
+NOTHING: Mapping[str, float] = MappingProxyType({})
 CHOICES = {
     "sign": "({0} > 0.0 ? 1.0 : {0} < 0.0 ? -1.0 : {0})",
     "minimum": "({0} <= {1} || {0} != {0} ? {0} : {1})",
@@ -45,17 +47,17 @@ JAVASCRIPT = Dialect(
 )
 
 
-def c_text(outputs: Sequence[Node], name: str = "poses") -> str:
+def c_text(outputs: Sequence[Node], name: str = "poses", design: Mapping[str, float] = NOTHING) -> str:
     """Return C99 text of `void poses(long n, const double *d, const double *const *p, double *const *o)`.
 
     `d` holds the dimensions, `p` the strokes and solved coordinates, each n long, `o` the outputs, each n long; a comment
-    names them. For its full speed compile it with `-O3 -march=native -fno-math-errno -fno-trapping-math`.
+    names them, with the values of a design. For its full speed compile it with `-O3 -march=native -fno-math-errno -fno-trapping-math`.
     """
     plan = schedule(expanded(outputs))
     inside = loop(plan, C)
     lines = [
         "#include <math.h>",
-        comment(plan),
+        comment(plan, design),
         f"void {name}(long n, const double *d, const double *const *p, double *const *o) {{",
         *(f"    {line}" for line in design_lines(plan, C)),
         *(f"    const double *restrict x{k} = p[{k}];" for k in range(len(plan.pose_inputs))),
@@ -70,12 +72,12 @@ def c_text(outputs: Sequence[Node], name: str = "poses") -> str:
     return "\n".join(lines) + "\n"
 
 
-def javascript_text(outputs: Sequence[Node], name: str = "poses") -> str:
+def javascript_text(outputs: Sequence[Node], name: str = "poses", design: Mapping[str, float] = NOTHING) -> str:
     """Return the text of a JavaScript `function poses(d, p)`: dimensions and strokes in arrays, as a comment names them; outputs in one."""
     plan = schedule(expanded(outputs))
     inside = loop(plan, JAVASCRIPT)
     lines = [
-        comment(plan),
+        comment(plan, design),
         f"function {name}(d, p) {{",
         *(f"    {line}" for line in design_lines(plan, JAVASCRIPT)),
         *(f"    const i{k} = p[{k}];" for k in range(len(plan.pose_inputs))),
@@ -93,7 +95,9 @@ def design_lines(plan: Schedule, dialect: Dialect) -> list[str]:
     return lines + [dialect.assignment.format(name, names.read(node)) for node, name in numbered("c", plan.passed).items()]
 
 
-def comment(plan: Schedule) -> str:
-    """Return which inputs are which."""
-    given, moved = (" ".join(str(node.value) for node in nodes) or "none" for nodes in (plan.design_inputs, plan.pose_inputs))
-    return f"/* d: {given}; p: {moved}; {len(plan.outputs)} outputs */"
+def comment(plan: Schedule, design: Mapping[str, float]) -> str:
+    """Return which inputs are which, and what those of a design are."""
+    names = [node.value for node in plan.design_inputs]
+    given = ", ".join(f"{name} = {design[name]!r}" if name in design else name for name in names)
+    moved = ", ".join(node.value for node in plan.pose_inputs)
+    return f"/* d: {given or 'none'}; p: {moved or 'none'}; {len(plan.outputs)} outputs */"

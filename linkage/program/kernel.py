@@ -18,6 +18,7 @@ from .floats import Floats
 from .fused import Fused
 from .lower import plain
 from .node import Node
+from .pin import PINNED
 from .schedule import Schedule, schedule
 from .trig import halved
 
@@ -53,6 +54,8 @@ QUICKEST = Way()
 class Backend(Protocol):
     """What fills values, shape (outputs, designs, poses), and guards."""
 
+    plan: Schedule
+
     def turns(self, m: int, n: int) -> bool:
         """Return whether designs, not poses, are best contiguous in the result."""
 
@@ -78,10 +81,9 @@ class Kernel:
     def __call__(
         self, inputs: Mapping[str, Any], out: FloatArray | None = None, way: Way = QUICKEST, size: tuple[int, int] | None = None
     ) -> Result:
-        design = [inputs[node.value] for node in self.plan.design_inputs]
-        poses = [inputs[node.value] for node in self.plan.pose_inputs]
-        m, n = size or (sized(design, poses) if out is None else out.shape[1:])
+        m, n = size or (sized(*given(self.plan, inputs)) if out is None else out.shape[1:])
         backend = self._backend(way, m, n)
+        design, poses = given(backend.plan, inputs)
         values = allocated(len(self.plan.outputs), m, n, backend.turns(m, n)) if out is None else out
         guards = np.full(len(self.plan.guards), math.inf)
         if m * n:
@@ -90,12 +92,12 @@ class Kernel:
         return Result(values, guards)
 
     def _backend(self, way: Way, m: int, n: int) -> Backend:
-        """Return what to run: the asked for, or the quickest for so many designs and poses."""
-        if way.backend is not None:
-            known: dict[str, Backend] = {"floats": self.floats, "numpy": self.arrays}
-            return known.get(way.backend) or self.fused
-        if m == 1 and n <= FEW:
+        """Return what to run: the asked for, the pinned, or the quickest for so many designs and poses."""
+        asked = way.backend or ("floats" if m == 1 and n <= FEW else PINNED.get())
+        if asked == "floats":
             return self.floats
+        if asked is not None:
+            return self.arrays if asked == "numpy" else self.fused
         if self.fused.is_worth(m, n, self._spent):
             return self.fused
         self._spent += m * n
@@ -124,6 +126,11 @@ class Kernel:
         if nodes == list(map(plain, (*outputs, *guards))):
             return self.plan
         return schedule(nodes[: len(outputs)], nodes[len(outputs) :])
+
+
+def given(plan: Schedule, inputs: Mapping[str, Any]) -> tuple[list[Any], list[Any]]:
+    """Return the inputs that a schedule reads: of the design, and of the poses."""
+    return [inputs[node.value] for node in plan.design_inputs], [inputs[node.value] for node in plan.pose_inputs]
 
 
 def sized(design: Sequence[Any], poses: Sequence[Any]) -> tuple[int, int]:

@@ -19,7 +19,6 @@ NUMBA = Dialect(
         "arctan2": "atan2({}, {})",
         "absolute": "abs({})",
         "power": "{} ** {}",
-        "pick": "({2} if {0} <= {1} else {3})",
     }
 )
 

@@ -18,6 +18,11 @@ def maximum(a, b):
     return a if a >= b or a != a else b
 
 
+@njit()  # not inlined where Numba sees branches, which a program of many choices has too many of
+def pick(a, b, x, y):
+    return x if a <= b else y
+
+
 @njit(inline="always")
 def sign(a):
     return a if a != a or a == 0.0 else (1.0 if a > 0.0 else -1.0)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from enum import IntEnum
+from threading import Lock
 from typing import Any
 
 import numpy as np
@@ -132,16 +133,18 @@ class Graph:
     def __init__(self) -> None:
         self.nodes: list[Node] = []
         self._known: dict[tuple[Any, ...], Node] = {}
+        self._lock = Lock()
 
     def _make(self, op: str, args: tuple[Node, ...], value: Any, level: Level, *, unique: bool = False) -> Node:
         key = (op, value, *(each.number for each in args))
-        if not unique and key in self._known:
-            return self._known[key]
-        node = Node(self, op, args, value, level, len(self.nodes))
-        self.nodes.append(node)
-        if not unique:
-            self._known[key] = node
-        return node
+        with self._lock:  # two threads must not give one number to two nodes
+            if not unique and key in self._known:
+                return self._known[key]
+            node = Node(self, op, args, value, level, len(self.nodes))
+            self.nodes.append(node)
+            if not unique:
+                self._known[key] = node
+            return node
 
     def constant(self, value: float) -> Node:
         """Return the node of a number."""

@@ -2,6 +2,7 @@
 
 from .inputs import Dimension as Dimension
 from .inputs import Stroke as Stroke
+from .inputs import Variable as Variable
 from .member import Member as Member
 from .member import Reference as Reference
 from .member import name_of as name_of
@@ -25,9 +26,9 @@ from .quantity import Operation as Operation
 from .quantity import Quantity as Quantity
 from .quantity import Ref as Ref
 from .quantity import Sum as Sum
-from .quantity import Variable as Variable
 from .quantity import quantity as quantity
 from .quantity import ref as ref
-from .quantity import spelled as spelled
+from .spelling import in_degrees as in_degrees
+from .spelling import spelled as spelled
 from .where import Turning as Turning
 from .where import Where as Where

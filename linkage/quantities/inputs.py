@@ -1,7 +1,8 @@
-"""What is given from outside: strokes, which move the mechanism, and dimensions, which make the design."""
+"""What is given from outside: strokes, which move the mechanism, and dimensions and labels, which make the design."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..errors import DefinitionError, unknown
@@ -9,6 +10,7 @@ from ..units import UNITS
 from ..vectors import Scalar
 from .numbers import is_number, plain
 from .quantity import Quantity
+from .spelling import in_degrees
 from .where import Where
 
 
@@ -31,8 +33,25 @@ class Stroke(Quantity):
     def rule(self, where: Where) -> Scalar:
         return where.input(self.name)
 
+    def text(self, measures: str = "") -> str:
+        written = in_degrees if measures == "angle" else repr
+        return f"Stroke({written(self.start)}, {written(self.end)})"
+
     def __str__(self) -> str:
-        return f"Stroke({self.start!r}, {self.end!r})"
+        return self.text()
+
+
+@dataclass(frozen=True, eq=False)
+class Variable(Quantity):
+    """A design variable that a label or a coordinate made: `OB`, `M.x`."""
+
+    variable: str
+
+    def rule(self, where: Where) -> Scalar:
+        return where.input(self.variable)
+
+    def __str__(self) -> str:
+        return self.variable
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +74,13 @@ class Dimension(Quantity):
     def rule(self, where: Where) -> Scalar:
         return where.input(self.name)
 
-    def __str__(self) -> str:
+    def having(self, values: Mapping[str, float]) -> Dimension:
+        return self.renewed(default=values.get(self.name, self.default))
+
+    def text(self, measures: str = "") -> str:
         unit = f', unit="{self.unit}"' if self.unit else ""
-        return f"Dimension({self.default!r}{unit})"
+        is_angle = "angle" in (measures, UNITS.get(self.unit, (1.0, ""))[1])
+        return f"Dimension({in_degrees(self.default) if is_angle else repr(self.default)}{unit})"
+
+    def __str__(self) -> str:
+        return self.text()

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any, ClassVar, TypeAlias
+from collections.abc import Iterator, Mapping
+from typing import Any, ClassVar, Self, TypeAlias
 
 from ..errors import DefinitionError
 
@@ -40,6 +40,17 @@ class Member:
         """Return the design variables this member brings: name, default [SI], what it measures, display unit or ""."""
         return ()
 
+    def having(self, values: Mapping[str, float]) -> Self:
+        """Return this member with the design variables among its numbers at other values [SI], by their name or label."""
+        return self
+
+    def renewed(self, **changes: Any) -> Self:
+        """Return this member with attributes changed, under its own name."""
+        changed = object.__new__(type(self))
+        for name, value in {**vars(self), **changes}.items():
+            object.__setattr__(changed, name, value)
+        return changed
+
     def enter(self, claims: Any) -> None:
         """Enter the labels of this member in the mechanism's table of dimensions."""
 
@@ -65,7 +76,8 @@ def name_of(reference: Reference) -> str:
     if not isinstance(reference, Member):
         raise DefinitionError(f"{reference!r} stands where a point or its name is expected.")
     if not reference.name:
-        raise DefinitionError(f"{reference} is used before it has a name: bind it to one in the class, or write the name as a string.")
+        said = f"{reference} is used before it has a name, or its name is bound twice"
+        raise DefinitionError(f"{said}: bind it to a name of its own in the class, or write the name as a string.")
     return reference.name
 
 

@@ -5,7 +5,6 @@ Each says its rule once, in plain arithmetic; a reading (arrays, traced nodes) s
 
 from __future__ import annotations
 
-import operator
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -15,9 +14,26 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..vectors import Scalar
+from .arithmetic import BINDS, FUNCTIONS, OPERATORS, UFUNCS
 from .member import Member, Reference
 from .numbers import is_number
+from .spelling import in_degrees, spelled
 from .where import Turning, Where
+
+Operand: TypeAlias = "Quantity | float | str"
+Operator: TypeAlias = "Callable[[Quantity, Operand], Quantity]"
+
+
+def both(symbol: str) -> tuple[Operator, Operator]:
+    """Return an operator as a quantity's two methods: with the quantity on its left, and on its right."""
+    return lambda self, other: joined(symbol, self, quantity(other)), lambda self, other: joined(symbol, quantity(other), self)
+
+
+def joined(symbol: str, a: Quantity, b: Quantity) -> Quantity:
+    """Return two quantities joined by an operator; a difference is a sum with the second one's sign changed."""
+    if symbol in ("+", "-"):
+        return Sum(a, b if symbol == "+" else Negative(b))
+    return Operation(symbol, a, b)
 
 
 class Quantity(Member):
@@ -44,35 +60,15 @@ class Quantity(Member):
         """Whether this is a plain number."""
         return False
 
-    def __add__(self, other: Operand) -> Quantity:
-        return Sum(self, quantity(other))
+    def text(self, measures: str = "") -> str:
+        """Return this as it is written where it stands for what `measures` says: numbers of an `angle` are in degrees."""
+        return str(self)
 
-    def __radd__(self, other: Operand) -> Quantity:
-        return Sum(quantity(other), self)
-
-    def __sub__(self, other: Operand) -> Quantity:
-        return Sum(self, Negative(quantity(other)))
-
-    def __rsub__(self, other: Operand) -> Quantity:
-        return Sum(quantity(other), Negative(self))
-
-    def __mul__(self, other: Operand) -> Quantity:
-        return Operation("*", self, quantity(other))
-
-    def __rmul__(self, other: Operand) -> Quantity:
-        return Operation("*", quantity(other), self)
-
-    def __truediv__(self, other: Operand) -> Quantity:
-        return Operation("/", self, quantity(other))
-
-    def __rtruediv__(self, other: Operand) -> Quantity:
-        return Operation("/", quantity(other), self)
-
-    def __pow__(self, other: Operand) -> Quantity:
-        return Operation("**", self, quantity(other))
-
-    def __rpow__(self, other: Operand) -> Quantity:
-        return Operation("**", quantity(other), self)
+    __add__, __radd__ = both("+")
+    __sub__, __rsub__ = both("-")
+    __mul__, __rmul__ = both("*")
+    __truediv__, __rtruediv__ = both("/")
+    __pow__, __rpow__ = both("**")
 
     def __neg__(self) -> Quantity:
         return Negative(self)
@@ -83,32 +79,15 @@ class Quantity(Member):
     def __abs__(self) -> Quantity:
         return Function("absolute", self)
 
-    # NumPy's numbers and functions meet a quantity here: np.sqrt(L), np.float64(2) * L
-
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Quantity:
-        symbol = UFUNCS.get(ufunc.__name__)
+        """Return what NumPy's numbers and functions make of quantities: np.sqrt(L), np.float64(2) * L."""
+        name = ufunc.__name__
         if method != "__call__" or options:
-            raise DefinitionError(f"{ufunc.__name__} of a quantity is not provided in this form.")
-        if symbol == "+":
-            return Sum(quantity(inputs[0]), quantity(inputs[1]))
-        if symbol == "-":
-            return Sum(quantity(inputs[0]), Negative(quantity(inputs[1])))
-        if symbol is not None:
-            return Operation(symbol, quantity(inputs[0]), quantity(inputs[1]))
-        if ufunc.__name__ not in FUNCTIONS:
-            raise DefinitionError(f"{ufunc.__name__} of a quantity is not provided; use one of: {', '.join(FUNCTIONS)}.")
-        return Function(ufunc.__name__, *(quantity(each) for each in inputs))
-
-
-Operand: TypeAlias = "Quantity | float | str"
-
-FUNCTIONS: dict[str, Callable[..., Any]] = {
-    name: getattr(np, name) for name in ("sqrt", "sin", "cos", "tan", "arctan2", "exp", "log", "absolute", "minimum", "maximum")
-}
-OPERATORS: dict[str, Callable[[Any, Any], Any]] = {"*": operator.mul, "/": operator.truediv, "**": operator.pow}
-UFUNCS = {"add": "+", "subtract": "-", "multiply": "*", "true_divide": "/", "divide": "/", "power": "**"}
-BINDS = {"*": (2, 2, 3), "/": (2, 2, 3), "**": (3, 4, 4)}
-"""How strongly an operator binds, and how strongly its left and its right side must, to stand without brackets."""
+            raise DefinitionError(f"{name} of a quantity is not provided in this form.")
+        if name not in UFUNCS and name not in FUNCTIONS:
+            raise DefinitionError(f"{name} of a quantity is not provided; use one of: {', '.join(FUNCTIONS)}.")
+        given = [quantity(each) for each in inputs]
+        return joined(UFUNCS[name], *given) if name in UFUNCS else Function(name, *given)
 
 
 def quantity(value: Operand) -> Quantity:
@@ -124,12 +103,6 @@ def quantity(value: Operand) -> Quantity:
     if isinstance(value, (float, int)) and not isinstance(value, bool):
         raise DefinitionError(f"{value!r} is not a finite number; give a value in SI.")
     raise DefinitionError(f"{value!r} stands where a number, a quantity or its name is expected.")
-
-
-def spelled(part: Quantity, binding: int = 0) -> str:
-    """Return a part as text, in brackets where it binds more loosely than its surroundings."""
-    text = part.name or str(part)
-    return f"({text})" if not part.name and getattr(part, "binds", 9) < binding else text
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,21 +123,11 @@ class Number(Quantity):
         """A number with a sign is bracketed under a power only."""
         return 3 if str(self).startswith("-") else 9
 
+    def text(self, measures: str = "") -> str:
+        return in_degrees(self.number) if measures == "angle" else repr(self.number)
+
     def __str__(self) -> str:
         return repr(self.number)
-
-
-@dataclass(frozen=True, eq=False)
-class Variable(Quantity):
-    """A design variable that a label or a coordinate made: `OB`, `M.x`."""
-
-    variable: str
-
-    def rule(self, where: Where) -> Scalar:
-        return where.input(self.variable)
-
-    def __str__(self) -> str:
-        return self.variable
 
 
 @dataclass(frozen=True, eq=False)
@@ -216,10 +179,14 @@ class Sum(Quantity):
         (c, s), (p, q) = where.turn(self.a), where.turn(self.b)
         return c * p - s * q, s * p + c * q
 
-    def __str__(self) -> str:
+    def text(self, measures: str = "") -> str:
+        kind = measures or self.measures
         if isinstance(self.b, Negative) and not self.b.name:
-            return f"{spelled(self.a, 1)} - {spelled(self.b.a, 2)}"
-        return f"{spelled(self.a, 1)} + {spelled(self.b, 2)}"
+            return f"{spelled(self.a, 1, kind)} - {spelled(self.b.a, 2, kind)}"
+        return f"{spelled(self.a, 1, kind)} + {spelled(self.b, 2, kind)}"
+
+    def __str__(self) -> str:
+        return self.text()
 
 
 @dataclass(frozen=True, eq=False)
@@ -243,8 +210,11 @@ class Negative(Quantity):
         cos, sin = where.turn(self.a)
         return cos, -sin
 
+    def text(self, measures: str = "") -> str:
+        return f"-{spelled(self.a, 3, measures or self.measures)}"
+
     def __str__(self) -> str:
-        return f"-{spelled(self.a, 3)}"
+        return self.text()
 
 
 class Operation(Quantity):

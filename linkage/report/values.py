@@ -8,7 +8,6 @@ import numpy as np
 
 from ..mechanism import Mechanism
 from ..motion import stroke_unit
-from ..motion.reach import terms
 from ..plan import Plan
 from ..units import UNITS, show
 
@@ -28,10 +27,9 @@ def measure(plan: Plan, variable: str) -> str:
         return UNITS[entry.unit][1]
     if entry.kind in MEASURES:
         return MEASURES[entry.kind]
-    if any(variable in terms(length) for length in plan.table.lengths.values()):
+    if any(variable in plan.terms(length) for length in plan.table.lengths.values()):
         return "length"
-    turning = (getattr(member, "angle", None) for member in plan.members.values())
-    return "angle" if any(angle is not None and variable in terms(angle) for angle in turning) else ""
+    return "angle" if variable in plan.turning else ""
 
 
 def in_unit(value: float, unit: str) -> str:

@@ -1,5 +1,7 @@
 """Forces: the drive's by virtual work, the joints' by equilibrium of every body, supports, friction. N and Nm."""
 
+from .asked import thrust as thrust
+from .asked_pin import pin_force as pin_force
 from .driving import driving_force as driving_force
 from .forces import pin_forces as pin_forces
 from .result import JointForce as JointForce

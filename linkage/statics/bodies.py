@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ..errors import DefinitionError
-from ..loads import ForceElement
+from ..loads import ForceElement, PinFriction
 from ..plan import Plan
-from ..quantities import Quantity
+from ..quantities import Quantity, name_of
 from ..steps import Guide, Link, OnLink, YokeDyad
+from .coordinates import fed
 
 FRAME = -1
 FRAME_NAME = "frame"
@@ -46,7 +48,7 @@ def frame_points(plan: Plan) -> frozenset[str]:
     return frozenset(plan.links[0].points if plan.links else ()) | set(plan.ground)
 
 
-def parts(plan: Plan, elements: Iterable[ForceElement]) -> tuple[tuple[Part, ...], tuple[Ram, ...]]:
+def parts(plan: Plan, elements: tuple[ForceElement, ...]) -> tuple[tuple[Part, ...], tuple[Ram, ...]]:
     """Return the bodies and the driven lengths: sliders first, then links, then cylinders."""
     arms = [telescope(plan, name) for name in plan.telescopes]
     inner = {frozenset(arm.points) for arm in arms}
@@ -66,6 +68,15 @@ def parts(plan: Plan, elements: Iterable[ForceElement]) -> tuple[tuple[Part, ...
     return (*sliders, *arms, *links, *cylinders), tuple(rams)
 
 
+def blocks(plan: Plan, elements: Iterable[ForceElement], bars: Iterable[Part], sliding: Iterable[str]) -> tuple[Part, ...]:
+    """Return the sliding blocks that friction asks for: of pins that rub, run on one guide or slot, and join one link only."""
+    rubbing = dict.fromkeys(name_of(each.point) for each in elements if isinstance(each, PinFriction))
+    joined, guides = Counter(point for bar in bars for point in bar.points), Counter(sliding)
+    fixed = frame_points(plan)
+    asked = (point for point in rubbing if joined[point] == 1 and guides[point] == 1 and point not in fixed)
+    return tuple(Part(f"{point} (slider)", (point,), slides=True) for point in asked)
+
+
 def upright(plan: Plan, fixed: frozenset[str]) -> list[str]:
     """Return the moving points through which guides of a given direction go: a slider there carries the guide."""
     guides = [guide for guide in plan.of_kind(Guide).values() if guide.Q is None]
@@ -77,14 +88,16 @@ def titled(plan: Plan, points: tuple[str, ...]) -> str:
     return next((name for name, link in plan.of_kind(Link).items() if set(link.point_names) <= set(points)), "")
 
 
-def driven_pairs(plan: Plan, elements: Iterable[ForceElement]) -> list[tuple[str, str, Quantity | None]]:
-    """Return the ends and the length of every cylinder: declared by a step, or by a force element."""
+def driven_pairs(plan: Plan, elements: tuple[ForceElement, ...]) -> list[tuple[str, str, Quantity | None]]:
+    """Return the ends and the length of every cylinder that holds: declared by a step, or by a force element."""
     found: dict[frozenset[str], tuple[str, str, Quantity | None]] = {}
     for bar in plan.cylinders:
         found.setdefault(frozenset((bar.P, bar.Q)), (bar.P, bar.Q, bar.length))
+    loads = fed(plan, elements)
     for element in elements:
         for P, Q in element.cylinders():
-            found.setdefault(frozenset((P, Q)), (P, Q, None))
+            if frozenset((P, Q)) not in loads:
+                found.setdefault(frozenset((P, Q)), (P, Q, None))
     return list(found.values())
 
 

@@ -32,6 +32,11 @@ class Contact:
         """How many unknowns it brings."""
         return len(CARRIES[self.kind])
 
+    @property
+    def has_force(self) -> bool:
+        """Whether it transmits a force; a crank's drive has only a couple."""
+        return CARRIES[self.kind] != "c"
+
 
 @dataclass(frozen=True)
 class Wrench:

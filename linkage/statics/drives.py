@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ..errors import DefinitionError, unknown
-from ..motion import Motion
+from ..plan import Plan
 from ..quantities import Distance, Quantity
 from ..steps import Crank, OnGuide, OnLink
 from .bodies import Ram
@@ -15,14 +15,14 @@ from .system import Form, System
 from .turns import drives_of, follows_points
 
 
-def drive_of(motion: Motion, drive: str | None) -> str:
+def drive_of(plan: Plan, drive: str | None) -> str:
     """Return the stroke that is meant: the only one, where none is named."""
-    if drive is None and len(motion.strokes) == 1:
-        return next(iter(motion.strokes))
+    if drive is None and len(plan.strokes) == 1:
+        return next(iter(plan.strokes))
     if drive is None:
-        raise DefinitionError(f"{motion.plan.title} has {len(motion.strokes)} strokes: say drive= one of {', '.join(motion.strokes)}.")
-    if drive not in motion.strokes:
-        raise unknown("Stroke", drive, motion.strokes, where=motion.plan.title)
+        raise DefinitionError(f"{plan.title} has {len(plan.strokes)} strokes: say drive= one of {', '.join(plan.strokes)}.")
+    if drive not in plan.strokes:
+        raise unknown("Stroke", drive, plan.strokes, where=plan.title)
     return drive
 
 
@@ -54,10 +54,12 @@ def driven(system: System) -> Iterator[tuple[Quantity, Form]]:
     for ram in structure.rams:
         yield ram.quantity or Distance(ram.P, ram.Q), thrust(system, ram)
     for name, crank in plan.of_kind(Crank).items():
-        for sign, term in drives_of(plan, crank):
-            yield term, system.unknown("crank", name, 0, sign * system.scale)
+        if name not in structure.coordinates:
+            for sign, term in drives_of(plan, crank):
+                yield term, system.unknown("crank", name, 0, sign * system.scale)
     for name, point in plan.of_kind(OnGuide).items():
-        yield point.along, system.unknown("driven", name, 1, 1.0)
+        if name not in structure.coordinates:
+            yield point.along, system.unknown("driven", name, 1, 1.0)
     for name in plan.telescopes:
         step = plan.members[name]
         assert isinstance(step, OnLink)

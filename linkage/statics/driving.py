@@ -27,11 +27,13 @@ def driving_force(
 ) -> FloatArray:
     """Return the force of a drive by virtual work, shape (...): thrust [N], positive where it pushes the ends apart; a crank's torque [Nm].
 
+    It is the force of the stroke: a positive one pulls where the length falls with it (`AB=L0 - S`), with `AB=L0 + 2 * S` it is
+    twice the thrust.
     `loads` are the machine's own unless others are given; `case` a LoadCase or its name. While "extending" or "retracting" friction adds
     its work; given as an `efficiency` k, the force is F / k where the load resists and F k where it drives. The other drives of several
     stand still. Raises SingularError at a dead point and where friction locks the mechanism.
     """
-    stroke, loaded = drive_of(motion, drive), gathered(motion, loads, case, direction)
+    stroke, loaded = drive_of(motion.plan, drive), gathered(motion, loads, case, direction)
     names = {name for point in loaded.points for name in motion.plan.reaches(point)}
     poses = Poses(motion, f"The driving force of {stroke}", None if loaded.frictions else names)
     force = by_work(poses, loaded, stroke)

@@ -36,7 +36,7 @@ def pin_forces(
     """
     loaded = gathered(motion, loads, case, direction)
     poses = Poses(motion, "The joint forces")
-    moved = drive_of(motion, drive) if loaded.frictions or drive is not None else ""
+    moved = drive_of(motion.plan, drive) if loaded.frictions or drive is not None else ""
     solved = solve(poses, loaded, moved, split)
     remarks = locked_words(solved, direction)
     drives = {name: poses.full(solved.value(cut(solved.system, name))) for name in motion.strokes}

@@ -13,6 +13,7 @@ from ..errors import DefinitionError, SingularError, unknown
 from ..loads import ForceElement, Friction, Load, LoadCase
 from ..loads import Poses as Moved
 from ..motion import Motion
+from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import name_of
 
@@ -29,6 +30,16 @@ class Loading(Protocol):
 
 Loads: TypeAlias = Sequence[ForceElement | Loading | str] | ForceElement | Loading | str | None
 Case: TypeAlias = LoadCase | str | None
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """A force element that counts: as it is, in the gravity of a load case, and what its loads are multiplied by."""
+
+    name: str
+    element: ForceElement
+    in_case: ForceElement
+    factor: float
 
 
 @dataclass(frozen=True)
@@ -80,22 +91,28 @@ def sense_of(direction: str) -> int:
 
 def gathered(motion: Motion, loads: Loads, case: Case, direction: str, without: str = "") -> Loaded:
     """Return the loads that act; DefinitionError for what is no force element or gives no proper force."""
-    sense, chosen = sense_of(direction), case_of(motion, case)
-    present = elements_of(motion, loads)
-    known = [name for name, _ in present] + [name for name, _ in elements_of(motion, None)]
+    sense, label = sense_of(direction), "given loads" if case is None and loads is not None else case_of(motion.plan, case).label
+    kept = chosen(motion.plan, loads, case, without)
+    acting: list[Acting] = []
+    for each in kept:
+        found = called(each.in_case, motion, sense, each.name)
+        acting += [Acting(load, fitted(load, motion, each.name) * each.factor, each.name) for load in found]
+    frictions = tuple(friction for each in kept for friction in each.element.frictions(motion)) if sense else ()
+    return Loaded(tuple(acting), frictions, tuple(each.element for each in kept), label, sense)
+
+
+def chosen(plan: Plan, loads: Loads, case: Case, without: str = "") -> list[Chosen]:
+    """Return the force elements that count in a load case; DefinitionError for what is none, and for names that no load has."""
+    chosen, present = case_of(plan, case), elements_of(plan, loads)
+    known = [name for name, _ in present] + [name for name, _ in elements_of(plan, None)]
     for name in chosen.mentioned:
         if name not in known:
-            raise unknown("Load", name, known, where=f"{motion.plan.title}, {chosen.label}")
+            raise unknown("Load", name, known, where=f"{plan.title}, {chosen.label}")
     kept = [(name, element) for name, element in present if chosen.factor(name) != 0.0 and name != without]
-    acting: list[Acting] = []
-    for name, element in kept:
-        found = called(element.in_gravity(chosen.down), motion, sense, name)
-        acting += [Acting(load, fitted(load, motion, name) * chosen.factor(name), name) for load in found]
-    frictions = tuple(each for _, element in kept for each in element.frictions(motion)) if sense else ()
-    return Loaded(tuple(acting), frictions, tuple(element for _, element in kept), chosen.label, sense)
+    return [Chosen(name, element, element.in_gravity(chosen.down), chosen.factor(name)) for name, element in kept]
 
 
-def called(element: ForceElement, motion: Motion, sense: int, name: str) -> list[Load]:
+def called(element: ForceElement, motion: Moved, sense: int, name: str) -> list[Load]:
     """Return an element's loads; DefinitionError where they are no list of loads."""
     found = element.moving(motion, sense) if sense else element.loads(motion)
     if not isinstance(found, (list, tuple)) or not all(isinstance(each, Load) for each in found):
@@ -103,26 +120,26 @@ def called(element: ForceElement, motion: Motion, sense: int, name: str) -> list
     return list(found)
 
 
-def case_of(motion: Motion, case: Case) -> LoadCase:
+def case_of(plan: Plan, case: Case) -> LoadCase:
     """Return the load case that is meant; the plain one for None."""
     if case is None:
         return LoadCase("own loads")
     if isinstance(case, LoadCase):
         return case
-    cases = motion.plan.of_kind(LoadCase)
+    cases = plan.of_kind(LoadCase)
     titled = {each.label: each for each in cases.values()}
     if case not in titled | cases:
-        raise unknown("Load case", case, dict(cases) | titled, where=motion.plan.title)
+        raise unknown("Load case", case, dict(cases) | titled, where=plan.title)
     return (titled | cases)[case]
 
 
-def elements_of(motion: Motion, loads: Loads) -> list[tuple[str, ForceElement]]:
+def elements_of(plan: Plan, loads: Loads) -> list[tuple[str, ForceElement]]:
     """Return the force elements that are meant, by name: the machine's own for None."""
-    own = motion.plan.of_kind(ForceElement)
+    own = plan.of_kind(ForceElement)
     if loads is None:
         return list(own.items())
     each_of = [loads] if isinstance(loads, (str, ForceElement)) or not isinstance(loads, Sequence) else loads
-    return [named(each, own, motion.plan.title) for each in each_of]
+    return [named(each, own, plan.title) for each in each_of]
 
 
 def named(element: Any, own: Mapping[str, ForceElement], title: str) -> tuple[str, ForceElement]:
@@ -140,10 +157,8 @@ def named(element: Any, own: Mapping[str, ForceElement], title: str) -> tuple[st
 
 def fitted(load: Load, motion: Motion, name: str) -> FloatArray:
     """Return a load's force in the motion's shape (2, ...); DefinitionError where it does not fit or is no number."""
-    title, known = motion.plan.title, motion.plan.points
-    for point in (load.point, *load.on):
-        if name_of(point) not in known:
-            raise unknown("Point", point, known, where=f"{title}: {name}")
+    title = motion.plan.title
+    known_points(load, motion.plan, name)
     force = np.asarray(load.force)
     if force.dtype.kind not in "fiu" or force.shape[:1] != (2,):
         raise DefinitionError(f"{title}: {name}: its force at {load.point} has the shape {force.shape}; (2, ...) in N is expected.")
@@ -157,3 +172,10 @@ def fitted(load: Load, motion: Motion, name: str) -> FloatArray:
         what = f"{name} gives no finite force at {load.point} at {int(missing.sum())} of {missing.size} poses"
         raise SingularError(f"{title}: {what}.", mask=missing, motion=motion)
     return np.asarray(full, float)
+
+
+def known_points(load: Load, plan: Plan, name: str) -> None:
+    """Raise DefinitionError for a load at a point that there is not."""
+    for point in (load.point, *load.on):
+        if name_of(point) not in plan.points:
+            raise unknown("Point", point, plan.points, where=f"{plan.title}: {name}")

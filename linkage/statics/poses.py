@@ -3,17 +3,51 @@
 from __future__ import annotations
 
 import warnings
-from functools import cached_property
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, Protocol
 
 import numpy as np
 
 from ..errors import SingularWarning
-from ..motion import Motion, singular
+from ..loads import Poses as ForElements
+from ..motion import singular
 from ..motion.reach import Mask
-from ..plan import ArrayReading
+from ..plan import Plan
 from ..program import FloatArray
 from ..vectors import Line
+
+
+class Posed(ForElements, Protocol):
+    """What the statics ask of a motion, besides what force elements ask: all that is known of it at its poses."""
+
+    @property
+    def plan(self) -> Plan: ...
+
+    @property
+    def strokes(self) -> Mapping[str, Any]:
+        """The strokes by name."""
+
+    @property
+    def reached(self) -> Any:
+        """The mask of the poses that are reached."""
+
+    @property
+    def is_near_singular(self) -> bool:
+        """Whether some pose is near a singular one."""
+
+    @property
+    def unreachable(self) -> str:
+        """What is done about other poses: "raise" or "nan"."""
+
+    @property
+    def reading(self) -> Any:
+        """Every rule of the plan read at the poses."""
+
+    def ratio(self, target: Any, *, wrt: str | None = None) -> FloatArray:
+        """Return the derivative of a point or a quantity by a stroke."""
+
+    def array(self, values: Any) -> FloatArray:
+        """Return numbers as the arrays it works with."""
 
 
 class Poses:
@@ -23,7 +57,7 @@ class Poses:
     motion was asked for with `unreachable="nan"`; warns near one. The policy is that of the transfer ratios.
     """
 
-    def __init__(self, motion: Motion, what: str, names: set[str] | None = None) -> None:
+    def __init__(self, motion: Posed, what: str, names: set[str] | None = None) -> None:
         self.motion, self.plan = motion, motion.plan
         self.good: Mask = motion.reached & ~self._refused(what, set(self.plan.members) if names is None else names)
         self.count = int(self.good.sum())
@@ -41,15 +75,18 @@ class Poses:
         singular.warn(self.plan, found, motion.strokes, what)
         return mask
 
-    @cached_property
-    def reading(self) -> ArrayReading:
-        """Every rule evaluated on the motion's arrays."""
-        with np.errstate(all="ignore"):
-            return self.plan.read(self.motion.inputs)
+    @property
+    def reading(self) -> Any:
+        """Every rule read at the motion's poses."""
+        return self.motion.reading
+
+    def zeros(self, *shape: int) -> FloatArray:
+        """Return zeros to write results into, shape (n, *shape)."""
+        return self.motion.array(np.zeros((self.count, *shape)))
 
     def flat(self, values: Any) -> FloatArray:
         """Return values over the motion, shape (..., *shape) or broadcast to it, as (..., n)."""
-        array = np.asarray(values, float)
+        array = self.motion.array(values)
         lead = array.shape[: max(0, array.ndim - len(self.motion.shape))]
         return np.asarray(np.broadcast_to(array, (*lead, *self.motion.shape))[..., self.good])
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Protocol, TypeVar
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from ..errors import DefinitionError, unknown
 from ..motion import Motion, stroke_unit
 from ..motion.reach import Mask
 from ..program import FloatArray
+from ..steps import Link
 from ..units import kN
 
 
@@ -49,7 +51,7 @@ class PinForces:
     """All joint forces of a motion in one load case and one direction of motion; shapes (2, ...) and (...).
 
     `drives` are the thrusts [N] and torques [Nm] by stroke, `residual` the largest imbalance of any body over the largest force,
-    `gap` the largest difference to the drive's force by virtual work over the largest such force (NaN with friction).
+    `gap` the largest difference to the drive's force by virtual work over the works of the loads (NaN with friction).
     `remarks` say in words where friction locks the mechanism; there the forces are NaN, and `locked` is true.
     """
 
@@ -66,33 +68,32 @@ class PinForces:
 
     def at(self, point: str) -> tuple[JointForce, ...]:
         """Return the joints at a point."""
-        found = tuple(each for each in self.joints if each.point == point)
-        if not found:
-            raise unknown("Joint", point, dict.fromkeys(each.point for each in self.joints), where=self.motion.plan.title)
-        return found
+        return joints_at(self.joints, point, self.motion.plan.title)
 
     def force(self, point: str, on: str = "") -> FloatArray:
         """Return the force at a point on a body from the other one, shape (2, ...) [N].
 
-        Where several joints meet, `on` says on which body it acts; DefinitionError where that leaves a choice.
+        Where several joints meet, `on` says on which body it acts, by its points or its link's name; DefinitionError where that
+        leaves a choice.
         """
-        found = self.at(point)
-        names = dict.fromkeys(name for each in found for name in (each.on, each.by))
-        if not on and len(found) == 1:
-            return found[0].force
-        taken = [each.force for each in found if each.on == on] + [-each.force for each in found if each.by == on]
-        if on and on not in names:
-            raise unknown("Body", on, names, where=f"the joint {point} of {self.motion.plan.title}")
-        if len(taken) != 1:
-            where = ", ".join(f"on {each.on} from {each.by}" for each in found)
-            raise DefinitionError(f"{self.motion.plan.title}: several joints meet at {point} ({where}); say on= which body.")
-        return taken[0]
+        joint, sign = met(self.joints, point, self.body(on), self.motion.plan.title)
+        return sign * joint.force
+
+    def body(self, name: str) -> str:
+        """Return a body's name as the forces have it, for its link's name (`arm`) or some of its points (`O B`); else the name as given."""
+        plan = self.motion.plan
+        bodies = {each.name: set(each.points) for each in plan.links} | {bar.P + bar.Q: {bar.P, bar.Q} for bar in plan.cylinders}
+        link = plan.of_kind(Link).get(name)
+        points = set(link.point_names if link else name.split())
+        found = [each for each, its in bodies.items() if len(points) > 1 and points <= its]
+        return found[0] if name not in bodies and len(found) == 1 else name
 
     def on_body(self, name: str) -> Mapping[str, FloatArray]:
         """Return all forces on a body by the point they act at, joints and loads, shape (2, ...) [N]: they balance (for FEM)."""
-        if name not in self.on_bodies:
+        found = self.body(name)
+        if found not in self.on_bodies:
             raise unknown("Body", name, self.on_bodies, where=self.motion.plan.title)
-        return self.on_bodies[name]
+        return self.on_bodies[found]
 
     def __str__(self) -> str:
         head = f"{self.motion.plan.title}, {self.case}, {self.direction}"
@@ -103,6 +104,48 @@ class PinForces:
         return "\n".join([head, *lines, f"  residual of equilibrium {self.residual:.0e}{gap}", *(f"  {each}" for each in self.remarks)])
 
 
+class Joint(Protocol):
+    """What a joint is known by."""
+
+    @property
+    def point(self) -> str: ...
+
+    @property
+    def on(self) -> str: ...
+
+    @property
+    def by(self) -> str: ...
+
+    @property
+    def has_force(self) -> bool: ...
+
+
+J = TypeVar("J", bound=Joint)
+
+
+def joints_at(joints: Sequence[J], point: str, title: str) -> tuple[J, ...]:
+    """Return the joints at a point; DefinitionError where there is none."""
+    found = tuple(each for each in joints if each.point == point)
+    if not found:
+        raise unknown("Joint", point, dict.fromkeys(each.point for each in joints), where=title)
+    return found
+
+
+def met(joints: Sequence[J], point: str, on: str, title: str) -> tuple[J, float]:
+    """Return the joint at a point that transmits a force to a body, and -1 where it is seen from the other body, else 1."""
+    found = [each for each in joints_at(joints, point, title) if each.has_force]
+    names = dict.fromkeys(name for each in found for name in (each.on, each.by))
+    if not on and len(found) == 1:
+        return found[0], 1.0
+    if on and on not in names:
+        raise unknown("Body", on, names, where=f"the joint {point} of {title}")
+    taken = [(each, 1.0) for each in found if each.on == on] + [(each, -1.0) for each in found if each.by == on]
+    if len(taken) != 1:
+        where = ", ".join(f"on {each.on} from {each.by}" for each in found)
+        raise DefinitionError(f"{title}: several joints meet at {point} ({where}); say on= which body.")
+    return taken[0]
+
+
 def spoken(values: FloatArray, unit: str) -> str:
     """Return a range of values [N or Nm] in words, in the unit given."""
     factor = kN if unit == "kN" else 1.0
@@ -110,4 +153,5 @@ def spoken(values: FloatArray, unit: str) -> str:
     if not finite.size:
         return "no value"
     low, high = float(finite.min()), float(finite.max())
-    return f"{low:.6g} {unit}" if low == high else f"{low:.6g} to {high:.6g} {unit}"
+    ends = dict.fromkeys(f"{value:.6g}" for value in (low, high))
+    return f"{' to '.join(ends)} {unit}"

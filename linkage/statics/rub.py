@@ -71,9 +71,17 @@ def rubs(structure: Structure, poses: Poses, frictions: tuple[Friction, ...], dr
         chosen = [each for each in there if not friction.guide or friction.guide in (*each.line, each.step)]
         if not chosen:
             what = "no pin joint" if friction.radius is not None else f"nothing that slides on {friction.guide or 'a guide'}"
-            raise DefinitionError(f"{structure.plan.title}: there is {what} at {friction.point}: no friction arises; name another point.")
+            text = f"{structure.plan.title}: there is {what} at {friction.point}: no friction arises; {remedy(structure, friction)}."
+            raise DefinitionError(text)
         found += [law(contact, friction, rates, sense) for contact in chosen]
     return found
+
+
+def remedy(structure: Structure, friction: Friction) -> str:
+    """Return what to do about friction where nothing rubs."""
+    if friction.radius is None or friction.point not in {point for point, _ in structure.running}:
+        return "name another point"
+    return f"declare the block that slides there as a body, Link of {friction.point} and a second point on the guide"
 
 
 def turning(contact: Contact, friction: Friction, rates: Rates, sense: int) -> Rub:

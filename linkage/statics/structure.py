@@ -10,8 +10,9 @@ from ..loads import ForceElement, Load
 from ..plan import Plan
 from ..quantities import Quantity, name_of
 from ..steps import Crank, Guide, OnGuide, OnLink, PinSlotDyad, Slide, YokeDyad
-from .bodies import FRAME, FRAME_NAME, frame_points, parts, upright
+from .bodies import FRAME, FRAME_NAME, blocks, frame_points, parts, upright
 from .contacts import Contact
+from .coordinates import replaced
 from .turns import measured_from
 
 
@@ -21,7 +22,11 @@ class Structure:
     def __init__(self, plan: Plan, elements: Iterable[ForceElement] = ()) -> None:
         self.plan = plan
         self.fixed = frame_points(plan)
-        self.parts, self.rams = parts(plan, elements)
+        elements = tuple(elements)
+        bodies, self.rams = parts(plan, elements)
+        self.blocks = blocks(plan, elements, bodies, (point for point, _ in self.slides()))
+        self.parts = (*self.blocks, *bodies)
+        self.coordinates = replaced(plan, sum(ram.quantity is None for ram in self.rams))
         slid = [point for point, _ in self.slides()] + list(plan.of_kind(OnGuide))
         self.lone = tuple(dict.fromkeys(point for point in slid if not self.owners(point)))
         self.contacts = (*self.pins(), *self.guides(), *self.yokes(), *self.driven(), *self.cranks(), *self.telescopes(), *self.uprights())
@@ -83,9 +88,7 @@ class Structure:
         pairs = [pair for name, step in self.plan.points.items() if name not in self.apart for pair in step.slides()]
         pairs += [(name_of(slide.point), name_of(slide.guide)) for slide in self.plan.of_kind(Slide).values()]
         for point, name in pairs:
-            guide = self.plan.members[name]
-            assert isinstance(guide, Guide)
-            found.setdefault((point, tuple(sorted(guide.points)) if guide.Q is not None else (name,)), name)
+            found.setdefault((point, self.line_of(name)), name)
         for name, step in self.plan.of_kind(PinSlotDyad).items():
             self.refuse_driven(step.offset, f"{step.sentence()}: its offset")
             for pin, P, X in step.pin_slots():
@@ -93,18 +96,38 @@ class Structure:
         return found
 
     @cached_property
+    def running(self) -> set[tuple[str, tuple[str, ...]]]:
+        """The points that run on guides and slots, the driven ones too, each with its line."""
+        driven = {(name, self.line_of(name_of(step.guide))) for name, step in self.plan.of_kind(OnGuide).items()}
+        return driven | set(self.slides())
+
+    def line_of(self, name: str) -> tuple[str, ...]:
+        """Return a guide's two points, or its name."""
+        guide = self.plan.members[name]
+        assert isinstance(guide, Guide)
+        return tuple(sorted(guide.points)) if guide.Q is not None else (name,)
+
+    @cached_property
     def apart(self) -> set[str]:
         """The points whose guides are not plain slides."""
         return {*self.plan.of_kind(OnGuide), *self.plan.of_kind(YokeDyad)}
 
     def guides(self) -> Iterator[Contact]:
-        """Yield the plain slides: a normal force on the point from the body that carries the guide."""
+        """Yield the plain slides: a normal force on the point from the body that carries the guide; on a block also a couple."""
         for (point, line), name in self.slides().items():
-            guide = self.plan.members[name]
+            guide, on = self.plan.members[name], self.runner(point, line)
+            kind = "slider" if 0 <= on < len(self.blocks) else "guide"
             if isinstance(guide, PinSlotDyad):
-                yield Contact("guide", point, self.holder(point), self.carrier(guide.P, guide.X, name), (guide.P, guide.X), name)
+                yield Contact(kind, point, on, self.carrier(guide.P, guide.X, name), (guide.P, guide.X), name)
             elif isinstance(guide, Guide):
-                yield Contact("guide", point, self.holder(point), self.guide_carrier(guide), guide.points if len(line) == 2 else line, name)
+                yield Contact(kind, point, on, self.guide_carrier(guide), guide.points if len(line) == 2 else line, name)
+
+    def runner(self, point: str, line: tuple[str, ...]) -> int:
+        """Return the body that a guide or slot holds at a point: one that runs on it with two points, else the carrier of the pin."""
+        others = {other for other, its in self.running if its == line} - {point}
+        owners = self.owners(point)
+        both = [index for index in owners if index != FRAME and others & set(self.parts[index].points)]
+        return both[0] if both and FRAME not in owners else self.holder(point)
 
     def guide_carrier(self, guide: Guide) -> int:
         """Return the body that a guide belongs to."""
@@ -134,11 +157,14 @@ class Structure:
         for name, step in self.plan.of_kind(OnGuide).items():
             guide = self.plan.members[name_of(step.guide)]
             assert isinstance(guide, Guide)
-            yield Contact("driven", name, self.holder(name), self.guide_carrier(guide), (guide.name,), name)
+            on = self.runner(name, self.line_of(guide.name))
+            yield Contact("guide" if name in self.coordinates else "driven", name, on, self.guide_carrier(guide), (guide.name,), name)
 
     def cranks(self) -> Iterator[Contact]:
         """Yield the drives that turn a link against the frame."""
         for name, step in self.plan.of_kind(Crank).items():
+            if name in self.coordinates:
+                continue
             base = measured_from(self.plan, step)
             by = self.carrier(*base, step.sentence()) if base else FRAME
             yield Contact("crank", step.P, self.carrier(step.P, name, step.sentence()), by, (), name)

@@ -42,7 +42,7 @@ def reaction(
     the support's point does not move along its direction with the drive.
     """
     name, held = support_of(motion, support)
-    stroke, loaded = drive_of(motion, drive), gathered(motion, loads, case, direction, without=name)
+    stroke, loaded = drive_of(motion.plan, drive), gathered(motion, loads, case, direction, without=name)
     poses = Poses(motion, f"The reaction of {name}")
     known = poses.flat(thrust_over(motion, thrust))
     lever = felt(poses, held, stroke, name)

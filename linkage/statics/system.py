@@ -49,16 +49,19 @@ class Form:
 
 @dataclass(frozen=True)
 class System:
-    """The equations of one structure at its poses. `rubs` are the unit wrenches of the friction."""
+    """The equations of one structure at its poses. `rubs` are the unit wrenches of the friction; `length` a scale [m], if given."""
 
     structure: Structure
     poses: Poses
     acting: tuple[Acting, ...]
     rubs: Sequence[Column] = field(default=())
+    length: float = 0.0
 
     @cached_property
     def scale(self) -> float:
-        """A length of the mechanism [m], which makes moments comparable with forces."""
+        """A length of the mechanism [m], which makes moments comparable with forces: as given, or half its extent."""
+        if self.length:
+            return self.length
         if not self.poses.count:
             return 1.0
         places = np.concatenate([self.poses.at(point) for point in self.poses.plan.points], axis=1)
@@ -104,7 +107,7 @@ class System:
 
     def table(self, columns: Sequence[Column]) -> FloatArray:
         """Return the rows of some unit wrenches, shape (n, rows, columns)."""
-        found = np.zeros((self.poses.count, self.height, len(columns)))
+        found = self.poses.zeros(self.height, len(columns))
         for index, column in enumerate(columns):
             self.put(found[:, :, index], column.contact.on, column.wrench)
             self.put(found[:, :, index], column.contact.by, column.wrench, -1.0)
@@ -132,7 +135,7 @@ class System:
     @cached_property
     def load_rows(self) -> FloatArray:
         """The rows of the loads, shape (n, rows)."""
-        rows = np.zeros((self.poses.count, self.height))
+        rows = self.poses.zeros(self.height)
         for body, _, wrench in self.loads:
             self.put(rows, body, wrench)
         return rows

@@ -52,4 +52,4 @@ class Crank(Step):
         return (Bar(self.P, self.X, self.PX),)
 
     def arguments(self) -> list[str]:
-        return [*super().arguments(), f"angle={spelled(self.angle)}"]
+        return [*super().arguments(), f"angle={spelled(self.angle, 0, 'angle')}"]

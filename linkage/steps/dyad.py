@@ -68,6 +68,10 @@ class Dyad(Step):
         X, p, q = where.at(self.X), where.value(self.PX), where.value(self.QX)
         return ((X - where.at(self.P)).square() - p * p) * 0.5, ((X - where.at(self.Q)).square() - q * q) * 0.5
 
+    def meeting(self, where: Where) -> tuple[Vec, ...]:
+        X = where.at(self.X)
+        return where.at(self.P) - X, where.at(self.Q) - X
+
     @property
     def closes(self) -> bool:
         return True

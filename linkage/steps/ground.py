@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from ..errors import DefinitionError
@@ -29,6 +30,10 @@ class Ground(Point):
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
         return tuple((name, value.number, "coordinate", "") for name, value in self.coordinates() if isinstance(value, Number))
+
+    def having(self, values: Mapping[str, float]) -> Ground:
+        x, y = (quantity(values.get(name, value)) for name, value in self.coordinates())
+        return self.renewed(x=x, y=y)
 
     def bind(self, X: str, claims: Claims) -> Ground:
         return self

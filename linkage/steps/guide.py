@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from ..errors import DefinitionError
@@ -43,6 +44,10 @@ class Guide(Member):
         turn = (("angle", self.angle.number, "angle"),) if isinstance(self.angle, Number) else ()
         return tuple((f"{self.name}.{part}", value, kind, "") for part, value, kind in (*place, *turn))
 
+    def having(self, values: Mapping[str, float]) -> Guide:
+        place = self.fixed_at and tuple(values.get(f"{self.name}.{axis}", part) for axis, part in zip("xy", self.fixed_at, strict=True))
+        return self.renewed(fixed_at=place, angle=values.get(f"{self.name}.angle", self.angle))
+
     def line(self, where: Where) -> Line:
         """Return the origin [m] and the direction's cosine and sine."""
         origin = where.at(self.P) if self.P is not None else Vec(where.input(f"{self.name}.x"), where.input(f"{self.name}.y"))
@@ -56,7 +61,7 @@ class Guide(Member):
 
     def __str__(self) -> str:
         start = label(self.P) if self.P is not None else str(self.fixed_at)
-        end = label(self.Q) if self.Q is not None else f"angle={spelled(quantity(self.angle or 0.0))}"
+        end = label(self.Q) if self.Q is not None else f"angle={spelled(quantity(self.angle or 0.0), 0, 'angle')}"
         return f"Guide({start}, {end})"
 
 

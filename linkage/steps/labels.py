@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from ..errors import DefinitionError
-from ..quantities import Quantity
+from ..quantities import Quantity, quantity, spelled
 
 
 @dataclass(frozen=True)
@@ -38,6 +38,17 @@ class Claims(Protocol):
 
     def claim(self, slot: Slot, spelling: str, value: Any, where: str) -> Quantity:
         """Return the quantity a label stands for; a number makes a design variable of that name."""
+
+
+def written_labels(labels: Mapping[str, Any], slots: Iterable[Slot]) -> list[str]:
+    """Return labels as they are written, `OB=0.3`: the numbers of those that are angles in degrees."""
+    angles = {spelling for slot in slots if slot.kind == "angle" for spelling in slot.spellings}
+    return [f"{label}={spelled(quantity(value), 0, 'angle' if label in angles else '')}" for label, value in labels.items()]
+
+
+def relabelled(labels: Mapping[str, Any], values: Mapping[str, float]) -> dict[str, Any]:
+    """Return labels whose numbers have other values; a label that follows something keeps it."""
+    return {label: values[label] if label in values and quantity(value).is_constant else value for label, value in labels.items()}
 
 
 def match(labels: Mapping[str, Any], slots: Iterable[Slot], what: str) -> dict[str, tuple[Slot, str, int, Any]]:

@@ -2,35 +2,49 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import combinations
 from typing import Any
 
 from ..errors import DefinitionError
-from ..quantities import Member, Reference, name_of, quantity, spelled
-from .labels import Claims, Slot, match
+from ..quantities import Member, Reference, name_of, quantity
+from .labels import Claims, Slot, match, relabelled, written_labels
 
 
 class Link(Member):
     """Points that move as one body: `Link(O, B, C)`, or `Link("O B C", OB=0.30, OC=0.36, BC=0.16)`."""
 
+    kind = "link"
+
     def __init__(self, *points: Reference, **labels: Any) -> None:
         if len(points) == 1 and isinstance(points[0], str):
-            points = tuple(points[0].split())
+            points = tuple(points[0].replace(",", " ").split())
         self.points, self.labels = points, labels
         if len(points) < 2:
-            raise DefinitionError(f"Link({', '.join(map(str, points))}): a link joins at least two points.")
+            words = " ".join(map(str, points))
+            raise DefinitionError(f'Link("{words}"): a link joins at least two points; write them apart, Link("O B").')
 
     def parts(self) -> tuple[Reference, ...]:
         return (*self.points, *(part for part in map(quantity, self.labels.values()) if not part.is_constant))
 
     def enter(self, claims: Claims) -> None:
         """Enter the labels: distances and angles of its own points."""
-        slots = [Slot("", pair) for pair in combinations(self.point_names, 2)]
-        corners = [(P, vertex, Q) for vertex in self.point_names for P, Q in combinations(self.point_names, 2)]
-        slots += [Slot("", corner) for corner in corners if corner[1] not in (corner[0], corner[2])]
-        for spelling, value in self.labels.items():
-            (found,) = match({spelling: value}, slots, f"{self.name} = {self}").values()
-            claims.claim(found[0], spelling, value, f"{self.name} = {self}")
+        for slot, spelling, value in self.fitted():
+            claims.claim(slot, spelling, value, f"{self.name} = {self}")
+
+    def fitted(self) -> list[tuple[Slot, str, Any]]:
+        """Return what each label stands for, its spelling and its value; DefinitionError for one that does not fit the points."""
+        found = [(match({spelling: value}, self.slots(), f"{self.name} = {self}"), value) for spelling, value in self.labels.items()]
+        return [(slot, spelling, value) for each, value in found for slot, spelling, _, _ in each.values()]
+
+    def having(self, values: Mapping[str, float]) -> Link:
+        return self.renewed(labels=relabelled(self.labels, values))
+
+    def slots(self) -> list[Slot]:
+        """Return the labels that fit: the distances of its points, and the angles between three of them."""
+        names = self.point_names
+        corners = [(P, vertex, Q) for vertex in names for P, Q in combinations(names, 2) if vertex not in (P, Q)]
+        return [*(Slot("", pair) for pair in combinations(names, 2)), *(Slot("", corner) for corner in corners)]
 
     @property
     def point_names(self) -> tuple[str, ...]:
@@ -41,6 +55,7 @@ class Link(Member):
         return names
 
     def __str__(self) -> str:
-        points = " ".join(name_of(point) for point in self.points)
-        labels = "".join(f", {key}={spelled(quantity(value))}" for key, value in self.labels.items())
+        names = [name_of(point) for point in self.points]
+        slots = self.slots() if len(set(names)) == len(names) else ()
+        points, labels = " ".join(names), "".join(f", {each}" for each in written_labels(self.labels, slots))
         return f'Link("{points}"{labels})'

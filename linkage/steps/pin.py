@@ -20,7 +20,9 @@ class Pin(Point):
     A pin that no dyad places belongs to a group, whose pins are found together.
     """
 
-    def __init__(self, *, near: Any = None, at: Any = None) -> None:
+    def __init__(self, *place: Any, near: Any = None, at: Any = None) -> None:
+        if place:
+            raise DefinitionError(f"Pin({', '.join(map(repr, place))}): say near=(x, y) for a place in a sketch or at=(x, y) in a drawing.")
         self.near, self.drawn_at = position(near, "Pin(near=...)"), position(at, "Pin(at=...)")
         if (near is None) == (at is None):
             raise DefinitionError("Pin: give its place, near=(x, y) in a sketch or at=(x, y) in a drawing.")

@@ -79,7 +79,7 @@ class Turn(Arrow):
 
     def __str__(self) -> str:
         end = "" if self.scaled_to is None else f", length={spelled(self.scaled_to)}"
-        return f"Turn({label(self.base)}, {spelled(self.angle)}{end})"
+        return f"Turn({label(self.base)}, {spelled(self.angle, 0, 'angle')}{end})"
 
 
 class CosineAngle(Quantity):

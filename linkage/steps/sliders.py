@@ -48,6 +48,9 @@ class SliderDyad(Step):
         X, line, p = where.at(self.X), where.line(self.guide), where.value(self.PX)
         return ((X - where.at(self.P)).square() - p * p) * 0.5, line.direction.cross(X - line.origin)
 
+    def meeting(self, where: Where) -> tuple[Vec, ...]:
+        return where.at(self.P) - where.at(self.X), where.line(self.guide).direction.left()
+
     @property
     def closes(self) -> bool:
         return True
@@ -111,6 +114,10 @@ class PinSlotDyad(Step):
         p, e = where.value(self.PX), where.value(self.offset)
         return (to_X.square() - p * p) * 0.5, to_X.cross(to_pin) / p - e
 
+    def meeting(self, where: Where) -> tuple[Vec, ...]:
+        P = where.at(self.P)
+        return where.at(self.Q) - P, (where.at(self.X) - P).left()
+
     @property
     def closes(self) -> bool:
         return True
@@ -164,6 +171,9 @@ class GuideCross(Step):
         lines = where.line(self.guide), where.line(self.other)
         return tuple(line.direction.cross(X - line.origin) for line in lines)
 
+    def meeting(self, where: Where) -> tuple[Vec, ...]:
+        return where.line(self.guide).direction, where.line(self.other).direction
+
     @property
     def closes(self) -> bool:
         return True
@@ -212,6 +222,10 @@ class YokeDyad(Step):
         slot = line.direction.turned(cos, sin)
         return line.direction.cross(X - line.origin), slot.cross(X - where.at(self.P))
 
+    def meeting(self, where: Where) -> tuple[Vec, ...]:
+        direction = where.line(self.guide).direction
+        return direction, direction.turned(*where.turn(self.angle))
+
     @property
     def closes(self) -> bool:
         return True
@@ -227,4 +241,4 @@ class YokeDyad(Step):
         return self.guide, self.P
 
     def arguments(self) -> list[str]:
-        return [*super().arguments(), f"angle={spelled(self.angle)}"]
+        return [*super().arguments(), f"angle={spelled(self.angle, 0, 'angle')}"]

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from ..errors import DefinitionError
-from ..quantities import Member, Number, Quantity, Reference, Where, name_of, quantity, spelled
+from ..quantities import Member, Number, Quantity, Reference, Where, name_of, quantity
 from ..vectors import Scalar, Side, Vec
-from .labels import Claims, Slot, match
+from .labels import Claims, Slot, match, relabelled, written_labels
 
 
 class Unbound(Number):
@@ -80,6 +80,10 @@ class Point(Member):
         """Return the pins this step holds in a slot, each with the two points of the slot's body."""
         return ()
 
+    def meeting(self, where: Where) -> tuple[Vec, ...]:
+        """Return the two directions whose angle is the transmission angle of this joint; empty where it has none."""
+        return ()
+
     @property
     def companions(self) -> tuple[str, ...]:
         """The points that are found together with this one; empty where it is placed alone."""
@@ -136,6 +140,9 @@ class Step(Point):
         bound.check()
         return bound
 
+    def having(self, values: Mapping[str, float]) -> Self:
+        return self.renewed(labels=relabelled(self.labels, values))
+
     def check_points(self) -> None:
         """Raise DefinitionError where a point stands twice."""
         names = [getattr(self, letter) for letter in self.parent_letters]
@@ -164,7 +171,7 @@ class Step(Point):
     def arguments(self) -> list[str]:
         """Return the arguments as they would be written."""
         words = [parent_text(parent) for parent in self.parents]
-        words += [f"{label}={spelled(quantity(value))}" for label, value in self.labels.items()]
+        words += written_labels(self.labels, self.slots() if self.X else ())
         if self.side is not None:
             words.append(f"side={self.side}")
         if self.near is not None:

@@ -16,6 +16,7 @@ from ..program import FloatArray
 from ..quantities import is_number
 from ..units import mm, show
 from .asked import unit_of
+from .sample import unit_points
 
 MOST = 8
 
@@ -53,6 +54,17 @@ class Box:
             table = np.array([each[name] for each in self.choices], float)[np.asarray(choice)]
             found[name] = tuple(table.T) if table.ndim == 2 else table
         return found
+
+    def sample(self, count: int, *, method: str = "sobol", seed: int = 0) -> dict[str, Any]:
+        """Return settings (count,) by name, spread evenly over the ranges and choices: the designs of a survey.
+
+        By a scrambled Sobol sequence, evenest where count is a power of two, or a Latin hypercube, `method="latin"`; the same for
+        the same seed.
+        """
+        many = len(self.choices) > 1
+        unit = unit_points(count, len(self.ranges) + many, method, seed)
+        choice = (unit[:, -1] * len(self.choices)).astype(int) if many else np.zeros(count, int)
+        return self.settings(unit[:, : len(self.ranges)], choice)
 
 
 def setting_words(plan: Plan, settings: Mapping[str, Any], place: int) -> str:

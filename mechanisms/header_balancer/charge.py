@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
 
-from hydraulics import Accumulator, AccumulatorBlock, adiabatic, isothermal
+from hydraulics import AccumulatorBlock, adiabatic, isothermal
 from hydraulics.gas import Gas
 from linkage import DefinitionError, Motion
 from linkage.loads import Support
@@ -86,9 +86,8 @@ def charge_limits(motion: Motion, way: Way) -> FloatArray:
 
 def block_in(motion: Motion, way: Way) -> AccumulatorBlock:
     """Return the machine's accumulators under a way's gas law and atmosphere."""
-    given = motion.inputs
-    pair = [Accumulator(given[f"V_{number}"], given[f"P_{number}"]) for number in ("I", "II")]
-    return AccumulatorBlock(pair, way.gas, float(given["atmosphere"]) if way.atmosphere is None else way.atmosphere)
+    block = Balance(motion).circuit.accumulators(motion)
+    return replace(block, gas=way.gas, atmosphere=block.atmosphere if way.atmosphere is None else way.atmosphere)
 
 
 def refuse_light(motion: Motion, allowed: FloatArray, left: FloatArray, lowest: float) -> None:

@@ -7,10 +7,11 @@ from pathlib import Path
 
 from linkage import DefinitionError
 from linkage.cli.command import Command, counted, machine_arguments
-from linkage.cli.machines import find
+from linkage.cli.machines import find_like
+from linkage.cli.output import figure_path, picture_argument
 from linkage.cli.settings import setting
-from linkage.cli.table import print_table, save
-from linkage.motion import Column
+from linkage.cli.table import csv_argument, write_table
+from linkage.plan import Plan
 from linkage.units import kgf, parse, show
 
 from .charge import charge_for
@@ -22,7 +23,6 @@ from .machine import HeaderBalancer
 from .measured import Deviation, deviations, read_measured
 
 WANTED = tuple(step * 100.0 * kgf for step in range(9))
-SUFFIXES = (".png", ".svg", ".pdf")
 
 
 class Balance(Command):
@@ -38,21 +38,22 @@ class Balance(Command):
         parser.add_argument("--reaction", metavar="300kgf", help="charge for this reaction of all shoes at the horizon instead")
         parser.add_argument("--table", action="store_true", help="charge pressures for each header and wanted reaction instead")
         parser.add_argument("--count", metavar="N", type=counted, default=13, help="poses over the following range (default 13)")
-        parser.add_argument("--csv", metavar="FILE", help="write the table as CSV in full precision")
+        csv_argument(parser)
         parser.add_argument("--measured", metavar="FILE", help='compare with measured values: columns "R_y, mm", "F_R up, kgf"')
-        parser.add_argument("-o", "--output", metavar="FILE", help=f"draw the figure into {', '.join(SUFFIXES)}")
+        picture_argument(parser, "the figure")
         parser.add_argument("--figure", type=int, choices=NUMBERS, help="which figure: 2-4 reaction, 5 bearing at O, 6 pressures")
 
     def run(self, options: Namespace) -> int:
         machine = chosen(options)
-        path = picture(options)
+        path = figure_path(options, type(machine), self.name)
         motion = machine.at(h=machine.strokes["h"].start)
         over = over_following(motion, options.count)
         compared = deviations(motion, read_measured(options.measured)) if options.measured else []
         verdicts = [*criteria(motion), *(each.verdict for each in compared)]
         horizon = show(float(over["h_horizon"][0]), "mm", 4)
         print(f"Charged to {kgf_cm2_text(machine['charge'])} at the horizon, h = {horizon}. Pressures are gauge.\n")
-        written(setting_table(WANTED, changes(options)) if options.table else reaction_columns(over), options.csv)
+        columns = setting_table(WANTED, changes(machine.plan, options)) if options.table else reaction_columns(over)
+        write_table(columns, len(columns[0].values), options.csv)
         print()
         for verdict in verdicts:
             print(verdict)
@@ -62,24 +63,24 @@ class Balance(Command):
 
 def chosen(options: Namespace) -> HeaderBalancer:
     """Return the machine that the options mean."""
-    found = find(options.machine)
-    if not issubclass(found, HeaderBalancer):
-        raise DefinitionError(f"{options.machine} is no balanced header; `balance` takes header_balancer or a subclass of HeaderBalancer.")
+    found = find_like(options.machine, HeaderBalancer, "balanced header")
     given = dict(HEADERS[options.header]) if options.header else {}
-    given |= changes(options)
+    given |= changes(found.plan, options)
+    if options.table and found is not HeaderBalancer:
+        raise DefinitionError(f"--table goes with header_balancer and its headers; {options.machine} has dimensions of its own.")
     if options.pressure and options.reaction:
         raise DefinitionError("--pressure and --reaction both choose the charge; give one of them.")
     if options.pressure:
         given["charge"] = value(options.pressure, "pressure", "--pressure")
     if options.reaction:
-        wanted = value(options.reaction, "force", "--reaction")
-        given["charge"] = charge_for(found(**given).at(h=found.plan.strokes["h"].start), wanted)
+        reaction = value(options.reaction, "force", "--reaction")
+        given["charge"] = charge_for(found(**given).at(h=found.plan.strokes["h"].start), reaction)
     return found(**given)
 
 
-def changes(options: Namespace) -> dict[str, float]:
+def changes(plan: Plan, options: Namespace) -> dict[str, float]:
     """Return what `--set` changes."""
-    return dict(setting(find(options.machine).plan, text) for text in options.settings)
+    return dict(setting(plan, text) for text in options.settings)
 
 
 def value(text: str, kind: str, option: str) -> float:
@@ -93,33 +94,8 @@ def value(text: str, kind: str, option: str) -> float:
     return number
 
 
-def picture(options: Namespace) -> Path | None:
-    """Return where the figure goes, checked before the work is done; None where none is wanted."""
-    if options.output is None and options.figure is None:
-        return None
-    path = Path(options.output if options.output is not None else f"balance_{options.figure}.png")
-    if path.suffix.lower() not in SUFFIXES:
-        raise DefinitionError(f"-o {path}: the file's name ends in one of {', '.join(SUFFIXES)}, which chooses the format.")
-    if not path.parent.is_dir():
-        raise DefinitionError(f"-o {path}: the folder {path.parent} is not there; make it first.")
-    return path
-
-
-def written(columns: list[Column], csv: str | None) -> None:
-    """Print the table, or write it as CSV."""
-    rows = len(columns[0].values)
-    if csv is None:
-        print_table(columns, rows)
-        return
-    with open(csv, "w", newline="", encoding="utf-8") as stream:
-        save(columns, stream)
-    print(f"{csv}: {rows} rows")
-
-
 def draw(machine: HeaderBalancer, options: Namespace, path: Path | None, compared: list[Deviation]) -> None:
     """Draw the figure that is wanted."""
     if path is not None:
         figure(options.figure or 2, machine, compared).savefig(path)
         print(path)
-
-

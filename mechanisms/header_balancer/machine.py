@@ -8,22 +8,12 @@ import numpy as np
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
 from hydraulics.inputs import positive
-from linkage import RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, Motion, OnLink, Stroke, angle, distance, ref, y
-from linkage.loads import PinFriction, Poses, Support, Weight
+from linkage import RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, Motion, OnLink, Stroke, angle, distance, y
+from linkage.loads import PinFriction, Support, Weight
 from linkage.units import deg, kg, kgf_cm2, litre, mm
 
 from .criteria import criteria
 from .following import reaction_columns, stroke_at
-
-
-def block_of(motion: Poses) -> AccumulatorBlock:
-    """Return the accumulators as a motion's designs have them; n above 1: settled slowly at the charge, then moved fast."""
-    designs = motion.inputs
-    if np.ndim(designs["atmosphere"]):
-        raise DefinitionError("atmosphere is one number for all designs of a batch; give a float.")
-    pair = [Accumulator(designs[f"V_{number}"], designs[f"P_{number}"]) for number in ("I", "II")]
-    block = AccumulatorBlock(pair, isothermal, float(designs["atmosphere"]))
-    return block if np.all(designs["n"] == 1.0) else block.settled(designs["charge"], designs["n"])
 
 
 class HeaderBalancer(Mechanism):
@@ -73,7 +63,11 @@ class HeaderBalancer(Mechanism):
     shoe = Support(R, (0, 1))
     pin_O = PinFriction(O, radius=70 * mm, coefficient=0.0)     # a rolling bearing; a plain one: 0.15
     lift = Cylinder(A, B, bore=63 * mm, rod=40 * mm, count=2, closed=0.70, stroke=0.45)
-    floating = FloatCircuit(lift, block_of, charge_pressure=ref("charge"), at=ref("h_horizon"), seal_friction=ref("seals"))
+    floating = FloatCircuit(
+        lift,
+        AccumulatorBlock([Accumulator(V_I, P_I), Accumulator(V_II, P_II)], isothermal, atmosphere),
+        charge_pressure=charge, at=h_horizon, seal_friction=seals, exponent=n,
+    )  # fmt: skip
 
     def __init__(self, **dimensions: Any) -> None:
         """Set the design [SI]; DefinitionError also for what cannot be: no mass, no pressure, a shoe out of the stroke's reach."""

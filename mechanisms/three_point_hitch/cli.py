@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
-from pathlib import Path
 
 from linkage import Column, DefinitionError, Motion
 from linkage.cli.command import Command, machine_arguments, motion_arguments
-from linkage.cli.machines import find
-from linkage.cli.output import picture
+from linkage.cli.machines import find_like
+from linkage.cli.output import figure_path, picture_argument
 from linkage.cli.settings import design, motion
-from linkage.cli.table import print_table, save
+from linkage.cli.table import csv_argument, write_table
 
 from .categories import CATEGORIES
 from .figures import NAMES, figure
@@ -20,7 +19,6 @@ from .report import capacity_columns, pin_table
 from .weakest import pressure_words
 from .zones import capacity_zone, tilt_zone, zone_columns
 
-SUFFIXES = (".png", ".svg", ".pdf")
 LEGEND = """S stroke; F_y height of the hitch points; I = dG_y/dS; capacity at G at the full pressure;
 F 90%, 610 90%: at the hitch points and 610 mm behind them at 90 % of the pressure; MK force in the upper link, tension positive;
 front: front axle's load; max: largest implement that leaves the front axle its least share; tips: the one that tips the tractor;
@@ -39,18 +37,19 @@ class Capacity(Command):
         parser.add_argument("--zones", action="store_true", help="the zones over all admissible settings instead (figure 2)")
         parser.add_argument("--vertical", action="store_true", help="the upper link's length for a vertical mast at every stroke too")
         parser.add_argument("--pins", action="store_true", help="the largest force of every pin too, its direction and pose")
-        parser.add_argument("--csv", metavar="FILE", help="write the table as CSV in full precision")
-        parser.add_argument("-o", "--output", metavar="FILE", help=f"draw the figure into {', '.join(SUFFIXES)}")
+        csv_argument(parser)
+        picture_argument(parser, "the figure")
         parser.add_argument("--figure", choices=NAMES, help="which figure (default: capacity, with --zones zones)")
         motion_arguments(parser, 11)
 
     def run(self, options: Namespace) -> int:
         machine = chosen(options)
-        path = wanted(options, machine)
+        path = figure_path(options, type(machine), self.name)
         over = motion(machine, options.strokes, options.count)
         if options.category:
             print(f"{CATEGORIES[options.category]}.\n")
-        written(zone_table(machine, over) if options.zones else hitch_table(machine, over), options.csv)
+        columns = zone_table(machine, over) if options.zones else hitch_table(machine, over)
+        write_table(columns, over.reached.size, options.csv)
         if options.pins:
             print(f"\n{pin_table(over)}")
         if options.vertical:
@@ -66,21 +65,14 @@ class Capacity(Command):
 
 def chosen(options: Namespace) -> ThreePointHitch:
     """Return the hitch that the options mean."""
-    found = find(options.machine)
-    if not issubclass(found, ThreePointHitch):
-        raise DefinitionError(f"{options.machine} is no three-point hitch; `capacity` takes three_point_hitch or a subclass of its class.")
+    found = find_like(options.machine, ThreePointHitch, "three-point hitch", admissible={})
+    if not found.admissible and (options.zones or options.figure == "zones"):
+        raise DefinitionError(f"{options.machine}: a file holds no admissible settings, over which the zones go; take them of a class.")
     if options.category and found is not ThreePointHitch:
         raise DefinitionError(f"--category {options.category} goes with three_point_hitch; {options.machine} has dimensions of its own.")
     machine = design(CATEGORIES[options.category].machine if options.category else found, options.settings)
     assert isinstance(machine, ThreePointHitch)
     return machine
-
-
-def wanted(options: Namespace, machine: ThreePointHitch) -> Path | None:
-    """Return where the figure goes, checked before the work is done; None where none is wanted."""
-    if options.output is None and options.figure is None:
-        return None
-    return picture(options.output, type(machine), f"capacity_{options.figure}", SUFFIXES)
 
 
 def hitch_table(machine: ThreePointHitch, over: Motion) -> list[Column]:
@@ -95,17 +87,6 @@ def zone_table(machine: ThreePointHitch, over: Motion) -> list[Column]:
     for remark in dict.fromkeys((*capacity.remarks, *tilt.remarks)):
         print(f"{remark}\n")
     return zone_columns(capacity, tilt)
-
-
-def written(columns: list[Column], csv: str | None) -> None:
-    """Print the table, or write it as CSV."""
-    rows = columns[0].values.size
-    if csv is None:
-        print_table(columns, rows)
-        return
-    with open(csv, "w", newline="", encoding="utf-8") as stream:
-        save(columns, stream)
-    print(f"{csv}: {rows} rows")
 
 
 def mast_settings(machine: ThreePointHitch, over: Motion) -> list[str]:

@@ -120,6 +120,66 @@ def test_a_block_may_follow_the_design():
     assert np.ptp(large) < np.ptp(small)
 
 
+class Followed(Carried):
+    """The same line, its accumulators and its movement as dimensions."""
+
+    V, p, q = Dimension(4 * litre, unit="l"), Dimension(50 * bar, unit="bar"), Dimension(25 * bar, unit="bar")
+    n, air = Dimension(1.0), Dimension(101325.0)
+    block = AccumulatorBlock([Accumulator(V, p), Accumulator("V", charge=q)], isothermal, air)
+    line = FloatCircuit("ram", block, charge_pressure=60 * bar, at=Carried.S0, seal_friction=3 * bar, exponent=n)
+
+
+def test_charges_and_volumes_may_follow_dimensions():
+    assert np.array_equal(Followed.line.pressure(Followed().sweep(9)), Carried.line.pressure(Carried().sweep(9)))
+    larger = AccumulatorBlock([Accumulator(5 * litre, 40 * bar), Accumulator(5 * litre, 25 * bar)], isothermal, 0.0)
+    motion = Followed(V=5 * litre, p=40 * bar, air=0.0).sweep(9)
+    assert_allclose(Followed.line.pressure(motion), larger.pressure(60 * bar, Followed.line.withdrawn(motion)), rtol=1e-15)
+
+
+def test_fast_movement_starts_from_the_settled_charge():
+    motion = Followed(n=1.4).sweep(9)
+    assert_allclose(Followed.line.pressure(motion), BLOCK.fast_pressure(60 * bar, Followed.line.withdrawn(motion)), rtol=1e-14)
+
+
+def test_slow_and_fast_designs_at_once_are_each_their_own():
+    batch = Followed(n=np.array([1.0, 1.2, 1.4]), V=np.array([3.0, 4.0, 5.0]) * litre)
+    pressure = Followed.line.pressure(batch.sweep(5))
+    for row, (n, V) in enumerate(((1.0, 3.0), (1.2, 4.0), (1.4, 5.0))):
+        assert_allclose(pressure[row], Followed.line.pressure(Followed(n=n, V=V * litre).sweep(5)), rtol=1e-14)
+
+
+def test_block_that_follows_is_written_as_it_is_said():
+    assert str(Followed.line) == (
+        "FloatCircuit(ram, AccumulatorBlock([Accumulator(volume=V, charge=p), Accumulator(volume=V, charge=q)], gas=isothermal, "
+        "atmosphere=air), charge_pressure=6000000.0, at=S0, seal_friction=300000.0, exponent=n)"
+    )
+    assert Followed.block.sized(Followed(V=3 * litre).sweep(3)).accumulators[0].volume == 3 * litre
+    assert BLOCK.sized(Followed().sweep(3)) is BLOCK
+
+
+@pytest.mark.parametrize(
+    ("ask", "words"),
+    [
+        (lambda: Followed.block.pressure(60 * bar), "it follows air, V, p, V, q; ask sized"),
+        (lambda: Followed.block.gas_volume(60 * bar), "ask sized"),
+        (lambda: Followed.block.checks(20 * bar, 80 * bar, 90 * bar), "ask sized"),
+        (lambda: Followed.line.pressure(Followed(air=np.array([0.0, 1e5])).sweep(3)), "atmosphere is one number for all designs"),
+        (lambda: Followed.line.pressure(Followed(V=0.0).sweep(3)), "Accumulator volume = 0 is not above zero"),
+        (lambda: Followed.line.pressure(Followed(n=0.5).sweep(3)), "outside 1..10"),
+        (lambda: type("Gone", (Followed,), {"V": None}), "'V'"),
+    ],
+)
+def test_block_that_follows_says_what_it_needs(ask, words):
+    with pytest.raises(DefinitionError, match=words):
+        ask()
+
+
+def test_cylinder_that_follows_a_dimension_is_judged_for_one_design():
+    machine = type("Thick", (Carried,), {"thick": Dimension(36 * mm), "ram": Cylinder("A", "B", bore=63 * mm, rod="thick")})
+    assert machine.ram.standard(machine().sweep(3))
+    assert not machine.ram.standard(machine(thick=40.1 * mm).sweep(3))
+
+
 def test_unreached_poses_stay_nan():
     motion = Carried().at(S=np.array([0.0, 0.1, 1.0]), unreachable="nan")
     assert np.isnan(Carried.line.pressure(motion)).tolist() == [False, False, True]

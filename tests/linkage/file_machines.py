@@ -31,11 +31,14 @@ from linkage import (
     distance,
     drawn,
     kgf,
+    kN,
+    mm,
     ref,
     x,
     y,
 )  # fmt: skip
 from linkage.files import to_dict
+from linkage.loads import Force, GuideFriction, LinkMass, LoadCase, Moment, PinFriction, Spring, Support, Weight
 
 
 class Hitch(Mechanism):
@@ -144,6 +147,33 @@ class Drawn(Mechanism):
     B = Pin(at=(0.124, 0.053))
     F = Pin(at=(0.078, 0.091))
     G = Pin(at=(0.207, 0.110))
+
+
+class Loaded(Hitch):
+    """The hitch with every kind of load and load case."""
+
+    rail = Guide((1.4, 0.0), angle=0.0)
+    P = SliderDyad("F", rail, FP=1.1, side=RIGHT)
+    arm = Link("O", "B", "C")
+    m1 = Dimension(300.0, unit="kg")
+
+    load = Weight("G", mass=2000)
+    half = Weight("F", mass=ref("m1") / 2)
+    moon = Weight("K", mass="m1", gravity=(0.0, -1.62))
+    pull = Force("F", (-5 * kN, 0))
+    push = Force(P, (ref("m1") * 2, 1.25))
+    drag = Moment("O B", M=-250)
+    turn = Moment(arm, M=0.5)
+    own = LinkMass("E D F", mass=30, at=(0.45, 0))
+    bar = LinkMass(arm, mass=12.5)
+    relief = Spring("A", "C", stiffness=20e3, free_length=400 * mm)
+    shoe = Support("F", (0, 2), force=-100.0)
+    pin_E = PinFriction("E", radius=20 * mm, coefficient=0.15)
+    slide = GuideFriction(P, coefficient=0.1, guide=rail)
+
+    transport = LoadCase("on the road", scale={"load": 2.0, "pull": 0}, slope=10 * deg)
+    bare = LoadCase(only=["load", own, "pin_E"], gravity=1.62)
+    plain = LoadCase()
 
 
 def changed(*path, to=None, drop=False):

@@ -132,6 +132,17 @@ def test_links_and_pins_are_the_steps():
     assert kinds == {"B": "Dyad", "C": "OnLink", "D": "Dyad", "F": "OnLink"}
 
 
+@pytest.mark.parametrize("labels", [dict(AC=0.5), dict(AB=0.5, BAC=0.1)])
+def test_a_label_that_names_other_points_is_told_at_once(labels):
+    with pytest.raises(DefinitionError, match=r"rod = Link\(.*the label '\w+' does not fit its points; valid labels: AB/BA\."):
+
+        class Wrong(Mechanism):
+            S = Stroke(0.0, 0.1)
+            A, O = Ground(0.0, 0.0), Ground(0.4, 0.0)
+            rod, arm = Link("A B", **labels), Link("O B", OB=0.3)
+            B = Pin(near=(0.3, 0.3))
+
+
 def test_a_drawing_gives_the_lengths():
     class Drawing(Mechanism):
         S = Stroke(0.0, 0.2)

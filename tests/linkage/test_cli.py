@@ -82,6 +82,13 @@ def test_setting_changes_the_design_and_the_verdict(said):
     assert "can be lifted over the whole stroke at 200 kgf/cm2" in out
 
 
+def test_show_prints_the_construction_as_it_is_set(said):
+    _, out, _ = said("show", "three_point_hitch", "--set", "OB=320mm", "--set", "M=0.22,0.95", "--set", "KFG=70deg")
+    assert "B = Dyad(A, O, AB=L0 + S, OB=0.32, side=RIGHT)" in out
+    assert "M = Ground(0.22, 0.95)" in out
+    assert "KFG=70 * deg" in out
+
+
 def test_table_is_the_worksheets(said):
     code, out, err = said("table", "mower_lift", "--count", "6")
     heading, first, *others = out.splitlines()
@@ -140,6 +147,13 @@ def test_equations_are_printed_when_asked(said):
     assert "Equations" in out and "(1)" in out
 
 
+def test_a_users_machine_with_a_load_shows_its_thrust(said, own):
+    with (own / "lever.py").open("a", encoding="utf-8") as file:
+        file.write("    load = Weight(B, mass=100)\n")
+    _, out, _ = said("table", "lever.py", "--count", "2")
+    assert out.splitlines()[0].split()[-2:] == ["thrust,", "kN"]
+
+
 # -- pictures ----------------------------------------------------------------------------------------------
 
 MAGIC = {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF", ".gif": b"GIF89a"}
@@ -163,6 +177,21 @@ def test_animation_is_written_silently_in_a_pipe(said, own):
     assert (own / "lever.gif").read_bytes().startswith(MAGIC[".gif"])
 
 
+def test_an_animation_holds_a_stroke_or_runs_between_two_values(said, own):
+    for at in ("tilt=100mm", "lift=0.1,300mm"):
+        code, out, _ = said("animate", "front_loader", "-o", "loader.html", "--count", "3", "--at", at)
+        assert (code, out) == (0, "loader.html\n")
+        text = (own / "loader.html").read_text(encoding="utf-8")
+        assert ("tilt = 100 mm" in text) == ("tilt" in at)
+        assert ('"values":[100.0,' in text) == ("lift" in at)
+
+
+def test_a_curve_is_drawn_over_one_stroke_the_others_held(said, own):
+    assert said("plot", "front_loader", "boom", "--at", "lift=0.1", "-o", "boom.svg")[:2] == (0, "boom.svg\n")
+    assert "<!-- Front loader at lift = 100 mm -->" in (own / "boom.svg").read_text(encoding="utf-8")
+    assert said("plot", "front_loader", "boom", "-o", "boom.svg")[0] == 0
+
+
 # -- mistakes ----------------------------------------------------------------------------------------------
 
 
@@ -178,6 +207,9 @@ def test_animation_is_written_silently_in_a_pipe(said, own):
         ("table three_point_hitch --set AB=3", "AB follows L0 + S"),
         ("table three_point_hitch --set M=0.22", "a point takes two coordinates"),
         ("table three_point_hitch --set M.z=0.22", "'M.z' is unknown"),
+        ("table mower_lift --set OB=0,18", "'0,18': decimals are written with a point, '0.18'"),
+        ("table mower_lift --set OB=18,5mm", "'18.5mm'"),
+        ("table three_point_hitch --set M=0,22,0,95", "a point takes two coordinates, such as M=0.22,950mm; decimals are"),
         ("table mower_lift --set OB=long", "'long' is not a value"),
         ("table mower_lift --set OB=18furlong", "Unit 'furlong' is unknown"),
         ("table mower_lift --set OB=-18mm", "is negative"),
@@ -194,12 +226,17 @@ def test_animation_is_written_silently_in_a_pipe(said, own):
         ("table mower_lift --at S=3deg", "--at S: '3deg' is"),
         ("table mower_lift kzz", "Did you mean kz?"),
         ("plot mower_lift kzz", "Did you mean kz?"),
+        ("plot mower_lift G", "G is a point; `plot --path G` draws its path"),
+        ("plot mower_lift S", "there is no column to draw over S; name a result"),
         ("plot mower_lift --path W", "Point 'W' is unknown"),
         ("plot mower_lift -o lift.jpg", ".png, .svg, .pdf"),
         ("plot mower_lift -o nowhere/lift.png", "folder nowhere is not there"),
         ("animate mower_lift -o lift.avi", ".gif, .mp4, .html"),
         ("animate mower_lift -o lift.gif --column kzz", "Did you mean kz?"),
         ("animate mower_lift", "required: -o"),
+        ("animate mower_lift -o x.gif --at S=0.6", "every stroke is held, so that nothing moves"),
+        ("animate mower_lift -o x.gif --at T=0.6", "Stroke 'T' is unknown"),
+        ("show bare.py", "Bare declares no points"),
         ("table mower_lift --csv nowhere/lift.csv", "nowhere/lift.csv: No such file"),
         ("table mower_lift --count 0", "'0' is not a count"),
         ("table mower_lift --count many", "'many' is not a count"),
@@ -219,6 +256,7 @@ def test_animation_is_written_silently_in_a_pipe(said, own):
 def test_mistake_is_one_line_and_exit_code_2(said, own, arguments, words):
     (own / "empty.py").write_text("")
     (own / "two.py").write_text("from linkage import *\nclass One(Mechanism): pass\nclass Two(Mechanism): pass\n")
+    (own / "bare.py").write_text("from linkage import *\nclass Bare(Mechanism): pass\n")
     (own / "broken.py").write_text("from linkage import *\nclass Lever(\n")
     (own / "failing.py").write_text("1 / 0\n")
     (own / "wrong.py").write_text('from linkage import *\nclass Wrong(Mechanism):\n    B = Dyad("A", "O", AB=1.0, OB=1.0, side=LEFT)\n')

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from linkage import AssemblyError, DefinitionError, FileError, LinkageError, SingularError
+from linkage import AssemblyError, DefinitionError, FileError, LinkageError, SingularError, StudyError
 from linkage.errors import unknown
 
 
-@pytest.mark.parametrize("error", [DefinitionError, AssemblyError, SingularError, FileError])
+@pytest.mark.parametrize("error", [DefinitionError, AssemblyError, SingularError, FileError, StudyError])
 def test_every_error_is_a_linkage_error(error):
     assert issubclass(error, LinkageError)
 

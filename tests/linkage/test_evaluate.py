@@ -164,7 +164,7 @@ def test_a_function_of_floats_refuses_what_a_motion_refuses():
     with pytest.raises(SingularError):
         f(dead_point())
     with pytest.raises(DefinitionError, match="one value for each stroke"):
-        f()
+        f(0.1, 0.2)
     with pytest.raises(DefinitionError, match="of one design"):
         ThreePointHitch(OB=[0.3, 0.31]).function(["B"])
 
@@ -174,3 +174,20 @@ def test_a_function_of_a_group_is_the_motion():
     stroke = machine.plan.sketch_strokes
     point = machine.plan.moving[-1]
     assert_allclose(machine().function([point])(*stroke.values()), machine().at(**stroke)[point], rtol=1e-12)
+
+
+@pytest.mark.parametrize(("method", "strokes"), [("evaluate", {"S": 0.1}), ("function", {}), ("source", {})])
+def test_a_lone_request_is_asked_to_be_a_list(method, strokes):
+    with pytest.raises(DefinitionError, match=r"a list .* is expected, \['tilt'\]"):
+        getattr(ThreePointHitch(), method)("tilt", **strokes)
+
+
+def test_a_function_takes_strokes_by_name_too():
+    at = ThreePointHitch().function(["G"])
+    assert at(S=0.1) == at(0.1)
+    with pytest.raises(DefinitionError, match="S is not given"):
+        at()
+    with pytest.raises(DefinitionError, match="'T' is unknown"):
+        at(T=0.1)
+    with pytest.raises(DefinitionError, match="'S' is unknown"):
+        at(0.1, S=0.1)

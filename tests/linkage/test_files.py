@@ -10,21 +10,19 @@ from typing import ClassVar
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from pydantic import Field
 
 from linkage import LEFT, Crank, DefinitionError, Dyad, FileError, Ground, Link, Mechanism, Pin, Stroke, deg, mm, ref
 from linkage.cli import main
 from linkage.files import Entry, from_dict, load, registry, save, to_dict, to_json, to_toml
 from linkage.files.fields import PointName, Value
-from linkage.loads import Weight
-from linkage.quantities import name_of, quantity
-from tests.linkage.file_machines import Drawn, EveryStep, Hitch, Parts
+from linkage.quantities import Member, name_of, quantity
+from tests.linkage.file_machines import Drawn, EveryStep, Hitch, Loaded, Parts
 
 DATA = Path(__file__).parent / "data"
 
 
-CLASSICS = {point.name: point.load() for point in entry_points(group="hydrolinkage.machines") if "classics" in point.value}
-MACHINES = CLASSICS | {each.__name__: each for each in (Hitch, EveryStep, Parts, Drawn)}
+SHIPPED = {point.name: point.load() for point in entry_points(group="hydrolinkage.machines")}
+MACHINES = SHIPPED | {each.__name__: each for each in (Hitch, EveryStep, Parts, Drawn, Loaded)}
 
 
 def same_motion(first, second):
@@ -235,50 +233,77 @@ def test_the_door_does_not_load_pydantic():
 # -- kinds of other packages -------------------------------------------------------------------------------
 
 
-class WeightEntry(Entry):
-    """`load = { Weight = "G", mass = 1200 }`"""
+class Maker(Member):
+    """A kind of member that no package has: who made a part."""
 
-    section: ClassVar[str] = "loads"
-    describes: ClassVar[type] = Weight
-    word: ClassVar[str] = "Weight"
-    point: PointName = Field(alias="Weight")
-    mass: Value
+    kind = "maker"
+
+    def __init__(self, point, price):
+        self.point, self.price = point, quantity(price)
+
+    def parts(self):
+        return self.point, self.price
+
+    def variables(self):
+        return ((f"{self.name}.price", self.price.number, "not negative", ""),) if self.price.is_constant else ()
+
+    def __str__(self):
+        return f"Maker({name_of(self.point)}, {self.price})"
+
+
+class MakerEntry(Entry):
+    """`smith = { point = "G", price = 1200 }`"""
+
+    section: ClassVar[str] = "makers"
+    describes: ClassVar[type] = Maker
+    point: PointName
+    price: Value
 
     def member(self):
-        return Weight(self.point, self.mass)
+        return Maker(self.point, self.price)
 
     @classmethod
     def written(cls, member, design):
-        return {"Weight": name_of(member.point), "mass": design.variable(f"{member.name}.mass", quantity(member.mass))}
+        return {"point": name_of(member.point), "price": design.variable(f"{member.name}.price", member.price)}
 
 
 @pytest.fixture
-def weights(monkeypatch):
+def makers(monkeypatch):
     """Install a package that brings a kind of member."""
-    point = EntryPoint("weight", f"{__name__}:WeightEntry", registry.GROUP)
-    monkeypatch.setattr(EntryPoint, "load", lambda self: WeightEntry if self is point else None)
+    point = EntryPoint("maker", f"{__name__}:MakerEntry", registry.GROUP)
+    monkeypatch.setattr(EntryPoint, "load", lambda self: MakerEntry if self is point else None)
     monkeypatch.setattr(registry, "entry_points", lambda group: [point])
     registry.registry.cache_clear()
     yield
     registry.registry.cache_clear()
 
 
-def test_package_brings_its_own_kind(weights):
-    class Loaded(Hitch):
-        load = Weight("G", mass=1200)
-        more = Weight("G", mass=100 * ref("L0"))
+def test_package_brings_its_own_kind(makers):
+    class Made(Hitch):
+        smith = Maker("G", 1200)
+        weaver = Maker("G", 100 * ref("L0"))
 
-    text = to_toml(Loaded(**{"load.mass": 900.0}))
-    assert text.endswith('[loads]\nload = { Weight = "G", mass = 900.0 }\nmore = { Weight = "G", mass = "100.0 * L0" }\n')
-    assert load(text).plan.defaults["load.mass"] == 900.0
-    with pytest.raises(FileError, match=r"loads\.more: load = .*negative|loads\.load: .*negative"):
+    text = to_toml(Made(**{"smith.price": 900.0}))
+    assert text.endswith('[makers]\nsmith = { point = "G", price = 900.0 }\nweaver = { point = "G", price = "100.0 * L0" }\n')
+    assert load(text).plan.defaults["smith.price"] == 900.0
+    with pytest.raises(FileError, match=r"makers\.smith: smith = .*negative"):
         load(text.replace("900.0", "-900.0"))
 
 
-def test_without_that_package_the_kind_is_refused():
-    class Loaded(Hitch):
-        load = Weight("G", mass=1200)
+def test_without_that_package_the_kind_is_refused(makers):
+    text = to_toml(type("Made", (Hitch,), {"smith": Maker("G", 1200)}))
+    registry.registry.cache_clear()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(registry, "entry_points", lambda group: [])
+        with pytest.raises(FileError, match=r"makers: is not a section; there are name, .*\. The kinds of \[hydraulics\] are not"):
+            load(text)
+        with pytest.raises(DefinitionError, match="a file cannot hold a Maker"):
+            to_toml(type("Made", (Hitch,), {"smith": Maker("G", 1200)}))
 
-    if not any(each.describes is Weight for each in registry.registry().entries):
-        with pytest.raises(DefinitionError, match="a file cannot hold a Weight"):
-            to_toml(Loaded)
+
+def test_package_that_cannot_be_loaded_is_named(monkeypatch):
+    monkeypatch.setattr(registry, "entry_points", lambda group: [EntryPoint("gone", "no_such_package:Entry", registry.GROUP)])
+    registry.registry.cache_clear()
+    with pytest.raises(DefinitionError, match=r"the entry gone \(no_such_package:Entry\) of a file cannot be loaded: No module"):
+        to_toml(Hitch)
+    registry.registry.cache_clear()

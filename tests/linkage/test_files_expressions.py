@@ -28,7 +28,7 @@ WRITTEN = {
     "L + S": "L + S", "L+(S-L)": "L + (S - L)", "(L+S)-L": "L + S - L", "L-(S+L)": "L - (S + L)", "2*3*S": "6.0 * S",
     "S*2*3": "S * 2.0 * 3.0", "-S*L": "(-S) * L", "-(S*L)": "-(S * L)", "-S**2": "-S ** 2.0", "(-S)**2": "(-S) ** 2.0",
     "(S**L)**S": "(S ** L) ** S", "S**L**S": "S ** (L ** S)", "S/(L/S)": "S / (L / S)", "-2**S": "-2.0 ** S", "(-2)**S": "(-2.0) ** S",
-    "S--2": "S - -2.0", "S*-2": "S * -2.0", "- -S": "-(-S)", "angle(A,O)-90 deg": "angle(A, O) - 1.5707963267948966",
+    "S--2": "S - -2.0", "S*-2": "S * -2.0", "- -S": "-(-S)", "angle(A,O)-90 deg": "angle(A, O) - 90 * deg",
     "abs(AO) + abs(S)": "abs(AO) + absolute(S)", "abs(Vector(A, O))": "abs(Vector(A, O))",
     "abs(Turn(AO, S, length=L))": "abs(Turn(AO, S, length=L))", "CosineAngle(abs(AO), L + S, 0.3)": "CosineAngle(abs(AO), L + S, 0.3)",
     "x(A) + y(A)": "x(A) + y(A)", "atan2(S, L)": "arctan2(S, L)", "distance(A, O) * min(S, L)": "distance(A, O) * minimum(S, L)",

@@ -2,6 +2,7 @@
 
 import warnings
 from copy import deepcopy
+from importlib.metadata import entry_points
 from pathlib import Path
 
 import numpy as np
@@ -11,27 +12,33 @@ from hypothesis import strategies as st
 from linkage import AssemblyError, DefinitionError, FileError
 from linkage.files import from_dict, load, to_dict, to_toml
 from linkage.files.source import decoded
-from tests.linkage.file_machines import Drawn, EveryStep, Hitch, Parts
+from tests.linkage.file_machines import Drawn, EveryStep, Hitch, Loaded, Parts
 
-SAMPLES = [to_dict(each) for each in (Hitch, EveryStep, Parts, Drawn)]
-TEXTS = [to_toml(each) for each in (Hitch, EveryStep, Parts)]
+SHIPPED = [point.load() for point in entry_points(group="hydrolinkage.machines") if point.name in ("three_point_hitch", "header_balancer")]
+SAMPLES = [to_dict(each) for each in (Hitch, EveryStep, Parts, Drawn, Loaded, *SHIPPED)]
+TEXTS = [to_toml(each) for each in (Hitch, EveryStep, Parts, Loaded, *SHIPPED)]
 TEXTS += [file.read_text(encoding="utf-8") for file in sorted((Path(__file__).parent / "data").glob("*.toml"))]
 
 TOKENS = st.sampled_from([
     "S", "L0", "A", "B", "O", "AO", "angle", "distance", "(", ")", ",", "+", "-", "*", "/", "**", "1", "0", "2.5", "1e300", "1e-300", "deg",
-    "mm", "CosineAngle", "abs", "sqrt", "Turn", "Vector", "length", "=", "phi", "x", "y", "pi", "log", "exp", "min", "nan",
+    "mm", "bar", "kg", "l", "m1", "nan",
+    "CosineAngle", "abs", "sqrt", "Turn", "Vector", "length", "=", "phi", "x", "y", "pi", "log", "exp", "min",
 ])  # fmt: skip
 EXPRESSIONS = st.lists(TOKENS, max_size=12).map(" ".join) | st.sampled_from([
     "S / 0", "1 / (S - S)", "log(S - S)", "sqrt(S - 1)", "S * 1e200 * 1e200", "tan(90 deg)", "S ** 1000", "x(B)", "angle(B, C)", "0 * S",
     "CosineAngle(S, S, S)",
 ])  # fmt: skip
 NUMBERS = st.floats() | st.integers() | st.sampled_from([0, 1e308, -1e308, 1e-308, 1e150, -0.0, 1e-12, 2**2000])
-WORDS = st.text(max_size=5) | st.sampled_from(["A", "S", "LEFT", "rail", "AO"])
+WORDS = st.text(max_size=5) | st.sampled_from(
+    ["A", "S", "LEFT", "rail", "AO", "O B", "arm", "load", "lift", "rod", "isothermal", "real_nitrogen"]
+)
 LEAVES = NUMBERS | EXPRESSIONS | WORDS | st.none() | st.booleans() | st.binary(max_size=3)
 VALUES = st.recursive(LEAVES, lambda parts: st.lists(parts, max_size=3) | st.dictionaries(WORDS, parts, max_size=3), max_leaves=4)
-KEYS = st.sampled_from(
-    ["S", "A", "OB", "P", "self", "labels", "bare", "at", "near", "side", "__class__", "plan", "doc", "order", "Crank", "", "\0"]
-)
+KEYS = st.sampled_from([
+    "S", "A", "OB", "P", "self", "labels", "bare", "at", "near", "side", "__class__", "plan", "doc", "order", "Crank", "", "\0",
+    "parents", "Weight", "Cylinder", "FloatCircuit", "mass", "gravity", "scale", "only", "gas", "law", "n", "count", "works",
+    "loads", "cases",
+])  # fmt: skip
 
 
 def settled(read, given_):
@@ -50,11 +57,13 @@ def settled(read, given_):
 
 
 @st.composite
-def broken_tables(draw):
-    """Return the tables of a sound mechanism with a few things put wrong."""
-    tables = deepcopy(draw(st.sampled_from(SAMPLES)))
+def broken_tables(draw, sections=()):
+    """Return the tables of a sound mechanism with a few things put wrong, in some of its sections only."""
+    tables = deepcopy(draw(st.sampled_from(SAMPLES if not sections else [each for each in SAMPLES if "loads" in each])))
     for _ in range(draw(st.integers(1, 3))):
-        node = tables
+        node = tables[draw(st.sampled_from([name for name in sections if name in tables]))] if sections else tables
+        if not node:
+            break
         while True:
             key = draw(st.sampled_from(list(node) if isinstance(node, dict) else range(len(node))))
             inner = node[key]
@@ -87,6 +96,12 @@ def broken_text(draw):
 @settings(deadline=None)
 @given(broken_tables())
 def test_broken_tables(tables):
+    settled(from_dict, tables)
+
+
+@settings(deadline=None)
+@given(broken_tables(("loads", "cases", "hydraulics")))
+def test_broken_loads(tables):
     settled(from_dict, tables)
 
 

@@ -93,6 +93,39 @@ def test_a_group_tells_where_it_stops():
             Triad().at(phi=end - inside * 1e-7)
 
 
+def test_a_group_is_named_by_all_its_pins():
+    (interval,) = Triad().sweep(3).limits()["phi"].intervals
+    assert interval.high_stop == "the group D E F"
+    with pytest.raises(AssemblyError, match=r'^group1 = Group\("D E F"\) cannot be assembled at 1 of 2 strokes'):
+        Triad().at(phi=[0.0, interval.high + 0.1])
+    with pytest.warns(SingularWarning, match="the group D E F is near a dead point"):
+        Triad().at(phi=interval.high - 1e-9).ratio("D")
+
+
+def test_a_crank_is_read_in_degrees_and_kept_in_radians():
+    motion = FourBar(OA=2.5).sweep(5, unreachable="nan")
+    limits = motion.limits()["phi"]
+    first, reach = str(limits).splitlines()[:2]
+    assert first == "phi: declared 0 to 360 deg"
+    assert reach == f"  reachable from 0 (looked no farther) to {np.degrees(limits.intervals[0].high):.9g} deg"
+    assert " rad" not in str(limits)
+    assert limits.unit == "rad" and limits.end == 2 * np.pi
+
+
+def test_a_stroke_that_is_an_angle_by_its_label_or_by_name_is_read_in_degrees():
+    class Turned(Mechanism):
+        phi, psi = Stroke(0.0, 1.0), Stroke(0.0, 0.5)
+        lag = phi + 0.2
+        O, C = Ground(0, 0), Ground(4, 0)
+        A = Crank(O, OA=1, angle=lag)
+        B = Dyad(A, C, AB=4, CB=2.5, side=LEFT)
+        G = OnLink(A, B, AG=1.0, BAG=psi)
+
+    limits = Turned().sweep(phi=3, psi=0.1).limits()
+    assert str(limits["phi"]).startswith("phi: declared 0 to 57.2958 deg, with psi = 5.72958 deg held")
+    assert str(limits["psi"]).startswith("psi: declared 0 to 28.6479 deg, with phi = 0 deg held")
+
+
 def test_the_error_tells_how_far_the_stroke_goes():
     with pytest.raises(AssemblyError, match=r"192 mm short of AB.*It goes from S = 0 to 0\.408276 m") as caught:
         Lift().at(S=np.linspace(0, 0.6, 101))

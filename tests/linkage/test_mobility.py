@@ -6,6 +6,7 @@ import pytest
 from linkage import (
     LEFT,
     RIGHT,
+    AssemblyError,
     Crank,
     DefinitionError,
     Dyad,
@@ -18,6 +19,7 @@ from linkage import (
     Slide,
     SliderDyad,
     Stroke,
+    deg,
     grashof,
 )
 
@@ -159,6 +161,24 @@ def test_the_four_bars_of_a_machine_are_found():
 def test_grashof_refuses_a_length_that_is_none():
     with pytest.raises(DefinitionError, match="length of the coupler"):
         grashof(1.0, 1.0, -1.0, 1.0)
+
+
+def test_a_sketch_out_of_reach_is_said_in_words():
+    class Short(Mechanism):
+        phi = Stroke(60 * deg, 1.2)
+        O, C = Ground(0, 0), Ground(4, 0)
+        A = Crank(O, OA=1, angle=phi)
+        B = Dyad(A, C, AB=1, CB=1, side=LEFT)
+
+    with pytest.raises(AssemblyError, match=r"Short: B cannot be assembled at phi = 60 deg: AB \+ CB = 2 m is 1\.61e\+03 mm short of AC"):
+        _ = Short().mobility
+
+
+def test_nothing_at_all_has_no_freedom():
+    class Bare(Mechanism):
+        pass
+
+    assert Bare().mobility == 0
 
 
 def test_a_slide_that_does_not_hold_is_refused():

@@ -25,6 +25,7 @@ from linkage import (
     angle,
     deg,
     distance,
+    ratio,
     x,
     y,
 )
@@ -154,6 +155,10 @@ def test_transmission_angle_is_the_angle_between_the_links():
     motion = Crown().sweep(40)
     cosine = (0.9**2 + 0.7**2 - motion.distance("A", "Q") ** 2) / (2 * 0.9 * 0.7)
     assert_allclose(np.cos(motion.transmission_angle("B")), cosine, atol=1e-13)
+
+
+def test_a_motion_says_what_it_is():
+    assert repr(Crane().sweep(S=5, T=0.1)) == "<Motion of Crane: S = 0 to 0.4 m, T = 0.1 m; shape (5,), all reached>"
 
 
 # -- angles without jumps ------------------------------------------------------------------------------------
@@ -412,3 +417,22 @@ def test_several_strokes_want_to_be_named():
 
 def test_angle_of_tilt_is_what_the_units_say():
     assert ThreePointHitch().at(S=0.0)["tilt"] / deg == pytest.approx(3.19365591, abs=1e-8)
+
+
+class Winding(Mechanism):
+    """A crank whose torsion spring stores energy with its angle, over several turns."""
+
+    phi = Stroke(0.0, 900 * deg)
+    O = Ground(0.0, 0.0)
+    A = Crank(O, OA=1.0, angle=phi)
+    stored = angle(O, A) * angle(O, A)
+
+
+def test_the_ratio_of_what_follows_an_angle_beyond_half_a_turn():
+    motion = Winding().sweep(91)
+    phi = motion.strokes["phi"]
+    assert_allclose(motion.ratio("stored"), 2.0 * phi, atol=1e-12)
+    assert_allclose(motion.ratio("stored", order=2), 2.0, atol=1e-12)
+    assert_allclose(motion.ratio("stored", method="central"), 2.0 * phi, atol=1e-6)
+    (found,) = Winding().evaluate([ratio("stored")], phi=phi)
+    assert_allclose(found, 2.0 * phi, atol=1e-12)

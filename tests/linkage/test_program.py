@@ -2,6 +2,8 @@
 
 import math
 import operator
+import sys
+import threading
 
 import numpy as np
 import pytest
@@ -89,6 +91,29 @@ def test_what_is_written_twice_is_worked_out_once():
     assert -(a - s) is s - a
     assert 2.0 * (3.0 * a) is 6.0 * a
     assert graph.node(3.0) * graph.node(4.0) is graph.constant(12.0)
+
+
+def test_threads_in_one_graph_give_every_node_a_number_of_its_own():
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        for _ in range(10):
+            graph, start = Graph(), threading.Barrier(4)
+            s = graph.input("s", Level.POSE)
+
+            def grow(k, s=s, start=start):
+                start.wait()
+                for i in range(200):
+                    s = s * float(i + k) + s
+
+            threads = [threading.Thread(target=grow, args=(k,)) for k in range(4)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            assert [node.number for node in graph.nodes] == list(range(len(graph.nodes)))
+    finally:
+        sys.setswitchinterval(interval)
 
 
 def test_what_depends_on_the_design_only_is_kept_apart():

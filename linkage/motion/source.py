@@ -1,0 +1,47 @@
+"""Values and ratios as the text of a function in C or JavaScript: for a controller, or a page of one's own."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..plan import Plan
+from ..program import Kernel, Node, c_text, javascript_text
+from .request import Request, all_wanted
+from .wanted import Wanted
+
+WRITERS: Mapping[str, Callable[[Sequence[Node], str, Mapping[str, float]], str]] = {"c": c_text, "javascript": javascript_text}
+
+
+def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request], language: str, name: str) -> str:
+    """Return requests as text in a language; see Mechanism.source."""
+    if language not in WRITERS:
+        raise DefinitionError(f"language={language!r}: say one of {', '.join(WRITERS)}.")
+    if not (isinstance(name, str) and name.isascii() and name.isidentifier()):
+        raise DefinitionError(f"name={name!r}: a function's name is expected, such as poses.")
+    if any(np.ndim(value) for value in designs.values()):
+        raise DefinitionError(f"{plan.title}: source() states one design; its dimensions are arguments of the text, which serves all.")
+    nodes = [node for each in all_wanted(plan, requests) for node in held(plan, each)]
+    closed_form(plan, nodes)
+    return WRITERS[language](nodes, name, {name: float(value) for name, value in designs.items()})
+
+
+def held(plan: Plan, what: Wanted) -> list[Node]:
+    """Return a request's nodes, NaN where what they are true under does not hold: the text can look nothing up."""
+    nodes = list(what.nodes(plan))
+    for truth in what.notes(plan).assumed:
+        nodes = [node.graph.pick(0.0, truth, node, math.nan) for node in nodes]
+    return nodes
+
+
+def closed_form(plan: Plan, nodes: Sequence[Node]) -> None:
+    """Raise DefinitionError where nodes hang on pins that are found by iteration."""
+    read = {node.value for node in Kernel(nodes).plan.pose_inputs}
+    for group in plan.groups.values():
+        if not read.isdisjoint(group.inputs):
+            what = f"{plan.title}: {group} is solved by iteration and has no closed form to write down"
+            raise DefinitionError(f"{what}; ask for what does not hang on {', '.join(group.pins)}, or use function().")

@@ -1,0 +1,87 @@
+"""What a request is, once it is settled on a plan: nodes of its program, and what is said where they have no value."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Any
+
+from ..errors import DefinitionError
+from ..plan import ArrayReading, Plan
+from ..program import FloatArray, Node, Notes
+
+if TYPE_CHECKING:
+    from .motion import Motion
+
+
+class Wanted(ABC):
+    """A request settled on a plan. A subclass says of which nodes it consists, and by what key it is told from others."""
+
+    @property
+    @abstractmethod
+    def key(self) -> Any:
+        """What tells this request from others of the same plan."""
+
+    @abstractmethod
+    def nodes(self, plan: Plan) -> tuple[Node, ...]:
+        """Return its nodes in a plan's program, one a component."""
+
+    @abstractmethod
+    def names(self, plan: Plan) -> set[str]:
+        """Return the members that it is built from."""
+
+    @abstractmethod
+    def refuse(self, motion: Motion) -> None:
+        """Raise the error of a motion's poses where it has no value; nothing where it has one at all of them."""
+
+    @abstractmethod
+    def __str__(self) -> str:
+        """Return what it is, in words: `the ratio of G by S`."""
+
+    def notes(self, plan: Plan) -> Notes:
+        """Return what its nodes are true under."""
+        return Notes()
+
+    @property
+    def rows(self) -> int:
+        """The number of its components: 2 for a point."""
+        return 1
+
+    @property
+    def order(self) -> int:
+        """How often it is differentiated."""
+        return 0
+
+    def steep(self, plan: Plan) -> set[str]:
+        """Return the members at whose singular poses it is refused: those it is differentiated through."""
+        return self.names(plan) if self.order else set()
+
+    @property
+    def may_fail(self) -> bool:
+        """Whether it may have no value where all points it is built from have a place."""
+        return False
+
+    @property
+    def turns(self) -> bool:
+        """Whether it follows angles, which are continued along the stroke."""
+        return False
+
+    def placed(self, reading: ArrayReading, count: int) -> FloatArray | None:
+        """Return its values in an eager reading, which holds at a dead point, shape (rows, count); None where there are none."""
+        return None
+
+
+class Asked(ABC):
+    """Something to ask of a mechanism that is no member of it: a ratio, a thrust, a pin force."""
+
+    @abstractmethod
+    def settled(self, plan: Plan) -> Wanted:
+        """Return the request settled on a plan; DefinitionError where there is no such thing."""
+
+
+def astray(plan: Plan, what: Wanted) -> DefinitionError:
+    """Return the error for poses where a law goes another way than the one that was traced."""
+    laws = ", ".join(dict.fromkeys(what.notes(plan).assumed.values()))
+    return DefinitionError(
+        f"{plan.title}: {what}: at some of these poses {f'the law of {laws}' if laws else 'a law'} goes another way than the one traced, "
+        "or has no finite value. Leave them out, choose by np.where in the law, or take finite differences of the forces."
+    )

@@ -1,0 +1,130 @@
+"""What cannot be placed, in words: the point, its triangle, the missing millimetres, the remedy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from ..program import FloatArray
+from ..quantities import Member, spelled
+from ..steps import Point, Step
+from ..units import mm
+from .members import Members
+from .reading import ArrayReading
+
+Mask = npt.NDArray[np.bool_]
+
+
+#: A side so many times longer than the others was given in another unit.
+MISTAKEN = 90.0
+
+
+def failures(plan: Members, reading: ArrayReading, shape: tuple[int, ...]) -> Iterator[tuple[str, Mask]]:
+    """Yield the members that cannot be placed at some poses of a reading, in the order of construction, with those poses."""
+    for name in plan.members:
+        mask = negative(plan, reading, shape, name) | np.isnan(reading.sines.get(name, 0.0))
+        if name in plan.points:
+            place = reading.at(name)
+            mask |= ~(np.isfinite(place.x) & np.isfinite(place.y))
+        if mask.any():
+            yield name, mask
+
+
+def negative(plan: Members, reading: ArrayReading, shape: tuple[int, ...], point: str = "") -> Mask:
+    """Return the poses where a length that follows others is negative: of one point, or any."""
+    mask = np.zeros(shape, bool)
+    for owner, length in plan.following:
+        if point in (owner, ""):
+            mask |= np.asarray(reading.value(length)) < 0.0
+    return mask
+
+
+def opening(plan: Members, name: str) -> str:
+    """Return how a sentence about a member begins: `B = Dyad(A, O)`; a pin of a group goes by the group."""
+    member = plan.members[name]
+    group = member.companions if isinstance(member, Point) else ()
+    if group:
+        return next(f"{each} = {found}" for each, found in plan.groups.items() if found.pins == group)
+    return member.sentence() if isinstance(member, Step) else f"{name} = {member}"
+
+
+def called(plan: Members, name: str) -> str:
+    """Return a member's name; a pin of a group goes by the names of all its pins."""
+    member = plan.members[name]
+    group = member.companions if isinstance(member, Point) else ()
+    return f"the group {' '.join(group)}" if group else name
+
+
+def missing_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) -> tuple[str, float]:
+    """Return why a member cannot be placed at the poses `lost` of a reading, at the worst of them, and what is missing [m]."""
+    told = negative_words(plan, name, reading) or coinciding_words(plan, name, reading)
+    return told or triangle_words(plan, name, reading, lost)
+
+
+def negative_words(plan: Members, name: str, reading: ArrayReading) -> tuple[str, float] | None:
+    """Return which length of a point is negative, at its worst pose, and by how much [m]; None where none is."""
+    for owner, length in plan.following:
+        least = float(np.min(reading.value(length)))
+        if owner == name and least < 0.0:
+            return f"the length {spelled(length)} = {least:.4g} m is negative. Keep the stroke where it is positive.", -least
+    return None
+
+
+def coinciding_words(plan: Members, name: str, reading: ArrayReading) -> tuple[str, float] | None:
+    """Return which two points of a step coincide, so that no direction goes from one to the other; None where they do not."""
+    step = plan.members[name]
+    names = [getattr(step, letter) for letter in step.parent_letters] if isinstance(step, Step) else []
+    if len(names) == 2 and set(names) <= set(plan.points):
+        base = reading.at(names[1]) - reading.at(names[0])
+        if np.any((base.x == 0.0) & (base.y == 0.0)):
+            words = f"{names[0]} and {names[1]} coincide there, so that no direction goes from one to the other. Move one of them."
+            return words, float("nan")
+    return None
+
+
+def triangle_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) -> tuple[str, float]:
+    """Return how a triangle misses, at its worst pose, and by how much [m]."""
+    sides = plan.members[name].sides(reading)
+    if not sides:
+        return shortage_words(plan, plan.members[name], reading)
+    labels = [label for label, _ in sides]
+    values = np.array(np.broadcast_arrays(*(value for _, value in sides), lost)[:-1], float).reshape(len(sides), -1)[:, lost]
+    for label, value in zip(labels, values, strict=True):
+        if not np.all(np.isfinite(value)):
+            return f"{label} has no finite value there. Change the strokes or what it follows.", float("nan")
+    missing = 2 * values.max(axis=0) - values.sum(axis=0)
+    worst = int(np.nanargmax(missing))
+    longest = int(values[:, worst].argmax())
+    others = [index for index in range(3) if index != longest]
+    gap = float(missing[worst])
+    return (
+        f"{' + '.join(labels[index] for index in others)} = {values[others, worst].sum():.4g} m is {gap / mm:.3g} mm short of "
+        f"{labels[longest]} = {values[longest, worst]:.4g} m. {remedy(plan, name, labels, longest, values[:, worst])}",
+        gap,
+    )
+
+
+def shortage_words(plan: Members, member: Member, reading: ArrayReading) -> tuple[str, float]:
+    """Return what is too short, at the worst pose, and by how much [m]."""
+    words, gaps = member.shortage(reading) if isinstance(member, Point) else ("it has no value", float("nan"))
+    gap = float(np.max(gaps))
+    missing = "" if np.isnan(gap) else f": {gap / mm:.3g} mm are missing"
+    start = "Shorten the stroke or change" if plan.moves(member) else "Change"
+    return f"{words}{missing}. {start} a dimension.", gap
+
+
+def remedy(plan: Members, name: str, labels: Sequence[str], longest: int, values: FloatArray) -> str:
+    """Return what to change: the stroke where a side follows it, and a dimension that closes the gap; the unit where it looks mistaken."""
+    others = [index for index in range(len(labels)) if index != longest]
+    if values[longest] > MISTAKEN * values[others].max():
+        return f"Are all lengths in m? {values[longest]:.6g} m would be {values[longest]:.6g} * mm."
+    free = [labels[index] for index in others if labels[index] in plan.table.spellings]
+    other = f"shorten {labels[longest]}" if labels[longest] in plan.table.spellings else "move its points closer"
+    change = f"lengthen {free[-1]}" if free else other
+    if not plan.moves(plan.members[name]):
+        return f"{change[0].upper()}{change[1:]}."
+    following = [index for index, label in enumerate(labels) if label in plan.table.following]
+    start = "Shorten the stroke" if longest in following or not following else "Start the stroke later"
+    return f"{start} or {change}."

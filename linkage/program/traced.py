@@ -1,0 +1,245 @@
+"""A user's law read on the nodes of a program: numbers that calculate as usual, and refuse what would need their value.
+
+A law written for arrays runs once on these. What it tests by np.any and np.all, to refuse input that has no answer, is taken
+to be in order and noted. np.where chooses by a comparison; a number that it compares for equality is noted too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any, final
+
+import numpy as np
+from numpy.lib.mixins import NDArrayOperatorsMixin
+
+from ..errors import DefinitionError
+from .node import Node
+from .operations import OPERATIONS
+
+MOST = 1000
+"""Tests that one law may make."""
+LARGEST = float(np.finfo(float).max)
+REMEDY = "np.where, np.minimum, np.maximum and abs choose between numbers without asking for their values"
+
+
+def refused(what: str) -> DefinitionError:
+    """Return the error for something that needs the value of a traced number."""
+    return DefinitionError(f"{what} needs a number's value, which a traced law does not have; {REMEDY}.")
+
+
+def method(ufunc: Any) -> Callable[..., Any]:
+    """Return the method by which NumPy applies a function to each number of an array."""
+    return lambda self, *others: ufunc(self, *others)
+
+
+@final
+@dataclass(eq=False)
+class Notes:
+    """What laws are true under: nodes `assumed` above zero, and `switches` above zero where it is another law than next to it.
+
+    Both are kept with the name of the law that is being traced, `owner`; `tests` counts what it asked for.
+    """
+
+    owner: str = ""
+    tests: int = 0
+    assumed: dict[Node, str] = field(default_factory=dict)
+    switches: dict[Node, str] = field(default_factory=dict)
+
+    def counted(self) -> None:
+        """Count a test; DefinitionError where a law does not come to an end of them."""
+        self.tests += 1
+        if self.tests > MOST:
+            raise refused("A loop that goes on until its numbers allow it to stop")
+
+
+@final
+class Traced(NDArrayOperatorsMixin):
+    """One number of a law at any pose: a node, and the notes of the law. Vectors are arrays of two of them."""
+
+    __slots__ = ("node", "notes")
+
+    def __init__(self, node: Node, notes: Notes) -> None:
+        self.node, self.notes = node, notes
+
+    def __array_ufunc__(self, ufunc: Any, kind: str, *inputs: Any, **options: Any) -> Any:
+        out = options.pop("out", None)
+        if kind != "__call__" or options:
+            raise refused(f"np.{ufunc.__name__}.{kind} with {', '.join(options) or 'a number'}")
+        found = each_of(lambda *numbers: self._applied(ufunc, numbers), inputs)
+        if out is None:
+            return found
+        out[0][...] = found
+        return out[0]
+
+    def _applied(self, ufunc: Any, numbers: tuple[Any, ...]) -> Any:
+        name, nodes = ufunc.__name__, [node_of(each) for each in numbers]
+        if all(node is number for node, number in zip(nodes, numbers, strict=True)):
+            return ufunc(*numbers)
+        if name in RULES:
+            return RULES[name](*numbers)
+        if name in TRUTHS:
+            return Condition(TRUTHS[name](self.node.graph, *nodes), self.notes, name == "equal", name == "not_equal")
+        if name not in DIRECT:
+            raise DefinitionError(f"np.{name} is not among what can be traced: {', '.join(sorted(DIRECT | RULES.keys()))}.")
+        return Traced(ufunc(*nodes), self.notes)
+
+    def __array_function__(self, function: Any, types: Any, args: Any, options: Any) -> Any:
+        if function in FUNCTIONS:
+            return FUNCTIONS[function](*args, **options)
+        if function not in SHAPING:
+            raise refused(f"np.{function.__name__}")
+        return function(*map(arrayed, args), **options)
+
+    def __getitem__(self, place: tuple[()]) -> Traced:
+        if place != ():
+            raise TypeError("a traced number is one number: it has no parts")
+        return self
+
+    def __bool__(self) -> bool:
+        raise refused("A test of whether a number is zero")
+
+    sqrt, exp, log, sin, cos, tan, arctan, arcsin, arccos, tanh, hypot, arctan2, conjugate = map(
+        method,
+        (np.sqrt, np.exp, np.log, np.sin, np.cos, np.tan, np.arctan, np.arcsin, np.arccos, np.tanh, np.hypot, np.arctan2, np.positive),
+    )
+
+
+@final
+class Condition:
+    """A comparison of traced numbers: a node that is 1 where it is true, else -1.
+
+    `thin`: it is true only where numbers are equal; `slit`: it is false only there.
+    """
+
+    __slots__ = ("notes", "slit", "thin", "truth")
+    __array_ufunc__ = None
+
+    def __init__(self, truth: Node, notes: Notes, thin: bool = False, slit: bool = False) -> None:
+        self.truth, self.notes, self.thin, self.slit = truth, notes, thin, slit
+
+    def __and__(self, other: Any) -> Condition:
+        both = self.truth.graph.apply("minimum", self.truth, truth_of(other))
+        return Condition(both, self.notes, self.thin or is_thin(other), self.slit and is_slit(other))
+
+    def __or__(self, other: Any) -> Condition:
+        return ~(~self & (~other if isinstance(other, Condition) else not other))
+
+    __rand__, __ror__ = __and__, __or__
+
+    def __invert__(self) -> Condition:
+        return Condition(-self.truth, self.notes, self.slit, self.thin)
+
+    def any(self) -> bool:
+        """Return whether it is true anywhere: no, which is noted."""
+        return not (~self).all()
+
+    def all(self) -> bool:
+        """Return whether it is true everywhere: yes, which is noted."""
+        if self.truth.op == "constant":
+            return bool(self.truth.value > 0.0)
+        self.notes.counted()
+        self.notes.assumed[self.truth] = self.notes.owner
+        if self.thin:
+            self.notes.switches[self.truth] = self.notes.owner
+        return True
+
+    def choose(self, x: Any, y: Any) -> Any:
+        """Return x where it is true, else y."""
+        for truth in [self.truth] * self.thin + [-self.truth] * self.slit:
+            self.notes.switches[truth] = self.notes.owner
+        graph = self.truth.graph
+        return each_of(lambda a, b: Traced(graph.pick(0.0, self.truth, node_of(a), node_of(b)), self.notes), (x, y))
+
+    def __array_function__(self, function: Any, types: Any, args: Any, options: Any) -> Any:
+        known: dict[Any, Callable[..., Any]] = {np.any: Condition.any, np.all: Condition.all, np.where: Condition.choose}
+        if function not in known or options or not isinstance(args[0], Condition):
+            raise refused(f"np.{function.__name__} of a comparison")
+        return known[function](*args)
+
+    def __bool__(self) -> bool:
+        raise refused("A comparison in an `if`, a loop, or Python's min and max")
+
+
+def each_of(rule: Callable[..., Any], inputs: tuple[Any, ...]) -> Any:
+    """Return a rule's result for numbers, or number by number for arrays."""
+    if not any(isinstance(each, np.ndarray) for each in inputs):
+        return rule(*inputs)
+    arrays = np.broadcast_arrays(*(arrayed(each) for each in inputs))
+    found = np.empty(arrays[0].shape, object)
+    for place in np.ndindex(found.shape):
+        found[place] = rule(*(array[place] for array in arrays))
+    return found[()]
+
+
+def arrayed(value: Any) -> Any:
+    """Return a value, and each of a list of them, as an array of numbers that may be traced."""
+    return [arrayed(each) for each in value] if isinstance(value, (list, tuple)) else np.asarray(value, object)
+
+
+def node_of(number: Any) -> Any:
+    """Return a traced number's node; any other number as it is."""
+    return number.node if isinstance(number, Traced) else number
+
+
+def truth_of(condition: Any) -> Any:
+    """Return a condition's node, or 1 for what is true and -1 for what is not."""
+    return condition.truth if isinstance(condition, Condition) else 1.0 if condition else -1.0
+
+
+def is_thin(condition: Any) -> bool:
+    """Return whether a condition is true only where numbers are equal; what is never true counts."""
+    return condition.thin if isinstance(condition, Condition) else not condition
+
+
+def is_slit(condition: Any) -> bool:
+    """Return whether a condition is false only where numbers are equal; what is always true counts."""
+    return condition.slit if isinstance(condition, Condition) else bool(condition)
+
+
+def hyperbolic_tangent(a: Any) -> Any:
+    """Return tanh; beyond 300 it is 1 to the last digit, and the exponential keeps its value."""
+    e = np.exp(-2.0 * np.minimum(np.maximum(a, -300.0), 300.0))
+    return (1.0 - e) / (1.0 + e)
+
+
+#: NumPy's functions that a program has.
+DIRECT = frozenset(OPERATIONS.keys() - {"solve", "component", "pick"} | {"true_divide", "power", "square", "hypot"})
+#: NumPy's comparisons as nodes that are 1 where they are true, else -1.
+TRUTHS: Mapping[str, Callable[..., Node]] = MappingProxyType(
+    {
+        "less_equal": lambda graph, a, b: graph.pick(a, b, 1.0, -1.0),
+        "greater_equal": lambda graph, a, b: graph.pick(b, a, 1.0, -1.0),
+        "less": lambda graph, a, b: graph.pick(a, b, graph.pick(b, a, -1.0, 1.0), -1.0),  # not where one of them is NaN
+        "greater": lambda graph, a, b: graph.pick(b, a, graph.pick(a, b, -1.0, 1.0), -1.0),
+        "equal": lambda graph, a, b: graph.pick(np.abs(a - b), 0.0, 1.0, -1.0),
+        "not_equal": lambda graph, a, b: graph.pick(np.abs(a - b), 0.0, -1.0, 1.0),
+        "isfinite": lambda graph, a: graph.pick(np.abs(a), LARGEST, 1.0, -1.0),
+        "isnan": lambda graph, a: graph.pick(a, np.inf, -1.0, 1.0),
+    }
+)
+#: Functions made of those that a program has.
+RULES: Mapping[str, Callable[..., Any]] = MappingProxyType(
+    {
+        "positive": lambda a: a,
+        "arctan": lambda a: np.arctan2(a, 1.0),
+        "arcsin": lambda a: np.arctan2(a, np.sqrt(1.0 - a * a)),
+        "arccos": lambda a: np.arctan2(np.sqrt(1.0 - a * a), a),
+        "tanh": hyperbolic_tangent,
+        "deg2rad": lambda a: a * (np.pi / 180.0),
+        "rad2deg": lambda a: a * (180.0 / np.pi),
+    }
+)
+#: Functions of NumPy that are more than one operation on each number.
+FUNCTIONS: Mapping[Any, Callable[..., Any]] = MappingProxyType(
+    {
+        np.where: lambda chosen, x, y: each_of(lambda each, a, b: a if each else b, (chosen, x, y)),
+        np.clip: lambda a, low, high: np.minimum(np.maximum(a, low), high),
+        np.zeros_like: lambda a: 0.0,
+        np.ones_like: lambda a: 1.0,
+        np.full_like: lambda a, value: value,
+    }
+)
+#: Functions of NumPy that put numbers side by side and work along no pose.
+SHAPING = frozenset({np.stack, np.hstack, np.concatenate, np.broadcast_arrays, np.shape, np.ndim, np.size})

@@ -1,0 +1,87 @@
+"""A thrust as something to ask for: in `evaluate` and `function` at a kernel's speed, in `gradient` with exact derivatives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, final
+
+from ..motion import Asked, Motion, Wanted
+from ..plan import Plan
+from ..program import Node, Notes
+from .drives import drive_of
+from .driving import driving_force
+from .law import Law
+from .loaded import Case, Loads
+from .work import by_work
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Thrust(Asked):
+    """The frictionless force of a drive, as something to ask for."""
+
+    drive: str | None = None
+    loads: Loads = None
+    case: Case = None
+
+    def settled(self, plan: Plan) -> Wanted:
+        drive = drive_of(plan, self.drive)
+        law = Law.of(plan, self.loads, self.case)
+        return ThrustOf(drive, self, law.key, frozenset(law.names), frozenset(law.carriers))
+
+
+def thrust(drive: str | None = None, loads: Loads = None, case: Case = None) -> Thrust:
+    """Return the request for the force of a drive, in `evaluate`, `function` and `gradient`: thrust [N], a crank's torque [Nm].
+
+    It is the frictionless `driving_force(motion, loads, drive, case=case)`: `motion.gradient(thrust(), wrt=["OB", "load.mass"])`.
+    A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
+    """
+    return Thrust(drive, loads, case)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class ThrustOf(Wanted):
+    """A thrust settled: its drive, the key of its loads, the members it reads, and those it is differentiated through."""
+
+    drive: str
+    asked: Thrust
+    law: tuple[Any, ...]
+    read: frozenset[str]
+    carriers: frozenset[str]
+
+    @property
+    def key(self) -> Any:
+        return "thrust", self.drive, self.law
+
+    @property
+    def order(self) -> int:
+        return 1
+
+    @property
+    def may_fail(self) -> bool:
+        return True
+
+    @property
+    def turns(self) -> bool:
+        return True
+
+    def nodes(self, plan: Plan) -> tuple[Node, ...]:
+        law = Law.on(plan, self.asked.loads, self.asked.case)
+        (force,) = by_work(law.poses, law.loaded, self.drive)
+        return (law.motion.node(force),)
+
+    def notes(self, plan: Plan) -> Notes:
+        return Law.on(plan, self.asked.loads, self.asked.case).notes
+
+    def names(self, plan: Plan) -> set[str]:
+        return set(self.read)
+
+    def steep(self, plan: Plan) -> set[str]:
+        return set(self.carriers)
+
+    def refuse(self, motion: Motion) -> None:
+        driving_force(motion, self.asked.loads, self.drive, case=self.asked.case)
+
+    def __str__(self) -> str:
+        return f"the thrust of {self.drive}"

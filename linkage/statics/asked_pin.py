@@ -1,0 +1,156 @@
+"""A pin force as something to ask for: the equilibrium as a system of the program, so that its derivatives are exact too."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import DefinitionError, SingularWarning, unknown
+from ..loads import ForceElement
+from ..motion import Asked, Motion, Wanted
+from ..plan import Plan
+from ..program import Node, Notes, eliminated
+from .balance import Equations
+from .contacts import Contact
+from .forces import pin_forces
+from .law import Law
+from .loaded import Case, Loads
+from .poses import Poses
+from .result import met
+from .solved import Solved
+from .structure import Structure
+from .system import System
+
+#: What can be asked of a force, from its parts.
+COMPONENTS: Mapping[str, Callable[[Any, Any], Any]] = MappingProxyType({"x": lambda x, y: x, "y": lambda x, y: y, "size": np.hypot})
+SAMPLE = 5
+"""Poses over the strokes at which it is tried whether the joints can be solved for."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class PinForce(Asked):
+    """A component of a frictionless joint force, as something to ask for."""
+
+    point: str
+    on: str = ""
+    component: str = "size"
+    loads: Loads = None
+    case: Case = None
+
+    def settled(self, plan: Plan) -> Wanted:
+        if self.component not in COMPONENTS:
+            raise unknown("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
+        law = Law.of(plan, self.loads, self.case)
+        joint, _ = joint_of(Structure(plan, law.loaded.elements), self.point, self.on)
+        spans = tuple(span for element in law.loaded.elements for span in element.cylinders())
+        length = plan.made(("held", spans), lambda _: held(plan, law.loaded.elements))
+        return PinForceOf(self, (*law.key, spans), length, str(joint))
+
+
+def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = None, case: Case = None) -> PinForce:
+    """Return the request for a joint force [N], in `evaluate`, `function` and `gradient`: its "size", or its part along "x" or "y".
+
+    It is that of the frictionless `pin_forces(motion, loads, case=case).force(point, on)`: on the body `on` from the other one.
+    A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
+    """
+    return PinForce(point, on, component, loads, case)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class PinForceOf(Wanted):
+    """A pin force settled: what was asked, the key of its loads, a length of the mechanism [m], and the joint in words."""
+
+    asked: PinForce
+    law: tuple[Any, ...]
+    length: float
+    joint: str
+
+    @property
+    def key(self) -> Any:
+        return "pin force", self.asked.point, self.asked.on, self.asked.component, self.law
+
+    @property
+    def order(self) -> int:
+        return 1
+
+    @property
+    def may_fail(self) -> bool:
+        return True
+
+    @property
+    def turns(self) -> bool:
+        return True
+
+    def nodes(self, plan: Plan) -> tuple[Node, ...]:
+        law = Law.on(plan, self.asked.loads, self.asked.case)
+        structure, motion = Structure(plan, law.loaded.elements), law.motion
+        system = System(structure, law.poses, law.loaded.acting, length=self.length)
+        A, l = ([*map(motion.node, row)] for row in system.A[0]), map(motion.node, system.load_rows[0])
+        u = motion.array([eliminated(list(A), [-each for each in l])])
+        none = np.zeros((1, 0))
+        joint, sign = joint_of(structure, self.asked.point, self.asked.on)
+        force, _ = Solved(system, u, none, np.zeros(1, bool), []).transmitted(joint.contact)
+        return (motion.node(COMPONENTS[self.asked.component](*(sign * force[:, 0]))),)
+
+    def notes(self, plan: Plan) -> Notes:
+        return Law.on(plan, self.asked.loads, self.asked.case).notes
+
+    def names(self, plan: Plan) -> set[str]:
+        return set(plan.members)
+
+    def refuse(self, motion: Motion) -> None:
+        pin_forces(motion, self.asked.loads, case=self.asked.case)
+
+    def __str__(self) -> str:
+        what = "the size" if self.asked.component == "size" else f"the {self.asked.component} component"
+        return f"{what} of the force at {self.joint}"
+
+
+@dataclass(frozen=True)
+class Met:
+    """A joint by the names of its bodies."""
+
+    contact: Contact
+    on: str
+    by: str
+
+    @property
+    def point(self) -> str:
+        """The point it is at."""
+        return self.contact.point
+
+    @property
+    def has_force(self) -> bool:
+        """Whether it transmits a force."""
+        return self.contact.has_force
+
+    def __str__(self) -> str:
+        return f"{self.point} ({self.contact.kind}) on {self.on} from {self.by}"
+
+
+def joint_of(structure: Structure, point: str, on: str) -> tuple[Met, float]:
+    """Return the joint that is meant, and the sign of its force on the body."""
+    joints = [Met(each, structure.name(each.on), structure.name(each.by)) for each in structure.contacts]
+    return met(joints, point, on, structure.plan.title)
+
+
+def held(plan: Plan, elements: tuple[ForceElement, ...]) -> float:
+    """Return a length of the mechanism [m]; DefinitionError where a body hangs loose or a link is redundant."""
+    along = np.linspace(0.0, 1.0, SAMPLE)
+    ranges = {name: each.start + along * (each.end - each.start) for name, each in plan.strokes.items()}
+    strokes = {name: np.append(plan.sketch_strokes[name], values) for name, values in ranges.items()}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SingularWarning)
+        poses = Poses(Motion(plan, plan.defaults, strokes, "nan"), "The joint forces")
+    system = System(Structure(plan, elements), poses, ())
+    if not poses.count:
+        raise DefinitionError(f"{plan.title}: the declared design cannot be assembled at any of {SAMPLE} poses; declare one that can.")
+    Equations(system).check(system.height, system.width)
+    return system.scale

@@ -1,0 +1,94 @@
+"""The laws of the loads as nodes of a program: each element's own `loads`, called once on a traced motion."""
+
+from __future__ import annotations
+
+from threading import RLock
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..loads import Load
+from ..plan import Plan
+from ..program import FloatArray, Notes
+from .loaded import Acting, Case, Chosen, Loaded, Loads, called, case_of, chosen, known_points
+from .poses import Poses
+from .traced import TracedMotion
+
+ONE = RLock()
+"""Held while loads are traced on a program that is kept: threads in one graph would number its nodes twice."""
+
+
+@final
+class Law:
+    """The loads of a mechanism, traced on a plan's program."""
+
+    def __init__(self, motion: TracedMotion, loads: Loads, case: Case) -> None:
+        self.motion = motion
+        self.loaded: Loaded = traced(motion, loads, case)
+        self.poses = Poses(motion, "")
+
+    @classmethod
+    def of(cls, plan: Plan, loads: Loads, case: Case) -> Law:
+        """Return the loads traced on a program that is kept for this: equal loads have equal nodes there."""
+        with ONE:
+            kept = plan.made(("traced loads",), lambda twin: twin)
+            return cls(TracedMotion(kept, kept.trace.view()), loads, case)
+
+    @classmethod
+    def on(cls, plan: Plan, loads: Loads, case: Case) -> Law:
+        """Return the loads traced on a plan's own program."""
+        return cls(TracedMotion(plan, plan.trace), loads, case)
+
+    @property
+    def key(self) -> tuple[Any, ...]:
+        """What tells these loads from others: the program, and where which nodes act."""
+        acting = ((each.load.point, each.load.on, *(self.motion.node(part).number for part in each.force)) for each in self.loaded.acting)
+        return self.motion.reading.graph, *acting, *self.notes.assumed, None, *self.notes.switches
+
+    @property
+    def notes(self) -> Notes:
+        """What the laws are true under."""
+        return self.motion.notes
+
+    @property
+    def carriers(self) -> set[str]:
+        """The members that the loaded points are built from."""
+        return set[str]().union(*map(self.motion.plan.reaches, self.loaded.points))
+
+    @property
+    def names(self) -> set[str]:
+        """The members that the laws read and the loads act on."""
+        return self.motion.read | self.carriers
+
+
+def traced(motion: TracedMotion, loads: Loads, case: Case) -> Loaded:
+    """Return the loads that act without friction, as nodes; DefinitionError, with the load's name, for a law that cannot be traced."""
+    kept = chosen(motion.plan, loads, case)
+    acting = tuple(load for each in kept for load in traced_element(motion, each))
+    return Loaded(acting, (), tuple(each.element for each in kept), case_of(motion.plan, case).label, 0)
+
+
+def traced_element(motion: TracedMotion, element: Chosen) -> list[Acting]:
+    """Return the loads of one element as they act."""
+    motion.notes.owner, motion.notes.tests = element.name, 0
+    try:
+        found = called(element.in_case, motion, 0, element.name)
+        return [Acting(load, traced_force(motion, load, element) * element.factor, element.name) for load in found]
+    except Exception as error:
+        raise DefinitionError(
+            f"{motion.plan.title}: the law of {element.name} cannot be traced: {str(error).rstrip('.')}. "
+            "Write it in plain arithmetic of numbers at one pose, or take finite differences of driving_force and pin_forces."
+        ) from error
+
+
+def traced_force(motion: TracedMotion, load: Load, element: Chosen) -> FloatArray:
+    """Return a load's force, shape (2,)."""
+    known_points(load, motion.plan, element.name)
+    force = np.asarray(load.force)
+    if force.shape != (2,):
+        raise DefinitionError(
+            f"its force at {load.point} has the shape {force.shape}, where (2,) is expected; what varies over poses or designs "
+            "comes from a point, a quantity or a parameter of a load declared in the class."
+        )
+    return motion.array(force)

@@ -1,0 +1,106 @@
+"""A motion of one pose whose numbers are nodes of the program: what the laws of forces are traced on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any, final
+
+import numpy as np
+
+from ..motion.asked import named
+from ..motion.request import stroke_of
+from ..plan import Plan, Trace
+from ..program import FloatArray, Node, Notes, Tangent, Traced, node_of
+from ..quantities import Angle, Distance, Quantity, Reference
+from ..steps import Arrow, Point
+
+
+@final
+class TracedMotion:
+    """One pose that stands for all of them. A number of it is Traced, a vector an array (2,) of such.
+
+    `read` are the members that have been asked for, `notes` what has been assumed of them.
+    """
+
+    shape: tuple[int, ...] = ()
+    reached = np.array(True)
+    is_near_singular = False
+    unreachable = "raise"
+
+    def __init__(self, plan: Plan, trace: Trace) -> None:
+        self.plan, self.reading = plan, trace
+        self.notes = Notes()
+        self.read: set[str] = set()
+        self._tangents: dict[str, Tangent] = {}
+
+    # -- numbers ---------------------------------------------------------------------------------------------
+
+    def number(self, value: Any) -> Any:
+        """Return a number of the program as a traced one."""
+        return Traced(self.reading.graph.node(node_of(value)), self.notes)
+
+    def array(self, values: Any) -> FloatArray:
+        """Return numbers of the program as an array of traced ones."""
+        found = np.empty(np.shape(given := np.asarray(values, object)), object)
+        for place in np.ndindex(found.shape):
+            found[place] = self.number(given[place])
+        return found
+
+    def node(self, number: Any) -> Node:
+        """Return the node of a number."""
+        return self.reading.graph.node(node_of(number))
+
+    # -- what a motion tells ---------------------------------------------------------------------------------
+
+    @cached_property
+    def inputs(self) -> dict[str, Any]:
+        """Design variables and strokes by name."""
+        return {name: self.number(node) for name, node in self.reading.inputs.items()}
+
+    @property
+    def strokes(self) -> Mapping[str, Any]:
+        """The strokes by name."""
+        return {name: self.inputs[name] for name in self.plan.strokes}
+
+    def __getitem__(self, name: str) -> Any:
+        return self._shaped(self._nodes(name))
+
+    def _nodes(self, target: str | Quantity) -> tuple[Any, ...]:
+        """Return the nodes of a point, a vector or a quantity; the members behind it are noted."""
+        member = self.plan.members[named("Name", target, self.plan.named(), self.plan.title)] if isinstance(target, str) else target
+        self.read |= self.plan.reaches(member.name or member)
+        if isinstance(member, (Point, Arrow)):
+            place = self.reading.at(member) if isinstance(member, Point) else self.reading.vector(member)
+            return place.x, place.y
+        return (self.reading.value(member),)
+
+    def _shaped(self, nodes: tuple[Any, ...]) -> Any:
+        return self.array(nodes) if len(nodes) == 2 else self.number(nodes[0])
+
+    def value(self, quantity: Quantity) -> Any:
+        """Return a quantity."""
+        return self._shaped(self._nodes(quantity))
+
+    def angle(self, P: Reference, Q: Reference) -> Any:
+        """Return the direction of P -> Q [rad]."""
+        return self.value(Angle(P, Q))
+
+    def distance(self, P: Reference, Q: Reference) -> Any:
+        """Return the distance of two points [m]."""
+        return self.value(Distance(P, Q))
+
+    def x(self, point: str) -> Any:
+        """Return a point's x coordinate [m]."""
+        return self[point][0]
+
+    def y(self, point: str) -> Any:
+        """Return a point's y coordinate [m]."""
+        return self[point][1]
+
+    def ratio(self, target: Any, *, wrt: str | None = None) -> Any:
+        """Return the derivative of a point, a vector or a quantity by a stroke."""
+        stroke = stroke_of(self.plan, wrt)
+        if stroke not in self._tangents:
+            self._tangents[stroke] = Tangent(self.reading.graph, {self.reading.inputs[stroke]: 1.0})
+        return self._shaped(tuple(self._tangents[stroke].of(self.node(each)) for each in self._nodes(target)))

@@ -1,0 +1,129 @@
+"""The designs of a study: some dimensions as arrays, with a value for each design."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from hashlib import blake2b
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import DefinitionError
+from ..mechanism import Mechanism
+
+Array: TypeAlias = npt.NDArray[Any]
+Rows: TypeAlias = dict[str, Any]
+"""Dimensions by name, as Mechanism.replaced takes them."""
+LOOKED_AT = 1 << 17
+"""Designs that are checked at a time."""
+
+
+@dataclass(frozen=True, eq=False)
+class Designs:
+    """Dimensions that vary, by name: one array (m,), of a point two, of which one may be a number; `count` is m.
+
+    The arrays are read part by part, so that they may be files mapped into memory.
+    """
+
+    columns: Mapping[str, tuple[Array, ...]]
+    count: int
+
+    @classmethod
+    def of(cls, machine: Mechanism, over: Mapping[str, Any]) -> Designs:
+        """Return the designs that arrays by name make of a machine; DefinitionError for what is no dimension or cannot be one."""
+        title = machine.plan.title
+        if not isinstance(over, Mapping):
+            raise DefinitionError(f"{title}: over={over!r:.60}: a dictionary of names and arrays is expected; Box.sample(count) makes one.")
+        columns = {name: columns_of(machine, name, value) for name, value in over.items()}
+        sizes = {name: part.size for name, parts in columns.items() for part in parts if part.ndim}
+        if not any(sizes.values()):
+            example = next(iter(machine.dimensions), "OB")
+            raise DefinitionError(f'{title}: there are no designs; give arrays with a value for each, over={{"{example}": array}}.')
+        if len(set(sizes.values())) > 1 or any(len({part.size for part in parts if part.ndim}) > 1 for parts in columns.values()):
+            said = ", ".join(f"{name} {' '.join(str(part.size) for part in parts)}" for name, parts in columns.items())
+            raise DefinitionError(f"{title}: all arrays are to have one length; theirs are {said}.")
+        check_once(machine, columns)
+        found = cls(columns, max(sizes.values()))
+        for start, stop in found.ranges(LOOKED_AT):
+            found._check(machine, start, stop)
+        return found
+
+    def _check(self, machine: Mechanism, start: int, stop: int) -> None:
+        """Raise DefinitionError for a value that a dimension cannot take, with the design where it stands."""
+        for name, parts in self.columns.items():
+            for part in parts:
+                bad = np.flatnonzero(~np.isfinite(cut(part, start, stop)))
+                if bad.size:
+                    where = f"{name} of design {start + bad[0]} is {np.ravel(cut(part, start, stop))[bad[0]]}"
+                    raise DefinitionError(f"{machine.plan.title}: {where}; a finite number is expected.")
+        try:
+            machine.replaced(**self.rows(start, stop))
+        except DefinitionError as error:
+            raise DefinitionError(f"Designs {start} to {stop - 1}: {error}") from None
+
+    def ranges(self, size: int) -> Iterator[tuple[int, int]]:
+        """Yield ranges of at most so many designs, each from start to before stop."""
+        for start in range(0, self.count, size):
+            yield start, min(start + size, self.count)
+
+    def rows(self, start: int, stop: int) -> Rows:
+        """Return the dimensions of the designs from start to before stop."""
+        found = {name: tuple(cut(part, start, stop) for part in parts) for name, parts in self.columns.items()}
+        return {name: parts if len(parts) > 1 else parts[0] for name, parts in found.items()}
+
+    @property
+    def width(self) -> int:
+        """How many numbers a design has."""
+        return sum(part.ndim for parts in self.columns.values() for part in parts)
+
+    def digests(self) -> dict[str, str]:
+        """Return a word for the values of each dimension."""
+        found = {}
+        for name, parts in self.columns.items():
+            word = blake2b(digest_size=16)
+            for part in parts:
+                for start, stop in self.ranges(LOOKED_AT):
+                    word.update(cut(part, start, stop).tobytes())
+            found[name] = word.hexdigest()
+        return found
+
+
+def columns_of(machine: Mechanism, name: str, value: Any) -> tuple[Array, ...]:
+    """Return the array of a dimension, or the two of a point."""
+    _ = machine[name]  # raises for a name that is none
+    if name in machine.plan.table.spellings:
+        return (column(machine, name, value, 1),)
+    try:
+        x, y = value
+    except (TypeError, ValueError):
+        raise DefinitionError(f"{machine.plan.title}: {name} is a point and takes a pair of arrays, {name}=(xs, ys) in m.") from None
+    return column(machine, name, x, 0), column(machine, name, y, 0)
+
+
+def column(machine: Mechanism, name: str, value: Any, least: int) -> Array:
+    """Return an array of one dimension, or of at least so many, as it is given."""
+    try:
+        found = np.asarray(value)
+    except ValueError:
+        found = np.array(None)
+    if found.dtype.kind not in "fiu" or not least <= found.ndim <= 1:
+        given = f"shape {found.shape}, {found.dtype}" if isinstance(value, np.ndarray) else repr(value)[:60]
+        raise DefinitionError(f"{machine.plan.title}: {name} is {given}; an array (m,) of numbers is expected, a value for each design.")
+    return found
+
+
+def check_once(machine: Mechanism, names: Mapping[str, Any]) -> None:
+    """Raise DefinitionError where two names stand for one dimension."""
+    seen: dict[str, str] = {}
+    for name in names:
+        for owner in machine._owners(name):
+            if owner in seen:
+                raise DefinitionError(f"{machine.plan.title}: {seen[owner]} and {name} both set {owner}; leave one of them out.")
+            seen[owner] = name
+
+
+def cut(part: Array, start: int, stop: int) -> npt.NDArray[np.float64]:
+    """Return a part of an array; a number as it is."""
+    return np.ascontiguousarray(part[start:stop], float) if part.ndim else np.asarray(part, float)

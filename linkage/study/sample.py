@@ -1,0 +1,43 @@
+"""Points spread evenly over a unit cube: by a Sobol sequence or a Latin hypercube."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..program import FloatArray
+
+METHODS = ("sobol", "latin")
+
+
+def unit_points(count: int, k: int, method: str, seed: int) -> FloatArray:
+    """Return points (count, k) of [0, 1); the same for the same seed. A Sobol sequence is evenest where count is a power of two."""
+    if isinstance(count, bool) or not isinstance(count, int) or count < 1:
+        raise DefinitionError(f"count={count!r}: a whole number of designs is expected, at least 1.")
+    if method not in METHODS:
+        raise DefinitionError(f'method={method!r}: say "sobol" or "latin".')
+    if not k:
+        return np.empty((count, 0))
+    return sobol(count, k, seed) if method == "sobol" else latin(count, k, seed)
+
+
+def sobol(count: int, k: int, seed: int) -> FloatArray:
+    """Return the first points (count, k) of a scrambled Sobol sequence."""
+    from scipy.stats import qmc
+
+    engine: Any = qmc.Sobol(k, seed=np.random.default_rng(seed))
+    power = count.bit_length() - 1
+    points = engine.random_base2(power)
+    rest = count - (1 << power)
+    found: FloatArray = np.concatenate([points, engine.random(rest)]) if rest else points
+    return found
+
+
+def latin(count: int, k: int, seed: int) -> FloatArray:
+    """Return a Latin hypercube (count, k): every coordinate has one point in each of count equal intervals."""
+    from scipy.stats import qmc
+
+    found: FloatArray = qmc.LatinHypercube(k, seed=np.random.default_rng(seed)).random(count)
+    return found

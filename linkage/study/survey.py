@@ -1,0 +1,120 @@
+"""A survey: many designs, each measured by itself, by one process or by the workers of any executor."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from ..errors import DefinitionError, unknown
+from ..mechanism import Mechanism
+from .asked import one_design
+from .batch import Batch, Measure, Task
+from .designs import Array, Designs
+from .progress import Progress, shown
+from .run import Here, Run, Submits
+from .shelf import Shelf
+
+SMALLEST, LARGEST, PARTS = 64, 2048, 64
+
+
+@dataclass(frozen=True, eq=False)
+class Survey(Mapping[str, Array]):
+    """What was measured: `found["travel"]`, shape (m,), for each name that `measure` gave.
+
+    `batches` are the batches in the order in which they came: start, stop, seconds, cpu, and kept for those from the folder.
+    """
+
+    machine: Mechanism
+    designs: Designs
+    results: Mapping[str, Array]
+    batches: tuple[Batch, ...]
+
+    def __getitem__(self, name: str) -> Array:
+        if name not in self.results:
+            raise unknown("Result", name, self.results, where=f"the survey of {self.machine.plan.title}")
+        return self.results[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.results
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.results)
+
+    def __len__(self) -> int:
+        return len(self.results)
+
+    def design(self, number: int) -> Mechanism:
+        """Return the machine of one design, by its number: `found.design(found["travel"].argmax())`."""
+        if not 0 <= number < self.designs.count:
+            raise DefinitionError(f"{self.machine.plan.title}: there is no design {number}; numbers go from 0 to {self.designs.count - 1}.")
+        rows = self.designs.rows(int(number), int(number) + 1)
+        one = {name: tuple(float(part.flat[0]) for part in value) if isinstance(value, tuple) else value[0] for name, value in rows.items()}
+        return self.machine.replaced(**one)
+
+    def __repr__(self) -> str:
+        new = [batch for batch in self.batches if not batch.kept]
+        kept = sum(batch.stop - batch.start for batch in self.batches if batch.kept)
+        said = f"{self.machine.plan.title}: {', '.join(self.results)} of {self.designs.count} designs, {len(new)} batches"
+        said += f" of {min(batch.seconds for batch in new):.2g} to {max(batch.seconds for batch in new):.2g} s" if new else ""
+        return said + (f", {kept} designs from the folder" if kept else "")
+
+
+def survey(
+    machine: Mechanism,
+    over: Mapping[str, Any],
+    measure: Measure,
+    *,
+    executor: Submits | None = None,
+    folder: str | os.PathLike[str] | None = None,
+    progress: bool | Progress = False,
+    backend: str = "numpy",
+    piece: int | None = None,
+) -> Survey:
+    """Return what `measure` gives for many designs: `survey(hitch, {"OB": array, "M": (xs, ys)}, measure)["travel"]`, shape (m,).
+
+    `over` are dimensions by name [SI], each an array (m,). `measure(machine)` is called with some designs at a time, in arrays, and
+    returns numbers or truth values for each of them, arrays (designs,) by name; what it returns for a design must not depend on
+    the others.
+
+    `executor` is anything with `submit`: a pool of `concurrent.futures`, `distributed.Client(...).get_executor()`; without one
+    this process does the work. Batches go out that take some tenths of a second, a few for each worker. A batch whose worker was lost
+    is sent again. With `folder` finished batches are kept there, and the same call goes on where another one stopped.
+    `progress=True` shows a bar on stderr; a function is called with (done, total) designs.
+
+    The results are the same to the last bit whoever does the work, on processors of one kind with the same libraries and
+    OMP_NUM_THREADS: designs are measured `piece` at a time (by default 64 to 2048, by their number alone), and all on one
+    back end, "numpy" or "numba".
+
+    Raises DefinitionError for designs or results that cannot be, or a folder of another study; StudyError where measure fails, naming
+    the designs, and where the executor breaks.
+    """
+    one_design(machine)
+    designs = Designs.of(machine, over)
+    task = Task(machine, measure, piece_of(machine, designs.count, piece), backend_of(backend))
+    if not callable(measure):
+        raise DefinitionError(f"{machine.plan.title}: measure={measure!r:.60}: a function of a mechanism is expected.")
+    if executor is not None and not callable(getattr(executor, "submit", None)):
+        raise DefinitionError(f"executor={executor!r:.60} has no submit; give a pool of concurrent.futures or client.get_executor().")
+    shelf = None if folder is None else Shelf.of(folder, task, designs)
+    with shown(progress, machine.plan.heading) as tell:
+        run = Run(task, designs, executor or Here(), shelf, tell)
+        run.go()
+    return Survey(machine, designs, run.values, tuple(run.batches))
+
+
+def piece_of(machine: Mechanism, count: int, given: int | None) -> int:
+    """Return how many designs are measured at a time: by their number alone, so that results do not depend on who does the work."""
+    if given is None:
+        return min(max(-(-count // PARTS), SMALLEST), LARGEST)
+    if isinstance(given, bool) or not isinstance(given, int) or given < 1:
+        raise DefinitionError(f"{machine.plan.title}: piece={given!r}: a whole number of designs is expected, at least 1.")
+    return given
+
+
+def backend_of(name: str) -> str:
+    """Return the back end by its name; DefinitionError where it is none that many designs can be left to."""
+    if name not in ("numpy", "numba"):
+        raise DefinitionError(f'backend={name!r}: say "numpy" or "numba".')
+    return name

@@ -1,0 +1,127 @@
+"""Mistakes that one makes on the first day: each is told by name, with what to write instead."""
+
+import re
+
+import numpy as np
+import pytest
+
+import linkage
+from linkage import LEFT, AssemblyError, Crank, DefinitionError, Dyad, Ground, Mechanism, Pin, Stroke, deg
+
+NAMES = {name: value for name, value in vars(linkage).items() if not name.startswith("_")}
+
+CRANK = '''
+    phi = Stroke(0, 360 * deg)
+    O = Ground(0, 0)
+    rail = Guide((0, 0), angle=0)
+    A = Crank(O, OA=0.1, angle=phi)
+    C = Pin(near=(0.4, 0))
+    rod = Link("A C", AC=0.3)
+    shoe = Slide("C", rail)
+    load = Weight(C, mass=10)
+    G = OnLink(A, C, AG=0.1, CAG=30 * deg)
+'''
+
+
+def made(text):
+    """Return the class of some lines."""
+    names = dict(NAMES)
+    exec(f"class Machine(Mechanism):{text}", names)
+    return names["Machine"]
+
+
+def test_the_lines_are_a_machine():
+    assert made(CRANK)().sweep(5).reached.all()
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "words"),
+    [
+        ("Stroke(0, 360 * deg)", "Stroke(0, 360)", "is an angle in radians, 57.3 turns; write Stroke(0 * deg, 360 * deg)"),
+        ("CAG=30 * deg", "CAG=-30", "the angle CAG=-30 rad is more than a full turn; write -30 * deg"),
+        ("angle=0)", "angle=90)", "the angle rail.angle=90 rad is more than a full turn; write 90 * deg"),
+        ("Pin(near=(0.4, 0))", "Pin(0.4, 0)", "Pin(0.4, 0): say near=(x, y) for a place in a sketch"),
+        ('Slide("C", rail)', 'Slide("C", "rial")', "Name 'rial' is unknown in Machine.shoe. Did you mean rail?"),
+        ('Slide("C", rail)', 'Slide("C", O)', "shoe = Slide(C, O): O is not a guide"),
+        ('Slide("C", rail)', 'Slide("rail", rail)', "shoe = Slide(rail, rail): rail is not a point"),
+        ('Link("A C", AC=0.3)', 'Link("A D", AD=0.3)', "Name 'D' is unknown in Machine.rod"),
+        ('Link("A C", AC=0.3)', 'Link("A rail", AC=0.3)', "rail is not a point"),
+        ('Link("A C", AC=0.3)', 'Link("A C", AB=0.3)', "the label 'AB' does not fit its points; valid labels: AC/CA"),
+        ('Link("A C", AC=0.3)', 'Link("AC", AC=0.3)', 'a link joins at least two points; write them apart, Link("O B")'),
+        ('Link("A C", AC=0.3)', 'Link("A C", AC="0.3")', "Machine.rod: '0.3' stands where a number"),
+        ("mass=10", "mass=-10", "Weight: mass=-10 is negative"),
+        ("Weight(C, mass=10)", "Weight('C', mass=-10)", "Weight(C, mass=-10): mass=-10 is negative"),
+        ("Weight(C, mass=10)", "Weight(5, mass=10)", "Machine.load: 5 stands where a point or its name is expected"),
+    ],
+)  # fmt: skip
+def test_a_wrong_word_in_a_class(right, wrong, words):
+    assert right in CRANK
+    with pytest.raises(DefinitionError, match=re.escape(words)) as caught:
+        made(CRANK.replace(right, wrong))
+    assert len(str(caught.value)) < 200
+
+
+def test_a_name_that_is_bound_twice():
+    with pytest.raises(DefinitionError, match="is used before it has a name, or its name is bound twice"):
+
+        class Twice(Mechanism):
+            S = Stroke(0.0, 0.2)
+            A, O = Ground(0.0, 0.0), Ground(0.7, 0.0)
+            B = Dyad(A, O, AB=0.6 + S, OB=0.3, side=LEFT)
+            A = Ground(0.1, 0.0)
+
+
+def test_points_may_be_listed_with_commas():
+    commas = made(CRANK.replace('Link("A C", AC=0.3)', 'Link("A, C", AC=0.3)'))
+    assert str(commas.plan) == str(made(CRANK).plan)
+
+
+class FourBar(Mechanism):
+    phi = Stroke(0, 360 * deg)
+    O, C = Ground(0, 0), Ground(4, 0)
+    A = Crank(O, OA=1, angle=phi)
+    B = Dyad(A, C, AB=3, CB=2.5, side=LEFT)
+
+
+@pytest.mark.parametrize(
+    ("ask", "words"),
+    [
+        (lambda: FourBar(phi=1.0), "phi is a stroke; give it to sweep(phi=...) or at(phi=...)"),
+        (lambda: FourBar().sweep(1.5), "sweep(1.5): a whole number of poses is expected; for a value write at(phi=1.5)"),
+        (lambda: FourBar().sweep(True), "sweep(True): a whole number of poses is expected"),
+        (lambda: made("\n    A = Ground(0, 0)")().sweep(3), "Machine has no stroke, so there is nothing to sweep"),
+    ],
+)
+def test_a_wrong_word_to_a_design(ask, words):
+    with pytest.raises(DefinitionError, match=re.escape(words)):
+        ask()
+
+
+def test_a_count_from_numpy_is_a_count():
+    assert FourBar().sweep(np.int64(3)).shape == (3,)
+
+
+def test_a_sketch_out_of_reach_tells_what_is_missing():
+    said = r"Short: B cannot be assembled at the sketch \(S = 0 m\): AB \+ OB = 0\.6 m is 100 mm short of AO"
+    with pytest.raises(AssemblyError, match=said) as caught:
+
+        class Short(Mechanism):
+            S = Stroke(0.0, 0.2)
+            A, O = Ground(0.0, 0.0), Ground(0.7, 0.0)
+            B = Dyad(A, O, AB=0.3 + S, OB=0.3, near=(0.3, 0.1))
+
+    assert caught.value.shortfall == pytest.approx(0.1)
+    assert "or say drawn(...) with other strokes" in str(caught.value)
+
+
+def test_a_crank_of_a_few_turns_is_no_mistake():
+    class Screw(Mechanism):
+        phi = Stroke(0, 14 * np.pi)
+        O = Ground(0, 0)
+        A = Crank(O, OA=1, angle=phi)
+        P = Pin(near=(0, 1))
+        rod = linkage.Link("A P", AP=1.2)
+        post = linkage.Guide((0, 0), angle=90 * deg)
+        shoe = linkage.Slide("P", post)
+
+    assert Screw().sweep(29).reached.all()

@@ -1,0 +1,173 @@
+"""What a picture runs over and follows: the stroke that moves, those held, and the table with its forces."""
+
+from math import pi
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from linkage import LEFT, RIGHT, Column, Crank, DefinitionError, Dyad, Ground, Mechanism, OnLink, Stroke, Weight
+from linkage.animate.course import course
+from linkage.animate.stage import Stage
+from linkage.draw import curves, poses
+from linkage.page.chart import chart
+from linkage.report import results, run_of
+from linkage.statics import driving_force
+from mechanisms.classics.front_loader import FrontLoader
+from mechanisms.classics.scotch_yoke import ScotchYoke
+from mechanisms.mower_lift import MowerLift
+
+
+class Lever(Mechanism):
+    """A lever on a cylinder, with a load."""
+
+    S = Stroke(0.5, 0.7)
+    A, O = Ground(0.0, 0.0), Ground(0.6, 0.0)
+    B = Dyad(A, O, AB=S, OB=0.2, side=RIGHT)
+    G = OnLink(O, B, OG=1.0)
+    load = Weight(G, mass=100)
+
+
+class Crankshaft(Mechanism):
+    """A weight on a crank."""
+
+    phi = Stroke(0.0, 2 * pi)
+    O = Ground(0, 0)
+    A = Crank(O, OA=0.5, angle=phi)
+    load = Weight(A, mass=10)
+
+
+class TwoCranks(Crankshaft):
+    """A second crank on the first."""
+
+    psi = Stroke(0.0, pi)
+    B = Crank("A", AB=0.3, angle=psi)
+    load = Weight(B, mass=10)
+
+
+# -- the run -------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("at", "stroke", "ends", "held"),
+    [
+        ({}, "lift", (0.0, 0.6), {"tilt": 0.175}),
+        (dict(tilt=0.1), "lift", (0.0, 0.6), {"tilt": 0.1}),
+        (dict(lift=0.1), "tilt", (0.0, 0.35), {"lift": 0.1}),
+        (dict(lift=[0.3, 0.1]), "lift", (0.3, 0.1), {"tilt": 0.175}),
+        (dict(lift=0.2, tilt=(0.0, 0.1)), "tilt", (0.0, 0.1), {"lift": 0.2}),
+    ],
+)
+def test_a_run_is_of_the_stroke_that_is_left_free(at, stroke, ends, held):
+    run = run_of(FrontLoader(), at)
+    assert (run.stroke, (run.start, run.end), run.held) == (stroke, ends, held)
+
+
+@pytest.mark.parametrize(
+    ("at", "words"),
+    [
+        (dict(lift=0.1, tilt=0.1), "every stroke is held.*give lift two values"),
+        (dict(lift=(0.1, 0.2), tilt=(0.1, 0.2)), "lift and tilt have two values each"),
+        (dict(boom=0.1), "Stroke 'boom' is unknown"),
+        (dict(lift=(0.1, 0.1)), "two different ones"),
+        (dict(lift=(0.1, 0.2, 0.3)), "one number holds a stroke"),
+        (dict(lift="far"), "one number holds a stroke"),
+        (dict(lift=float("nan")), "one number holds a stroke"),
+    ],
+)
+def test_a_run_that_cannot_be_is_refused(at, words):
+    with pytest.raises(DefinitionError, match=words):
+        run_of(FrontLoader(), at)
+
+
+def test_a_motion_is_no_mechanism():
+    motion = Lever().sweep(3)
+    for draw in (lambda: poses(motion), lambda: course(motion, 5)):
+        with pytest.raises(DefinitionError, match=r"<Motion of Lever.* is no mechanism"):
+            draw()
+
+
+def test_an_animation_runs_where_it_is_asked_to():
+    run = course(FrontLoader(), 5, at=dict(lift=(0.1, 0.3), tilt=0.05))
+    assert_allclose(run.motion.strokes["lift"][[0, 2, 4]], [0.1, 0.2, 0.3])
+    assert_allclose(run.motion.strokes["tilt"], 0.05)
+
+
+# -- the table -----------------------------------------------------------------------------------------------
+
+
+def test_a_machine_with_loads_shows_what_its_drives_must_do():
+    motion = Lever().sweep(5)
+    *others, thrust = results(Lever(), motion)
+    assert [column.name for column in others] == [column.name for column in Lever().columns(motion)]
+    assert (thrust.heading, thrust.values.shape) == ("thrust, kN", (5,))
+    lever = 0.6 * 0.2 * np.sin(motion.angle("O", "B") - pi) / motion.strokes["S"]
+    assert_allclose(thrust.values * lever, 100 * 9.80665 * (motion.x("G") - 0.6), rtol=1e-12)
+
+
+def test_a_crank_shows_its_torque_and_several_drives_their_names():
+    motion = Crankshaft().sweep(9)
+    torque = results(Crankshaft(), motion)[-1]
+    assert torque.heading == "torque, Nm"
+    assert_allclose(torque.values, 98.0665 * 0.5 * np.cos(motion.strokes["phi"]), atol=1e-12)
+    grid = TwoCranks().sweep(phi=3, psi=4)
+    assert [column.name for column in results(TwoCranks(), grid)[-2:]] == ["torque_phi", "torque_psi"]
+    assert_allclose(results(TwoCranks(), grid)[-1].values, driving_force(grid, drive="psi"))
+
+
+def test_a_dead_point_leaves_a_gap_in_the_thrust_and_not_in_the_table():
+    reach = 0.8 - 1e-15
+    motion = Lever().at(S=[0.6, reach])
+    thrust = results(Lever(), motion)[-1]
+    assert np.isfinite(thrust.values[0]) and np.isnan(thrust.values[1])
+
+
+def test_a_machine_without_loads_or_with_a_table_of_its_own_keeps_it():
+    for machine in (FrontLoader(), MowerLift()):
+        motion = machine.at(**{name: stroke.start for name, stroke in machine.strokes.items()})
+        assert [column.name for column in results(machine, motion)] == [column.name for column in machine.columns(motion)]
+
+
+def test_curves_go_by_name():
+    motion = FrontLoader().sweep(lift=5, tilt=0.1)
+    figure = curves(motion, ["boom", "N_y"])
+    assert [ax.get_title(loc="left") for ax in figure.axes] == ["boom, deg", "N_y, m"]
+    assert_allclose(figure.axes[0].lines[0].get_ydata(), np.degrees(motion["boom"]))
+    with pytest.raises(DefinitionError, match=r"Column 'bom' is unknown in FrontLoader\. Did you mean boom"):
+        curves(motion, ["bom"])
+
+
+# -- numbers that are zero -----------------------------------------------------------------------------------
+
+
+def test_rounding_noise_is_drawn_as_zero():
+    values = np.array([3e-18, 0.5, -0.2, np.nan])
+    assert_allclose(Column("x", values, "m").drawn, [0.0, 0.5, -0.2, np.nan], rtol=0)
+    assert (Column("x", values[:1], "m").drawn == 0.0).all()
+    assert_allclose(Column("x", values[:1]).drawn, values[:1])  # a plain number has no unit to be small in
+    assert_allclose(Column("x", values, "m").shown, values)
+
+
+def test_a_yoke_in_the_middle_stands_at_zero():
+    run = course(ScotchYoke(), 5, "travel")
+    stage = Stage(run, [], None, 50)
+    stage.frame(1)
+    assert stage.value.get_text() == "0.00000"
+    assert stage.run.get_ydata()[-1] == 0.0
+    stage.frame(2)
+    assert stage.value.get_text() == "\N{MINUS SIGN}0.05000"
+    flat = course(ScotchYoke(), 9, "X_y")
+    assert chart(flat.motion, flat.column, None)["range"] == [-1.0, 1.0]
+    (ax,) = curves(flat.motion, [flat.column]).axes
+    assert ax.get_ylim() == (-1.0, 1.0)
+
+
+def test_a_part_of_a_turn_goes_there_and_back():
+    class FourBar(Mechanism):
+        phi = Stroke(0.0, 2 * pi)
+        O, C = Ground(0, 0), Ground(4, 0)
+        A = Crank(O, OA=1, angle=phi)
+        B = Dyad(A, C, AB=3, CB=2.5, side=LEFT)
+
+    assert course(FourBar(), 9).is_turn
+    assert not course(FourBar(), 9, at=dict(phi=(0.0, 3.0))).is_turn

@@ -1,0 +1,164 @@
+"""Every shipped machine as a file: the same plan, positions, forces and pressures to the last bit; the commands take such files."""
+
+from importlib.metadata import entry_points
+
+import numpy as np
+import pytest
+
+from hydraulics import FloatCircuit, LiftCircuit
+from linkage import ForceElement, driving_force, pin_forces
+from linkage.cli import main
+from linkage.files import left_out, load, save, to_json, to_toml
+from linkage.units import kgf_cm2
+from mechanisms.header_balancer import HEADERS, HeaderBalancer, with_header
+from mechanisms.mower_lift import MowerLift
+from mechanisms.three_point_hitch import HitchCategory1, HitchCategory2, ThreePointHitch
+
+SHIPPED = {point.name: point.load() for point in entry_points(group="hydrolinkage.machines")}
+CLASSES = SHIPPED | {"hitch 1": HitchCategory1, "hitch 2": HitchCategory2}
+DESIGNS = {f"header {number}": with_header(number, n=1.4) for number in HEADERS} | {
+    "hitch": ThreePointHitch(**{"OB": 0.32, "M": (0.22, 0.95), "KFG": 1.2, "load.mass": 1500.0, "lift.bore": 0.1, "circuit.flow": 0.002}),
+    "mower": MowerLift(BOG=1.88, weight=8000.0, bore=0.09, p_max=200 * kgf_cm2),
+    "no atmosphere": HeaderBalancer(**{"atmosphere": 0.0, "pin_O.coefficient": 0.15, "P_I": 40 * kgf_cm2}),
+}
+LOADED = [name for name, machine in CLASSES.items() if machine.plan.of_kind(ForceElement)]
+
+
+def positions(design):
+    """Return every named value over the strokes, 5 poses of each."""
+    axes = {name: np.linspace(stroke.start, stroke.end, 5) for name, stroke in design.strokes.items()}
+    motion = design.at(unreachable="nan", **axes)
+    return [motion[name] for name in design.plan.named()]
+
+
+def forces(design):
+    """Return drive forces, joint forces and pressures over the stroke, in each direction."""
+    motion = design.sweep(7)
+    found = [driving_force(motion, direction=direction) for direction in ("frictionless", "extending", "retracting")]
+    found += [part for each in pin_forces(motion, direction="extending").joints for part in (each.force, each.couple)]
+    found += [each.pressure(motion) for each in design.plan.of_kind(FloatCircuit).values()]
+    found += [each.pressure_for(motion, found[0]) for each in design.plan.of_kind(LiftCircuit).values()]
+    return found
+
+
+def same(first, second):
+    """Return whether two lists of arrays are the same to the last bit."""
+    return all(np.array_equal(one, two, equal_nan=True) for one, two in zip(first, second, strict=True))
+
+
+def test_machines_with_loads_are_among_them():
+    assert {"three_point_hitch", "mower_lift", "header_balancer", "hitch 1", "hitch 2"} <= set(LOADED)
+
+
+@pytest.mark.parametrize("write", [to_toml, to_json])
+@pytest.mark.parametrize("name", CLASSES)
+def test_class_comes_back(name, write):
+    machine = CLASSES[name]
+    back = load(write(machine))
+    assert str(back.plan) == str(machine.plan)
+    assert back.plan.defaults == machine.plan.defaults
+    assert same(positions(back()), positions(machine()))
+    assert write(back) == write(machine)
+
+
+@pytest.mark.parametrize("write", [to_toml, to_json])
+@pytest.mark.parametrize("name", LOADED)
+def test_forces_and_pressures_come_back(name, write):
+    machine = CLASSES[name]
+    assert same(forces(load(write(machine))()), forces(machine()))
+
+
+@pytest.mark.parametrize("write", [to_toml, to_json])
+@pytest.mark.parametrize("name", DESIGNS)
+def test_design_comes_back(name, write):
+    design = DESIGNS[name]
+    back = load(write(design))()
+    assert back.dimensions == design.dimensions
+    assert same(positions(back), positions(design))
+    assert same(forces(back), forces(design))
+    assert not same(forces(back), forces(type(design)()))
+    assert write(type(back)) == write(design)
+
+
+def test_what_a_file_leaves_out_is_known():
+    assert left_out(ThreePointHitch) == ("__init__", "admissible", "columns", "verdicts")
+    assert left_out(HeaderBalancer) == left_out(MowerLift) == ("__init__", "columns", "verdicts")
+    assert not any(left_out(machine) for name, machine in SHIPPED.items() if not machine.plan.of_kind(ForceElement))
+
+
+# -- commands on files -------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch, capsys):
+    """Return a function that runs a command in a folder with a file of each machine, and what it says."""
+    monkeypatch.chdir(tmp_path)
+    for name, machine in {"hitch.toml": ThreePointHitch, "small.json": HitchCategory1, "balancer.toml": HeaderBalancer}.items():
+        save(machine, name)
+
+    def runs(*arguments):
+        code = main(list(arguments))
+        out, err = capsys.readouterr()
+        return code, out, err
+
+    return runs
+
+
+@pytest.mark.parametrize(
+    ("command", "name", "machine"),
+    [
+        (("capacity", "--count", "3", "--pins"), "hitch.toml", "three_point_hitch"),
+        (("capacity", "--count", "4"), "small.json", "mechanisms.three_point_hitch:HitchCategory1"),
+        (("balance", "--count", "3"), "balancer.toml", "header_balancer"),
+        (("balance", "--header", "1", "--reaction", "300kgf", "--set", "n=1.4"), "balancer.toml", "header_balancer"),
+    ],
+)
+def test_command_says_of_a_file_what_it_says_of_the_class(run, command, name, machine):
+    first, *options = command
+    assert run(first, name, *options) == run(first, machine, *options)
+
+
+def test_plain_commands_take_the_files(run):
+    for name in ("hitch.toml", "small.json", "balancer.toml"):
+        code, out, err = run("show", name)
+        assert (code, err) == (0, "")
+        assert "lift = Cylinder(A, B, bore=" in out
+        code, out, err = run("table", name, "--count", "3")
+        assert (code, err, len(out.splitlines())) == (0, "", 4)
+        assert run("plot", name, "-o", "picture.png", "--count", "11")[0] == 0
+        assert run("animate", name, "-o", "page.html", "--count", "5")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("command", "words"),
+    [
+        (("capacity", "balancer.toml"), "balancer.toml is no three-point hitch: it has no S, L0, E, M, C and 33 more; take a"),
+        (("balance", "hitch.toml"), "hitch.toml is no balanced header: it has no h, "),
+        (("capacity", "small.json", "--zones"), "a file holds no admissible settings"),
+        (("capacity", "small.json", "--figure", "zones"), "a file holds no admissible settings"),
+        (("balance", "balancer.toml", "--table"), "--table goes with header_balancer and its headers"),
+        (("capacity", "hitch.toml", "--category", "1"), "hitch.toml has dimensions of its own"),
+    ],
+)
+def test_what_a_file_cannot_give_is_said(run, command, words):
+    code, out, err = run(*command)
+    assert (code, out) == (2, "")
+    assert words in err
+
+
+def test_file_that_lacks_a_dimension_is_no_hitch(run, tmp_path):
+    text = (tmp_path / "hitch.toml").read_text(encoding="utf-8")
+    (tmp_path / "hitch.toml").write_text(text.replace("mass = 2000", 'mass = "vehicle_mass / 4"'), encoding="utf-8")
+    assert "it has no load.mass; take a" in run("capacity", "hitch.toml")[2]
+
+
+def test_save_says_what_is_left_out(run):
+    code, out, err = run("save", "three_point_hitch", "own.toml", "--set", "OB=320mm", "--set", "load.mass=1t")
+    assert (code, err) == (0, "")
+    assert out == (
+        "own.toml: the linkage with 22 members.\n"
+        "Not in it, since a file holds no functions of a class: __init__, admissible, columns, verdicts.\n"
+    )
+    assert load("own.toml")().dimensions == ThreePointHitch(**{"OB": 0.32, "load.mass": 1000.0}).dimensions
+    assert run("save", "klann", "klann.json") == (0, f"klann.json: the linkage with {len(SHIPPED['klann'].plan.members)} members.\n", "")
+    assert "ends in .toml or .json" in run("save", "klann", "klann.xml")[2]

@@ -1,0 +1,103 @@
+"""Trains of more than four links: published angles to 16 digits, a radial engine, a rod through its change points."""
+
+import numpy as np
+from numpy.testing import assert_allclose
+
+from linkage import (
+    LEFT,
+    RIGHT,
+    Crank,
+    Dyad,
+    Ground,
+    Guide,
+    Link,
+    Mechanism,
+    Offset,
+    OnLink,
+    SliderDyad,
+    Spring,
+    Stroke,
+    Vector,
+    Weight,
+    deg,
+    driving_force,
+)
+from tests.mechanisms.free_bodies import slope
+
+TURN = 2 * np.pi
+
+
+def radial(pistons=5):
+    """Return a radial engine's class: a master rod that carries the pins of the articulated rods."""
+    line, O = Guide((0, 0), angle=90 * deg), Ground(0, 0)
+    body = {"phi": Stroke(0, TURN), "O": O, "A": Crank("O", OA=0.06, angle="phi"), "line0": line}
+    body["P0"] = SliderDyad("A", "line0", AP0=0.25, side=RIGHT)
+    for k in range(1, pistons):
+        body[f"K{k}"] = OnLink("A", "P0", **{f"AK{k}": 0.05, f"P0AK{k}": 72 * k * deg})
+        body[f"line{k}"] = Guide((0, 0), angle=(72 * k - 270) * deg)
+        body[f"P{k}"] = SliderDyad(f"K{k}", f"line{k}", **{f"K{k}P{k}": 0.2, "side": RIGHT})
+    return type("Radial", (Mechanism,), body)
+
+
+def test_radial_engine_in_complex_numbers():
+    motion = radial()().sweep(25)
+    A = 0.06 * np.exp(1j * motion.strokes["phi"])
+    rod = 1j * (A.imag + np.sqrt(0.25**2 - A.real**2)) - A
+    for k in range(1, 5):
+        out = np.exp(1j * (72 * k - 270) * deg)
+        pin = (A + 0.2 * rod * np.exp(1j * 72 * k * deg)) * out.conjugate()
+        reach = pin.real + np.sqrt(0.2**2 - pin.imag**2)
+        assert_allclose(motion[f"P{k}"], [(reach * out).real, (reach * out).imag], rtol=0, atol=1e-15)
+
+
+START = -0.0617138900142764496358948458001
+
+
+class Squeezer(Mechanism):
+    """Andrews' squeezing mechanism, seven bodies. The points are those of its benchmark."""
+
+    beta = Stroke(START, START + TURN)
+    O, A, B, C = Ground(0, 0), Ground(-0.06934, -0.00227), Ground(-0.03635, 0.03273), Ground(0.014, 0.072)
+    F = Crank(O, OF=0.007, angle=beta)
+    E = Dyad(F, B, FE=0.028, BE=0.035, side=LEFT)
+    G = Dyad(E, A, EG=0.02, AG=0.04, side=RIGHT)
+    H = Dyad(E, A, EH=0.02, AH=0.04, side=LEFT)
+    D = OnLink(B, E, BD=np.hypot(0.018, 0.02), EBD=np.pi / 2 - np.arctan2(0.018, 0.02))
+    spring = Spring(C, D, stiffness=4530, free_length=0.07785)
+
+
+def test_andrews_squeezing_mechanism():
+    """Consistent initial angles to 16 digits: Hairer, Wanner, Solving Ordinary Differential Equations II, VII.7."""
+    pose = Squeezer().at(beta=START)
+    gamma, delta, epsilon = 0.455279819163070380255912382449, 0.487364979543842550225598953530, 1.23054744454982119249735015568
+    assert_allclose(pose.angle("B", "E"), gamma - np.pi / 2, rtol=1e-14)
+    assert_allclose(pose.angle("A", "G"), delta, rtol=1e-14)
+    assert_allclose(pose.angle("A", "H"), epsilon - np.pi / 2, rtol=1e-14)
+    assert_allclose(pose["E"], -0.021 * np.array([np.cos(START), np.sin(START)]), rtol=1e-14)  # crank and coupler in line
+
+
+def test_the_springs_torque_is_the_slope_of_its_energy():
+    beta = START + np.linspace(0.3, 6.0, 7)
+    energy = lambda b: 0.5 * 4530 * (Squeezer().at(beta=b).distance("C", "D") - 0.07785) ** 2  # noqa: E731
+    assert_allclose(driving_force(Squeezer().at(beta=beta)), slope(energy, beta, 1e-2), rtol=1e-9)
+
+
+class SideRod(Mechanism):
+    """A locomotive's side rod, spelled by its vector: it passes its change points."""
+
+    phi = Stroke(0, 4 * np.pi)
+    O, C = Ground(0, 0), Ground(1, 0)
+    A = Crank(O, OA=0.3, angle=phi)
+    OA = Vector(O, A)
+    B = Offset(C, OA)
+    rod, far = Link(A, B), Link(C, B)
+    M = OnLink(A, B, AM=0.5)
+    load = Weight(M, mass=10)
+
+
+def test_side_rod_goes_through_its_change_points():
+    """At its sketch and in the middle of its strokes all is in line; the mobility is told aside of them."""
+    motion = SideRod().sweep(25)
+    assert SideRod().mobility == 1
+    assert_allclose(motion["B"] - motion["A"], [[1.0] * 25, [0.0] * 25], rtol=0, atol=1e-15)
+    assert_allclose(driving_force(motion), 10 * 9.80665 * 0.3 * np.cos(motion.strokes["phi"]), rtol=0, atol=1e-12)

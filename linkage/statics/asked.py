@@ -24,10 +24,10 @@ class Thrust(Asked):
     loads: Loads = None
     case: Case = None
 
-    def settled(self, plan: Plan) -> Wanted:
+    def settled(self, plan: Plan) -> ThrustOf:
         drive = drive_of(plan, self.drive)
         law = Law.of(plan, self.loads, self.case)
-        return ThrustOf(drive, self, law.key, frozenset(law.names), frozenset(law.carriers))
+        return ThrustOf(self.loads, self.case, drive, law.key, frozenset(law.names), frozenset(law.carriers))
 
 
 def thrust(drive: str | None = None, loads: Loads = None, case: Case = None) -> Thrust:
@@ -39,20 +39,12 @@ def thrust(drive: str | None = None, loads: Loads = None, case: Case = None) -> 
     return Thrust(drive, loads, case)
 
 
-@final
 @dataclass(frozen=True, eq=False)
-class ThrustOf(Wanted):
-    """A thrust settled: its drive, the key of its loads, the members it reads, and those it is differentiated through."""
+class ForceOf(Wanted):
+    """A force settled: it goes through ratios and angles, and is true while the loads keep to the laws that were traced."""
 
-    drive: str
-    asked: Thrust
-    law: tuple[Any, ...]
-    read: frozenset[str]
-    carriers: frozenset[str]
-
-    @property
-    def key(self) -> Any:
-        return "thrust", self.drive, self.law
+    loads: Loads
+    case: Case
 
     @property
     def order(self) -> int:
@@ -66,13 +58,32 @@ class ThrustOf(Wanted):
     def turns(self) -> bool:
         return True
 
+    def notes(self, plan: Plan) -> Notes:
+        return self.laws(plan).notes
+
+    def laws(self, plan: Plan) -> Law:
+        """Return the loads traced on a plan's program."""
+        return Law.on(plan, self.loads, self.case)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class ThrustOf(ForceOf):
+    """A thrust settled: its drive, the key of its loads, the members it reads, and those it is differentiated through."""
+
+    drive: str
+    law: tuple[Any, ...]
+    read: frozenset[str]
+    carriers: frozenset[str]
+
+    @property
+    def key(self) -> Any:
+        return "thrust", self.drive, self.law
+
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        law = Law.on(plan, self.asked.loads, self.asked.case)
+        law = self.laws(plan)
         (force,) = by_work(law.poses, law.loaded, self.drive)
         return (law.motion.node(force),)
-
-    def notes(self, plan: Plan) -> Notes:
-        return Law.on(plan, self.asked.loads, self.asked.case).notes
 
     def names(self, plan: Plan) -> set[str]:
         return set(self.read)
@@ -81,7 +92,7 @@ class ThrustOf(Wanted):
         return set(self.carriers)
 
     def refuse(self, motion: Motion) -> None:
-        driving_force(motion, self.asked.loads, self.drive, case=self.asked.case)
+        driving_force(motion, self.loads, self.drive, case=self.case)
 
     def __str__(self) -> str:
         return f"the thrust of {self.drive}"

@@ -12,9 +12,10 @@ import numpy as np
 
 from ..errors import DefinitionError, SingularWarning, unknown
 from ..loads import ForceElement
-from ..motion import Asked, Motion, Wanted
+from ..motion import Asked, Motion
 from ..plan import Plan
-from ..program import Node, Notes, eliminated
+from ..program import Node, eliminated
+from .asked import ForceOf
 from .balance import Equations
 from .contacts import Contact
 from .forces import pin_forces
@@ -43,14 +44,14 @@ class PinForce(Asked):
     loads: Loads = None
     case: Case = None
 
-    def settled(self, plan: Plan) -> Wanted:
+    def settled(self, plan: Plan) -> PinForceOf:
         if self.component not in COMPONENTS:
             raise unknown("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
         law = Law.of(plan, self.loads, self.case)
         joint, _ = joint_of(Structure(plan, law.loaded.elements), self.point, self.on)
         spans = tuple(span for element in law.loaded.elements for span in element.cylinders())
         length = plan.made(("held", spans), lambda _: held(plan, law.loaded.elements))
-        return PinForceOf(self, (*law.key, spans), length, str(joint))
+        return PinForceOf(self.loads, self.case, self, (*law.key, spans), length, str(joint))
 
 
 def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = None, case: Case = None) -> PinForce:
@@ -64,7 +65,7 @@ def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = 
 
 @final
 @dataclass(frozen=True, eq=False)
-class PinForceOf(Wanted):
+class PinForceOf(ForceOf):
     """A pin force settled: what was asked, the key of its loads, a length of the mechanism [m], and the joint in words."""
 
     asked: PinForce
@@ -76,20 +77,8 @@ class PinForceOf(Wanted):
     def key(self) -> Any:
         return "pin force", self.asked.point, self.asked.on, self.asked.component, self.law
 
-    @property
-    def order(self) -> int:
-        return 1
-
-    @property
-    def may_fail(self) -> bool:
-        return True
-
-    @property
-    def turns(self) -> bool:
-        return True
-
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        law = Law.on(plan, self.asked.loads, self.asked.case)
+        law = self.laws(plan)
         structure, motion = Structure(plan, law.loaded.elements), law.motion
         system = System(structure, law.poses, law.loaded.acting, length=self.length)
         A, l = ([*map(motion.node, row)] for row in system.A[0]), map(motion.node, system.load_rows[0])
@@ -99,14 +88,11 @@ class PinForceOf(Wanted):
         force, _ = Solved(system, u, none, np.zeros(1, bool), []).transmitted(joint.contact)
         return (motion.node(COMPONENTS[self.asked.component](*(sign * force[:, 0]))),)
 
-    def notes(self, plan: Plan) -> Notes:
-        return Law.on(plan, self.asked.loads, self.asked.case).notes
-
     def names(self, plan: Plan) -> set[str]:
         return set(plan.members)
 
     def refuse(self, motion: Motion) -> None:
-        pin_forces(motion, self.asked.loads, case=self.asked.case)
+        pin_forces(motion, self.loads, case=self.case)
 
     def __str__(self) -> str:
         what = "the size" if self.asked.component == "size" else f"the {self.asked.component} component"

@@ -42,7 +42,7 @@ def source(path_or_text: str | os.PathLike[str]) -> Source:
         return decoded(TEXT, encoded, path_or_text.lstrip().startswith("{"))
     path = Path(path_or_text)
     if path.suffix not in (".toml", ".json"):
-        raise FileError(f"{path.name}: the name of a mechanism's file ends in .toml or .json.")
+        raise FileError(f"{shortened(os.fspath(path_or_text), quote=False)}: the name of a mechanism's file ends in .toml or .json.")
     return decoded(path.name, content(path), path.suffix == ".json")
 
 

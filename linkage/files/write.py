@@ -11,7 +11,7 @@ from ..errors import DefinitionError, FileError
 from ..mechanism import Mechanism, declared
 from .design import Design, measured, members_of
 from .json_text import json_text
-from .names import Names
+from .names import Names, shortened
 from .registry import registry
 from .toml_text import toml_text
 
@@ -23,6 +23,8 @@ def to_dict(machine: Machine) -> dict[str, Any]:
 
     Raises DefinitionError for what a file cannot hold: several designs at once, members and functions of unknown kinds.
     """
+    if not isinstance(machine, Mechanism) and not (isinstance(machine, type) and issubclass(machine, Mechanism)):
+        raise DefinitionError(f"{shortened(machine)} is no mechanism; give a class of Mechanism, or a design of one.")
     members = members_of(machine)
     entries = {name: registry().writing(member) for name, member in members.items()}
     sections = {name: entry.section for name, entry in entries.items()}
@@ -75,9 +77,11 @@ def to_json(machine: Machine) -> str:
 def save(machine: Machine, path: str | os.PathLike[str]) -> None:
     """Write a mechanism into a file, TOML or JSON by its ending. FileError where it cannot be written."""
     writers = {".toml": to_toml, ".json": to_json}
+    if not isinstance(path, (str, os.PathLike)):
+        raise FileError(f"a path is expected, not {type(path).__name__}.")
     place = Path(path)
     if place.suffix not in writers:
-        raise FileError(f"{place.name}: the name of a mechanism's file ends in .toml or .json.")
+        raise FileError(f"{shortened(os.fspath(path), quote=False)}: the name of a mechanism's file ends in .toml or .json.")
     text = writers[place.suffix](machine)
     try:
         place.write_text(text, encoding="utf-8", newline="\n")

@@ -129,7 +129,11 @@ class ForceElement(Member):
             found: Array = motion.inputs[key]
             return found
         if isinstance(given, (str, Quantity)):
-            return motion.value(quantity(given))
+            followed = motion.value(quantity(given))
+            if name in self.not_negative and np.any(followed < 0.0):
+                what = f"{self.name or self}: {name} = {written(given)} is negative, {np.nanmin(followed):.6g}"
+                raise DefinitionError(f"{what}; let it follow what stays at or above zero.")
+            return followed
         return np.asarray(given, float)
 
     def position(self, motion: Poses, place: str) -> Array:

@@ -10,7 +10,8 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..plan import Plan
-from ..program import NO_VALUE, QUICKEST, Kernel
+from ..program import NO_VALUE, QUICKEST, FloatArray, Kernel
+from ..quantities import real
 from .bulk import Bulk
 from .grid import Grid
 from .request import Request, all_wanted
@@ -28,7 +29,7 @@ def function_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Reque
     def bulk(strokes: Sequence[float]) -> Bulk:
         if len(strokes) != len(plan.strokes):
             raise DefinitionError(f"{plan.title}: one value for each stroke is expected: {', '.join(plan.strokes)}.")
-        values = {name: np.asarray(value, float) for name, value in zip(plan.strokes, strokes, strict=True)}
+        values = {name: lone(value, name, plan.title) for name, value in zip(plan.strokes, strokes, strict=True)}
         return Bulk(Grid(plan, designs, values), asked, QUICKEST)
 
     def careful(*strokes: float, **named: float) -> tuple[float, ...]:
@@ -38,6 +39,17 @@ def function_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Reque
         return careful
     first = bulk([stroke.start for stroke in plan.strokes.values()])
     return quick(plan, designs, first.kernel, careful, first.may_fail)
+
+
+def lone(value: Any, name: str, title: str) -> FloatArray:
+    """Return a stroke's one value, shape (); DefinitionError for several, and for what is no finite number."""
+    try:
+        found = real(value)
+    except ValueError:
+        found = np.empty(0)
+    if found.size != 1 or not np.isfinite(found).all():
+        raise DefinitionError(f"{title}: the stroke {name}={value!r:.60}: one finite number is expected; evaluate takes arrays.")
+    return found.reshape(())
 
 
 def rest(plan: Plan, count: int, named: Mapping[str, float]) -> list[float]:

@@ -51,9 +51,12 @@ class Outputs(Places):
 
     def value(self, quantity: Quantity) -> FloatArray:
         """Return a quantity over all poses [SI]; angles without jumps along the stroke."""
+        member = self._member(quantity)
+        if not isinstance(member, Quantity):
+            raise DefinitionError(f'{self.plan.title}: {member.name} is no quantity; ask for motion["{member.name}"].')
         with np.errstate(all="ignore"):
-            found = np.broadcast_to(np.asarray(self._outputs.value(quantity), float), self.shape)
-        return self.finite(np.where(self.reached, found, np.nan), np.zeros((), bool), str(quantity.name or quantity))
+            found = np.broadcast_to(np.asarray(self._outputs.value(member), float), self.shape)
+        return self.finite(np.where(self.reached, found, np.nan), np.zeros((), bool), str(member.name or member))
 
     def finite(self, values: FloatArray, excused: Mask, what: str) -> FloatArray:
         """Return values that are finite at every pose reached; NaN where they are not and NaN was asked for."""

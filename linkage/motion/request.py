@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias, final
 
@@ -32,6 +32,7 @@ class Ratio(Asked):
     def settled(self, plan: Plan) -> Value:
         along = (stroke_of(plan, self.wrt),) * self.order if self.order else ()
         if isinstance(self.target, Quantity) and not self.target.name:
+            plan.reaches(self.target)  # raises for a name in it that there is not
             return Value(self.target, along)
         return Value(plan.members[named("Name", self.target, plan.named(), plan.title)], along)
 
@@ -108,6 +109,8 @@ def all_wanted(plan: Plan, requests: Sequence[Request]) -> tuple[Wanted, ...]:
     """Return a list of requests settled; DefinitionError for a lone one, whose letters would be taken for names."""
     if isinstance(requests, (str, Member, Asked)):
         raise DefinitionError(f"{plan.title}: {requests!r}: a list of what is asked for is expected, [{requests!r}].")
+    if not isinstance(requests, Iterable):
+        raise DefinitionError(f'{plan.title}: {requests!r}: a list of what is asked for is expected, such as ["G"].')
     return tuple(wanted(plan, request) for request in requests)
 
 
@@ -124,6 +127,8 @@ def dimensions_of(plan: Plan, names: Sequence[str]) -> list[tuple[str, int]]:
     """Return design variables by any of their spellings, with signs; DefinitionError for what is none of them."""
     if isinstance(names, str):
         raise DefinitionError(f'{plan.title}: wrt="{names}": a list of dimensions is expected, wrt=["{names}"].')
+    if not isinstance(names, Iterable):
+        raise DefinitionError(f"{plan.title}: wrt={names!r}: a list of dimensions is expected.")
     for name in names:
         if f"{name}.x" in plan.table.spellings or f"{name}.y" in plan.table.spellings:
             raise DefinitionError(f'{plan.title}: wrt="{name}": a point has two coordinates; say "{name}.x" or "{name}.y".')

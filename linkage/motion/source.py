@@ -16,6 +16,21 @@ from .wanted import Wanted
 
 WRITERS: Mapping[str, Callable[[Sequence[Node], str, Mapping[str, float]], str]] = {"c": c_text, "javascript": javascript_text}
 
+TAKEN: Mapping[str, str] = {
+    "c": (
+        "auto break case char const continue default do double else enum extern float for goto if inline int long register restrict return"
+        " short signed sizeof static struct switch typedef union unsigned void volatile while main NAN INFINITY"
+        " acos asin atan atan2 ceil cos cosh exp exp2 expm1 fabs floor fma fmax fmin fmod frexp hypot isfinite isinf isnan ldexp log log10"
+        " log1p log2 modf pow remainder rint round signbit sin sinh sqrt tan tanh trunc"
+    ),
+    "javascript": (
+        "arguments await break case catch class const continue debugger default delete do else enum eval export extends false finally for"
+        " function if implements import in instanceof interface let new null package private protected public return static super switch"
+        " this throw true try typeof var void while with yield Math NaN Infinity undefined"
+    ),
+}
+"""The words of each language, and the names of what the text uses: a function called so would not compile, or would hide them."""
+
 
 def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request], language: str, name: str) -> str:
     """Return requests as text in a language; see Mechanism.source."""
@@ -23,6 +38,8 @@ def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request
         raise DefinitionError(f"language={language!r}: say one of {', '.join(WRITERS)}.")
     if not (isinstance(name, str) and name.isascii() and name.isidentifier()):
         raise DefinitionError(f"name={name!r}: a function's name is expected, such as poses.")
+    if name in TAKEN[language].split():
+        raise DefinitionError(f"name={name!r} has a meaning in {language} already; give the function another name, such as poses.")
     if any(np.ndim(value) for value in designs.values()):
         raise DefinitionError(f"{plan.title}: source() states one design; its dimensions are arguments of the text, which serves all.")
     nodes = [node for each in all_wanted(plan, requests) for node in held(plan, each)]

@@ -8,7 +8,7 @@ from functools import cached_property
 from math import pi
 from typing import TypeVar
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, unknown
 from ..graph import Body, ordered
 from ..quantities import Distance, Function, Length, Member, Number, Operation, Quantity, Stroke, Variable, needs, unnamed
 from ..steps import Arrow, Bar, Drawn, Ground, Group, Link, OnLink, Point
@@ -96,6 +96,8 @@ class Members:
         found: set[str] = set()
         while stack:
             name = stack.pop()
+            if name not in self.members:
+                raise unknown("Name", name, self.named(), where=self.title)
             if name not in found:
                 found.add(name)
                 stack.extend(needs(self.members[name]))

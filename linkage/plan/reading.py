@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import unknown
 from ..quantities import Member, Quantity, Reference, Turning, name_of
 from ..steps import Point
 from ..vectors import Line, Scalar, Vec
@@ -28,8 +29,9 @@ class Reading:
         """Return a point's position [m]."""
         name = name_of(point)
         if name not in self.positions:
-            step = self.members[name]
-            assert isinstance(step, Point)
+            step = self.members.get(name)
+            if not isinstance(step, Point):
+                raise unknown("Point", name, (each for each, member in self.members.items() if isinstance(member, Point)))
             self.placing.append(name)
             self.positions[name] = step.place(self)
             self.positions[name] = self.closed(step, self.positions[name])

@@ -12,6 +12,7 @@ import numpy as np
 from ..errors import DefinitionError, unknown
 from ..quantities import Number, Quantity, Variable, quantity, real, spelled
 from ..steps import Slot
+from ..units import deg
 
 
 @dataclass(frozen=True)
@@ -85,9 +86,12 @@ class Table:
         Raises DefinitionError for an unknown name, one that follows others, or a value that cannot be.
         """
         values: dict[str, Any] = {name: entry.default for name, entry in self.entries.items()}
+        by: dict[str, str] = {}
         for name, value in given.items():
             for each, part in self._pairs(name, value):
                 owner, sign = self.spellings[each]
+                if by.setdefault(owner, name) != name:
+                    raise DefinitionError(f"{self.title}: {by[owner]} and {name} both set {owner}; leave one of them out.")
                 values[owner] = checked(self.entries[owner], signed(part, sign, self.entries[owner]))
         return values
 
@@ -128,8 +132,9 @@ def checked(entry: Entry, value: Any) -> Any:
     if entry.kind == "not negative" and np.any(np.asarray(value) < 0.0):
         raise DefinitionError(f"{entry.where}: {entry.name}={np.min(value):.6g} is negative; give zero or more.")
     if entry.kind == "angle" and np.any(np.abs(value) > TURN):
-        large = f"{float(np.ravel(value)[np.argmax(np.abs(value))]):.6g}"
-        raise DefinitionError(f"{entry.where}: the angle {entry.name}={large} rad is more than a full turn; write {large} * deg.")
+        large = float(np.ravel(value)[np.argmax(np.abs(value))])
+        said = f"the angle {entry.name}={large:.6g} rad ({large / deg:.6g} deg) is more than a full turn"
+        raise DefinitionError(f"{entry.where}: {said}; write {large:.6g} * deg if these are degrees, or take whole turns off.")
     if entry.kind == "length" and np.any(np.asarray(value) <= 0.0):
         what = "has no length" if np.all(np.asarray(value) >= 0.0) else "is negative"
         raise DefinitionError(f"{entry.where}: the length {entry.name}={np.min(value):.6g} m {what}; give a positive one.")

@@ -9,6 +9,7 @@ from .member import name_of as name_of
 from .member import needs as needs
 from .member import unnamed as unnamed
 from .numbers import is_number as is_number
+from .numbers import is_whole as is_whole
 from .numbers import real as real
 from .outputs import Angle as Angle
 from .outputs import Coordinate as Coordinate

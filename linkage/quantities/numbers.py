@@ -19,6 +19,11 @@ def is_number(value: Any) -> bool:
         return False
 
 
+def is_whole(value: Any) -> bool:
+    """Return whether a value is one whole number, Python's or NumPy's."""
+    return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+
+
 def plain(value: Any) -> Any:
     """Return NumPy's number as Python's own, which prints as it is written in a class."""
     return value.item() if isinstance(value, np.generic) else value

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, final
 
@@ -22,7 +22,7 @@ from .forces import pin_forces
 from .law import Law
 from .loaded import Case, Loads
 from .poses import Poses
-from .result import met
+from .result import body_named, met
 from .solved import Solved
 from .structure import Structure
 from .system import System
@@ -47,11 +47,11 @@ class PinForce(Asked):
     def settled(self, plan: Plan) -> PinForceOf:
         if self.component not in COMPONENTS:
             raise unknown("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
-        law = Law.of(plan, self.loads, self.case)
-        joint, _ = joint_of(Structure(plan, law.loaded.elements), self.point, self.on)
+        law, asked = Law.of(plan, self.loads, self.case), replace(self, on=body_named(plan, self.on))
+        joint, _ = joint_of(Structure(plan, law.loaded.elements), self.point, asked.on)
         spans = tuple(span for element in law.loaded.elements for span in element.cylinders())
         length = plan.made(("held", spans), lambda _: held(plan, law.loaded.elements))
-        return PinForceOf(self.loads, self.case, self, (*law.key, spans), length, str(joint))
+        return PinForceOf(self.loads, self.case, asked, (*law.key, spans), length, str(joint))
 
 
 def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = None, case: Case = None) -> PinForce:

@@ -104,7 +104,7 @@ def gathered(motion: Motion, loads: Loads, case: Case, direction: str, without: 
 def chosen(plan: Plan, loads: Loads, case: Case, without: str = "") -> list[Chosen]:
     """Return the force elements that count in a load case; DefinitionError for what is none, and for names that no load has."""
     chosen, present = case_of(plan, case), elements_of(plan, loads)
-    known = [name for name, _ in present] + [name for name, _ in elements_of(plan, None)]
+    known = dict.fromkeys(name for name, _ in [*present, *elements_of(plan, None)])
     for name in chosen.mentioned:
         if name not in known:
             raise unknown("Load", name, known, where=f"{plan.title}, {chosen.label}")
@@ -161,7 +161,8 @@ def fitted(load: Load, motion: Motion, name: str) -> FloatArray:
     known_points(load, motion.plan, name)
     force = np.asarray(load.force)
     if force.dtype.kind not in "fiu" or force.shape[:1] != (2,):
-        raise DefinitionError(f"{title}: {name}: its force at {load.point} has the shape {force.shape}; (2, ...) in N is expected.")
+        what = f"has the shape {force.shape}" if force.dtype.kind in "fiu" else f"holds {force.dtype.name}, no real numbers"
+        raise DefinitionError(f"{title}: {name}: its force at {load.point} {what}; (2, ...) in N is expected.")
     try:
         full = np.broadcast_to(force.reshape(2, *(1,) * (len(motion.shape) + 1 - force.ndim), *force.shape[1:]), (2, *motion.shape))
     except ValueError:

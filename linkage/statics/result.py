@@ -11,6 +11,7 @@ import numpy as np
 from ..errors import DefinitionError, unknown
 from ..motion import Motion, stroke_unit
 from ..motion.reach import Mask
+from ..plan import Plan
 from ..program import FloatArray
 from ..steps import Link
 from ..units import kN
@@ -80,13 +81,8 @@ class PinForces:
         return sign * joint.force
 
     def body(self, name: str) -> str:
-        """Return a body's name as the forces have it, for its link's name (`arm`) or some of its points (`O B`); else the name as given."""
-        plan = self.motion.plan
-        bodies = {each.name: set(each.points) for each in plan.links} | {bar.P + bar.Q: {bar.P, bar.Q} for bar in plan.cylinders}
-        link = plan.of_kind(Link).get(name)
-        points = set(link.point_names if link else name.split())
-        found = [each for each, its in bodies.items() if len(points) > 1 and points <= its]
-        return found[0] if name not in bodies and len(found) == 1 else name
+        """Return a body's name as the forces have it; see body_named."""
+        return body_named(self.motion.plan, name)
 
     def on_body(self, name: str) -> Mapping[str, FloatArray]:
         """Return all forces on a body by the point they act at, joints and loads, shape (2, ...) [N]: they balance (for FEM)."""
@@ -102,6 +98,15 @@ class PinForces:
         lines += [f"  {each}: {spoken(each.size, 'kN') if each.has_force else spoken(each.couple, 'Nm')}" for each in self.joints]
         gap = "" if np.isnan(self.gap) else f"; against virtual work {self.gap:.0e}"
         return "\n".join([head, *lines, f"  residual of equilibrium {self.residual:.0e}{gap}", *(f"  {each}" for each in self.remarks)])
+
+
+def body_named(plan: Plan, name: str) -> str:
+    """Return a body's name as the forces have it, for its link's name (`arm`) or some of its points (`O B`); else the name as given."""
+    bodies = {each.name: set(each.points) for each in plan.links} | {bar.P + bar.Q: {bar.P, bar.Q} for bar in plan.cylinders}
+    link = plan.of_kind(Link).get(name)
+    points = set(link.point_names if link else name.split())
+    found = [each for each, its in bodies.items() if len(points) > 1 and points <= its]
+    return found[0] if name not in bodies and len(found) == 1 else name
 
 
 class Joint(Protocol):
@@ -142,7 +147,8 @@ def met(joints: Sequence[J], point: str, on: str, title: str) -> tuple[J, float]
     taken = [(each, 1.0) for each in found if each.on == on] + [(each, -1.0) for each in found if each.by == on]
     if len(taken) != 1:
         where = ", ".join(f"on {each.on} from {each.by}" for each in found)
-        raise DefinitionError(f"{title}: several joints meet at {point} ({where}); say on= which body.")
+        remedy = f"say on= the other body, on which it is the opposite, or take them from at({point!r})" if on else "say on= which body"
+        raise DefinitionError(f"{title}: several joints meet at {point} ({where}); {remedy}.")
     return taken[0]
 
 

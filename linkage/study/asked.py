@@ -33,8 +33,17 @@ def unit_of(plan: Plan, name: str) -> str:
     return found.unit or {"length": "mm", "coordinate": "mm", "angle": "deg"}.get(found.kind, "")
 
 
+def a_mechanism(machine: Any) -> None:
+    """Raise DefinitionError for anything but an instance of a mechanism."""
+    if not isinstance(machine, Mechanism):
+        name = machine.__name__ if isinstance(machine, type) else ""
+        remedy = f"{name} is a class; give a design of it, {name}()" if name else f"{machine!r:.60} is none"
+        raise DefinitionError(f"A study is of a mechanism: {remedy}.")
+
+
 def one_design(machine: Mechanism) -> None:
-    """Raise DefinitionError for a batch of designs."""
+    """Raise DefinitionError for a batch of designs, and for what is no mechanism."""
+    a_mechanism(machine)
     if any(np.ndim(value) for value in machine.dimensions.values()):
         raise DefinitionError(f"{type(machine).__name__}: a study starts from one design, this is a batch; choose one of them.")
 

@@ -91,7 +91,8 @@ def checked(task: Task, found: Any, size: int, where: str) -> dict[str, Array]:
 
 def brief(value: Any) -> str:
     """Return the beginning of a value as it prints, on one line."""
-    return " ".join(repr(value).split())[:60]
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def check_same(task: Task, known: Mapping[str, Array], found: Mapping[str, Array], where: str) -> None:

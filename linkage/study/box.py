@@ -15,7 +15,8 @@ from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number
 from ..units import mm, show
-from .asked import unit_of
+from .asked import a_mechanism, unit_of
+from .designs import check_once
 from .sample import unit_points
 
 MOST = 8
@@ -34,6 +35,9 @@ class Box:
 
         Raises DefinitionError for an unknown dimension, a range the wrong way round, or anything else.
         """
+        a_mechanism(machine)
+        if not isinstance(over, Mapping):
+            raise DefinitionError(f"{machine.plan.title}: over={over!r:.60}: a dictionary of ranges and choices by name is expected.")
         ranges = {name: range_of(name, value) for name, value in over.items() if isinstance(value, tuple)}
         lists = {name: choices_of(name, value) for name, value in over.items() if not isinstance(value, tuple)}
         if len(ranges) > MOST:
@@ -41,6 +45,7 @@ class Box:
         box = cls(ranges, [dict(zip(lists, each, strict=True)) for each in product(*lists.values())])
         for settings in (*box.choices, *({name: end} for name, pair in ranges.items() for end in pair)):
             machine.replaced(**settings)
+        check_once(machine, over)
         return box
 
     def settings(self, unit: FloatArray, choice: Any) -> dict[str, Any]:
@@ -80,9 +85,9 @@ def spoken(plan: Plan, name: str, value: Any, place: int) -> str:
     return show(float(value[place]), unit) if unit else f"{value[place]:.6g}"
 
 
-def range_of(name: str, given: tuple[Any, ...]) -> tuple[float, float]:
+def range_of(name: str, given: Any) -> tuple[float, float]:
     """Return a range; DefinitionError unless it is (low, high)."""
-    if len(given) != 2 or not all(is_number(end) for end in given) or given[0] > given[1]:
+    if not isinstance(given, (tuple, list)) or len(given) != 2 or not all(is_number(end) for end in given) or given[0] > given[1]:
         raise DefinitionError(f"{name}={given!r} is no range; write (low, high) in SI, or a list [first, second] of choices.")
     return float(given[0]), float(given[1])
 

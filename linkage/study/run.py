@@ -80,6 +80,10 @@ class Run:
                 self._send()
                 if self._under_way:
                     self._take(*self._back.get())
+        except KeyboardInterrupt as stopped:
+            self._stop()
+            stopped.add_note(self.state)
+            raise
         finally:
             self._stop()
 

@@ -8,19 +8,22 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..program import FloatArray
+from ..quantities import is_whole
 
 METHODS = ("sobol", "latin")
 
 
 def unit_points(count: int, k: int, method: str, seed: int) -> FloatArray:
     """Return points (count, k) of [0, 1); the same for the same seed. A Sobol sequence is evenest where count is a power of two."""
-    if isinstance(count, bool) or not isinstance(count, int) or count < 1:
+    if not is_whole(count) or count < 1:
         raise DefinitionError(f"count={count!r}: a whole number of designs is expected, at least 1.")
     if method not in METHODS:
         raise DefinitionError(f'method={method!r}: say "sobol" or "latin".')
+    if not is_whole(seed) or seed < 0:
+        raise DefinitionError(f"seed={seed!r}: a whole number is expected, at least 0.")
     if not k:
         return np.empty((count, 0))
-    return sobol(count, k, seed) if method == "sobol" else latin(count, k, seed)
+    return sobol(int(count), k, seed) if method == "sobol" else latin(count, k, seed)
 
 
 def sobol(count: int, k: int, seed: int) -> FloatArray:

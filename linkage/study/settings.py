@@ -11,6 +11,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..mechanism import Mechanism
 from ..program import FloatArray
+from ..quantities import is_number
 from ..units import show
 from .asked import Asked, one_design, paired, title_of, unit_of, values
 from .box import range_of
@@ -46,6 +47,9 @@ def settings_for(
     low, high = range_of("between", between)
     if set(strokes) != set(machine.strokes):
         raise DefinitionError(f"{machine.plan.title}: say the pose, {', '.join(f'{each}=...' for each in machine.strokes)}.")
+    if not is_number(target) or any(np.ndim(value) for value in strokes.values()):
+        given = ", ".join(f"{each}={value!r}" for each, value in {"target": target, **strokes}.items())
+        raise DefinitionError(f"{machine.plan.title}: {given}: one number is expected for each, in SI.")
 
     base = machine.at(unreachable="nan", **{each: [value] for each, value in strokes.items()})
 

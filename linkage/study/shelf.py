@@ -6,6 +6,7 @@ import json
 import os
 import re
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from hashlib import blake2b
 from io import BytesIO
@@ -36,6 +37,8 @@ class Shelf:
     @classmethod
     def of(cls, folder: str | os.PathLike[str], task: Task, designs: Designs) -> Shelf:
         """Return the shelf of a study; DefinitionError where the folder holds another one, with what differs."""
+        if not folder or not isinstance(folder, (str, os.PathLike)):
+            raise DefinitionError(f"folder={folder!r}: the path of a folder is expected.")
         place, facts = Path(folder), facts_of(task, designs)
         note = place / NOTE
         if note.exists():
@@ -49,7 +52,7 @@ class Shelf:
         return blake2b(b"%d %d " % (start, stop) + content, key=self.key, digest_size=16).hexdigest()
 
     def keep(self, batch: Batch) -> None:
-        """Write a batch."""
+        """Write a batch; FileError where it cannot be written, as on a full disk."""
         values = batch.values or {}
         table = np.empty(batch.stop - batch.start, [(name, array.dtype) for name, array in values.items()])
         for name, array in values.items():
@@ -58,7 +61,11 @@ class Shelf:
         np.save(stream, table, allow_pickle=False)
         content = stream.getvalue()
         name = f"designs-{batch.start:09d}-{batch.stop:09d}-{self.check(batch.start, batch.stop, content)}.npy"
-        replace(self.folder / name, content)
+        try:
+            replace(self.folder / name, content)
+        except OSError as error:
+            what = f"{self.folder}: designs {batch.start} to {batch.stop - 1} cannot be kept ({error})"
+            raise FileError(f"{what}; make room or the folder writable, the same call goes on from what is kept.") from None
 
     def batches(self) -> Iterator[Batch]:
         """Yield the batches that are whole, in order."""
@@ -84,8 +91,13 @@ def begin(note: Path, facts: Mapping[str, Any]) -> None:
 def replace(path: Path, content: bytes) -> None:
     """Write a file at once: its name never stands for half of it."""
     temporary = path.with_name(f"{path.name}.{os.getpid()}.tmp")
-    temporary.write_bytes(content)
-    os.replace(temporary, path)
+    try:
+        temporary.write_bytes(content)
+        os.replace(temporary, path)
+    except OSError:
+        with suppress(OSError):
+            temporary.unlink()
+        raise
 
 
 def read(note: Path) -> dict[str, Any]:

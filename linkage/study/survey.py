@@ -9,6 +9,7 @@ from typing import Any
 
 from ..errors import DefinitionError, unknown
 from ..mechanism import Mechanism
+from ..quantities import is_whole
 from .asked import one_design
 from .batch import Batch, Measure, Task
 from .designs import Array, Designs
@@ -47,8 +48,9 @@ class Survey(Mapping[str, Array]):
 
     def design(self, number: int) -> Mechanism:
         """Return the machine of one design, by its number: `found.design(found["travel"].argmax())`."""
-        if not 0 <= number < self.designs.count:
-            raise DefinitionError(f"{self.machine.plan.title}: there is no design {number}; numbers go from 0 to {self.designs.count - 1}.")
+        if not is_whole(number) or not 0 <= number < self.designs.count:
+            last = self.designs.count - 1
+            raise DefinitionError(f"{self.machine.plan.title}: there is no design {number!r}; numbers go from 0 to {last}.")
         rows = self.designs.rows(int(number), int(number) + 1)
         one = {name: tuple(float(part.flat[0]) for part in value) if isinstance(value, tuple) else value[0] for name, value in rows.items()}
         return self.machine.replaced(**one)
@@ -56,8 +58,10 @@ class Survey(Mapping[str, Array]):
     def __repr__(self) -> str:
         new = [batch for batch in self.batches if not batch.kept]
         kept = sum(batch.stop - batch.start for batch in self.batches if batch.kept)
-        said = f"{self.machine.plan.title}: {', '.join(self.results)} of {self.designs.count} designs, {len(new)} batches"
-        said += f" of {min(batch.seconds for batch in new):.2g} to {max(batch.seconds for batch in new):.2g} s" if new else ""
+        said = f"{self.machine.plan.title}: {', '.join(self.results)} of {self.designs.count} designs, "
+        said += "1 batch" if len(new) == 1 else f"{len(new)} batches"
+        times = dict.fromkeys(f"{end(batch.seconds for batch in new):.2g}" for end in (min, max) if new)
+        said += f" of {' to '.join(times)} s" if new else ""
         return said + (f", {kept} designs from the folder" if kept else "")
 
 
@@ -95,8 +99,9 @@ def survey(
     task = Task(machine, measure, piece_of(machine, designs.count, piece), backend_of(backend))
     if not callable(measure):
         raise DefinitionError(f"{machine.plan.title}: measure={measure!r:.60}: a function of a mechanism is expected.")
-    if executor is not None and not callable(getattr(executor, "submit", None)):
-        raise DefinitionError(f"executor={executor!r:.60} has no submit; give a pool of concurrent.futures or client.get_executor().")
+    if executor is not None and (isinstance(executor, type) or not callable(getattr(executor, "submit", None))):
+        what = "is a class" if isinstance(executor, type) else "has no submit"
+        raise DefinitionError(f"executor={executor!r:.60} {what}; give a pool of concurrent.futures or client.get_executor().")
     shelf = None if folder is None else Shelf.of(folder, task, designs)
     with shown(progress, machine.plan.heading) as tell:
         run = Run(task, designs, executor or Here(), shelf, tell)
@@ -108,9 +113,9 @@ def piece_of(machine: Mechanism, count: int, given: int | None) -> int:
     """Return how many designs are measured at a time: by their number alone, so that results do not depend on who does the work."""
     if given is None:
         return min(max(-(-count // PARTS), SMALLEST), LARGEST)
-    if isinstance(given, bool) or not isinstance(given, int) or given < 1:
+    if not is_whole(given) or given < 1:
         raise DefinitionError(f"{machine.plan.title}: piece={given!r}: a whole number of designs is expected, at least 1.")
-    return given
+    return int(given)
 
 
 def backend_of(name: str) -> str:

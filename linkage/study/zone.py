@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import SingularWarning
+from ..errors import DefinitionError, SingularWarning
 from ..mechanism import Mechanism
 from ..motion import Motion, at_values
 from ..program import FloatArray
@@ -59,6 +59,8 @@ def zone(machine: Mechanism, quantity: Asked, over: Mapping[str, Any], **strokes
     given = strokes or {name: np.linspace(each.start, each.end, POSES) for name, each in machine.strokes.items()}
     poses = at_values(given, machine.plan.strokes, machine.plan.title)
     shape = next(iter(poses.values())).shape
+    if 0 in shape:
+        raise DefinitionError(f"{machine.plan.title}: there are no strokes to look at; give at least one value of {', '.join(poses)}.")
     flat = {name: value.ravel() for name, value in poses.items()}
     base = machine.at(unreachable="nan", **flat)
 

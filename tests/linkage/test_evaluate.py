@@ -130,7 +130,16 @@ def test_angles_do_not_jump_along_the_stroke():
 
 @pytest.mark.parametrize(
     ("asked", "words"),
-    [(["Q"], "Q"), ([ratio("G", wrt="T")], "T"), ([ratio("Q")], "Q"), (["L0"], None), ([], None)],
+    [
+        (["Q"], "Q"),
+        ([ratio("G", wrt="T")], "T"),
+        ([ratio("Q")], "Q"),
+        ([distance("A", "Q")], "'Q' is unknown in ThreePointHitch"),
+        ([ratio(2.0 * angle("A", "Q"))], "'Q' is unknown in ThreePointHitch"),
+        (None, "a list of what is asked for is expected"),
+        (["L0"], None),
+        ([], None),
+    ],
 )
 def test_unknown_names_are_told(asked, words):
     if words is None:
@@ -167,6 +176,14 @@ def test_a_function_of_floats_refuses_what_a_motion_refuses():
         f(0.1, 0.2)
     with pytest.raises(DefinitionError, match="of one design"):
         ThreePointHitch(OB=[0.3, 0.31]).function(["B"])
+
+
+def test_a_function_of_floats_takes_one_number_a_stroke():
+    f = ThreePointHitch().function(["G", "tilt"])
+    assert f(np.array([0.1])) == f(np.array(0.1)) == f(0.1), "solvers hand over arrays of one number"
+    for value in ([0.1, 0.2], np.zeros(0), "0.1", None, 1j, float("nan"), float("inf")):
+        with pytest.raises(DefinitionError, match=r"the stroke S=.*: one finite number is expected; evaluate takes arrays"):
+            f(value)
 
 
 def test_a_function_of_a_group_is_the_motion():

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from linkage import AssemblyError, FileError
-from linkage.files import from_dict, load, save, to_dict
+from linkage import AssemblyError, DefinitionError, FileError
+from linkage.files import from_dict, load, save, to_dict, to_toml
 from tests.linkage.file_machines import EveryStep, Hitch, changed
 
 DATA = Path(__file__).parent / "data"
@@ -137,3 +137,15 @@ def test_file_that_is_none(tmp_path):
         save(EveryStep, tmp_path / "a.txt")
     with pytest.raises(FileError, match="Is a directory"):
         save(EveryStep, tmp_path / "b.toml")
+    with pytest.raises(FileError, match=r"^/: the name of a mechanism's file ends in"):
+        save(EveryStep, "/")
+    with pytest.raises(FileError, match="a path is expected, not int"):
+        save(EveryStep, 3)
+    with pytest.raises(FileError, match=r"^a = \[+\.\.\.: the name of a mechanism's file ends in"):
+        load("a = " + "[" * 9000)
+
+
+@pytest.mark.parametrize("machine", [None, "EveryStep", int, object()])
+def test_machine_that_is_none(machine):
+    with pytest.raises(DefinitionError, match="is no mechanism; give a class of Mechanism, or a design of one"):
+        to_toml(machine)

@@ -129,7 +129,14 @@ def test_a_dimension_behind_the_point_changes_nothing():
 
 @pytest.mark.parametrize(
     ("wrt", "words"),
-    [(["OX"], "OX"), ("OB", "a list of dimensions"), (["M"], "M.x"), (["AB"], "AB follows L0"), (["S"], "S")],
+    [
+        (["OX"], "OX"),
+        ("OB", "a list of dimensions"),
+        (["M"], "M.x"),
+        (["AB"], "AB follows L0"),
+        (["S"], "S"),
+        (None, "wrt=None: a list of dimensions"),
+    ],
 )
 def test_what_is_no_dimension_is_told(wrt, words):
     with pytest.raises(DefinitionError, match=words):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import DefinitionError, Force, Ground, Link, Mechanism, Pin, Stroke, Weight, pin_forces
+from linkage import LEFT, RIGHT, DefinitionError, Dyad, Force, Ground, Link, Mechanism, Pin, Stroke, Weight, pin_forces
 
 
 class Lift(Mechanism):
@@ -44,3 +44,19 @@ def test_one_value_is_printed_once():
     """A force that differs in the last digits is no range."""
     text = str(pin_forces(Lift().at(S=0.1 + np.array([0.0, 1e-16, 2e-16]))))
     assert " to " not in text
+
+
+def test_body_with_two_joints_at_a_point_is_told_by_the_other_one():
+    """Of three bodies at a pin the carrier meets both others; these are asked for by their own names."""
+
+    class Loaded(Lift):
+        D = Dyad("C", "A", CD=0.4, AD=0.5, side=RIGHT)
+        E = Dyad("C", "O", CE=0.3, OE=0.3, side=LEFT)
+
+    forces = pin_forces(Loaded().sweep(3))
+    (carrier,), others = {each.by for each in forces.at("C")}, [each.on for each in forces.at("C")]
+    with pytest.raises(DefinitionError, match=r"several joints meet at C .*; say on= the other body, .* or take them from at\('C'\)"):
+        forces.force("C", on=carrier)
+    with pytest.raises(DefinitionError, match=r"several joints meet at C .*; say on= which body"):
+        forces.force("C")
+    assert len(others) == 2 and all(forces.force("C", on=other).shape == (2, 3) for other in others)

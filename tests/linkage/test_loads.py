@@ -36,6 +36,7 @@ from linkage import (
     pin_forces,
     reaction,
     ref,
+    thrust,
 )  # fmt: skip
 
 G0 = 9.80665
@@ -274,6 +275,9 @@ def test_an_element_may_rub():
         (lambda: variant(case=LoadCase(scale={"lod": 2.0})), "load"),
         (lambda: variant(case=LoadCase(scale={"G": 2.0})), "Load 'G' is unknown"),
         (lambda: Lift(**{"load.mass": -3.0}), "negative"),
+        (lambda: driving_force(at(variant(load=Weight("G", mass=ref("m1"))), m1=-5.0)), "load: mass = m1 is negative, -5;"),
+        (lambda: pin_forces(at(variant(load=Weight("G", mass=ref("m1"))), m1=[5.0, -5.0])), "load: mass = m1 is negative, -5;"),
+        (lambda: variant(load=Weight("G", mass=ref("m1")))(m1=-5.0).evaluate([thrust()], S=0.6), "load: mass = m1 is negative, -5;"),
         (lambda: Lift(**{"load.weight": 3.0}), r"load\.mass"),
         (lambda: driving_force(at(Lift), ["lod"]), "Did you mean load"),
         (lambda: driving_force(at(Lift), case="full"), "Load case"),
@@ -310,6 +314,25 @@ class Broken(ForceElement):
 def test_an_element_without_a_finite_force_is_refused():
     with pytest.raises(SingularError, match="no finite force at G"):
         driving_force(at(Lift), [Broken()])
+
+
+@pytest.mark.parametrize(
+    ("force", "word"), [(np.ones((3, 1)), r"the shape \(3, 1\)"), ((1j, 2.0), "complex128"), (("0", "5"), "no real numbers")]
+)
+def test_a_force_that_is_none_is_refused_with_what_it_is(force, word):
+    class Odd(ForceElement):
+        places = ()
+
+        def loads(self, motion):
+            return [Load("G", force)]
+
+    with pytest.raises(DefinitionError, match=word):
+        driving_force(at(Lift), [Odd()])
+
+
+def test_every_load_is_listed_once():
+    with pytest.raises(DefinitionError, match=r"Known: load\."):
+        driving_force(at(Lift), case=LoadCase(scale={"lod": 2.0}))
 
 
 def test_members_print_as_they_are_written():

@@ -156,6 +156,19 @@ def test_bad_length(bad):
         Arm(OB=bad)
 
 
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"OB": 0.3, "BO": 0.31}, "OB and BO both set OB"),
+        ({"BOG": 0.1, "GOB": -0.1}, "BOG and GOB both set BOG"),
+        ({"A.x": 0.1, "A": (0.2, 0.3)}, r"A\.x and A both set A\.x"),
+    ],
+)
+def test_a_dimension_is_set_once(settings, words):
+    with pytest.raises(DefinitionError, match=f"Arm: {words}; leave one of them out"):
+        Arm(**settings)
+
+
 @pytest.mark.parametrize("bad", BAD, ids=lambda bad: repr(bad)[:20])
 def test_bad_angle_dimension_coordinate_or_stroke(bad):
     for setting in ({"BOG": bad}, {"L0": bad}, {"A.x": bad}, {"A": (bad, 0.0)}):

@@ -38,8 +38,8 @@ def test_the_lines_are_a_machine():
     ("right", "wrong", "words"),
     [
         ("Stroke(0, 360 * deg)", "Stroke(0, 360)", "is an angle in radians, 57.3 turns; write Stroke(0 * deg, 360 * deg)"),
-        ("CAG=30 * deg", "CAG=-30", "the angle CAG=-30 rad is more than a full turn; write -30 * deg"),
-        ("angle=0)", "angle=90)", "the angle rail.angle=90 rad is more than a full turn; write 90 * deg"),
+        ("CAG=30 * deg", "CAG=-30", "the angle CAG=-30 rad (-1718.87 deg) is more than a full turn; write -30 * deg"),
+        ("angle=0)", "angle=90)", "the angle rail.angle=90 rad (5156.62 deg) is more than a full turn; write 90 * deg"),
         ("Pin(near=(0.4, 0))", "Pin(0.4, 0)", "Pin(0.4, 0): say near=(x, y) for a place in a sketch"),
         ('Slide("C", rail)', 'Slide("C", "rial")', "Name 'rial' is unknown in Machine.shoe. Did you mean rail?"),
         ('Slide("C", rail)', 'Slide("C", O)', "shoe = Slide(C, O): O is not a guide"),

@@ -347,6 +347,9 @@ def test_points_may_coincide_where_no_direction_is_taken():
 
 QUESTIONS = {
     "a point": lambda motion, bad: motion[bad],
+    "a quantity": lambda motion, bad: motion.value(bad),
+    "a quantity of points": lambda motion, bad: motion.value(2.0 * angle("G", bad if isinstance(bad, str) else "H")),
+    "a ratio of points": lambda motion, bad: motion.ratio(distance("G", bad if isinstance(bad, str) else "H"), wrt="S"),
     "x": lambda motion, bad: motion.x(bad),
     "y": lambda motion, bad: motion.y(bad),
     "angle": lambda motion, bad: motion.angle("G", bad),

@@ -52,6 +52,10 @@ def test_the_comment_states_the_design():
         (["G"], {"language": "rust"}, "say one of c, javascript"),
         (["G"], {"name": "two words"}, "a function's name"),
         (["Q"], {}, "'Q' is unknown"),
+        (["G"], {"name": "for"}, "'for' has a meaning in c already"),
+        (["G"], {"name": "sin"}, "'sin' has a meaning in c"),
+        (["G"], {"name": "class", "language": "javascript"}, "'class' has a meaning in javascript"),
+        (None, {}, r"None: a list of what is asked for is expected, such as \["),
     ],
 )
 def test_what_cannot_be_written_is_refused(asked, options, said):

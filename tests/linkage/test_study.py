@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, Pin, Stroke, angle, deg
 from linkage.motion import Paired
-from linkage.study import settings_for, zone
+from linkage.study import Box, settings_for, zone
 from linkage.study.search import extremes
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -236,6 +236,9 @@ def test_a_quantity_without_a_value_is_told():
         ({"M": "up"}, "write a range"),
         ({"M": [(0.2,)]}, "two coordinates"),
         ({"AB": (0.5, 0.6)}, "AB follows"),
+        ({"MK": (0.8, 0.9), "KM": (0.8, 0.9)}, "MK and KM both set MK"),
+        ({"M.x": (0.2, 0.3), "M": [(0.22, 1.05), (0.22, 0.95)]}, "M.x and M both set M.x"),
+        (None, "a dictionary of ranges and choices"),
         ({name: (0.3, 0.31) for name in ("L0", "OB", "OC", "BC", "ED", "CD", "EF", "MK", "FK")}, "9 ranges are too many"),
     ],
 )
@@ -249,6 +252,12 @@ def test_studies_refuse_batches_and_vectors():
         zone(ThreePointHitch(OB=[0.29, 0.30]), "tilt", {"MK": (0.8, 0.9)})
     with pytest.raises(DefinitionError, match="has the shape"):
         zone(ThreePointHitch(), "G", {"MK": (0.8, 0.9)})
+    with pytest.raises(DefinitionError, match="ThreePointHitch is a class"):
+        zone(ThreePointHitch, "tilt", {"MK": (0.8, 0.9)})
+    with pytest.raises(DefinitionError, match="ThreePointHitch is a class"):
+        Box.of(ThreePointHitch, {"MK": (0.8, 0.9)})
+    with pytest.raises(DefinitionError, match="no strokes to look at; give at least one value of S"):
+        zone(ThreePointHitch(), "tilt", {"MK": (0.8, 0.9)}, S=[])
 
 
 # -- settings --------------------------------------------------------------------------------------------------
@@ -304,6 +313,14 @@ def test_settings_want_a_pose_and_a_range():
         settings_for(ThreePointHitch(), "MK", "tilt", between=(0.4, 2.0))
     with pytest.raises(DefinitionError, match="is no range"):
         settings_for(ThreePointHitch(), "MK", "tilt", between=(2.0, 0.4), S=0.1)
+    with pytest.raises(DefinitionError, match=r"between=0\.4 is no range"):
+        settings_for(ThreePointHitch(), "MK", "tilt", between=0.4, S=0.1)
+
+
+@pytest.mark.parametrize(("target", "S"), [("5", 0.1), (float("nan"), 0.1), (None, 0.1), (0.0, [0.1, 0.2])])
+def test_settings_are_for_one_value_at_one_pose(target, S):
+    with pytest.raises(DefinitionError, match="one number is expected for each"):
+        settings_for(ThreePointHitch(), "MK", "tilt", target, between=(0.4, 2.0), S=S)
 
 
 def test_both_settings_of_a_four_bar_are_found():

@@ -5,6 +5,7 @@ import sys
 import threading
 import tracemalloc
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -215,6 +216,9 @@ def test_results_that_cannot_be(measure, text):
         ({"piece": True}, "piece=True"),
         ({"backend": "floats"}, 'backend=.floats.: say "numpy" or "numba"'),
         ({"executor": 4}, "executor=4 has no submit"),
+        ({"executor": ThreadPoolExecutor}, "ThreadPoolExecutor'> is a class; give a pool"),
+        ({"folder": ""}, "folder='': the path of a folder is expected"),
+        ({"folder": 3}, "folder=3: the path of a folder"),
     ],
 )
 def test_options_that_cannot_be(options, text):
@@ -227,6 +231,17 @@ def test_measure_and_machine_that_cannot_be():
         survey(ThreePointHitch(), {"OB": ARRAY}, "travel")
     with pytest.raises(DefinitionError, match="a study starts from one design, this is a batch"):
         survey(ThreePointHitch(OB=ARRAY), {"CD": ARRAY}, travel)
+    with pytest.raises(DefinitionError, match=r"ThreePointHitch is a class; give a design of it, ThreePointHitch\(\)"):
+        survey(ThreePointHitch, {"OB": ARRAY}, travel)
+    with pytest.raises(DefinitionError, match="'hitch' is none"):
+        survey("hitch", {"OB": ARRAY}, travel)
+
+
+@pytest.mark.parametrize("number", [100, -1, "3", 2.0, [1, 2], None, True])
+def test_design_that_is_none(number):
+    found = survey(*hitch_designs(100), travel)
+    with pytest.raises(DefinitionError, match=r"there is no design .*; numbers go from 0 to 99"):
+        found.design(number)
 
 
 def test_failure_in_measure_names_its_designs(small, tmp_path):
@@ -321,6 +336,25 @@ def test_folder_that_cannot_be_written(tmp_path):
         survey(*hitch_designs(10), travel, folder=tmp_path / "file")
 
 
+def test_full_disk_stops_a_study_and_the_same_call_goes_on(small, tmp_path, monkeypatch):
+    (hitch, over), write = hitch_designs(400), Path.write_bytes
+
+    def full(path, content):
+        if path.name.startswith("designs-000000128"):
+            write(path, content[: len(content) // 2])
+            raise OSError(28, "No space left on device")
+        return write(path, content)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Path, "write_bytes", full)
+        with pytest.raises(FileError, match=r"designs 128 to 191 cannot be kept .*No space left.*the same call goes on"):
+            survey(hitch, over, travel, folder=tmp_path)
+    assert not [*tmp_path.glob("*.tmp")], "half a file is left behind"
+    found = survey(hitch, over, travel, folder=tmp_path)
+    assert sum(batch.kept for batch in found.batches) == 2
+    same(found, survey(hitch, over, travel))
+
+
 @pytest.mark.parametrize("workers", [0, 2])
 def test_interrupt_leaves_a_folder_to_go_on_from(small, tmp_path, workers):
     hitch, over = hitch_designs(640)
@@ -331,9 +365,10 @@ def test_interrupt_leaves_a_folder_to_go_on_from(small, tmp_path, workers):
         if done >= 256:
             raise KeyboardInterrupt
 
-    with ThreadPoolExecutor(max(workers, 1)) as pool, pytest.raises(KeyboardInterrupt):
+    with ThreadPoolExecutor(max(workers, 1)) as pool, pytest.raises(KeyboardInterrupt) as caught:
         survey(hitch, over, measure, executor=pool if workers else None, folder=run, progress=stop)
     kept = len(list(run.glob("designs-*.npy")))
+    assert f"{64 * kept} of 640 designs are done and kept in {run}; the same call goes on" in caught.value.__notes__[0]
     assert 4 <= kept <= len(read(log)) < 10, "what was queued is called back"
     log.unlink()
     told = []

@@ -137,6 +137,16 @@ def test_sample_that_cannot_be(count, method):
         BOX.sample(count, method=method)
 
 
+@pytest.mark.parametrize("seed", [-1, "x", 1.5, None])
+def test_seed_that_cannot_be(seed):
+    with pytest.raises(DefinitionError, match="a whole number is expected, at least 0"):
+        BOX.sample(8, seed=seed)
+
+
+def test_counts_of_numpy_are_counts():
+    assert_array_equal(BOX.sample(np.int64(50))["OB"], BOX.sample(50)["OB"])
+
+
 def test_sample_is_surveyed():
     found = survey(ThreePointHitch(), BOX.sample(256), travel)
     assert np.isfinite(found["travel"]).all() and np.ptp(found["travel"]) > 0.1

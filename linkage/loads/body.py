@@ -52,11 +52,24 @@ class OnBody(ForceElement):
 
     def axis(self, motion: Poses) -> tuple[str, str, Array]:
         """Return two points P and Q of the body and Q - P, shape (2, ...) [m]: the body's own x axis."""
-        P, Q, *_ = self.points(motion.plan.members, motion.plan.title)
+        points = self.points(motion.plan.members, motion.plan.title)
+        self.check_rigid(motion.plan, points)
+        P, Q, *_ = points
         arm = motion[Q] - motion[P]
         if np.any((arm[0] == 0.0) & (arm[1] == 0.0)):
             raise DefinitionError(f"{self.name} = {self}: {P} and {Q} coincide and give no direction; name two other points of the body.")
         return P, Q, arm
+
+    def check_rigid(self, plan: Any, points: tuple[str, ...]) -> None:
+        """Raise DefinitionError for points of different bodies; those of no declared body, and of what follows a stroke, may stand."""
+        bodies = [set(body.points) for body in plan.links]
+        rams = [{bar.P, bar.Q} for bar in plan.cylinders]
+        rams += [set(pair) for element in plan.of_kind(ForceElement).values() for pair in element.cylinders()]
+        free = set(plan.telescopes) | (set(points) - set().union(*bodies))
+        if free or any(set(points) <= body for body in (*bodies, *rams)):
+            return
+        what = f"{self.name} = {self}" if self.name else str(self)
+        raise DefinitionError(f"{plan.title}: {what}: {', '.join(points)} are not points of one body; name those of one.")
 
     def __str__(self) -> str:
         return f"{type(self).__name__}({', '.join([repr(' '.join(map(label, self.named()))), *self.words()])})"

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from functools import cache, cached_property
 from pathlib import Path
+from threading import local
 from typing import Any
 
 import numpy as np
@@ -76,7 +77,7 @@ class Arrays:
         """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
         m, n = values.shape[1:]
         if m == 1 and n <= self.block and not any(map(is_table, poses)):
-            self._pose(self._constants(design), list(map(row, poses)), aligned(self._code.registers, n), list(values[:, 0]), guards)
+            self._pose(self._constants(design), list(map(row, poses)), POOL.registers(self._code.registers, n), list(values[:, 0]), guards)
             return
         turned = self.turns(m, n)
         target = values.transpose(0, 2, 1) if turned else values
@@ -84,7 +85,7 @@ class Arrays:
         rows, length = target.shape[1:]
         columns = min(length, self.block)
         height = max(1, min(rows, self.block // columns))
-        pool = aligned(self._code.registers, height * columns)
+        pool = POOL.registers(self._code.registers, height * columns)
         constants = [] if turned else self._constants(design)
         for left in range(0, length, columns):
             part = slice(left, min(left + columns, length))
@@ -111,6 +112,23 @@ class Arrays:
         self._pose(*seen, pool, list(block), least)
         if len(guards):
             np.minimum(guards, least, out=guards)
+
+
+class Pool(local):
+    """The registers that a thread worked in last: the next block mostly wants as many of the same size."""
+
+    def __init__(self) -> None:
+        self.kept: tuple[int, int] = 0, 0
+        self.rows: list[FloatArray] = []
+
+    def registers(self, count: int, size: int) -> list[FloatArray]:
+        """Return registers whose contents may be anything."""
+        if self.kept != (count, size):
+            self.kept, self.rows = (count, size), aligned(count, size)
+        return self.rows
+
+
+POOL = Pool()
 
 
 @cache

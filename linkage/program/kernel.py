@@ -76,6 +76,7 @@ class Kernel:
     def __init__(self, outputs: Sequence[Node], guards: Sequence[Node] = ()) -> None:
         self._wanted = (tuple(outputs), tuple(guards))
         self.plan = schedule(outputs, guards)
+        self._unseen = np.full(len(self.plan.guards), math.inf)
         self._spent = 0
 
     def __call__(
@@ -85,7 +86,7 @@ class Kernel:
         backend = self._backend(way, m, n)
         design, poses = given(backend.plan, inputs)
         values = allocated(len(self.plan.outputs), m, n, backend.turns(m, n)) if out is None else out
-        guards = np.full(len(self.plan.guards), math.inf)
+        guards = self._unseen.copy()
         if m * n:
             with np.errstate(all="ignore"):
                 run(backend, design, poses, values, guards, way.threads)

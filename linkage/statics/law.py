@@ -74,17 +74,19 @@ def traced_element(motion: TracedMotion, element: Chosen) -> list[Acting]:
     motion.notes.owner, motion.notes.tests = element.name, 0
     try:
         found = called(element.in_case, motion, 0, element.name)
-        return [Acting(load, traced_force(motion, load, element) * element.factor, element.name) for load in found]
+        acting = [Acting(load, traced_force(motion, load) * element.factor, element.name) for load in found]
     except Exception as error:
         raise DefinitionError(
             f"{motion.plan.title}: the law of {element.name} cannot be traced: {str(error).rstrip('.')}. "
             "Write it in plain arithmetic of numbers at one pose, or take finite differences of driving_force and pin_forces."
         ) from error
+    for load in found:
+        known_points(load, motion.plan, element.name)
+    return acting
 
 
-def traced_force(motion: TracedMotion, load: Load, element: Chosen) -> FloatArray:
+def traced_force(motion: TracedMotion, load: Load) -> FloatArray:
     """Return a load's force, shape (2,)."""
-    known_points(load, motion.plan, element.name)
     force = np.asarray(load.force)
     if force.shape != (2,):
         raise DefinitionError(

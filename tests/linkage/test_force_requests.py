@@ -125,6 +125,11 @@ def test_friction_does_not_count_as_in_the_frictionless_thrust():
     assert_allclose(Hitch().evaluate([thrust(loads=loads)], S=STROKE)[0], driving_force(motion, loads), rtol=1e-12)
 
 
+def test_a_load_at_no_point_is_refused_as_such():
+    with pytest.raises(DefinitionError, match=r"^Point 'Q' is unknown in Hitch"):
+        Hitch().evaluate([thrust(loads=[Weight("Q", mass=1)])], S=0.1)
+
+
 def test_batches_of_designs():
     hitch = Hitch(OB=np.linspace(0.28, 0.32, 3)[:, None], **{"load.mass": np.array([900.0, 1500.0])})
     force, pin = hitch.evaluate([thrust(), pin_force("C", "CD")], S=STROKE)

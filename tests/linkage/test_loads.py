@@ -38,6 +38,7 @@ from linkage import (
     ref,
     thrust,
 )  # fmt: skip
+from mechanisms.three_point_hitch import ThreePointHitch
 
 G0 = 9.80665
 
@@ -345,3 +346,12 @@ def test_members_print_as_they_are_written():
         LoadCase("t", scale={"load": 2.0}, slope=pi / 18): "LoadCase('t', scale={'load': 2.0}, slope=10 * deg)",
     }
     assert [str(element) for element in words] == list(words.values())
+
+
+@pytest.mark.parametrize("element", [LinkMass("B D", mass=10), Moment("B D", M=10), LinkMass("O C D", mass=10)])
+def test_points_of_different_bodies_are_no_body(element):
+    motion = ThreePointHitch().at(S=0.1)
+    with pytest.raises(DefinitionError, match="are not points of one body"):
+        driving_force(motion, [element])
+    with pytest.raises(DefinitionError, match="are not points of one body"):
+        motion.gradient(thrust(loads=[element]), wrt=["OB"])

@@ -105,11 +105,13 @@ class ForceElement(Member):
         return (*(getattr(self, place) for place in self.places), *(each for each in numbers if not each.is_constant))
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
-        """Raise DefinitionError where something else stands in the place of a point."""
-        for place in self.places:
-            found = members[name_of(getattr(self, place))]
-            if not isinstance(found, Point):
-                raise DefinitionError(f"{title}: {self.name} = {self}: {found.name} is not a point.")
+        """Raise DefinitionError where something else stands in the place of a point, or one point in two places."""
+        names = [name_of(getattr(self, place)) for place in self.places]
+        for name in names:
+            if not isinstance(members[name], Point):
+                raise DefinitionError(f"{title}: {self.name} = {self}: {name} is not a point.")
+            if names.count(name) > 1:
+                raise DefinitionError(f"{title}: {self.name} = {self} begins and ends at {name}; name two different points.")
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
         """Return the design variables this element brings: name, default, kind and unit."""

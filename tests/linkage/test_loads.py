@@ -355,3 +355,10 @@ def test_points_of_different_bodies_are_no_body(element):
         driving_force(motion, [element])
     with pytest.raises(DefinitionError, match="are not points of one body"):
         motion.gradient(thrust(loads=[element]), wrt=["OB"])
+
+
+def test_a_spring_from_a_point_to_itself_is_refused():
+    with pytest.raises(DefinitionError, match=r"tie = Spring.* begins and ends at G; name two different points"):
+
+        class Tied(ThreePointHitch):
+            tie = Spring("G", "G", stiffness=1e3, free_length=0.1)

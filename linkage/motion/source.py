@@ -42,7 +42,9 @@ def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request
         raise DefinitionError(f"name={name!r} has a meaning in {language} already; give the function another name, such as poses.")
     if any(np.ndim(value) for value in designs.values()):
         raise DefinitionError(f"{plan.title}: source() states one design; its dimensions are arguments of the text, which serves all.")
-    nodes = [node for each in all_wanted(plan, requests) for node in held(plan, each)]
+    asked = all_wanted(plan, requests)
+    key = ("source", tuple(each.key for each in asked))
+    nodes = plan.made(key, lambda twin: [node for each in asked for node in held(twin, each)])
     closed_form(plan, nodes)
     return WRITERS[language](nodes, name, {name: float(value) for name, value in designs.items()})
 

@@ -77,16 +77,12 @@ class PinForces:
         Where several joints meet, `on` says on which body it acts, by its points or its link's name; DefinitionError where that
         leaves a choice.
         """
-        joint, sign = met(self.joints, point, self.body(on), self.motion.plan.title)
+        joint, sign = met(self.joints, point, body_named(self.motion.plan, on), self.motion.plan.title)
         return sign * joint.force
-
-    def body(self, name: str) -> str:
-        """Return a body's name as the forces have it; see body_named."""
-        return body_named(self.motion.plan, name)
 
     def on_body(self, name: str) -> Mapping[str, FloatArray]:
         """Return all forces on a body by the point they act at, joints and loads, shape (2, ...) [N]: they balance (for FEM)."""
-        found = self.body(name)
+        found = body_named(self.motion.plan, name)
         if found not in self.on_bodies:
             raise unknown("Body", name, self.on_bodies, where=self.motion.plan.title)
         return self.on_bodies[found]

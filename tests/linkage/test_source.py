@@ -93,3 +93,16 @@ def test_a_thrust_is_nan_where_its_law_does_not_hold():
     said = subprocess.run(["node", "-e", f"{text}console.log({calls})"], check=True, capture_output=True, text=True).stdout.split()
     assert_allclose(float(said[0]), driving_force(hitch.at(S=0.05), [Stop("G")]), rtol=1e-12)
     assert said[1] == "NaN"
+
+
+class Asked(ThreePointHitch):
+    """The hitch, of which something has been asked before."""
+
+
+class Fresh(ThreePointHitch):
+    """The hitch, of which nothing has been asked."""
+
+
+def test_the_text_does_not_follow_from_what_was_asked_before():
+    Asked().source(["K", ratio("tilt")])
+    assert Asked().source(["G"]) == Fresh().source(["G"])

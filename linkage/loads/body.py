@@ -64,7 +64,7 @@ class OnBody(ForceElement):
         """Raise DefinitionError for points of different bodies; those of no declared body, and of what follows a stroke, may stand."""
         bodies = [set(body.points) for body in plan.links]
         rams = [{bar.P, bar.Q} for bar in plan.cylinders]
-        rams += [set(pair) for element in plan.of_kind(ForceElement).values() for pair in element.cylinders()]
+        rams += [{joint.point for joint in element.joints()} for element in plan.of_kind(ForceElement).values()]
         free = set(plan.telescopes) | (set(points) - set().union(*bodies))
         if free or any(set(points) <= body for body in (*bodies, *rams)):
             return

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from ..errors import DefinitionError
-from ..quantities import Member, Number, Quantity, Reference, Where, name_of, quantity
+from ..quantities import Holding, Number, Quantity, Reference, Where, name_of, quantity
 from ..vectors import Scalar, Side, Vec
 from .labels import Claims, Slot, match, relabelled, written_labels
 
@@ -33,7 +33,7 @@ class Bar:
     length: Quantity
 
 
-class Point(Member):
+class Point(Holding):
     """A named point of the mechanism."""
 
     kind = "point"
@@ -66,18 +66,6 @@ class Point(Member):
 
     def bodies(self) -> tuple[tuple[str, ...], ...]:
         """Return the points this step makes rigid with each other."""
-        return ()
-
-    def slides(self) -> tuple[tuple[str, str], ...]:
-        """Return the points this step keeps on guides: (point, guide)."""
-        return ()
-
-    def half_joints(self) -> tuple[str, ...]:
-        """Return the guides and slots that take one freedom each."""
-        return tuple(guide for _, guide in self.slides())
-
-    def pin_slots(self) -> tuple[tuple[str, str, str], ...]:
-        """Return the pins this step holds in a slot, each with the two points of the slot's body."""
         return ()
 
     def meeting(self, where: Where) -> tuple[Vec, ...]:

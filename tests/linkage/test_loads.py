@@ -32,11 +32,11 @@ from linkage import (
     Weight,
     angle,
     deg,
+    drive_force,
     driving_force,
     pin_forces,
     reaction,
     ref,
-    thrust,
 )  # fmt: skip
 from mechanisms.three_point_hitch import ThreePointHitch
 
@@ -230,9 +230,9 @@ class Rubbing(ForceElement):
     def loads(self, motion):
         return []
 
-    def moving(self, motion, sense):
+    def moving(self, motion, rates):
         along = self.position(motion, "B") - self.position(motion, "A")
-        push = -sense * self.number(motion, "seal") * along / np.hypot(*along)
+        push = -np.sign(rates["S"]) * self.number(motion, "seal") * along / np.hypot(*along)
         return [Load(self.B, push), Load(self.A, -push)]
 
 
@@ -278,7 +278,7 @@ def test_an_element_may_rub():
         (lambda: Lift(**{"load.mass": -3.0}), "negative"),
         (lambda: driving_force(at(variant(load=Weight("G", mass=ref("m1"))), m1=-5.0)), "load: mass = m1 is negative, -5;"),
         (lambda: pin_forces(at(variant(load=Weight("G", mass=ref("m1"))), m1=[5.0, -5.0])), "load: mass = m1 is negative, -5;"),
-        (lambda: variant(load=Weight("G", mass=ref("m1")))(m1=-5.0).evaluate([thrust()], S=0.6), "load: mass = m1 is negative, -5;"),
+        (lambda: variant(load=Weight("G", mass=ref("m1")))(m1=-5.0).evaluate([drive_force()], S=0.6), "load: mass = m1 is negative, -5;"),
         (lambda: Lift(**{"load.weight": 3.0}), r"load\.mass"),
         (lambda: driving_force(at(Lift), ["lod"]), "Did you mean load"),
         (lambda: driving_force(at(Lift), case="full"), "Load case"),
@@ -294,8 +294,8 @@ def test_an_element_may_rub():
         (lambda: pin_forces(at(Lift), [PinFriction("G", 0.01, 0.1)], direction="extending"), "no pin joint"),
         (lambda: pin_forces(at(Lift), [GuideFriction("B", 0.1)], direction="extending"), "nothing that slides"),
         (lambda: reaction(at(Lift)), "0 supports"),
-        (lambda: reaction(at(Lift), support=Support("G", (0, 1)), thrust=[1.0, 2.0]), "fits the poses"),
-        (lambda: reaction(at(Lift), support=Support("G", (0, 1)), thrust="much"), "fits the poses"),
+        (lambda: reaction(at(Lift), support=Support("G", (0, 1)), drive_force=[1.0, 2.0]), "fits the poses"),
+        (lambda: reaction(at(Lift), support=Support("G", (0, 1)), drive_force="much"), "fits the poses"),
     ],
 )
 def test_bad_input_is_refused_in_words(make, word):
@@ -354,7 +354,7 @@ def test_points_of_different_bodies_are_no_body(element):
     with pytest.raises(DefinitionError, match="are not points of one body"):
         driving_force(motion, [element])
     with pytest.raises(DefinitionError, match="are not points of one body"):
-        motion.gradient(thrust(loads=[element]), wrt=["OB"])
+        motion.gradient(drive_force(loads=[element]), wrt=["OB"])
 
 
 def test_a_spring_from_a_point_to_itself_is_refused():

@@ -92,6 +92,10 @@ class LiftCircuit(Circuit):
         """Return its cylinders, as the motion's class has them."""
         return tuple(the_cylinder(motion, each) for each in self.references)
 
+    def ram(self, motion: Poses) -> Cylinder:
+        """Return its only cylinder; DefinitionError where it has several."""
+        return self.one(motion, None)
+
     def one(self, motion: Poses, cylinder: Reference | None) -> Cylinder:
         """Return the cylinder that is meant: its only one, or the one named; DefinitionError where that leaves a choice."""
         rams = self.rams(motion)

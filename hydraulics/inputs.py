@@ -33,6 +33,14 @@ def positive(value: ArrayLike, what: str, remedy: str = "give a positive number 
     return array
 
 
+def not_negative(value: ArrayLike, what: str, remedy: str = "give zero or more") -> Array:
+    """Return the value as floats, its shape kept; DefinitionError unless every one is finite and not below zero."""
+    array = finite(value, what)
+    if np.any(array < 0.0):
+        raise DefinitionError(f"{what} = {np.min(array):.6g} is below zero; {remedy}.")
+    return array
+
+
 def over_poses(value: ArrayLike, what: str) -> Array:
     """Return a value over poses as floats: NaN stays where an array marks an unreached pose, else DefinitionError."""
     array = _floats(value, what)
@@ -45,7 +53,11 @@ def over_poses(value: ArrayLike, what: str) -> Array:
 
 def absolute(gauge: ArrayLike, atmosphere: float, what: str) -> Array:
     """Return gauge + atmosphere [Pa]; DefinitionError where that would be below zero."""
-    pressure = finite(gauge, what) + atmosphere
+    return above_vacuum(finite(gauge, what) + atmosphere, atmosphere, what)
+
+
+def above_vacuum(pressure: Array, atmosphere: float, what: str) -> Array:
+    """Return an absolute pressure [Pa]; DefinitionError where it is below zero."""
     if np.any(pressure < 0.0):
         low = float(np.min(pressure)) - atmosphere
         raise DefinitionError(f"{what} = {low:.6g} Pa gauge is below zero absolute; the least is -{atmosphere:.6g} Pa, the atmosphere.")

@@ -27,7 +27,7 @@ from linkage.units import UNITS, cm3, litre, show
 
 from .bank import GasBank, effective
 from .gas import Gas, Polytropic, isothermal
-from .inputs import Array, above_vacuum, absolute, finite, not_negative, over_poses, positive
+from .inputs import Array, above_vacuum, absolute, finite, in_pascals, not_negative, over_poses, positive
 from .rules import WorkingRange
 from .settings import following, follows, setting
 from .verdict import Verdict
@@ -73,6 +73,8 @@ class AccumulatorBlock:
             raise unknown("Unit", self.unit, PRESSURES, where="The accumulator block")
         if not follows(self.atmosphere) and np.any(single(self.atmosphere) < 0.0):
             raise DefinitionError(f"Atmosphere = {self.atmosphere:.6g} Pa is below zero; give 101325, or 0 for the paper's way.")
+        if not follows(self.atmosphere):
+            in_pascals(self.atmosphere, "Atmosphere")
         if not self.following:
             for charge in self._bank.charges:
                 positive(charge, "Absolute accumulator charge", "give the charge as gauge pressure [Pa]; an accumulator needs gas")

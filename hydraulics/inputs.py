@@ -16,6 +16,17 @@ from linkage.program import Traced
 
 Array: TypeAlias = NDArray[np.float64]
 
+WIDEST = 3.0
+"""m; a larger bore or rod was given in millimetres."""
+LONGEST = 30.0
+"""m; a longer stroke was given in millimetres."""
+SLENDER = 300.0
+"""A stroke of more bores than this was given in millimetres."""
+FAINTEST = 1000.0
+"""Pa; less, and not none, was given in bar or another unit."""
+STRONGEST = 1.0
+"""m3/s; a larger flow was given in litres a minute."""
+
 
 def finite(value: ArrayLike, what: str) -> Array:
     """Return the value as floats, its shape kept; DefinitionError if it is text, NaN or infinite."""
@@ -38,6 +49,40 @@ def not_negative(value: ArrayLike, what: str, remedy: str = "give zero or more")
     array = finite(value, what)
     if np.any(array < 0.0):
         raise DefinitionError(f"{what} = {np.min(array):.6g} is below zero; {remedy}.")
+    return array
+
+
+def in_metres(value: ArrayLike, what: str, most: float = WIDEST) -> Array:
+    """Return a length [m], its shape kept; DefinitionError where it is above `most`, so that millimetres were meant."""
+    array = finite(value, what)
+    if np.any(array > most):
+        large = float(np.max(array))
+        raise DefinitionError(f"{what} = {large:.6g} m is more than any cylinder has; write {large:.6g} * mm if these are millimetres.")
+    return array
+
+
+def stroke_in_metres(value: ArrayLike, what: str, bore: ArrayLike | None = None) -> Array:
+    """Return a stroke or a closed length [m]; DefinitionError where it is too long at all, or for a bore [m] that is known."""
+    return in_metres(value, what, LONGEST if bore is None else min(LONGEST, SLENDER * float(np.max(bore))))
+
+
+def in_pascals(value: ArrayLike, what: str) -> Array:
+    """Return a pressure [Pa], its shape kept; DefinitionError where it is next to nothing and not none, so that bar were meant."""
+    array = finite(value, what)
+    size = np.abs(array)
+    faint = (size > 0.0) & (size < FAINTEST)
+    if np.any(faint):
+        text = f"{array[faint][0]:.6g}"
+        raise DefinitionError(f"{what} = {text} Pa is next to nothing; write {text} * bar if these are bar, or {text} * kgf_cm2.")
+    return array
+
+
+def in_cubic_metres(value: ArrayLike, what: str) -> Array:
+    """Return a flow [m3/s], its shape kept; DefinitionError where no pump gives so much, so that litres a minute were meant."""
+    array = finite(value, what)
+    if np.any(array > STRONGEST):
+        large = f"{np.max(array):.6g}"
+        raise DefinitionError(f"{what} = {large} m3/s is more than any pump gives; write {large} * litre / minute if it is in l/min.")
     return array
 
 

@@ -6,10 +6,15 @@ from copy import copy
 from dataclasses import dataclass
 from typing import Any, final
 
+import numpy as np
+
 from linkage.loads.element import written
 
-from .inputs import finite, not_negative
+from .inputs import finite, in_pascals, not_negative
 from .settings import follows
+
+VOLUME = ("Accumulator volume", "give 0 for a vessel that is absent")
+CHARGE = "Accumulator charge"
 
 
 @final
@@ -25,10 +30,9 @@ class Accumulator:
     charge: Any
 
     def __post_init__(self) -> None:
-        if not follows(self.volume):
-            not_negative(self.volume, "Accumulator volume", "give 0 for a vessel that is absent")
+        volume = np.ones(()) if follows(self.volume) else not_negative(self.volume, *VOLUME)
         if not follows(self.charge):
-            finite(self.charge, "Accumulator charge")
+            in_pascals(np.where(volume > 0.0, finite(self.charge, CHARGE), 0.0), CHARGE)
 
     def recharged(self, charge: Any) -> Accumulator:
         """Return the same vessel with another charge [Pa gauge], one that a gas law gives."""

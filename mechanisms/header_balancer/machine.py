@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
-from hydraulics.inputs import positive
+from hydraulics.inputs import in_pascals, positive
 from linkage import RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, Motion, OnLink, Stroke, angle, distance, y
 from linkage.loads import PinFriction, Support, Weight
 from linkage.units import deg, kg, kgf_cm2, litre, mm
@@ -78,8 +78,10 @@ class HeaderBalancer(Mechanism):
             if np.any(np.asarray(self[name]) < 0.0):
                 raise DefinitionError(f"{name} = {np.min(self[name]):.6g} is negative; give zero or more.")
         for volume, charge in (("V_I", "P_I"), ("V_II", "P_II")):
-            positive(np.where(np.asarray(self[volume]) > 0.0, self[charge], 1.0), charge)
-        positive(np.add(self["V_I"], self["V_II"]), "V_I + V_II", "one of the two may be absent, 0, not both")
+            there = np.asarray(self[volume]) > 0.0
+            in_pascals(positive(self[charge] if np.all(there) else np.where(there, self[charge], self["pump"]), charge), charge)
+        for name in ("charge", "seals", "atmosphere", "pump", "valve"):
+            in_pascals(self[name], name)
         if np.any(np.asarray(self["charge"]) > np.asarray(self["pump"])):
             raise DefinitionError(
                 f"The charge pressure {np.max(self['charge']) / kgf_cm2:.4g} kgf/cm2 is above the pump's, "

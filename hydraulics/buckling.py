@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, unknown
 from linkage.units import MPa, kN, mm
 
-from .inputs import Array, over_poses, positive
+from .inputs import Array, in_metres, over_poses, positive
 from .sizes import next_rod
 from .verdict import Verdict
 
@@ -50,6 +50,7 @@ class Buckling:
     def __post_init__(self) -> None:
         for value, what in ((self.rod, "Rod"), (self.modulus, "Modulus"), (self.yield_strength, "Yield strength")):
             positive(value, what)
+        in_metres(self.rod, "Rod")
         if positive(self.safety, "Buckling safety") < 1.0:
             raise DefinitionError(f"Buckling safety = {self.safety:g} is below 1; 3.5 is usual for hydraulic cylinders.")
         if self.mounting not in MOUNTINGS:

@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, unknown
 from linkage.units import kN, mm
 
-from .inputs import Array, finite, over_poses, positive
+from .inputs import Array, finite, in_metres, over_poses, positive
 from .sizes import next_bore, standard_bores
 
 SIDES = ("piston", "rod", "both")
@@ -48,8 +48,8 @@ class CylinderSize:
     works: Literal["piston", "rod", "both"] = "piston"
 
     def __post_init__(self) -> None:
-        positive(self.bore, "Bore")
-        positive(self.rod, "Rod")
+        for value, what in ((self.bore, "Bore"), (self.rod, "Rod")):
+            positive(in_metres(value, what), what)
         if np.any(np.greater_equal(self.rod, self.bore)):
             rod, bore = np.broadcast_arrays(self.rod, self.bore)
             thick = rod >= bore

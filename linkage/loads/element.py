@@ -106,8 +106,8 @@ class ForceElement(Holding):
         """Return the dry friction this element stands for, whose size follows from the joint forces."""
         return []
 
-    def in_gravity(self, gravity: tuple[float, float]) -> ForceElement:
-        """Return this element under another gravity [m/s2]."""
+    def in_gravity(self, gravity: tuple[float, float] | None, slope: float) -> ForceElement:
+        """Return this element under a load case's gravity [m/s2], its own where that is None, turned by a slope [rad]."""
         return self
 
     def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:

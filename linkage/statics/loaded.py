@@ -144,7 +144,7 @@ def chosen(plan: Plan, loads: Loads, case: Case, without: str = "") -> list[Chos
         if name not in known:
             raise unknown("Load", name, known, where=f"{plan.title}, {chosen.label}")
     kept = [(name, element) for name, element in present if chosen.factor(name) != 0.0 and name != without]
-    return [Chosen(name, element, element.in_gravity(chosen.down), chosen.factor(name)) for name, element in kept]
+    return [Chosen(name, element, chosen.on(element), chosen.factor(name)) for name, element in kept]
 
 
 def called(element: ForceElement, motion: Moved, rates: Rates, name: str) -> list[Load]:

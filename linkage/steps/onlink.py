@@ -27,7 +27,9 @@ class OnLink(Step):
     measures = "angle"
     expects = (("P", "point"), ("Q", "point"))
 
-    def __init__(self, P: Reference, Q: Reference, *, side: Side | None = None, near: Any = None, at: Any = None, **labels: Any) -> None:
+    def __init__(
+        self, P: Reference, Q: Reference, *, side: Side | str | None = None, near: Any = None, at: Any = None, **labels: Any
+    ) -> None:
         super().__init__(P, Q, labels=labels, side=side, near=near, at=at)
 
     def slots(self) -> tuple[Slot, ...]:

@@ -22,7 +22,7 @@ class SliderDyad(Step):
     parent_letters = ("P", "guide")
     expects = (("P", "point"), ("guide", "guide"))
 
-    def __init__(self, P: Reference, guide: Reference, *, side: Side | None = None, near: Any = None, **lengths: Any) -> None:
+    def __init__(self, P: Reference, guide: Reference, *, side: Side | str | None = None, near: Any = None, **lengths: Any) -> None:
         super().__init__(P, guide, labels=lengths, side=side, near=near)
 
     def slots(self) -> tuple[Slot, ...]:
@@ -84,9 +84,9 @@ class PinSlotDyad(Step):
     expects = (("P", "point"), ("Q", "point"))
 
     def __init__(
-        self, P: Reference, Q: Reference, *, offset: Any = 0.0, side: Side | None = None, near: Any = None, **lengths: Any
+        self, P: Reference, Q: Reference, *, offset: Any = 0.0, side: Side | str | None = None, near: Any = None, **lengths: Any
     ) -> None:
-        super().__init__(P, Q, labels=lengths, side=side or (None if near is not None else Side.RIGHT), near=near)
+        super().__init__(P, Q, labels=lengths, side=Side.RIGHT if side is None and near is None else side, near=near)
         self.offset = quantity(offset)
 
     def parts(self) -> tuple[Reference, ...]:

@@ -98,7 +98,9 @@ class Step(Point):
     measures: str = ""
     """What `at=(x, y)` supplies: the `distances` from both parents, or one distance and the `angle`."""
 
-    def __init__(self, *parents: Reference, labels: Mapping[str, Any], side: Side | None = None, near: Any = None, at: Any = None) -> None:
+    def __init__(
+        self, *parents: Reference, labels: Mapping[str, Any], side: Side | str | None = None, near: Any = None, at: Any = None
+    ) -> None:
         self.parents = parents
         self.labels = dict(labels)
         self.side = None if side is None else side_of(side, type(self).__name__)
@@ -184,10 +186,11 @@ def parent_text(parent: Reference) -> str:
 
 
 def side_of(side: Any, what: str) -> Side:
-    """Return the side; raise DefinitionError for anything but LEFT and RIGHT."""
-    if not isinstance(side, Side):
+    """Return the side; raise DefinitionError for anything but LEFT and RIGHT, or these words."""
+    found = Side.said(side)
+    if found is None:
         raise DefinitionError(f"{what}: side={side!r}; say side=LEFT or side=RIGHT.")
-    return side
+    return found
 
 
 def position(value: Any, what: str) -> tuple[float, float] | None:

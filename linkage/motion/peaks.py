@@ -158,7 +158,8 @@ def peaks(values: FloatArray, leg: Index, t: FloatArray, counts: Sequence[int], 
 def zoomed(look: Look, tops: Tops) -> Tops:
     """Return the best places in the brackets, with brackets of two intervals about them; of no width where they are flat to rounding."""
     places = FINE if tops.t.shape[-1] <= FEW else COARSE
-    t = np.clip(tops.t[..., None] + tops.half[..., None] * np.linspace(-1.0, 1.0, places), 0.0, 1.0)
+    low, high = np.maximum(tops.t - tops.half, 0.0)[..., None], np.minimum(tops.t + tops.half, 1.0)[..., None]
+    t = low + (high - low) * np.linspace(0.0, 1.0, places)
     seen, _ = own(look, tops.leg, t)
     return settled(tops, t, seen, np.broadcast_to(tops.half[..., None] * 2.0 / (places - 1), t.shape))
 

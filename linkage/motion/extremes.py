@@ -15,10 +15,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from .between import Between, Function
-<<<<<<< HEAD
-=======
 from .boxes import Box, highest_in, moving
->>>>>>> extremes
 from .motion import Motion
 from .peaks import highest
 from .reach import place_read, stroke_unit
@@ -71,13 +68,6 @@ def extremum(motion: Motion, f: Function, sense: float) -> Extremum:
     """Return the greatest (sense 1.0) or the lowest (-1.0) value of f over all that a motion covers."""
     if not motion.strokes:
         raise DefinitionError(f"{motion.plan.title} has no stroke, so there is nothing between its poses.")
-<<<<<<< HEAD
-    between = Between(motion, f, sense)
-    found = highest(between.look, between.route.counts)
-    shape = (*between.front, *motion.design_shape)
-    strokes = {name: given(value, shape) for name, value in between.route.strokes(found.leg, found.t).items()}
-    units = {name: stroke_unit(motion.plan, name) for name in strokes}
-=======
     units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
     if len(motion.stroke_shape) > 1 and len(moving(motion)) > 1:
         box = Box(motion, f, sense)
@@ -87,7 +77,6 @@ def extremum(motion: Motion, f: Function, sense: float) -> Extremum:
     between = Between(motion, f, sense)
     found, shape = highest(between.look, between.route.counts), (*between.front, *motion.design_shape)
     strokes = {name: given(value, shape) for name, value in between.route.strokes(found.leg, found.t).items()}
->>>>>>> extremes
     return Extremum(given(sense * found.value, shape), strokes, given(found.unbounded, shape), units)
 
 

@@ -16,10 +16,6 @@ Spare: TypeAlias = Callable[[Motion], FloatArray]
 
 
 def reached_span(motion: Motion) -> Range:
-<<<<<<< HEAD
-    """Return the least and the largest stroke reached [SI] over the range of a motion, whatever its number of poses."""
-    found = below_zero(motion, lambda each: -np.ones(each.shape))
-=======
     """Return the least and the largest stroke reached [SI] over the range of a motion, whatever its number of poses.
 
     Raises AssemblyError where none is.
@@ -27,7 +23,6 @@ def reached_span(motion: Motion) -> Range:
     found = below_zero(motion, lambda each: -np.ones(each.shape))
     if not found:
         raise motion.refusal()
->>>>>>> extremes
     return found[0][0], found[-1][1]
 
 

@@ -2,24 +2,14 @@
 
 from __future__ import annotations
 
-<<<<<<< HEAD
 import warnings
-from collections.abc import Callable
-=======
->>>>>>> extremes
 from dataclasses import dataclass
 
 import numpy as np
 
 from hydraulics import Verdict
-<<<<<<< HEAD
 from linkage import Motion, SingularWarning, angle
-from linkage.motion import lowest
-from linkage.program import FloatArray
-=======
-from linkage import Motion, angle
 from linkage.motion import greatest, lowest
->>>>>>> extremes
 from linkage.report import closely
 from linkage.units import deg, g0, kN, mm
 
@@ -58,14 +48,6 @@ class Weakest:
         )
 
 
-<<<<<<< HEAD
-def least(motion: Motion, value: Callable[[Motion], FloatArray]) -> float:
-    """Return the stroke [m] where a value over one design's motion is least, between its poses too."""
-    return float(lowest(motion, value).strokes["S"])
-
-
-=======
->>>>>>> extremes
 def weakest(motion: Motion) -> Weakest | None:
     """Return the weakest point over a motion of one design; None where the cylinder limits nothing."""
     burden = stroke_per_newton(closely(motion))
@@ -73,16 +55,11 @@ def weakest(motion: Motion) -> Weakest | None:
         return None
     S = greatest(motion, stroke_per_newton).strokes["S"]
     there = closely(motion, np.array([S]))
-<<<<<<< HEAD
-    best = closely(motion, np.array([least(motion, lambda each: np.abs(stroke_per_newton(each)))]))
+    best = closely(motion, np.array([lowest(motion, lambda each: np.abs(stroke_per_newton(each))).strokes["S"]]))
     with warnings.catch_warnings():  # at the end of the reach it stands next to a dead point: the sentence keeps few digits
         warnings.simplefilter("ignore", SingularWarning)
         ratio, force = float(there.ratio("G")[1][0]), float(capacity(there)[0])
         return Weakest(S, float(there.y("F")[0]), force, ratio, stage(there, best), remedy(motion))
-=======
-    best = closely(motion, np.array([lowest(motion, lambda each: np.abs(stroke_per_newton(each))).strokes["S"]]))
-    return Weakest(S, float(there.y("F")[0]), float(capacity(there)[0]), float(there.ratio("G")[1][0]), stage(there, best), remedy(motion))
->>>>>>> extremes
 
 
 def stages(motion: Motion) -> dict[str, tuple[float, str]]:

@@ -91,6 +91,12 @@ def on_pin(forces, pin, body):
     return sum(found)
 
 
+def between(forces, pin, on, by):
+    """Return the force at a pin on one body from another, where several joints meet [N]."""
+    (found,) = [each for each in forces.at(pin) if {each.on, each.by} == {on, by} and each.has_force]
+    return found.force if found.on == on else -found.force
+
+
 def said_of(verdicts, rule):
     """Return the verdict on a rule."""
     (found,) = [each for each in verdicts if each.rule == rule]

@@ -127,6 +127,13 @@ def test_the_damper_acts_where_there_is_a_speed():
         assert_allclose(moving, 2200 * arm**2 * speed, rtol=1e-10)      # what turns the arm works against the damper
 
 
+def test_a_direction_alone_is_no_speed():
+    motion = Wishbone().sweep(5)
+    for direction in ("extending", "retracting"):
+        assert_allclose(pin_forces(motion, direction=direction).thrusts["damper"], 0.0, atol=1e-12)
+        assert_allclose(driving_force(motion, direction=direction), driving_force(motion), rtol=1e-13)
+
+
 def test_every_pin_and_the_three_that_share_the_struts_two():
     motion = Wishbone().sweep(9)
     speed = 2.5

@@ -129,7 +129,7 @@ def test_two_cylinders_share_one_pressure():
     assert own["p"].min() > 0
     for cylinder, name in ((Mast.tilt, "tilt"), (Mast.aux, "aux")):
         assert_allclose(cylinder.thrust(motion), own[name], rtol=1e-11)
-        assert_allclose(cylinder.pressure(motion), own["p"], rtol=1e-10)
+        assert_allclose(cylinder.pressure(motion), own["p"] / 0.93, rtol=1e-10)        # the losses of its circuit count
     assert_allclose(driving_force(motion, drive="S"), own["tilt"] + own["aux"] * own["CD"], rtol=1e-11)
     assert_allclose(driving_force(motion, drive="h"), own["chain"], rtol=1e-11)
     forces = pin_forces(motion)

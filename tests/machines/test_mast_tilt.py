@@ -185,12 +185,23 @@ def test_lifted_against_the_pump_and_held_against_the_relief_valve():
     motion, own = Mast().at(**PATH), over(PATH, line)
     assert_allclose(Mast.circuit.pressure_for(motion), own["p"] / 0.93, rtol=1e-10)
     assert_allclose(Mast.circuit.reserve(motion), 160e5 * 0.93 / own["p"], rtol=1e-10)
-    assert_allclose(Mast.circuit.holding(motion).working, own["p"], rtol=1e-10)
-    t = np.linspace(0.0, 1.0, 801)
+    for cylinder in ("tilt", "aux"):
+        assert_allclose(Mast.circuit.holding(motion, cylinder=cylinder).working, own["p"], rtol=1e-10)
+    assert_allclose(Mast.circuit.holding(motion).working, own["p"], rtol=1e-10)         # one line, one pressure
+
+
+def test_the_verdicts_of_the_line():
+    motion = Mast().at(**PATH)
+    t = np.linspace(0.0, 1.0, 301)
     fine = over({"S": 0.02 + 0.16 * t, "h": 2.5 - 2.1 * t}, line)
     said = {each.rule: each for each in lift_verdicts(Mast.circuit, motion)}
-    assert said["lifting"].ok == (fine["p"].max() / 0.93 <= 160e5)
-    assert said["holding"].ok == (fine["p"].max() <= 175e5)
-    assert f"{(160e5 * 0.93 / fine['p']).min():.3f}" in str(said["lifting"])
+    for name in ("tilt", "aux"):
+        assert said[f"lifting {name}"].ok == (fine["p"].max() / 0.93 <= 160e5)
+        assert said[f"holding {name}"].ok == (fine["p"].max() <= 175e5)
+        assert f"{(160e5 * 0.93 / fine['p']).min():.3f}" in str(said[f"lifting {name}"])
+        assert f"{fine['p'].max() / 1e5:.4g} bar" in str(said[f"holding {name}"])
+    ends = [place(0.02, 2.5), place(0.18, 0.4)]
+    travel = [abs(size(b[q] - b[p]) - size(a[q] - a[p])) for p, q in ("AB", "CD") for a, b in [ends]]
+    assert_allclose(Mast.circuit.oil(motion), travel @ np.array(list(AREAS.values())), rtol=1e-9)
     for cylinder in (Mast.tilt, Mast.aux):
         assert all(each.ok for each in cylinder.checks(motion) if each.rule == "buckling")         # they only pull

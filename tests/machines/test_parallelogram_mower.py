@@ -198,8 +198,8 @@ def test_the_verdict_looks_between_the_poses():
     lift = over({"S": fine}, lifted)["lift"]
     least = (175e5 * AREA * 0.9 / lift).min()
     loads = ["lower", "upper", "header", "relief"]
-    said = [str(said_of(lift_verdicts(Mower.circuit, Mower().sweep(n), loads), "lifting")) for n in (2, 5, 50)]
-    assert said[0] == said[1] == said[2]
+    said = [str(said_of(lift_verdicts(Mower.circuit, Mower().sweep(n), loads), "lifting")) for n in (2, 50)]
+    assert said[0] == said[1]
     assert f"{least:.3f}" in said[0]
     use = (3.5 * lift / critical(0.46 + fine, 0.028)).max()
     check = said_of(Mower.lift.checks(Mower().sweep(2), loads), "buckling")

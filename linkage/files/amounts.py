@@ -44,6 +44,12 @@ def pair_of(given: Any, info: ValidationInfo) -> tuple[float, float]:
     return number_of(x, info), number_of(y, info)
 
 
+def gravity_of(given: Any, info: ValidationInfo) -> tuple[float, float]:
+    """Return a gravity of two numbers [m/s2]."""
+    x, y = two(given, "two numbers in m/s2, such as [0, -9.81]")
+    return number_of(x, info), number_of(y, info)
+
+
 def force_of(given: Any, info: ValidationInfo) -> tuple[Any, Any]:
     """Return the two parts of a force, numbers or expressions [N]."""
     x, y = two(given, 'a force of two parts in N, such as ["-5 kN", 0]')
@@ -62,6 +68,13 @@ def body_of(given: Any, info: ValidationInfo) -> str:
 def load_of(given: Any, info: ValidationInfo) -> str:
     """Return the name of a load."""
     return names_of(info).checked(given, "load")
+
+
+def loads_of(given: Any, info: ValidationInfo) -> Any:
+    """Return the name of a load, or a list of such."""
+    if isinstance(given, str) or not isinstance(given, Sequence):
+        return load_of(given, info)
+    return [load_of(each, info) for each in given]
 
 
 def word_of(given: Any) -> str:
@@ -92,7 +105,9 @@ FixedNumber: TypeAlias = Annotated[Any, fixed("")]
 FixedAngle: TypeAlias = Annotated[Any, fixed("angle")]
 FixedMetres: TypeAlias = Annotated[Any, fixed("length")]
 Pair: TypeAlias = Annotated[tuple[float, float], PlainValidator(pair_of)]
+Gravity: TypeAlias = Annotated[tuple[float, float], PlainValidator(gravity_of)]
 ForceVector: TypeAlias = Annotated[tuple[Any, Any], PlainValidator(force_of)]
 BodyName: TypeAlias = Annotated[str, PlainValidator(body_of)]
 LoadName: TypeAlias = Annotated[str, PlainValidator(load_of)]
+LoadNames: TypeAlias = Annotated[Any, PlainValidator(loads_of)]
 Word: TypeAlias = Annotated[str, PlainValidator(word_of)]

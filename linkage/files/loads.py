@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 
 from pydantic import Field
 
-from ..loads import Force, GuideFriction, LinkMass, LoadCase, Moment, PinFriction, Spring, Support, Weight
+from ..loads import Actuator, Damper, Force, GuideFriction, LinkMass, LoadCase, Moment, PinFriction, Spring, Support, Weight
 from ..quantities import Member, name_of
 from .amounts import (
     Amount,
@@ -14,6 +14,7 @@ from .amounts import (
     FixedAngle,
     FixedNumber,
     ForceVector,
+    Gravity,
     LoadName,
     Mass,
     Metres,
@@ -35,7 +36,7 @@ class WeightEntry(ElementEntry):
     describes: ClassVar[type[Member]] = Weight
     parents: PointName = Field(alias="Weight")
     mass: Mass
-    gravity: Pair | None = None
+    gravity: Gravity | None = None
 
 
 class ForceEntry(ElementEntry):
@@ -82,12 +83,29 @@ class GuideFrictionEntry(ElementEntry):
 
 
 class SpringEntry(ElementEntry):
-    """`relief = { Spring = ["A", "B"], stiffness = 20e3, free_length = "400 mm" }`"""
+    """`relief = { Spring = ["A", "B"], stiffness = 20e3, free_length = "400 mm" }`, or with `preload = "2 kN"` for its free length"""
 
     describes: ClassVar[type[Member]] = Spring
     parents: TwoPoints = Field(alias="Spring")
     stiffness: Amount
-    free_length: Metres
+    free_length: Metres = None
+    preload: Newtons = None
+
+
+class DamperEntry(ElementEntry):
+    """`strut = { Damper = ["A", "B"], coefficient = 2000 }`"""
+
+    describes: ClassVar[type[Member]] = Damper
+    parents: TwoPoints = Field(alias="Damper")
+    coefficient: Amount
+
+
+class ActuatorEntry(ElementEntry):
+    """`push = { Actuator = ["A", "B"], force = "12 kN" }`"""
+
+    describes: ClassVar[type[Member]] = Actuator
+    parents: TwoPoints = Field(alias="Actuator")
+    force: Newtons
 
 
 class BodyEntry(ElementEntry):
@@ -113,11 +131,11 @@ class LinkMassEntry(BodyEntry):
     parents: BodyName = Field(alias="LinkMass")
     mass: Mass
     at: Pair | None = None
-    gravity: Pair | None = None
+    gravity: Gravity | None = None
 
 
 class CaseEntry(Entry):
-    """`transport = { title = "transport", scale = { load = 2.0 }, only = ["load"], slope = "10 deg", gravity = 9.81 }`"""
+    """`transport = { title = "transport", scale = { load = 2.0 }, only = ["load"], slope = "10 deg", gravity = [0, -9.81] }`"""
 
     section: ClassVar[str] = "cases"
     describes: ClassVar[type[Member]] = LoadCase
@@ -125,7 +143,7 @@ class CaseEntry(Entry):
     scale: dict[LoadName, FixedNumber] = Field(default={})
     only: tuple[LoadName, ...] = ()
     slope: FixedAngle = None
-    gravity: FixedNumber = None
+    gravity: Gravity | None = None
 
     def member(self) -> Member:
         given = {name: getattr(self, name) for name in self.model_fields_set}
@@ -136,5 +154,5 @@ class CaseEntry(Entry):
         usual = LoadCase()
         said: dict[str, Any] = {"title": word_of(member.title), "scale": {name: option(value) for name, value in member.scale.items()}}
         said |= {"only": None if member.only is None else [name_of(each) for each in member.only]}
-        said |= {"slope": in_degrees(float(member.slope)), "gravity": option(member.gravity)}
+        said |= {"slope": in_degrees(float(member.slope)), "gravity": None if member.gravity is None else option(member.gravity)}
         return {name: value for name, value in said.items() if repr(value) != repr(getattr(usual, name))}

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
 
 from hydraulics import Verdict
-from linkage import Motion, angle
+from linkage import Motion, SingularWarning, angle
 from linkage.motion import greatest, lowest
 from linkage.report import closely
 from linkage.units import deg, g0, kN, mm
@@ -55,7 +56,10 @@ def weakest(motion: Motion) -> Weakest | None:
     S = greatest(motion, stroke_per_newton).strokes["S"]
     there = closely(motion, np.array([S]))
     best = closely(motion, np.array([lowest(motion, lambda each: np.abs(stroke_per_newton(each))).strokes["S"]]))
-    return Weakest(S, float(there.y("F")[0]), float(capacity(there)[0]), float(there.ratio("G")[1][0]), stage(there, best), remedy(motion))
+    with warnings.catch_warnings():  # at the end of the reach it stands next to a dead point: the sentence keeps few digits
+        warnings.simplefilter("ignore", SingularWarning)
+        ratio, force = float(there.ratio("G")[1][0]), float(capacity(there)[0])
+        return Weakest(S, float(there.y("F")[0]), force, ratio, stage(there, best), remedy(motion))
 
 
 def stages(motion: Motion) -> dict[str, tuple[float, str]]:
@@ -124,4 +128,4 @@ def limit_verdict(motion: Motion) -> Verdict:
 def pressure_words(motion: Motion) -> str:
     """Return the pump's pressure and the cylinders in words."""
     circuit = circuit_of(motion)
-    return f"{circuit.size(motion)} at {float(circuit.supply(motion)) / 1e6:.4g} MPa"
+    return f"{circuit.rams(motion)[0].sized(motion)} at {float(circuit.supply(motion)) / 1e6:.4g} MPa"

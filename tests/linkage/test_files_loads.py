@@ -51,13 +51,16 @@ def test_every_load_is_written_as_it_is_said():
         "own": {"LinkMass": "E D F", "mass": 30, "at": [0.45, 0]},
         "bar": {"LinkMass": "arm", "mass": 12.5},
         "relief": {"Spring": ["A", "C"], "stiffness": 20000.0, "free_length": "400 mm"},
+        "taut": {"Spring": ["A", "B"], "stiffness": 5000.0, "preload": 800},
+        "strut": {"Damper": ["E", "C"], "coefficient": 2000},
+        "ram": {"Actuator": ["E", "D"], "force": -1500},
         "shoe": {"Support": "F", "direction": [0, 2], "force": -100.0},
         "pin_E": {"PinFriction": "E", "radius": "20 mm", "coefficient": 0.15},
         "slide": {"GuideFriction": "P", "coefficient": 0.1, "guide": "rail"},
     }
     assert tables["cases"] == {
         "transport": {"title": "on the road", "scale": {"load": 2.0, "pull": 0}, "slope": "10 deg"},
-        "bare": {"only": ["load", "own", "pin_E"], "gravity": 1.62},
+        "bare": {"only": ["load", "own", "pin_E"], "gravity": [0, -1.62]},
         "plain": {},
     }
 

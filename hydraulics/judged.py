@@ -159,6 +159,10 @@ class Judged:
             greatest(motion, lambda at, side=side: getattr(circuit.holding(at, self.loads, **self.choice), side))  # type: ignore[misc]
             for side in ("working", "other")
         )
+        endless = next((each for each in (working, other) if each.unbounded), None)
+        if endless is not None:
+            text = f"the pressure grows without bounds {endless.where}: nothing holds there; keep away from that pose."
+            return Verdict("holding", False, text)
         ok = bool(working.value <= limit and other.value <= limit)
         sides = "piston" if self.ram.works != "rod" else "rod", "rod" if self.ram.works != "rod" else "piston"
         where = f", {working.where}" if working.value > 0.0 else ""
@@ -178,12 +182,18 @@ class Judged:
         stuck = below_zero(motion, lambda at: np.where(sinks(at).by_itself, 1.0, -1.0) + 0.0 * sinks(at).working)
         if not stuck:
             least = lowest(motion, lambda at: sinks(at).working)
+            if least.value <= 1e-9 * float(circuit.supply(motion)):
+                return Verdict("lowering", True, f"it sinks by itself {against}, but the load asks for nothing {least.where}.")
             text = f"it sinks by itself {against}: the load makes at least {self.show(least.value)} in the working side, {least.where}."
             return Verdict("lowering", True, text)
         whole = reached(motion)
         everywhere = len(stuck) == len(whole) and all(str(a) == str(b) for a, b in zip(stuck, whole, strict=True))
         where = "anywhere" if everywhere else spans(stuck)
-        push = self.show(greatest(motion, lambda at: sinks(at).push).value)
+        most = greatest(motion, lambda at: sinks(at).push)
+        if most.unbounded:
+            text = f"it does not sink by itself {where} {against}, and no push moves it {most.where}: keep away from that pose."
+            return Verdict("lowering", False, text)
+        push = self.show(most.value)
         return Verdict("lowering", False, f"it does not sink by itself {where} {against}: the other side must push with up to {push}.")
 
 

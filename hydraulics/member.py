@@ -10,6 +10,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -17,7 +18,7 @@ from typing import Any, ClassVar, Literal, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, unknown
+from linkage.errors import DefinitionError, SingularWarning, unknown
 from linkage.loads import AT_REST, ForceElement, LoadCase, Poses, Push, Rates, TwoPoint
 from linkage.motion import Motion, greatest, lowest
 from linkage.quantities import Reference, label, name_of
@@ -203,7 +204,9 @@ class Cylinder(TwoPoint):
                 if np.isnan(found.value) or (worst is not None and found.value <= worst[0]):
                     continue
                 place = motion.moved(found.strokes)
-                force = float(self.thrust(place, loads, case=each, direction=direction)) / self.count
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore", SingularWarning)  # the verdict itself says what comes of it
+                    force = float(self.thrust(place, loads, case=each, direction=direction)) / self.count
                 worst = float(found.value), float(place.distance(self.A, self.B)), force, found.where
         if worst is None:
             return [Verdict("buckling", True, "the rod is never pushed.")]
@@ -224,6 +227,9 @@ def pressure_of(cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, di
     members = motion.plan.members
     circuits = [each for each in members.values() if isinstance(each, Circuit)]
     mine = [each for each in circuits if any(same(cylinder, one) for one in each.members(members))]
+    feeding = [each for each in mine if any(same(cylinder, one) for one in each.feeds(members))]
+    if feeding:
+        return feeding[0].pressure_in(cylinder, motion, loads, case, direction)
     if len(mine) > 1:
         names = ", ".join(each.name for each in mine)
         remedy = f"name one: {mine[0].name}.pressure_for(motion)"

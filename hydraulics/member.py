@@ -18,7 +18,7 @@ from typing import Any, ClassVar, Literal, final
 import numpy as np
 
 from linkage.errors import DefinitionError, unknown
-from linkage.loads import ForceElement, LoadCase, Poses, Push, Rates, TwoPoint
+from linkage.loads import DrawnAs, ForceElement, LoadCase, Poses, Push, Rates, TwoPoint
 from linkage.motion import Motion, greatest, lowest
 from linkage.quantities import Reference, label, name_of
 from linkage.statics import Case, Loads, elements_of, member_thrust
@@ -56,6 +56,7 @@ class Cylinder(TwoPoint):
     closed: float | None = None
     mounting: str = "pin-pin"
     safety: float = 3.5
+    drawn_as: ClassVar[DrawnAs] = "cylinder"
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm"})
 
     def __post_init__(self) -> None:

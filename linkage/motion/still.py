@@ -33,6 +33,9 @@ def dead_points(motion: Motion, stroke: str, held: Mapping[str, float], ranges: 
     Those whose two points a stroke drives apart never do. The others are held.
     """
     plan = motion.plan
+    ranges = [(low, high) for low, high in ranges if low < high]
+    if not ranges:
+        return []
     driven = {frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
     found: list[tuple[float, str]] = []
     for name, element in plan.of_kind(TwoPoint).items():
@@ -43,7 +46,7 @@ def dead_points(motion: Motion, stroke: str, held: Mapping[str, float], ranges: 
         if not follows(motion, element, stroke, held, ranges):
             continue
         rate = rate_of(motion, element, stroke, held)
-        at = np.array(sorted(root for low, high in ranges if low < high for root in roots(rate, low, high)))
+        at = np.array(sorted(root for low, high in ranges for root in roots(rate, low, high)))
         found += [(float(each), name) for each in at[first_times(motion, stroke, held, at)]]
     return sorted(found)
 
@@ -61,6 +64,8 @@ def follows(motion: Motion, element: TwoPoint, stroke: str, held: Mapping[str, f
 
 def first_times(motion: Motion, stroke: str, held: Mapping[str, float], at: FloatArray) -> Mask:
     """Return which of some strokes (n,) give a pose that no one before gives."""
+    if at.size < 2:
+        return np.ones(at.shape, bool)
     poses = motion.moved({**held, stroke: at})
     places = np.array([poses[name] for name in motion.plan.points]).reshape(-1, at.size)
     apart = np.abs(places[:, :, None] - places[:, None, :]).max(axis=0)

@@ -323,7 +323,22 @@ def test_a_cylinder_beside_the_driven_one_may_stand_still():
         G = OnLink("O", "B", OG=1.2, BOG=70 * deg)
         ram = Cylinder("A", "G", bore=0.08, rod=0.045)
 
-    (value, name), *_ = Beside().sweep(3).limits()["S"].cylinder_dead_points
+    class Never(Lift):
+        G = OnLink("O", "B", OG=1.2)
+        ram = Cylinder("A", "G", bore=0.08, rod=0.045)
+
+    assert Never().sweep(3).limits()["S"].cylinder_dead_points == ()  # O, A and G are in line where the driven one ends
+    ((value, name),) = Beside().sweep(3).limits()["S"].cylinder_dead_points
     at = Beside().at(S=value)
     (ax, ay), (ox, oy), (gx, gy) = (at[point] for point in "AOG")
     assert name == "ram" and abs((ax - ox) * (gy - oy) - (ay - oy) * (gx - ox)) < 1e-9
+
+
+def test_where_nothing_is_reached_there_is_no_dead_point():
+    class Far(Lift):
+        phi = Stroke(0.0, 1.0)
+        C = Crank("A", AC=0.5, angle=phi)
+        ram = Cylinder("O", "C", bore=0.08, rod=0.045)
+
+    limits = Far().at(S=5.0, phi=0.5, unreachable="nan").limits()
+    assert limits["phi"].intervals == () and limits["phi"].cylinder_dead_points == ()

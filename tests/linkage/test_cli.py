@@ -165,11 +165,24 @@ def test_equations_are_printed_when_asked(said):
     assert "Equations" in out and "(1)" in out
 
 
-def test_a_users_machine_with_a_load_shows_its_thrust(said, own):
+def test_a_users_machine_with_a_load_shows_the_force_of_its_drive(said, own):
     with (own / "lever.py").open("a", encoding="utf-8") as file:
         file.write("    load = Weight(B, mass=100)\n")
     _, out, _ = said("table", "lever.py", "--count", "2")
-    assert out.splitlines()[0].split()[-2:] == ["thrust,", "kN"]
+    assert out.splitlines()[0].endswith("  drive force, kN")
+    assert said("plot", "lever.py", "drive force", "-o", "force.svg", "--count", "3") == (0, "force.svg\n", "")
+
+
+def test_a_users_cylinder_shows_its_thrust_and_its_pressure(said, own):
+    members = "    load = Weight(B, mass=100)\n    lift = Cylinder(A, B, bore=0.063, rod=0.040)\n"
+    (own / "lever.py").write_text(f"from hydraulics import Cylinder\n{textwrap.dedent(OWN)}{members}", encoding="utf-8")
+    _, out, _ = said("table", "lever.py", "thrust", "pressure", "--count", "2", "--csv", "-")
+    (*_, thrust, pressure), *rows = csv.reader(io.StringIO(out))
+    assert (thrust, pressure) == ("thrust, kN", "pressure, bar")
+    assert len(rows) == 2
+    for row in rows:
+        pushed = max(float(row[-2]), 0.0) * 1e3 / (np.pi / 4 * 0.063**2)
+        assert float(row[-1]) == pytest.approx(pushed / 1e5, rel=1e-12)
 
 
 # -- pictures ----------------------------------------------------------------------------------------------

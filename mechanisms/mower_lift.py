@@ -33,7 +33,7 @@ from linkage import (
 )  # fmt: skip
 from linkage.motion import Span, lowest, reached
 from linkage.report import reached_span
-from linkage.units import cm, deg, g0, kgf, kgf_cm2, litre, mm
+from linkage.units import cm, deg, g0, kgf, kgf_cm2, litre, minute, mm
 
 G_FROM_O = (1.07, -0.37)                    # centre of gravity from O at S = 0.55 m, as the input says, m
 BELOW = atan2(G_FROM_O[1], G_FROM_O[0])     # its direction from O, rad
@@ -125,7 +125,7 @@ class MowerLift(Mechanism):
         beside = [judged.holding(), judged.lowering(), *self.lift.buckling(motion)] if found.least > 0.0 else []
         apart = [] if motion.reached.all() else ["The poses out of reach are left out of this."]
         return [
-            *lift_words(self, motion, found), *driven_words(found), *oil_words(self.circuit, motion),
+            *lift_words(motion, found), *driven_words(found), *oil_words(self.circuit, motion),
             *(str(each) for each in beside if not each), *apart,
         ]  # fmt: skip
 
@@ -133,7 +133,7 @@ class MowerLift(Mechanism):
 # -- verdicts ----------------------------------------------------------------------------------------------
 
 
-def lift_words(machine: MowerLift, motion: Motion, found: Lifting) -> list[str]:
+def lift_words(motion: Motion, found: Lifting) -> list[str]:
     """Return whether one design lifts; where not, from where to where, and the remedy."""
     if found.is_free:
         return []
@@ -143,7 +143,7 @@ def lift_words(machine: MowerLift, motion: Motion, found: Lifting) -> list[str]:
     if found.least >= 1.0:
         return [f"The section can be lifted {all_of(motion)} at {limit}: {least}."]
     below = f"and kz is below 1 {' and '.join(map(str, found.short))}"
-    return [f"The section cannot be lifted {out_of(motion, found.short)} at {limit}: {least}, {below}.", remedy_words(machine, found)]
+    return [f"The section cannot be lifted {out_of(motion, found.short)} at {limit}: {least}, {below}.", remedy_words(motion, found)]
 
 
 def all_of(motion: Motion) -> str:
@@ -163,21 +163,21 @@ def out_of(motion: Motion, short: Sequence[Span]) -> str:
     return "from its lowest position" if low == motion.plan.strokes["S"].start else f"from S = {low:.4f} m"
 
 
-def remedy_words(machine: MowerLift, found: Lifting) -> str:
+def remedy_words(motion: Motion, found: Lifting) -> str:
     """Return what makes up for a least reserve below 1: a pressure, or the smallest standard bore (ISO 3320)."""
     if found.least == 0.0:
         return "No pressure and no bore lifts there: keep away from that pose."
     needs = f"It needs {found.needed / kgf_cm2:.1f} kgf/cm2"
     if np.isnan(found.bore):
         return f"{needs}; no standard bore is large enough."
-    which = "the next standard bore" if found.bore == next_bore(machine["bore"]) else "a larger standard bore"
+    which = "the next standard bore" if found.bore == next_bore(float(motion.inputs["bore"])) else "a larger standard bore"
     return f"{needs}, or {which}: {found.bore / mm:.0f} mm gives kz = {found.gained:.2f}."
 
 
 def driven_words(found: Lifting) -> list[str]:
-    """Return where the weight drives the lift, if it does."""
+    """Return where the load drives the lift, if it does."""
     where = " and ".join(map(str, found.driven))
-    return [f"The weight drives the lift {where}: there it is not limited by this cylinder."] if where else []
+    return [f"The load drives the lift {where}: there it is not limited by this cylinder."] if where else []
 
 
 def oil_words(circuit: LiftCircuit, motion: Motion) -> list[str]:
@@ -185,8 +185,11 @@ def oil_words(circuit: LiftCircuit, motion: Motion) -> list[str]:
     low, high = reached_span(motion)
     if low == high:
         return []
-    oil = float(circuit.oil(motion)) / litre
-    return [f"Lifting from S = {low:.4f} to {high:.4f} m takes {oil:.2f} l of oil; time and flow follow from the pump."]
+    oil, flow = float(circuit.oil(motion)) / litre, float(motion.inputs["circuit.flow"])
+    timed = "; time and flow follow from the pump"
+    if flow > 0.0:
+        timed = f", {float(circuit.time(motion)):.1f} s at {flow * minute / litre:.4g} l/min"
+    return [f"Lifting from S = {low:.4f} to {high:.4f} m takes {oil:.2f} l of oil{timed}."]
 
 
 def batch_verdict(circuit: LiftCircuit, motion: Motion) -> str:

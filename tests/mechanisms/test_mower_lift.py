@@ -245,7 +245,7 @@ def test_verdict_where_the_lift_stops_on_its_way():
 
 def test_verdict_where_the_weight_drives():
     text = verdict(BOG=3.5)
-    (start,) = re.findall(r"weight drives the lift from S = ([0-9.]+) to 0.8000 m: there it is not limited by this cylinder", text)
+    (start,) = re.findall(r"load drives the lift from S = ([0-9.]+) to 0.8000 m: there it is not limited by this cylinder", text)
     lift = MowerLift(BOG=3.5)
     motion = lift.at(S=[float(start) - 1e-4, float(start) + 1e-4])
     resists, drives = motion.ratio("G")[1]
@@ -257,7 +257,7 @@ def test_verdict_where_the_weight_drives():
 
 def test_verdict_where_the_weight_drives_everywhere():
     text = verdict(BOG=4.5)
-    assert text.startswith("The weight drives the lift from S = 0.5500 to 0.8000 m")
+    assert text.startswith("The load drives the lift from S = 0.5500 to 0.8000 m")
 
 
 def test_verdict_of_a_batch_counts_designs():
@@ -361,6 +361,7 @@ def test_the_machine_is_like_any_users():
     assert_allclose(np.hypot(*forces.force("B", on="lift")), forces.thrusts["lift"], rtol=1e-12)
     assert isinstance(MowerLift.circuit, LiftCircuit)
     timed = MowerLift(**{"circuit.flow": 10 * litre / minute})
+    assert "takes 1.26 l of oil, 7.5 s at 10 l/min." in " ".join(timed.verdicts(timed.sweep(2)))
     assert timed.circuit.time(timed.sweep(2)) == pytest.approx(np.pi / 4 * 0.08**2 * 0.25 / (10 * litre / minute), rel=1e-12)
 
 

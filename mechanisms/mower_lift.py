@@ -125,7 +125,7 @@ class MowerLift(Mechanism):
         beside = [judged.holding(), judged.lowering(), *self.lift.buckling(motion)] if found.least > 0.0 else []
         apart = [] if motion.reached.all() else ["The poses out of reach are left out of this."]
         return [
-            *lift_words(motion, found), *driven_words(found), *oil_words(self.circuit, motion),
+            *lift_words(self.circuit, motion, found), *driven_words(found), *oil_words(self.circuit, motion),
             *(str(each) for each in beside if not each), *apart,
         ]  # fmt: skip
 
@@ -133,17 +133,17 @@ class MowerLift(Mechanism):
 # -- verdicts ----------------------------------------------------------------------------------------------
 
 
-def lift_words(motion: Motion, found: Lifting) -> list[str]:
+def lift_words(circuit: LiftCircuit, motion: Motion, found: Lifting) -> list[str]:
     """Return whether one design lifts; where not, from where to where, and the remedy."""
     if found.is_free:
         return []
-    limit = f"{float(motion.inputs['p_max']) / kgf_cm2:.4g} kgf/cm2"
+    limit = f"{float(circuit.supply(motion)) / kgf_cm2:.4g} kgf/cm2"
     grows = f"the force needed grows without bounds {found.where}"
     least = f"the least reserve kz is {found.least:.3f}, {found.where}" if found.least > 0.0 else grows
     if found.least >= 1.0:
         return [f"The section can be lifted {all_of(motion)} at {limit}: {least}."]
     below = f"and kz is below 1 {' and '.join(map(str, found.short))}"
-    return [f"The section cannot be lifted {out_of(motion, found.short)} at {limit}: {least}, {below}.", remedy_words(motion, found)]
+    return [f"The section cannot be lifted {out_of(motion, found.short)} at {limit}: {least}, {below}.", remedy_words(circuit, motion, found)]
 
 
 def all_of(motion: Motion) -> str:
@@ -163,14 +163,15 @@ def out_of(motion: Motion, short: Sequence[Span]) -> str:
     return "from its lowest position" if low == motion.plan.strokes["S"].start else f"from S = {low:.4f} m"
 
 
-def remedy_words(motion: Motion, found: Lifting) -> str:
+def remedy_words(circuit: LiftCircuit, motion: Motion, found: Lifting) -> str:
     """Return what makes up for a least reserve below 1: a pressure, or the smallest standard bore (ISO 3320)."""
     if found.least == 0.0:
         return "No pressure and no bore lifts there: keep away from that pose."
     needs = f"It needs {found.needed / kgf_cm2:.1f} kgf/cm2"
     if np.isnan(found.bore):
         return f"{needs}; no standard bore is large enough."
-    which = "the next standard bore" if found.bore == next_bore(float(motion.inputs["bore"])) else "a larger standard bore"
+    bore = float(circuit.ram(motion).sized(motion).bore)
+    which = "the next standard bore" if found.bore == next_bore(bore) else "a larger standard bore"
     return f"{needs}, or {which}: {found.bore / mm:.0f} mm gives kz = {found.gained:.2f}."
 
 
@@ -185,7 +186,7 @@ def oil_words(circuit: LiftCircuit, motion: Motion) -> list[str]:
     low, high = reached_span(motion)
     if low == high:
         return []
-    oil, flow = float(circuit.oil(motion)) / litre, float(motion.inputs["circuit.flow"])
+    oil, flow = float(circuit.oil(motion)) / litre, float(circuit.number(motion, "flow"))
     timed = "; time and flow follow from the pump"
     if flow > 0.0:
         timed = f", {float(circuit.time(motion)):.1f} s at {flow * minute / litre:.4g} l/min"

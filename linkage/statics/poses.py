@@ -109,7 +109,7 @@ class Poses:
     def full(self, values: FloatArray) -> FloatArray:
         """Return values (..., n) in the motion's shape, NaN at the other poses."""
         if self.is_whole:
-            return np.broadcast_to(values, (*values.shape[:-1], self.count)).reshape(*values.shape[:-1], *self.motion.shape)
+            return np.broadcast_to(values, (*values.shape[:-1], self.count)).reshape((*values.shape[:-1], *self.motion.shape))
         result = np.full((*values.shape[:-1], *self.motion.shape), np.nan)
         result[..., self.good] = values
         return result

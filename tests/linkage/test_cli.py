@@ -68,17 +68,17 @@ def test_show_says_what_an_engineer_asks(said):
     code, out, err = said("show", "mower_lift")
     assert (code, err) == (0, "")
     for words in (
-        "The source contradicts itself", "S  550 to 800 mm", "OB      175 mm", "BOG     110.425 deg", "weight  900 kgf",
-        "p_max   155 kgf/cm2", "frame A O", "O B G", "cylinder A B", "Gruebler count 1",
+        "The source contradicts itself", "S 550 to 800 mm", "OB 175 mm", "BOG 110.425 deg", "weight 900 kgf",
+        "p_max 155 kgf/cm2", "lift.rod 45 mm", "frame A O", "O B G", "cylinder A B", "Gruebler count 1",
         "B = Dyad(A, O, AB=S, OB=0.175, side=RIGHT)", "needs 161.0 kgf/cm2",
     ):  # fmt: skip
-        assert words in out
+        assert words in " ".join(out.split())
 
 
 def test_setting_changes_the_design_and_the_verdict(said):
     code, out, _ = said("show", "mower_lift", "--set", "p_max=200 kgf/cm2", "--set", "OB=18cm")
     assert code == 0
-    assert "OB      180 mm" in out
+    assert "OB 180 mm" in " ".join(out.split())
     assert "can be lifted over the whole stroke at 200 kgf/cm2" in out
 
 

@@ -1,7 +1,14 @@
 """Where everything is over the stroke: positions, ratios, angles, distances."""
 
+from .asked import rates_of as rates_of
+from .below import Span as Span
+from .below import below_zero as below_zero
+from .below import reached as reached
 from .bulk import evaluate as evaluate
 from .column import Column as Column
+from .extremes import Extremum as Extremum
+from .extremes import greatest as greatest
+from .extremes import lowest as lowest
 from .function import PoseFunction as PoseFunction
 from .function import function_of as function_of
 from .grid import Grid as Grid

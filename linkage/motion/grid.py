@@ -30,8 +30,12 @@ class Grid:
         except ValueError:
             shapes = ", ".join(map(str, arrays))
             raise DefinitionError(f"{plan.title}: the shapes of the design arrays do not fit each other: {shapes}.") from None
-        self.stroke_shape = next((value.shape for value in self.strokes.values()), ())
+        self.stroke_shape = self._stroke_shape()
         self.shape = (*self.design_shape, *self.stroke_shape)
+
+    def _stroke_shape(self) -> tuple[int, ...]:
+        """Return the shape of the poses of each design."""
+        return next((value.shape for value in self.strokes.values()), ())
 
     @cached_property
     def size(self) -> tuple[int, int]:

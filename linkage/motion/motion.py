@@ -56,6 +56,22 @@ class Motion(Outputs):
         """
         return scan.limits(self)
 
+    @property
+    def tangent(self) -> Mapping[str, FloatArray] | None:
+        """How several strokes go on along a path of poses, by name, shape (poses,); None where the poses are no path.
+
+        Half the way from the pose before to the pose after [SI]: its signs and ratios mean something, its length does not.
+        """
+        if len(self.strokes) < 2 or len(self.stroke_shape) != 1 or self.stroke_shape[0] < 2:
+            return None
+        return {name: np.gradient(value) for name, value in self.strokes.items()}
+
+    def sketched(self, quantity: Quantity) -> FloatArray:
+        """Return what a quantity is at the sketch pose of each design [SI], shaped to broadcast against results."""
+        strokes = {name: np.asarray(value) for name, value in self.plan.sketch_strokes.items()}
+        found = Motion(self.plan, self.designs, strokes, "nan").value(quantity)
+        return found.reshape(*self.design_shape, *(1,) * len(self.stroke_shape))
+
     # -- ratios ----------------------------------------------------------------------------------------
 
     def ratio(
@@ -110,7 +126,7 @@ class Motion(Outputs):
     def _numeric(self, member: Member, stroke: str, order: int, step: float | None) -> FloatArray:
         def values(offsets: FloatArray) -> FloatArray:
             shifted = {name: value[..., None] + (offsets if name == stroke else 0.0 * offsets) for name, value in self.strokes.items()}
-            near = Motion(self.plan, self.designs, shifted, "nan")
+            near = self.moved(shifted)
             return near[member.name] if member.name else near.value(member)  # type: ignore[arg-type]
 
         declared = self.plan.strokes[stroke]

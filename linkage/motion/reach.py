@@ -15,7 +15,7 @@ from ..plan import failures as failures
 from ..plan import missing_words as missing_words
 from ..plan import negative as negative
 from ..plan import opening as opening
-from .limits import as_read, number
+from .limits import READ_IN, as_read, number
 
 
 @np.errstate(all="ignore")
@@ -62,6 +62,13 @@ def span_read(values: Any, unit: str) -> str:
         return "nothing"
     low, high = float(np.min(values)), float(np.max(values))
     return as_read(low, unit, 6) if low == high else f"{number(low, unit, 6)} to {as_read(high, unit, 6)}"
+
+
+def place_read(value: Any, unit: str) -> str:
+    """Return a stroke [m or rad], or the range of several, as a place of it is read: `0.1234 m`, `25.00 deg`, `0.1000 to 0.2000 m`."""
+    digits, (factor, name) = 2 if unit == "rad" else 4, READ_IN[unit]
+    ends = dict.fromkeys(f"{float(each) / factor + 0.0:.{digits}f}" for each in (np.min(value), np.max(value)))
+    return f"{' to '.join(ends)} {name}"
 
 
 def stroke_unit(plan: Plan, name: str) -> str:

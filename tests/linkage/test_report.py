@@ -172,11 +172,13 @@ def test_ends_of_a_range_are_roots(low, high):
 
 def test_range_ends_where_the_reach_does():
     lift = Lift()
+    AO = np.hypot(0.652, 0.330 - 0.242)
     motion = lift.at(S=[0.6, 0.9], unreachable="nan")
-    assert reached_span(motion) == (0.6, 0.6)
-    motion = lift.at(S=[0.4, 0.6, 0.8], unreachable="nan")
-    assert reached_span(motion) == (0.6, 0.8)
-    assert below_zero(motion, lambda each: -np.ones(each.shape)) == [(0.6, 0.8)]
+    assert reached_span(motion) == pytest.approx((0.6, AO + 0.175), abs=1e-12)
+    for S in ([0.4, 0.6, 0.8], [0.4, 0.8]):
+        motion = lift.at(S=S, unreachable="nan")
+        assert reached_span(motion) == pytest.approx((AO - 0.175, 0.8), abs=1e-12)
+        assert below_zero(motion, lambda each: -np.ones(each.shape)) == [reached_span(motion)]
     assert below_zero(motion, lambda each: np.ones(each.shape)) == []
 
 

@@ -1,0 +1,90 @@
+"""A function looked at anywhere on the way that a motion covers."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ..errors import DefinitionError, SingularWarning
+from ..program import FloatArray
+from .along import Along
+from .motion import Motion
+from .peaks import Index, Mask, samples
+from .route import Route
+
+Function: TypeAlias = Callable[[Motion], Any]
+"""A function of a motion: a number for each pose, shape (...), or several, shape (k, ...); NaN where it has none."""
+
+
+def values_of(f: Function, motion: Motion) -> FloatArray:
+    """Return what a function gives at every pose, shape (..., *motion.shape), NaN out of reach. Nearness to a dead point is not told."""
+    with warnings.catch_warnings(), np.errstate(all="ignore"):
+        warnings.simplefilter("ignore", SingularWarning)
+        found = np.asarray(f(motion), float)
+    axes = len(motion.shape)
+    if found.ndim < axes or found.shape[found.ndim - axes :] != motion.shape:
+        try:
+            found = np.broadcast_to(found, motion.shape)
+        except ValueError:
+            what = f"a function of a motion gives the shape {found.shape} where {motion.shape} or (k, *{motion.shape}) is expected"
+            raise DefinitionError(f"{motion.plan.title}: {what}; return a number for each pose.") from None
+    return np.where(motion.reached, found, np.nan)
+
+
+class Between:
+    """A function of the poses on a motion's way, of K quantities and D designs; `look` is what a search asks.
+
+    The samples are worked out once, at the same strokes for all designs; poses between them take their angles from these.
+    """
+
+    def __init__(self, motion: Motion, f: Function, sense: float = 1.0) -> None:
+        self.motion, self.f, self.sense = motion, f, sense
+        self.route = Route.of(motion.strokes)
+        self.leg, self.t = leg, t = samples(self.route.counts)
+        self.first = Along(motion.plan, motion.designs, self.route.strokes(leg, t), tangent=self.route.tangent(leg))
+        self.seen = sense * values_of(f, self.first)
+        self.front = self.seen.shape[: self.seen.ndim - len(self.first.shape)]
+        self._starts = np.cumsum([0, *(count + 1 for count in self.route.counts[:-1])])
+        self._reached = nearest_reached(self.first.reached.reshape(-1, leg.size))
+
+    def look(self, leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
+        """Return the values (K, D, n) at places (n,) of all designs or (D, n) of each its own, and which poses (D, n) are reached.
+
+        Places (n,) are the samples.
+        """
+        motion, seen = (self.first, self.seen) if t.ndim == 1 else self._own(leg, t)
+        D, n = self._reached.shape[0], t.shape[-1]
+        return seen.reshape(-1, D, n), motion.reached.reshape(D, n)
+
+    def _own(self, leg: Index, t: FloatArray) -> tuple[Along, FloatArray]:
+        """Return the poses at places (D, n), each design at its own, and the values there."""
+        first, tangent = self.first, self.route.tangent(leg)
+        places = self._starts[leg] + np.rint(t * np.asarray(self.route.counts)[leg]).astype(int)
+        near = np.take_along_axis(self._reached, places, axis=-1)
+
+        def shaped(values: Any) -> Any:
+            return values.reshape(*first.design_shape, t.shape[-1])
+
+        motion = Along(
+            first.plan, first.designs, {name: shaped(value) for name, value in self.route.strokes(leg, t).items()}, own=True,
+            tangent=tangent and {name: shaped(value) for name, value in tangent.items()}, like=first, near=shaped(near),
+        )  # fmt: skip
+        return motion, self.sense * values_of(self.f, motion)
+
+    def strokes(self, leg: Index, t: FloatArray) -> Mapping[str, FloatArray]:
+        """Return the strokes [SI] at places, shape as these."""
+        return self.route.strokes(leg, t)
+
+
+def nearest_reached(reached: Mask) -> Index:
+    """Return for every sample (D, n) the nearest that is reached; itself where none is."""
+    n = reached.shape[-1]
+    here = np.broadcast_to(np.arange(n), reached.shape)
+    before = np.maximum.accumulate(np.where(reached, here, -1), axis=-1)
+    after = np.minimum.accumulate(np.where(reached, here, 2 * n)[..., ::-1], axis=-1)[..., ::-1]
+    first, last = np.where(before < 0, after, before), np.where(after >= n, before, after)
+    found = np.where(here - first <= last - here, first, last)
+    return np.where((found >= 0) & (found < n), found, here)

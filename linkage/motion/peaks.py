@@ -1,0 +1,267 @@
+"""The highest values of functions along lines, looked for between samples; many functions and many designs at once.
+
+A line is made of legs, a place on it is a leg and a share t of it, 0 to 1. Nothing is taken to be smooth:
+
+* Samples stand 1/4096 of the range apart. A bump with a base of 1/2000, a triangle or a parabola, has a sample within a quarter of its
+  base from its top, which sees at least half of its height (of a parabola three quarters). That sample is higher than its neighbours
+  unless the ground beside the bump rises half as fast as the bump itself.
+* About every such sample a bracket is looked at in 33 places. What may still come out highest, by what it rises above the places next
+  to it, is narrowed 16-fold a round until the bracket is 1e-13 of the leg, or flat to rounding. A kink is found like a smooth top, and
+  so is a jump from its larger side.
+* Every border of the places that have a value is bisected to 1e-13 of the leg, and looked at in steps that halve towards it.
+* A value that grows with a power of the distance up to a border, or as far as numbers go, is unbounded there; see `grows`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from ..program import FloatArray
+
+Index: TypeAlias = npt.NDArray[np.intp]
+Mask: TypeAlias = npt.NDArray[np.bool_]
+Look: TypeAlias = Callable[[Index, FloatArray], tuple[FloatArray, Mask]]
+"""`look(leg, t)` at places (n,) of all D designs, or (D, n) of each its own: the values of K functions (K, D, n), NaN where there is none,
+and whether each pose (D, n) is reached."""
+
+SAMPLES = 4096  # over the range
+FINE, NARROWER = 33, 16.0  # places in a bracket; the next one is two of its intervals wide
+CLOSE = 1e-13  # of a leg: how narrow a bracket gets
+FIRST, LAST, BORDERS = 64, 8, 32  # of each function and design: brackets at first, brackets to the end, borders
+NOISE = 1e-10  # of the range of the values: a sample that rises less above its neighbours hides nothing
+EPS, LOWEST = float(np.finfo(float).eps), float(np.finfo(float).min)
+HALVINGS = 48
+SEEN, REFUSED = 1e-9, 1e-5  # of a leg: how near a value must keep growing, to a border and to a refused pose
+
+
+@dataclass(frozen=True, eq=False)
+class Highest:
+    """The highest value of K functions of D designs, arrays (K, D): value, NaN where there is none; leg and t; whether it is unbounded."""
+
+    value: FloatArray
+    leg: Index
+    t: FloatArray
+    unbounded: Mask
+
+
+@dataclass(frozen=True, eq=False)
+class Tops:
+    """Places that may be highest, arrays (K, D, c): their values, half the brackets about them, and the most that may hide in these."""
+
+    leg: Index
+    t: FloatArray
+    value: FloatArray
+    half: FloatArray
+    bound: FloatArray
+
+    def best(self, most: int) -> Tops:
+        """Return those that may come out highest, in every row as many as the fullest row needs, at most so many."""
+        hopeful = self.bound >= self.value.max(axis=-1, keepdims=True)
+        order = np.argsort(-self.bound, axis=-1, kind="stable")[..., : min(most, int(hopeful.sum(axis=-1).max()))]
+        return Tops(*(np.take_along_axis(getattr(self, name), order, axis=-1) for name in self.__dataclass_fields__))
+
+    def where(self, mask: Mask) -> Tops:
+        """Return some of them as one row."""
+        return Tops(*(getattr(self, name)[mask][None, None] for name in self.__dataclass_fields__))
+
+    def joined(self, other: Tops) -> Tops:
+        """Return the places of both."""
+        return Tops(*(np.concatenate([getattr(each, name) for each in (self, other)], axis=-1) for name in self.__dataclass_fields__))
+
+
+def samples(counts: Sequence[int]) -> tuple[Index, FloatArray]:
+    """Return places (n,) that cut every leg into so many intervals; each leg has both its ends."""
+    leg = np.repeat(np.arange(len(counts)), np.asarray(counts) + 1)
+    return leg, np.concatenate([np.linspace(0.0, 1.0, count + 1) for count in counts])
+
+
+@np.errstate(all="ignore")
+def highest(look: Look, counts: Sequence[int]) -> Highest:
+    """Return the highest values along legs, cut into so many intervals at first."""
+    leg, t = samples(counts)
+    seen, _ = look(leg, t)
+    values = level(seen)
+    tops = zoomed(look, peaks(values, leg, t, counts))
+    edges = borders(look, np.isnan(seen), values, leg, t)
+    ends = tops if edges is None else tops.joined(towards(look, edges))
+    tops = ends.best(LAST)
+    while tops.half.max() > CLOSE:
+        tops = zoomed(look, tops)
+    ends = tops if edges is None else tops.joined(edges)
+    return chosen(ends, grows(look, ends), np.asarray(np.isnan(seen).all(axis=-1)))
+
+
+def level(values: FloatArray) -> FloatArray:
+    """Return values in which what is missing lies below all others."""
+    return np.where(np.isnan(values), -np.inf, np.maximum(values, LOWEST))
+
+
+def own(look: Look, leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
+    """Return the values of K functions at places of their own (K, D, c, n), and whether these are reached, same shape."""
+    K, D = t.shape[:2]
+    leg = np.broadcast_to(leg[..., None], t.shape)
+    values, reached = look(np.moveaxis(leg, 0, 1).reshape(D, -1), np.moveaxis(t, 0, 1).reshape(D, -1))
+    of_each = values.reshape(K, D, K, *t.shape[2:])[np.arange(K), :, np.arange(K)]
+    return of_each, np.moveaxis(reached.reshape(D, K, *t.shape[2:]), 1, 0)
+
+
+# -- the samples ---------------------------------------------------------------------------------------------
+
+
+def beside(values: FloatArray, by: int, missing: float) -> FloatArray:
+    """Return the values of the samples so many places on, `missing` beyond the ends."""
+    found = np.full(values.shape, missing)
+    into, out = (slice(None, -by), slice(by, None)) if by > 0 else (slice(-by, None), slice(None, by))
+    found[..., into] = values[..., out]
+    return found
+
+
+def are_peaks(values: FloatArray, leg: Index) -> Mask:
+    """Return which samples (K, D, n) are as high as their neighbours, the first one of a level part. A corner stands twice among them."""
+    starts, ends = np.diff(leg, prepend=-1) > 0, np.diff(leg, append=leg[-1] + 1) > 0
+    before, after = (beside(values, by, -np.inf) for by in (-1, 1))
+    before = np.where(starts, np.maximum(before, beside(values, -2, -np.inf)), before)
+    after = np.where(ends, np.maximum(after, beside(values, 2, -np.inf)), after)
+    return np.asarray(((values > before) | (starts & (values == before))) & (values >= after))
+
+
+def peaks(values: FloatArray, leg: Index, t: FloatArray, counts: Sequence[int], among: Mask | None = None) -> Tops:
+    """Return the samples (K, D, n) that rise above their neighbours by more than noise: some of a mask (n,), else also the highest."""
+    finite = np.where(values > LOWEST, values, np.nan)
+    rise = np.zeros(values.shape)
+    for by in (-2, -1, 1, 2):
+        rise = np.fmax(rise, finite - beside(finite, by, np.nan))
+    size = np.nanmax(np.abs(finite), axis=-1, initial=0.0, keepdims=True)
+    span = np.nanmax(finite, axis=-1, initial=-np.inf, keepdims=True) - np.nanmin(finite, axis=-1, initial=np.inf, keepdims=True)
+    hopeful = are_peaks(values, leg) & (rise > NOISE * span + 16.0 * EPS * size)
+    rank = np.where(hopeful, values + rise, -np.inf)
+    if among is None:
+        np.put_along_axis(rank, np.argmax(values, axis=-1)[..., None], np.inf, axis=-1)
+    else:
+        rank = np.where(among, rank, -np.inf)
+    count = int((rank > -np.inf).sum(axis=-1).max())
+    place = np.argsort(-rank, axis=-1, kind="stable")[..., : min(count, FIRST)]
+    value = np.take_along_axis(values, place, axis=-1)
+    return Tops(leg[place], t[place], value, 1.0 / np.asarray(counts)[leg[place]], value + np.take_along_axis(rise, place, axis=-1))
+
+
+def zoomed(look: Look, tops: Tops) -> Tops:
+    """Return the best places in the brackets, with brackets 16 times narrower about them; of no width where they are flat to rounding."""
+    t = np.clip(tops.t[..., None] + tops.half[..., None] * np.linspace(-1.0, 1.0, FINE), 0.0, 1.0)
+    seen, _ = own(look, tops.leg, t)
+    return settled(tops, t, seen, np.broadcast_to(tops.half[..., None] / NARROWER, t.shape))
+
+
+def settled(tops: Tops, t: FloatArray, seen: FloatArray, half: FloatArray) -> Tops:
+    """Return the best of the places (K, D, c, n) seen, or what was known where that is better.
+
+    What may hide next to it is twice its rise above the places beside it; anything where it has risen more than was thought possible,
+    as values do that grow beyond bounds.
+    """
+    values = level(seen)
+    place = np.argmax(values, axis=-1)[..., None]
+    value = np.take_along_axis(values, place, axis=-1)[..., 0]
+    better = value > tops.value
+    new = np.where(better, value, tops.value)
+    finite = np.where(seen > LOWEST, seen, np.nan)
+    steps = [np.take_along_axis(finite, np.clip(place + by, 0, t.shape[-1] - 1), axis=-1)[..., 0] for by in (-1, 1)]
+    rise = np.fmax(np.fmax(new - steps[0], new - steps[1]), 0.0)
+    flat = ~np.isnan(seen).any(axis=-1) & (values.max(axis=-1) - values.min(axis=-1) <= 8.0 * EPS * np.abs(new))
+    narrowed = np.where(flat, 0.0, np.take_along_axis(half, place, axis=-1)[..., 0])
+    bound = np.where(new > tops.bound + 16.0 * EPS * np.abs(new), np.inf, new + 2.0 * np.nan_to_num(rise))
+    return Tops(tops.leg, np.where(better, np.take_along_axis(t, place, axis=-1)[..., 0], tops.t), new, narrowed, bound)
+
+
+# -- borders -------------------------------------------------------------------------------------------------
+
+
+def borders(look: Look, missing: Mask, values: FloatArray, leg: Index, t: FloatArray) -> Tops | None:
+    """Return the last places with a value before those without, their brackets as wide as the samples stand apart; None where all have one.
+
+    Rows with fewer borders than others are filled with the first place.
+    """
+    change = (missing[..., 1:] != missing[..., :-1]) & (leg[1:] == leg[:-1])
+    if not change.any():
+        return None
+    first = np.where(change, -np.maximum(values[..., 1:], values[..., :-1]), np.inf)
+    place = np.argsort(first, axis=-1, kind="stable")[..., : min(int(change.sum(axis=-1).max()), BORDERS)]
+    is_border = np.take_along_axis(change, place, axis=-1)
+    ahead = np.take_along_axis(missing[..., :-1], place, axis=-1)  # the value stands after the border
+    inside, outside = (np.where(is_border, place + (ahead if side else ~ahead), 0) for side in (True, False))
+    found = bisected(look, leg[inside], t[inside], t[outside])
+    value = level(own(look, leg[inside], found[..., None])[0][..., 0])
+    return Tops(leg[inside], found, value, t[inside] - found, np.full(value.shape, np.inf))
+
+
+def bisected(look: Look, leg: Index, inside: FloatArray, outside: FloatArray) -> FloatArray:
+    """Return the last places (K, D, c) with a value between those that have one and those that have none."""
+    while np.max(np.abs(outside - inside)) > CLOSE:
+        t = inside[..., None] + (outside - inside)[..., None] * np.linspace(0.0, 1.0, FINE)
+        missing = np.isnan(own(look, leg, t)[0])
+        missing[..., -1] = True
+        last = np.maximum(np.argmax(missing, axis=-1)[..., None], 1)
+        inside, outside = (np.take_along_axis(t, last - back, axis=-1)[..., 0] for back in (1, 0))
+    return inside
+
+
+def towards(look: Look, edges: Tops) -> Tops:
+    """Return the best of the places that halve the way towards each border, with the bracket about it."""
+    shares = np.append(0.5 ** np.arange(36), 0.0)
+    t = edges.t[..., None] + edges.half[..., None] * shares
+    half = np.abs(edges.half)[..., None] * np.append(shares[:-1], shares[-2])
+    return settled(edges, t, own(look, edges.leg, t)[0], half)
+
+
+# -- without bounds ------------------------------------------------------------------------------------------
+
+
+def grows(look: Look, tops: Tops) -> Mask:
+    """Return at which places (K, D, c) a value grows beyond bounds.
+
+    Looked at from 2^-1 to 2^-48 of the leg before a place, a value c / (x0 + d)^q gains most by halving d where d is about x0. It is
+    unbounded where its gains grew all the way to there, over six halvings at least 2.5-fold (q = 1/2: 4-fold; a finite value's gains
+    shrink), and x0 is nothing but the end of numbers: below 1e-9, or, up to a refused pose, 1e-5 or the width of what is refused.
+    """
+    far = np.ldexp(1.0, -np.arange(1, HALVINGS + 1))
+    t = tops.t[..., None, None] + np.array([-1.0, 1.0])[:, None] * far
+    on = (t >= 0.0) & (t <= 1.0)
+    K, D, c = tops.t.shape
+    seen, reached = own(look, tops.leg, np.clip(t, 0.0, 1.0).reshape(K, D, c, -1))
+    seen, reached = np.where(on, seen.reshape(t.shape), np.nan), reached.reshape(t.shape) & on
+    return np.asarray(np.isposinf(tops.value) | (growing(tops.value, seen, far) <= beyond(seen, reached, far)).any(axis=-1))
+
+
+def growing(value: FloatArray, seen: FloatArray, far: FloatArray) -> FloatArray:
+    """Return how near (K, D, c, 2) to a place values seen (K, D, c, 2, n) at distances (n,) grow up to it; infinite where they do not."""
+    gains = np.diff(seen, axis=-1)
+    most = np.argmax(level(gains), axis=-1)[..., None]
+    before = np.stack([np.take_along_axis(gains, np.maximum(most - by, 0), axis=-1)[..., 0] for by in range(7)])
+    start = np.take_along_axis(seen, np.maximum(most - 6, 0), axis=-1)[..., 0]
+    steady = (before > 0.0).all(axis=0) & (before[0] > 2.5 * before[6]) & (before[2] > before[6]) & (most[..., 0] >= 6)
+    much = value[..., None] - start >= 0.01 * np.abs(value[..., None])
+    return np.where(steady & much, far[most[..., 0] + 1], np.inf)
+
+
+def beyond(seen: FloatArray, reached: Mask, far: FloatArray) -> FloatArray:
+    """Return how near (K, D, c, 2) to a place values must grow to be unbounded: as wide as what is refused on its other side."""
+    gone = np.isnan(seen[..., ::-1, :])
+    least = int(np.searchsorted(-far, -1e-12))
+    refused = (gone & reached[..., ::-1, :])[..., least]
+    width = np.where(np.logical_and.accumulate(gone[..., least::-1], axis=-1), far[least::-1], 0.0).max(axis=-1)
+    return np.where(refused, np.maximum(REFUSED, 2.0 * width), SEEN)
+
+
+def chosen(tops: Tops, unbounded: Mask, missing: Mask) -> Highest:
+    """Return the best place of every row; one without bounds goes first."""
+    any_unbounded = np.asarray(unbounded.any(axis=-1))
+    score = np.where(any_unbounded[..., None] & ~unbounded, -np.inf, tops.value)
+    place = np.argmax(score, axis=-1)[..., None]
+    value = np.take_along_axis(tops.value, place, axis=-1)[..., 0]
+    value = np.where(any_unbounded, np.inf, np.where(value <= LOWEST, -np.inf, value))
+    leg, t = np.take_along_axis(tops.leg, place, axis=-1)[..., 0], np.take_along_axis(tops.t, place, axis=-1)[..., 0]
+    return Highest(np.where(missing, np.nan, value), leg, t, any_unbounded)

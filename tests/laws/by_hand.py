@@ -23,8 +23,8 @@ def full(motion, values):
 class ByHand:
     """One motion of a draft's machine, seen from outside."""
 
-    def __init__(self, draft: Draft, motion, rates=None):
-        self.draft, self.motion = draft, motion
+    def __init__(self, draft: Draft, motion, rates=None, rubs=False):
+        self.draft, self.motion, self.rubs = draft, motion, rubs
         self.at = {name: full(motion, motion[name]) for name in draft.at}
         self.rates = rates or {}
         self.bodies = [frozenset(body) for body in draft.bodies()]
@@ -34,7 +34,7 @@ class ByHand:
 
     def body(self, name):
         """Return which body of the draft a name stands for: the frame, an element, points, a block; AssertionError for none."""
-        if name == FRAME or name in self.draft.elements:
+        if name == FRAME or name in self.draft.elements or name.startswith("Actuator "):
             return name
         if name in self.draft.links:
             return frozenset(self.draft.links[name])
@@ -96,13 +96,12 @@ class ByHand:
         """Return every load from outside with its force (2, n), couple and place; elements are not among them."""
         return [act for load in self.draft.loads.values() for act in load.acts(self.at)]
 
-    def thrust(self, name, stroke="", sense=0):
-        """Return an element's thrust, shape (n,) [N]; seals lower what acts as it grows where a stroke moves."""
+    def thrust(self, name):
+        """Return an element's thrust, shape (n,) [N]: at the strokes' rates, and against the friction of its seals where something rubs."""
         element = self.draft.elements[name]
         length = size(self.at[element.B] - self.at[element.A])
         rate = sum((self.stretch(element.A, element.B, each) * speed for each, speed in self.rates.items()), np.zeros_like(length))
-        rubs = sense * np.sign(self.stretch(element.A, element.B, stroke)) * element.losses if sense else 0.0
-        return full(self.motion, element.thrust(length, rate) - rubs)
+        return full(self.motion, element.thrust(length, rate) - self.rubs * np.sign(rate) * element.losses)
 
     def energy(self):
         """Return the potential of all loads and elements, shape (n,) [J]."""

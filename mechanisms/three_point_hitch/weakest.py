@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from hydraulics import Verdict
-from linkage import Motion, angle
+from linkage import Motion, SingularWarning, angle
+from linkage.motion import lowest
 from linkage.program import FloatArray
 from linkage.report import closely
 from linkage.units import deg, g0, kN, mm
@@ -49,14 +51,8 @@ class Weakest:
 
 
 def least(motion: Motion, value: Callable[[Motion], FloatArray]) -> float:
-    """Return the stroke [m] where a value over one design's motion is least, to rounding of the value."""
-    fine = closely(motion)
-    for _ in range(6):
-        (at,) = fine.strokes.values()
-        place = int(np.nanargmin(value(fine)))
-        fine = closely(motion, np.linspace(at[max(place - 1, 0)], at[min(place + 1, len(at) - 1)], 65))
-    (at,) = fine.strokes.values()
-    return float(at[int(np.nanargmin(value(fine)))])
+    """Return the stroke [m] where a value over one design's motion is least, between its poses too."""
+    return float(lowest(motion, value).strokes["S"])
 
 
 def weakest(motion: Motion) -> Weakest | None:
@@ -67,7 +63,10 @@ def weakest(motion: Motion) -> Weakest | None:
     S = least(motion, lambda each: -stroke_per_newton(each))
     there = closely(motion, np.array([S]))
     best = closely(motion, np.array([least(motion, lambda each: np.abs(stroke_per_newton(each)))]))
-    return Weakest(S, float(there.y("F")[0]), float(capacity(there)[0]), float(there.ratio("G")[1][0]), stage(there, best), remedy(motion))
+    with warnings.catch_warnings():  # at the end of the reach it stands next to a dead point: the sentence keeps few digits
+        warnings.simplefilter("ignore", SingularWarning)
+        ratio, force = float(there.ratio("G")[1][0]), float(capacity(there)[0])
+        return Weakest(S, float(there.y("F")[0]), force, ratio, stage(there, best), remedy(motion))
 
 
 def stages(motion: Motion) -> dict[str, tuple[float, str]]:

@@ -227,7 +227,7 @@ def test_the_work_of_the_oil_is_the_change_of_energy(first):
             supply = LiftCircuit(holder.member, pressure=400e5, relief=450e5)
             path, half = along(draft, stroke)
             hand = ByHand(draft, draft.machine(**{holder.member: lift, "supply": supply})().at(**path))
-            pressure = hand.motion.plan.members[holder.member].pressure(hand.motion)
+            pressure = hand.motion.plan.members[holder.member].pressure(hand.motion, direction="frictionless")
             thrust = pin_forces(hand.motion).thrusts[holder.member]
             oil = np.where(thrust >= 0.0, 1.0, -1.0) * np.pi / 4.0 * (bore**2 - np.where(thrust < 0.0, rod**2, 0.0))
             work = pressure * oil * hand.stretch(holder.A, holder.B, stroke)

@@ -37,8 +37,9 @@ def member_thrust(
     """Return what a two-point member carries, shape (...) [N], positive where it pushes its ends apart.
 
     Of one that holds, by virtual work on the strokes that the cylinders have taken over; with friction by equilibrium. Of one with a
-    law of its own, that. One that is not of the class stands in the place of the class's cylinder between the same points. `direction` is the member's own: "extending" while it grows, whatever that makes of the strokes. Raises
-    DefinitionError for one that neither holds nor has a law here, SingularError where its length stands still against its drive.
+    law of its own, that. One that is not of the class stands in the place of the class's cylinder between the same points.
+    `direction` is the member's own: "extending" while it grows, whatever that makes of the strokes. Raises DefinitionError for one
+    that neither holds nor has a law here, SingularError where its length stands still against its drive.
     """
     plan, member = motion.plan, standing_for(motion, member)
     elements = [each.element for each in chosen(plan, loads, None)]

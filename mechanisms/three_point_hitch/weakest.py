@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from hydraulics import Verdict
 from linkage import Motion, SingularWarning, angle
-from linkage.motion import lowest
-from linkage.program import FloatArray
+from linkage.motion import greatest, lowest
 from linkage.report import closely
 from linkage.units import deg, g0, kN, mm
 
@@ -50,19 +48,14 @@ class Weakest:
         )
 
 
-def least(motion: Motion, value: Callable[[Motion], FloatArray]) -> float:
-    """Return the stroke [m] where a value over one design's motion is least, between its poses too."""
-    return float(lowest(motion, value).strokes["S"])
-
-
 def weakest(motion: Motion) -> Weakest | None:
     """Return the weakest point over a motion of one design; None where the cylinder limits nothing."""
     burden = stroke_per_newton(closely(motion))
     if not np.any(burden > 0.0):
         return None
-    S = least(motion, lambda each: -stroke_per_newton(each))
+    S = greatest(motion, stroke_per_newton).strokes["S"]
     there = closely(motion, np.array([S]))
-    best = closely(motion, np.array([least(motion, lambda each: np.abs(stroke_per_newton(each)))]))
+    best = closely(motion, np.array([lowest(motion, lambda each: np.abs(stroke_per_newton(each))).strokes["S"]]))
     with warnings.catch_warnings():  # at the end of the reach it stands next to a dead point: the sentence keeps few digits
         warnings.simplefilter("ignore", SingularWarning)
         ratio, force = float(there.ratio("G")[1][0]), float(capacity(there)[0])

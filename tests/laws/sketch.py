@@ -143,7 +143,8 @@ class Sketch:
     def is_open(self):
         """Return whether everything stays well away from dead points over the strokes."""
         grids = np.meshgrid(*(span * self.factor * np.linspace(-1.0, 1.0, 5) for span in self.spans.values()))
-        motion = self.machine()().at(**{name: grid.ravel() for name, grid in zip(self.spans, grids, strict=True)}, unreachable="nan")
+        self.drawn = self.machine()
+        motion = self.drawn().at(**{name: grid.ravel() for name, grid in zip(self.spans, grids, strict=True)}, unreachable="nan")
         at = {name: motion[name] for name in self.at}
         return bool(motion.reached.all()) and all(np.min(np.abs(measure(at))) > LEAST for measure in self.quality)
 

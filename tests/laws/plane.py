@@ -8,16 +8,22 @@ import numpy as np
 
 from linkage import LEFT, RIGHT
 
+G0 = 9.80665  # m/s2
+
 # -- the plane ---------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Move:
-    """A change of the plane: seen in a mirror at the y axis, then turned [rad], then with all lengths `scale` times as large."""
+    """A change of the plane: seen in a mirror at the y axis, then turned [rad], then with all lengths `scale` times as large.
+
+    Where `case` says so, gravity turns in a load case and not in each weight.
+    """
 
     mirror: bool = False
     turn: float = 0.0
     scale: float = 1.0
+    case: bool = False
 
     @property
     def sense(self):
@@ -29,6 +35,11 @@ class Move:
         x, y = self.sense * vector[0], vector[1]
         cos, sin = math.cos(self.turn), math.sin(self.turn)
         return x * cos - y * sin, x * sin + y * cos
+
+    @property
+    def gravity(self):
+        """Where down is, for each weight."""
+        return {} if self.case or self.turn == 0.0 else {"gravity": self.vector((0.0, -G0))}
 
     def place(self, place):
         return tuple(self.scale * float(part) for part in self.vector(place))
@@ -129,6 +140,7 @@ class Run:
     origin: str = ""
     pair: tuple[str, ...] = ()
     driven: bool = False
+    block: str = ""  # the body that carries the line, where it is a block of its own
 
 
 @dataclass(frozen=True)
@@ -139,6 +151,7 @@ class Holder:
     A: str
     B: str
     member: str = ""
+    area: float = 0.0  # m2, negative where it pulls; only with others on its line
 
     @property
     def name(self):

@@ -5,11 +5,9 @@ from collections import Counter
 import numpy as np
 
 from linkage import Actuator, Between, Damper, Force, GuideFriction, LinkMass, Moment, PinFriction, Spring, Weight
-from tests.laws.plane import Act, Element, External, facing, size, turned
+from tests.laws.plane import G0, Act, Element, External, facing, size, turned
 from tests.laws.random_steps import Steps
 from tests.laws.sketch import APART, DeadEndError
-
-G0 = 9.80665  # m/s2
 
 
 class Draft(Steps):
@@ -19,7 +17,7 @@ class Draft(Steps):
 
     def weight(self, number):
         P, mass = self.some(self.moving), self.uniform(20.0, 200.0)
-        self.parts[f"weight{number}"] = lambda to: Weight(P, mass=mass, gravity=to.vector((0.0, -G0)))
+        self.parts[f"weight{number}"] = lambda to: Weight(P, mass=mass, **to.gravity)
         force = np.array([[0.0], [-mass * G0]])
         self.loads[f"weight{number}"] = External(
             lambda at: [Act(P, force, at[P])],
@@ -31,7 +29,7 @@ class Draft(Steps):
         mass, along, across = self.uniform(10.0, 80.0), self.uniform(0.1, 0.4), self.uniform(-0.2, 0.2)
         middle = self.chance(0.4)
         self.parts[f"own{number}"] = lambda to: LinkMass(
-            f"{P} {Q}", mass=mass, at=None if middle else (to.length(along), to.sense * to.length(across)), gravity=to.vector((0.0, -G0))
+            f"{P} {Q}", mass=mass, at=None if middle else (to.length(along), to.sense * to.length(across)), **to.gravity
         )
 
         def centre(at):

@@ -46,7 +46,7 @@ def drafted(seed, attempt):
     for _ in range(int(draft.random.integers(1, 3))):
         draft.some([draft.rrr, draft.rrr, draft.on_link])()
     if slider:
-        draft.some([draft.slider, draft.slider, draft.pin_slot, draft.yoke])()
+        draft.some([draft.slider, draft.slider, draft.pin_slot, draft.yoke, draft.cross])()
     if group:
         draft.triad()
     if three:

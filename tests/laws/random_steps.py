@@ -5,13 +5,35 @@ from dataclasses import replace
 
 import numpy as np
 
-from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit
-from linkage import LEFT, RIGHT, Crank, Dimension, Dyad, Guide, Link, OnGuide, OnLink, Pin, PinSlotDyad, SliderDyad, Stroke, YokeDyad, angle
+from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit
+from linkage import (
+    LEFT,
+    RIGHT,
+    Crank,
+    Dimension,
+    Dyad,
+    Guide,
+    GuideCross,
+    Link,
+    OnGuide,
+    OnLink,
+    Pin,
+    PinSlotDyad,
+    SliderDyad,
+    Stroke,
+    YokeDyad,
+    angle,
+)
 from linkage.quantities import ref
 from tests.laws.plane import Element, Holder, Run, Swap, cross, facing, polar, sine, size, triad_sense, turned
 from tests.laws.sketch import APART, OPEN, DeadEndError, Sketch
 
 AIR = 101325.0  # Pa
+
+
+def area_of(bore, rod, works):
+    """Return the area that works [m2], negative where it pulls."""
+    return math.pi / 4.0 * (bore**2 if works == "piston" else rod**2 - bore**2)
 
 
 class Steps(Sketch):
@@ -62,7 +84,10 @@ class Steps(Sketch):
                 works = self.some(["piston", "rod"])
                 self.parts[lift] = lambda to: Cylinder(*ends, bore=bore, rod=0.6 * bore, count=count_of, works=works)
         if stroke not in self.own:
-            self.holders.append(Holder(stroke, A, X, lift))
+            area = count_of * area_of(bore, 0.6 * bore, works) if lift else 0.0
+            self.holders.append(Holder(stroke, A, X, lift, area))
+            if lift and self.chance(0.4):
+                self.assist(self.holders[-1], O, X)
         if self.is_fixed(O):
             self.swaps.append(Swap(stroke, A, O, X, lift if stroke not in self.own else ""))
 
@@ -96,7 +121,21 @@ class Steps(Sketch):
             self.tags.add("gas beside a crank")
         else:
             self.parts[lift] = lambda to: Cylinder(*ends, bore=bore, rod=0.55 * bore)
-            self.holders.append(Holder(stroke, K, X, lift))
+            self.holders.append(Holder(stroke, K, X, lift, area_of(bore, 0.0, "piston")))
+            if self.chance(0.4):
+                self.assist(self.holders[-1], O, X)
+
+    def assist(self, first, O, X):
+        """A second cylinder on the line of one that holds the arm OX: they share a pressure and add to each other's moment."""
+        if not self.is_fixed(first.A) or not self.is_fixed(O):
+            return
+        stroke, bore, works = first.stroke, self.uniform(0.04, 0.08), self.some(["piston", "rod"])
+        area, sense = area_of(bore, 0.6 * bore, works), np.sign(first.area * sine(self.at[X] - self.at[O], self.at[X] - self.at[first.A]))
+        K = self.fix(self.spot(lambda place: np.sign(area) * sense * sine(self.at[X] - self.at[O], self.at[X] - place) > OPEN))
+        self.watch(lambda at: sine(at[X] - at[O], at[X] - at[K]))
+        self.parts[f"aid{stroke}"] = lambda to: Cylinder(K, X, bore=bore, rod=0.6 * bore, works=works)
+        self.parts[f"line{stroke}"] = lambda to: LiftCircuit([first.member, f"aid{stroke}"], pressure=300e5, relief=330e5)
+        self.holders.append(Holder(stroke, K, X, f"aid{stroke}", area))
 
     def gas(self, lift, ends, stroke):
         """A cylinder on a closed block of one vessel, isothermal, charged in the sketch."""
@@ -248,7 +287,25 @@ class Steps(Sketch):
         X = self.new(place)
         self.parts[X] = lambda to: YokeDyad(P, rail, angle=math.pi - lean if to.mirror else lean)
         line = self.rails[rail]
-        self.runs += [replace(line, point=X), Run(P, lambda at: turned(line.direction(at), lean), X, line.pair)]
+        self.runs += [replace(line, point=X), Run(P, lambda at: turned(line.direction(at), lean), X, line.pair, block=f"{X} (slider)")]
+        self.tags.add("slider")
+
+    def cross(self):
+        """A pin on two guides, one of which moves."""
+        P, Q = self.pair()
+        u = self.at[Q] - self.at[P]
+        place = self.at[P] + u * self.uniform(0.2, 1.5)
+        if not self.clear(place):
+            raise DeadEndError
+        turn = facing(u) + self.uniform(0.7, 2.4)
+        origin = polar(place, self.uniform(-0.5, 0.5), turn)
+        moving, still, along = f"rail{len(self.rails)}", f"rail{len(self.rails) + 1}", np.array([[math.cos(turn)], [math.sin(turn)]])
+        self.parts[moving], self.parts[still] = (lambda to: Guide(P, Q)), (lambda to: Guide(to.place(origin), angle=to.angle(turn)))
+        X = self.new(place)
+        self.parts[X] = lambda to: GuideCross(moving, still)
+        self.rails[moving], self.rails[still] = Run(X, lambda at: at[Q] - at[P], P, (P, Q)), Run(X, lambda at: along)
+        self.runs += [self.rails[moving], self.rails[still]]
+        self.watch(lambda at: sine(at[Q] - at[P], along))
         self.tags.add("slider")
 
     def triad(self):

@@ -4,6 +4,7 @@ Every machine is drawn with its bodies, loads and cylinders in plain numbers (`r
 worked out from those (`by_hand`). Sixty machines are looked at daily, three hundred with `-m slow`.
 """
 
+import math
 from collections import Counter
 from functools import lru_cache
 
@@ -12,11 +13,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import Actuator, Crank, Stroke, driving_force, pin_forces
+from linkage import Actuator, Crank, LoadCase, Stroke, driving_force, pin_forces
 from linkage.loads import ForceElement
 from linkage.quantities import ref
 from tests.laws.by_hand import FRAME, ByHand, by_point, full
-from tests.laws.plane import PLAIN, Move, cross, facing, size, turned
+from tests.laws.plane import G0, PLAIN, Move, cross, facing, size, turned
 from tests.laws.random_machines import TAGS, random_machine, wants
 
 MANY, DAILY, BLOCK = 300, 60, 10
@@ -101,7 +102,9 @@ def test_joints_give_no_more_than_they_can(seed):
             assert np.max(np.abs(each.couple)) <= NOTHING * np.max(largest), each
     for run in hand.draft.runs:
         if not run.driven:
-            for each in slides(hand, found, run):
+            there = list(slides(hand, found, run))
+            assert there
+            for each in there:
                 u = full(hand.motion, run.direction(hand.at) / size(run.direction(hand.at)))
                 assert np.max(np.abs((each.force * u).sum(axis=0)) / largest) < NOTHING, each
 
@@ -110,13 +113,11 @@ def slides(hand, found, run):
     """Return the joints in which a point runs on a line: those at it that are no pins, one body of which carries the line."""
     for each in found.joints:
         bodies = {hand.body(each.on), hand.body(each.by)}
-        carries = FRAME in bodies if not run.pair else any(set(run.pair) <= body for body in bodies if isinstance(body, frozenset))
-        if (
-            each.point == run.point
-            and (each.kind == "driven") == run.driven
-            and each.kind not in ("pin", "crank", "telescope")
-            and (carries or run.origin in map(str, bodies))
-        ):
+        if run.block:
+            carries = run.block in bodies
+        else:
+            carries = any(set(run.pair) <= body for body in bodies if isinstance(body, frozenset)) if run.pair else FRAME in bodies
+        if carries and each.point == run.point and (each.kind == "driven") == run.driven and each.kind not in ("pin", "crank", "telescope"):
             yield each
 
 
@@ -168,6 +169,18 @@ def test_driving_force_is_the_work_of_all_loads(seed):
         thrusts = sum(found.thrusts[each.name] * hand.stretch(each.A, each.B, stroke) for each in holding)
         held = thrusts if holding else found.drives[stroke]
         assert_allclose(held, wanted, rtol=0, atol=1e-11 * size_of)
+        for each in holding[1:]:  # on one line
+            ratio = each.area / holding[0].area
+            assert_allclose(found.thrusts[each.name], ratio * found.thrusts[holding[0].name], rtol=0, atol=1e-11 * size_of)
+
+
+@EACH
+def test_a_cylinder_tells_the_thrust_that_it_has(seed):
+    """`cylinder.thrust(motion)` by virtual work is what equilibrium gives, of one that holds and of one that gas feeds."""
+    hand, found = seen(seed)
+    largest = np.max(hand.largest(found.joints))
+    for name, cylinder in hand.motion.plan.of_kind(Cylinder).items():
+        assert_allclose(cylinder.thrust(hand.motion, rates=hand.rates), found.thrusts[name], rtol=0, atol=1e-11 * largest, err_msg=name)
 
 
 def works_of(hand, stroke):
@@ -220,7 +233,7 @@ def test_the_work_of_the_oil_is_the_change_of_energy(first):
     for seed in twinned(first):
         draft = random_machine(seed)
         for holder in draft.holders:
-            if not holder.member:
+            if not holder.member or len([each for each in draft.holders if each.stroke == holder.stroke]) > 1:
                 continue
             bore, rod, stroke = 0.08, 0.05, holder.stroke
             lift = Cylinder(holder.A, holder.B, bore=bore, rod=rod, works="both")
@@ -247,40 +260,43 @@ def test_a_cylinder_may_be_replaced_by_its_thrust(first):
     done = 0
     for seed in twinned(first):
         hand, found = seen(seed)
-        for holder, machine, values, rate in cranked(hand):
-            twin, there = pushed(hand, found, holder, machine, values, rate)
-            largest, stroke = np.max(hand.largest(found.joints)), holder.stroke
-            works = [found.thrusts[holder.name] * twin.stretch(holder.A, holder.B, stroke), *works_of(twin, stroke)]
+        for stroke, machine, values, rate in cranked(hand):
+            held = [each for each in hand.draft.holders if each.stroke == stroke]
+            twin, there = pushed(hand, found, held, machine, values, rate)
+            works = [found.thrusts[each.name] * twin.stretch(each.A, each.B, stroke) for each in held] + works_of(twin, stroke)
             assert np.max(np.abs(there.drives[stroke])) < 1e-11 * max(np.max(np.abs(work)) for work in works), seed
-            same_forces(hand, found, twin, there, largest, {holder.name}, seed)
+            same_forces(hand, found, twin, there, {each.name for each in held}, seed)
             done += 1
     assert done
 
 
 def cranked(hand):
-    """Yield the cylinders that hold a stroke, the machine that a crank drives instead, its stroke's values in the same poses, its rate."""
+    """Yield the strokes that cylinders hold, the machine that a crank drives instead, the stroke's values in the same poses, its rate."""
     draft = hand.draft
-    for holder in draft.holders:
-        if draft.angular(holder.stroke):
-            bare = draft.machine(PLAIN, "Bare", **{holder.member: None})
-            yield holder, bare, draft.strokes()[holder.stroke], hand.rates[holder.stroke]
+    for stroke in dict.fromkeys(each.stroke for each in draft.holders if draft.angular(each.stroke)):
+        yield stroke, draft.machine(PLAIN, "Bare", **without(draft, stroke)), draft.strokes()[stroke], hand.rates[stroke]
     for swap in draft.swaps:
-        holder = next((each for each in draft.holders if each.stroke == swap.stroke), None)
-        if holder is None:
+        stroke, start, arm = swap.stroke, facing(draft.at[swap.X] - draft.at[swap.O]), draft.apart(swap.O, swap.X)
+        if stroke in draft.own:
             continue
-        start, arm = facing(draft.at[swap.X] - draft.at[swap.O]), draft.apart(swap.O, swap.X)
-        crank = Crank(swap.O, angle=ref(swap.stroke) + start, **{swap.O + swap.X: arm})
-        others = {swap.stroke: Stroke(-1.0, 1.0), swap.X: crank, f"L{swap.stroke}": None, **({swap.lift: None} if swap.lift else {})}
+        crank = Crank(swap.O, angle=ref(stroke) + start, **{swap.O + swap.X: arm})
+        others = {stroke: Stroke(-1.0, 1.0), swap.X: crank, f"L{stroke}": None, **without(draft, stroke)}
         along = turned(hand.at[swap.X] - hand.at[swap.O], -start)
-        rate = sum(hand.spin((swap.O, swap.X), stroke) * rate for stroke, rate in hand.rates.items())
-        yield holder, draft.machine(PLAIN, "Cranked", **others), np.arctan2(along[1], along[0]), rate
+        rate = sum(hand.spin((swap.O, swap.X), name) * rate for name, rate in hand.rates.items())
+        yield stroke, draft.machine(PLAIN, "Cranked", **others), np.arctan2(along[1], along[0]), rate
 
 
-def pushed(hand, found, holder, machine, values, rate):
-    """Return a machine with an actuator in the place of a cylinder that holds a stroke, in the same poses, and its joint forces."""
-    draft, stroke = hand.draft, holder.stroke
+def without(draft, stroke):
+    """Return that a machine goes without the cylinders that hold a stroke, and without their line."""
+    names = [each.member for each in draft.holders if each.stroke == stroke and each.member]
+    return dict.fromkeys([*names, *([f"line{stroke}"] if f"line{stroke}" in draft.parts else [])])
+
+
+def pushed(hand, found, held, machine, values, rate):
+    """Return a machine with actuators in the place of the cylinders that hold a stroke, in the same poses, and its joint forces."""
+    draft, stroke = hand.draft, held[0].stroke
     motion = machine().at(**{**draft.strokes(), stroke: values})
-    loads = [*motion.plan.of_kind(ForceElement), Actuator(holder.A, holder.B, force=found.thrusts[holder.name])]
+    loads = [*motion.plan.of_kind(ForceElement), *(Actuator(each.A, each.B, force=found.thrusts[each.name]) for each in held)]
     rates = {**hand.rates, stroke: rate}
     return ByHand(draft, motion, rates), pin_forces(motion, loads, rates=rates)
 
@@ -290,11 +306,11 @@ def twinned(first):
     return [seed for seed in range(first, first + BLOCK) if first >= DAILY or seed % 4 == 0 or "group" not in wants(seed)]
 
 
-def same_forces(hand, found, twin, there, largest, without, seed):
+def same_forces(hand, found, twin, there, gone, seed):
     """Assert that two results have the same forces and couples at each point on each body, but for some bodies of the first."""
-    here, other = by_point(hand, found), by_point(twin, there)
+    here, other, largest = by_point(hand, found), by_point(twin, there), np.max(hand.largest(found.joints))
     for (point, body), (force, couple) in here.items():
-        if body in without:
+        if body in gone:
             continue
         same = other[point, body]
         assert_allclose(same[0] + 0.0 * force, force, rtol=0, atol=1e-11 * largest, err_msg=f"seed {seed}: {point} on {body}")
@@ -318,7 +334,21 @@ def test_an_element_may_be_replaced_by_its_force(seed):
 
 # -- seen elsewhere ----------------------------------------------------------------------------------------
 
-MOVES = [Move(mirror=True), Move(turn=0.7), Move(scale=2.5), Move(mirror=True, turn=-1.9, scale=0.4)]
+MOVES = [
+    Move(mirror=True),
+    Move(turn=0.7),
+    Move(scale=2.5),
+    Move(mirror=True, turn=-1.9, scale=0.4),
+    Move(turn=-0.4, case=True),
+    Move(mirror=True, turn=1.1, case=True),
+]
+
+
+def in_gravity(move):
+    """Return the load case in which gravity turns with a machine; None where the machine's weights say so themselves."""
+    if not move.case:
+        return None
+    return LoadCase(gravity=move.vector((0.0, -G0))) if move.mirror else LoadCase(slope=-move.turn)
 
 
 @BLOCKS
@@ -332,7 +362,7 @@ def test_a_moved_machine_has_moved_forces(first):
         for name, place in hand.at.items():
             wanted = move.scale * np.stack(move.vector(place))
             assert_allclose(full(motion, motion[name]), wanted, rtol=0, atol=1e-11 * hand.reach * move.scale)
-        there = pin_forces(motion, rates={name: rate * scale[name] for name, rate in hand.rates.items()})
+        there = pin_forces(motion, case=in_gravity(move), rates={name: rate * scale[name] for name, rate in hand.rates.items()})
         largest = np.max(hand.largest(found.joints))
         for a, b in zip(found.joints, there.joints, strict=True):
             assert (a.point, a.on, a.by, a.kind) == (b.point, b.on, b.by, b.kind)
@@ -401,6 +431,49 @@ def test_elements_act_at_their_pins_while_they_rub(seed):
             assert_allclose(found.thrusts[name], wanted, rtol=0, atol=NOTHING * largest, err_msg=f"{name} {stroke}")
             along = (-joints[element.B, name][0] * u).sum(axis=0)
             assert_allclose(along, wanted, rtol=0, atol=FRICTION * largest, err_msg=f"{name} {stroke}")
+
+
+@RUBBING
+def test_a_cylinder_tells_the_thrust_that_it_has_with_friction(seed):
+    """Its direction is its own: where its length falls with the stroke it extends as the stroke goes back."""
+    for stroke, hand, found in ways(seed):
+        largest = np.max(hand.largest(found.joints))
+        for holder in hand.draft.holders:
+            growth = np.sign(hand.stretch(holder.A, holder.B, stroke) * hand.rates[stroke])
+            if holder.member and abs(np.sum(growth)) == growth.size:
+                cylinder = hand.motion.plan.members[holder.member]
+                own = "extending" if growth[0] > 0.0 else "retracting"
+                given = cylinder.thrust(hand.motion, direction=own, rates=hand.rates)
+                assert_allclose(given, found.thrusts[holder.name], rtol=0, atol=FRICTION * largest, err_msg=f"{holder} {stroke} {own}")
+
+
+@RUBBING
+def test_along_a_path_friction_goes_by_its_tangent(seed):
+    """Without a drive named, several strokes move as the path does, forwards or back: as at rates of that sense."""
+    draft = random_machine(seed)
+    if len(draft.spans) == 1:
+        return
+    u = np.linspace(-1.0, 1.0, 6)
+    ways_of = [(u, 0.0 * u + 1.0), (0.5 - u**2 / 2.0, -u), (-0.8 * u, 0.0 * u - 0.8)]
+    path = {
+        name: (values * span * draft.factor, slope * span)
+        for (name, span), (values, slope) in zip(draft.spans.items(), ways_of, strict=False)
+    }
+    motion = draft.drawn().at(**{name: values for name, (values, _) in path.items()})
+    for direction, sense in (("extending", 1.0), ("retracting", -1.0)):
+        rates = {name: sense * slope for name, (_, slope) in path.items()}
+        hand, found = ByHand(draft, motion, rates, rubs=True), pin_forces(motion, direction=direction)
+        misses = hand.misses(found.joints)
+        misses.pop(FRAME)
+        assert max(misses.values()) < FRICTION, (direction, misses)
+        pins = {name: (radius, coefficient) for name, radius, coefficient in draft.frictions.values() if radius is not None}
+        for each in found.joints:
+            if each.kind == "pin" and each.point in pins:
+                turning = sum(turning_of(hand, each, name) * rate for name, rate in rates.items())
+                sure = np.abs(turning) > 0.02 * np.max(np.abs(turning))
+                sure &= np.abs(turning) > 1e-9
+                wanted = -np.sign(turning) * math.prod(pins[each.point]) * size(each.force)
+                assert_allclose(each.couple[sure], wanted[sure], rtol=1e-7, atol=1e-9, err_msg=f"{each} {direction}")
 
 
 @RUBBING

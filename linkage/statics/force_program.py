@@ -35,7 +35,7 @@ from .solved import Equilibrium, Solved
 from .structure import Structure
 from .system import System
 
-PIECE = 1 << 15
+PIECE = 1 << 13
 """Poses whose frictions are settled at a time."""
 FEW = 200
 """Poses up to which solving the equations on arrays is quicker than finding the kernel."""
@@ -196,8 +196,9 @@ def frictions(program: ForceProgram, structure: Structure, poses: Poses, rubbing
     motion, count = poses.motion, len(rubbing)
     assert program.pressing is not None and isinstance(motion, Motion)
     none = {friction_name(place): 0.0 for place in range(count)}
-    many = [parts(structure.contacts[index]) for index in program.rubbed]
-    levers, coefficients = (np.stack([getattr(rub, what) for rub in rubbing]) for what in ("lever", "coefficient"))
+    many = tuple(parts(structure.contacts[index]) for index in program.rubbed)
+    free = [row + k for row, each in zip(np.cumsum([0, *(each * (1 + count) for each in many)]), many, strict=False) for k in range(each)]
+    lever, coefficient = (np.stack([getattr(rub, what) for rub in rubbing]) for what in ("lever", "coefficient"))
     q, locked = np.zeros((count, poses.count)), np.zeros(poses.count, bool)
     places = poses.full(np.arange(poses.count, dtype=float)).reshape(motion.size)
     for band, part in pieces(*motion.size, PIECE):
@@ -205,18 +206,13 @@ def frictions(program: ForceProgram, structure: Structure, poses: Poses, rubbing
         here = places[band, part]
         good = np.isfinite(here)
         result = program.pressing(inputs | none, size=here.shape)
-        if not np.all(result.guards > 0.0):
+        rows = result.values.reshape(len(result.values), here.size)
+        rows = rows if good.all() else rows[:, good.ravel()]
+        if not np.all(result.guards > 0.0) or not np.isfinite(rows).all():
             return None
-        rows = result.values.reshape(len(result.values), *here.shape)[:, good]
         at = here[good].astype(int)
-        pressed, start = [], 0
-        for each in many:
-            by_unit = rows[start + each : start + each * (1 + count)].reshape(each, count, -1) * levers[:, at]
-            pressed.append(Pressed(rows[start : start + each], by_unit))
-            start += each * (1 + count)
-        if not np.isfinite(rows).all():
-            return None
-        q[:, at], locked[at] = settled(pressed, coefficients[:, at])
+        by_unit = np.delete(rows, free, axis=0).reshape(sum(many), count, len(at))
+        q[:, at], locked[at] = settled(Pressed(many, rows[free], by_unit, lever[:, at]), coefficient[:, at])
     return q, locked
 
 

@@ -8,7 +8,6 @@ zero on the way the forces grow beyond all bounds: the mechanism jams, or locks 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,66 +19,84 @@ STEPS = 16
 ROUNDS = 40
 CONTRACTS = 0.7
 """The row sum up to which plain iteration is quick: some 80 rounds to the last digit at the most, mostly 10."""
-BLOCK = 4096
+BLOCK = 1024
 
 
 @dataclass(frozen=True)
 class Pressed:
-    """The force that makes a friction: without any (parts, n), and by unit frictions (parts, frictions, n)."""
+    """The forces that make the frictions: without any (rows, n), and by each friction of one unit (rows, frictions, n).
 
+    A pin has two rows, a guide one: `parts` says how many each; `lever` (frictions, n) how many units a friction of 1 N is, signed.
+    """
+
+    parts: tuple[int, ...]
     free: FloatArray
     by_unit: FloatArray
+    lever: FloatArray
+
+    def at(self, places: Mask | slice) -> Pressed:
+        """Return the same at some poses."""
+        return Pressed(self.parts, self.free[:, places], self.by_unit[:, :, places], self.lever[:, places])
+
+    @property
+    def first(self) -> FloatArray:
+        """The first row of each friction."""
+        return np.asarray(np.cumsum([0, *self.parts[:-1]]))
+
+    @property
+    def last(self) -> FloatArray:
+        """The last row of each friction: the first where it has one."""
+        return np.asarray(self.first + np.asarray(self.parts) - 1)
+
+    @property
+    def share(self) -> FloatArray:
+        """What the hypotenuse of first and last row counts (frictions, 1): of a single row, counted twice, the half of its square."""
+        return np.asarray(np.where(np.asarray(self.parts) == 2, 1.0, np.sqrt(0.5))[:, None])
 
 
-def settled(pressed: Sequence[Pressed], coefficient: FloatArray) -> tuple[FloatArray, Mask]:
+def settled(pressed: Pressed, coefficient: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the frictions (frictions, n) [N] for coefficients (frictions, n), and where they have no bounded solution (n,)."""
     count, n = coefficient.shape
     q, locked = np.zeros((count, n)), np.zeros(n, bool)
     for start in range(0, n, BLOCK):
         part = slice(start, min(start + BLOCK, n))
-        here = [Pressed(each.free[:, part], each.by_unit[:, :, part]) for each in pressed]
-        q[:, part], locked[part] = settled_block(here, coefficient[:, part])
+        q[:, part], locked[part] = settled_block(pressed.at(part), coefficient[:, part])
     return q, locked
 
 
-def settled_block(pressed: Sequence[Pressed], coefficient: FloatArray) -> tuple[FloatArray, Mask]:
+def settled_block(pressed: Pressed, coefficient: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the frictions and the locked poses of one block of poses."""
-    rows = [c * np.sqrt((each.by_unit**2).sum(axis=0)).sum(axis=0) for each, c in zip(pressed, coefficient, strict=True)]
+    size = np.hypot(pressed.by_unit[pressed.first], pressed.by_unit[pressed.last]) * pressed.share[:, :, None]
+    rows = coefficient * np.einsum("rjn,jn->rn", size, np.abs(pressed.lever))
     contracts = np.max(rows, axis=0, initial=0.0) < CONTRACTS
     q = iterated(pressed, coefficient) if contracts.any() else np.zeros(coefficient.shape)
     hard = ~contracts
     locked = np.zeros(len(hard), bool)
     if hard.any():
-        left = [Pressed(each.free[:, hard], each.by_unit[:, :, hard]) for each in pressed]
-        q[:, hard], locked[hard] = followed(left, coefficient[:, hard])
+        q[:, hard], locked[hard] = followed(pressed.at(hard), coefficient[:, hard])
     return q, locked
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def iterated(pressed: Sequence[Pressed], coefficient: FloatArray) -> FloatArray:
+def iterated(pressed: Pressed, coefficient: FloatArray) -> FloatArray:
     """Return the frictions (frictions, n) to which plain iteration comes, where it contracts."""
-    q = np.zeros(coefficient.shape)
+    first, last, share = pressed.first, pressed.last, pressed.share * coefficient
+    force, q = pressed.free, np.zeros(coefficient.shape)
     for _ in range(100):
-        new = coefficient * sizes(pressed, q)
-        change, largest = np.abs(new - q), np.max(np.abs(new), axis=0, initial=0.0)
+        new = np.hypot(force[first], force[last]) * share
+        change, largest = np.abs(new - q), np.max(new, axis=0, initial=0.0)
         q = new
-        if not np.any(change > 1e-16 * largest):
+        if not np.any(change > 1e-15 * largest):
             break
+        force = np.einsum("rjn,jn->rn", pressed.by_unit, q * pressed.lever) + pressed.free
     return q
 
 
-def sizes(pressed: Sequence[Pressed], q: FloatArray) -> FloatArray:
-    """Return the sizes of the pressing forces (frictions, n)."""
-    found = np.empty(q.shape)
-    for row, each in enumerate(pressed):
-        force = [free + (unit * q).sum(axis=0) for free, unit in zip(each.free, each.by_unit, strict=True)]
-        found[row] = np.abs(force[0]) if len(force) == 1 else np.hypot(force[0], force[1])
-    return found
-
-
-def followed(pressed: Sequence[Pressed], coefficient: FloatArray) -> tuple[FloatArray, Mask]:
+def followed(pressed: Pressed, coefficient: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the frictions (frictions, n) that grow from none with the coefficients, NaN where they jam on the way, and where (n,)."""
-    forces = [(np.moveaxis(each.free, -1, 0), np.moveaxis(each.by_unit, -1, 0)) for each in pressed]
+    free, by_unit = pressed.free.T, np.moveaxis(pressed.by_unit * pressed.lever, -1, 0)
+    rows = [slice(first, last + 1) for first, last in zip(pressed.first, pressed.last, strict=True)]
+    forces = [(free[:, each], by_unit[:, each]) for each in rows]
     final = coefficient.T
     q, alive = np.zeros(final.shape), np.ones(len(final), bool)
     for share in np.linspace(0.0, 1.0, STEPS + 1)[1:]:

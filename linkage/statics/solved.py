@@ -105,16 +105,18 @@ def consistent(equations: Equations) -> Solved:
     system, balance, rubbing = equations.system, equations.solve(), equations.rubbing
     if not rubbing:
         return Solved(system, balance.start, np.zeros((system.poses.count, 0)), np.zeros(system.poses.count, bool), [])
-    found, locked = settled([presses(system, balance, rub) for rub in rubbing], np.stack([rub.coefficient for rub in rubbing]))
+    found, locked = settled(pressing(system, balance, rubbing), np.stack([rub.coefficient for rub in rubbing]))
     q = found.T
     return Solved(system, balance.start + (balance.spread * q[:, None]).sum(axis=2), q, locked, rubbing)
 
 
-def presses(system: System, balance: Balance, rub: Rub) -> Pressed:
-    """Return the force that makes a friction, by the solution of the equations."""
-    start, contact = system.first[rub.column.contact], rub.column.contact
-    parts = slice(start, start + (2 if contact.kind == "pin" else 1))
-    return Pressed(balance.start[:, parts].T, np.moveaxis(balance.spread[:, parts], 0, -1))
+def pressing(system: System, balance: Balance, rubbing: list[Rub]) -> Pressed:
+    """Return the forces that make the frictions, by the solution of the equations."""
+    parts = tuple(2 if rub.column.contact.kind == "pin" else 1 for rub in rubbing)
+    starts = [system.first[rub.column.contact] for rub in rubbing]
+    rows = [start + k for start, many in zip(starts, parts, strict=True) for k in range(many)]
+    by_unit = np.moveaxis(balance.spread[:, rows], 0, -1)
+    return Pressed(parts, balance.start[:, rows].T, by_unit, np.ones((len(rubbing), system.poses.count)))
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,6 @@ from ..errors import DefinitionError
 from ..loads import TwoPoint
 from ..motion import Motion
 from ..program import FloatArray
-from ..quantities import Distance, Quantity
 from .bodies import member_title
 from .forces import equilibrium, held_poses, locked_words
 from .holding import Line, holding_of, same, stroke_followed
@@ -75,16 +74,8 @@ def own_movement(motion: Motion, member: TwoPoint, direction: str, rates: Mappin
     if rates is not None or not sense:
         return movement_of(motion, direction, rates, None if line is None else line.stroke)
     tangent: Mapping[str, Any] = path_tangent(motion) or {line.stroke if line is not None else stroke_followed(motion.plan, member): 1.0}
-    P, Q = member.ends
-    growth = sum(motion.ratio(length_of(motion, P, Q), wrt=name) * rate for name, rate in tangent.items())
-    way = sense * np.sign(np.nan_to_num(growth))
+    way = sense * np.sign(np.nan_to_num(member.growth(motion, tangent)))
     return Movement(direction, {name: way * rate for name, rate in tangent.items()}, True)
-
-
-def length_of(motion: Motion, P: str, Q: str) -> Quantity:
-    """Return the distance of two points as a quantity: the declared length where there is one."""
-    known = motion.plan.table.lengths.get(frozenset((P, Q)))
-    return known if known is not None else Distance(P, Q)
 
 
 def by_lines(poses: Poses, loaded: Loaded, lines: Sequence[Line], levers: Sequence[Levers], member: TwoPoint) -> FloatArray:

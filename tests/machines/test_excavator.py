@@ -235,11 +235,10 @@ def test_generalised_forces_of_the_angles_are_torques():
 
 def test_the_last_cylinder_swings_the_bucket_against_its_angle():
     """dS3 at held S1, S2: only the bucket turns."""
-    motion = Excavator().at(**strokes())
-    for k, q in enumerate(POSES):
-        lever = plane.stretch(places, q, "G", "H", 2)
-        assert lever < 0
-        assert_allclose(driving_force(motion, drive="S3")[k], -plane.work(places, q, LOADS, 2) / lever, rtol=1e-11)
+    levers = np.array([plane.stretch(places, q, "G", "H", 2) for q in POSES])
+    assert np.all(levers < 0)
+    torques = np.array([-plane.work(places, q, LOADS, 2) for q in POSES])
+    assert_allclose(driving_force(Excavator().at(**strokes()), drive="S3"), torques / levers, rtol=1e-11)
 
 
 @pytest.mark.parametrize(("machine", "at"), BOTH)
@@ -268,18 +267,15 @@ def test_frame_carries_all_loads(machine, at):
 @pytest.mark.parametrize(("machine", "at"), BOTH)
 def test_pressures_on_the_side_that_works(machine, at):
     motion = machine().at(**at())
-    for k, q in enumerate(POSES):
-        boom, arm, bucket = thrusts(q)
-        disc, ring = plane.disc(0.080), plane.annulus(0.080, 0.045)
-        assert_allclose(machine.boom.pressure(motion)[k], boom / 0.92 / disc, rtol=1e-10)
-        assert_allclose(machine.boom_line.pressure_for(motion)[k], boom / 0.92 / disc, rtol=1e-10)
-        disc, ring = plane.disc(0.070), plane.annulus(0.070, 0.040)
-        want = (arm + 6e5 * ring) / disc if arm > 0 else (-arm + 6e5 * disc) / ring
-        assert_allclose(machine.arm.pressure(motion)[k], want / 0.95, rtol=1e-10)
-        most = 0.95 * 180e5 * (disc if arm > 0 else ring) - 6e5 * (ring if arm > 0 else disc)
-        assert_allclose(machine.arm_line.reserve(motion)[k], most / abs(arm), rtol=1e-10)
-        disc, ring = plane.disc(0.063), plane.annulus(0.063, 0.036)
-        assert_allclose(machine.bucket_line.pressure_for(motion)[k], abs(bucket) / (disc if bucket > 0 else ring), rtol=1e-10)
+    boom, arm, bucket = np.array([thrusts(q) for q in POSES]).T
+    assert_allclose(machine.boom.pressure(motion), boom / 0.92 / plane.disc(0.080), rtol=1e-10)
+    assert_allclose(machine.boom_line.pressure_for(motion), boom / 0.92 / plane.disc(0.080), rtol=1e-10)
+    disc, ring = plane.disc(0.070), plane.annulus(0.070, 0.040)
+    works, other = np.where(arm > 0, disc, ring), np.where(arm > 0, ring, disc)
+    assert_allclose(machine.arm.pressure(motion), (abs(arm) + 6e5 * other) / works / 0.95, rtol=1e-10)
+    assert_allclose(machine.arm_line.reserve(motion), (0.95 * 180e5 * works - 6e5 * other) / abs(arm), rtol=1e-10)
+    area = np.where(bucket > 0, plane.disc(0.063), plane.annulus(0.063, 0.036))
+    assert_allclose(machine.bucket_line.pressure_for(motion), abs(bucket) / area, rtol=1e-10)
 
 
 def test_potential_energy_along_a_path():
@@ -371,10 +367,9 @@ BUSHES = {"B": 0.025 * 0.15, "A": 0.022 * 0.15, "L": 0.020 * 0.20}
 
 def test_what_a_subclass_hangs_on_counts():
     motion = WithGrab().at(**angles())
-    for k, q in enumerate(POSES):
-        want = thrusts(q, [*LOADS, ("M", (0.0, -180.0 * plane.G))])
-        assert_allclose([getattr(WithGrab, name).thrust(motion)[k] for name in RAMS], want, rtol=1e-11)
-        assert_allclose(WithGrab.boom_line.pressure_for(motion)[k], max(want[0], 0.0) / 0.92 / plane.disc(0.080), rtol=1e-10)
+    want = np.array([thrusts(q, [*LOADS, ("M", (0.0, -180.0 * plane.G))]) for q in POSES]).T
+    assert_allclose([getattr(WithGrab, name).thrust(motion) for name in RAMS], want, rtol=1e-11)
+    assert_allclose(WithGrab.boom_line.pressure_for(motion), want[0] / 0.92 / plane.disc(0.080), rtol=1e-10)
 
 
 def test_friction_takes_its_senses_from_the_path():

@@ -221,11 +221,11 @@ def test_rollers_rub(machine, at, direction, sense):
     """In what is said of the cylinder, `extending` means that it grows: the table rises, and the stroke s falls."""
     motion = machine().at(**at())
     named = direction if machine is StiffLinks else {"extending": "retracting", "retracting": "extending"}[direction]
-    forces = pin_forces(motion, direction=named)
+    forces, carried = pin_forces(motion, direction=named), machine.lift.thrust(motion, direction=direction)
     for k, s in enumerate(PLACES):
         want = plane.rubbed(lambda size, s=s: cut(s, lambda guide: 0.08 * size(guide), sense), "", "BC")
         size = max(map(abs, want.values()))
-        assert_allclose(machine.lift.thrust(motion, direction=direction)[k], want["lift"], rtol=1e-9)
+        assert_allclose(carried[k], want["lift"], rtol=1e-9)
         assert_allclose(forces.thrusts["lift"][k], want["lift"], rtol=1e-9)
         assert_allclose(forces.force("M", on="B D")[:, k], [want["Mx"], want["My"]], atol=1e-9 * size)
         assert (want["lift"] - thrust(s)) * sense > 0
@@ -252,6 +252,5 @@ def test_verdicts(machine, count):
     checks = {each.name: each for each in machine.lift.checks(motion)}
     assert bool(checks["buckling"]) is (use * 3.5 <= 1.0)
     assert_allclose(number("safety", checks["buckling"]), 1 / use, rtol=6e-3)
-    assert bool(checks["length"]) is (low >= 0.755 and high <= 0.865)
-    if high > 0.865:
-        assert f"{(high - 0.865) / mm:.1f} mm are missing open" in str(checks["length"])
+    assert not checks["length"]
+    assert f"{(high - 0.865) / mm:.1f} mm are missing open" in str(checks["length"])

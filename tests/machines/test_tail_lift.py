@@ -280,17 +280,17 @@ class Sprung(TailLift):
 def test_what_a_user_adds_counts():
     """The spring, shorter than it would be, pushes with the cylinder and leaves it less."""
     motion = Sprung().at(**strokes())
-    forces = pin_forces(motion)
+    forces, pressure, drive = pin_forces(motion), Sprung.lift_line.pressure_for(motion), driving_force(motion, drive="S1")
     for k, q in enumerate(POSES):
         helps = 8e3 * (1.15 - span(q, "lift"))
         lift, tilt = thrusts(q, [*LOADS, ("Z", (0.0, -90.0 * plane.G))])
         assert helps > 0
         assert_allclose(forces.thrusts["relief"][k], helps, rtol=1e-11)
         assert_allclose([forces.thrusts["lift"][k], forces.thrusts["tilt"][k]], [lift - helps, tilt], rtol=1e-10)
-        assert_allclose(Sprung.lift_line.pressure_for(motion)[k], (lift - helps) / 0.93 / (2 * plane.disc(0.070)), rtol=1e-10)
+        assert_allclose(pressure[k], (lift - helps) / 0.93 / (2 * plane.disc(0.070)), rtol=1e-10)
         p = places(q)
         assert_allclose(forces.force("E", on="relief")[:, k], helps * plane.toward(p["E"], p["F"]), rtol=1e-10)
-        assert_allclose(driving_force(motion, drive="S1")[k], 2 * (lift - helps), rtol=1e-10)
+        assert_allclose(drive[k], 2 * (lift - helps), rtol=1e-10)
 
 
 class Dry(ByAngles):

@@ -114,7 +114,7 @@ def thrust(tip, loads=LOADS):
     return plane.balance(places, [tip], loads, [("A", "B")])[0]
 
 
-def cut(tip, push=None, rub=lambda pin: 0.0, sense=0):
+def cut(tip, rub=lambda pin: 0.0, sense=0):
     """Return the free bodies' forces, the cylinder a body of its own; `rub(pin)` are moments of friction at A, B and O."""
     p, moved, bodies = places([tip]), plane.rate(places, [tip]), FreeBodies()
     bodies.pin("O", "body", "frame", p["O"])
@@ -130,8 +130,6 @@ def cut(tip, push=None, rub=lambda pin: 0.0, sense=0):
     for pin, outer, inner, turns in (("A", "ram", "frame", ram), ("B", "lever", "ram", lever - ram), ("O", "body", "frame", 1.0)):
         bodies.load(outer, p[pin], (0.0, 0.0), -sense * np.sign(turns) * rub(pin))
         bodies.load(inner, p[pin], (0.0, 0.0), sense * np.sign(turns) * rub(pin))
-    if push is not None:  # a second thing that pushes A and B apart
-        bodies.load("lever", p["B"], push * plane.toward(p["A"], p["B"]))
     return bodies.solve()
 
 
@@ -252,14 +250,14 @@ ARMS = {"A": 0.035 * 0.2, "B": 0.030 * 0.2, "O": 0.040 * 0.15}
 def test_friction_at_the_ends_of_the_cylinder(machine, at, direction, sense):
     """A cylinder with rubbing ends is a body like any other: the force at its pins leaves its line."""
     motion = machine().at(**at())
-    forces = pin_forces(motion, direction=direction)
+    forces, carried = pin_forces(motion, direction=direction), machine.lift.thrust(motion, direction=direction)
     for k, tip in enumerate(TIPS):
-        want = plane.rubbed(lambda size, tip=tip: cut(tip, None, lambda pin: ARMS[pin] * size(pin), sense), "ABO")
+        want = plane.rubbed(lambda size, tip=tip: cut(tip, lambda pin: ARMS[pin] * size(pin), sense), "ABO")
         size = max(map(abs, want.values()))
         for name, body in (("O", "O C"), ("C", "C E"), ("E", "C E"), ("A", "lift")):
             assert_allclose(forces.force(name, on=body)[:, k], [want[name + "x"], want[name + "y"]], atol=1e-9 * size)
         assert_allclose(forces.thrusts["lift"][k], axial(tip, want), rtol=1e-9)
-        assert_allclose(machine.lift.thrust(motion, direction=direction)[k], axial(tip, want), rtol=1e-9)
+        assert_allclose(carried[k], axial(tip, want), rtol=1e-9)
         assert (axial(tip, want) - thrust(tip)) * sense > 0
 
 
@@ -290,12 +288,13 @@ def test_cylinders_on_one_line_share_their_pressure(machine, at):
     motion = machine().at(**at())
     forces = pin_forces(motion)
     main, side = plane.disc(0.140), 2 * plane.disc(0.063)
+    lift, aux, line = machine.lift.thrust(motion), machine.aux.thrust(motion), machine.line.pressure_for(motion)
     for k, tip in enumerate(TIPS):
         volume = main * plane.stretch(places, [tip], "A", "B") + side * plane.stretch(places, [tip], "K", "X")
         pressure = -plane.work(places, [tip], LOADS) / volume
-        assert_allclose(machine.lift.thrust(motion)[k], pressure * main, rtol=1e-9)
-        assert_allclose(machine.aux.thrust(motion)[k], pressure * side, rtol=1e-9)
-        assert_allclose(machine.line.pressure_for(motion)[k], pressure / 0.9, rtol=1e-9)
+        assert_allclose(lift[k], pressure * main, rtol=1e-9)
+        assert_allclose(aux[k], pressure * side, rtol=1e-9)
+        assert_allclose(line[k], pressure / 0.9, rtol=1e-9)
         p = places([tip])
         assert_allclose(forces.force("X", on="aux")[:, k], -pressure * side * plane.toward(p["K"], p["X"]), rtol=1e-8)
         assert_allclose(forces.force("B", on="lift")[:, k], -pressure * main * plane.toward(p["A"], p["B"]), rtol=1e-8)
@@ -307,12 +306,13 @@ def test_cylinders_on_one_line_share_their_pressure(machine, at):
 @pytest.mark.parametrize("count", [2, 5, 50, 500])
 def test_verdicts_do_not_hang_on_the_poses(count):
     motion = ByAngle().sweep(count)
-    most, where = plane.peak(thrust, 0.0, 50 * deg, 100)
+    most, _ = plane.peak(thrust, 0.0, 50 * deg, 100)
     least = -plane.peak(lambda tip: -thrust(tip), 0.0, 50 * deg, 100)[0]
     lifting, oil, holding, lowering = lift_verdicts(ByAngle.line, motion, resistance=5 * bar)
     area = plane.disc(0.140)
     reserve = 0.96 * 160e5 * area * 0.9 / most
-    assert bool(lifting) is (reserve >= 1.0)
+    assert not lifting
+    assert "a bore of 160 mm" in str(lifting)
     assert_allclose(number("least reserve is", lifting), reserve, rtol=1e-3)
     assert_allclose(number("up to", holding), most / area / bar, rtol=1e-3)
     assert bool(holding) is (most / area <= 160e5)
@@ -324,4 +324,3 @@ def test_verdicts_do_not_hang_on_the_poses(count):
     assert bool(checks["buckling"]) is (use * 3.5 <= 1.0)
     assert_allclose(number("safety", checks["buckling"]), 1 / use, rtol=6e-3)
     assert bool(checks["length"]) is (opened(0.0) >= 1.780 and opened(50 * deg) <= 2.060)
-    assert where >= 0.0

@@ -13,25 +13,27 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError
+from linkage.errors import DefinitionError, unknown
 from linkage.loads import Poses
 from linkage.loads.element import written
-from linkage.quantities import Quantity, spelled
-from linkage.units import bar, cm3, litre
+from linkage.quantities import Dimension, Quantity, spelled
+from linkage.units import UNITS, cm3, litre, show
 
-from .bank import GasBank
+from .bank import GasBank, effective
 from .gas import Gas, Polytropic, isothermal
-from .inputs import Array, absolute, finite, over_poses, positive
+from .inputs import Array, above_vacuum, absolute, finite, in_pascals, not_negative, over_poses, positive
 from .rules import WorkingRange
 from .settings import following, follows, setting
 from .verdict import Verdict
 from .vessel import Accumulator
+
+PRESSURES = tuple(name for name, (_, measures) in UNITS.items() if measures == "pressure")
 
 ROUNDING = 1e-12
 """Relative; a line charged to the lowest gas charge is not below it for a last digit."""
@@ -48,12 +50,15 @@ class AccumulatorBlock:
     Below its charge an accumulator holds no fluid. `gas` is the law of all of them, `atmosphere` [Pa] what turns gauge
     into absolute; `atmosphere=0` puts gauge pressures straight into the law, as Rekhlitski and Chuprynin (2013) do.
     Where a charge, a volume or the atmosphere follows dimensions, `sized(motion)` is the block with numbers.
-    DefinitionError for no accumulators, something that is no gas law, a charge at or below zero absolute.
+    A vessel of volume 0 is absent. Sentences give pressures in `unit`; without it in that of the dimension that a charge
+    follows, else in bar. DefinitionError for no accumulators or absent ones only, something that is no gas law,
+    a charge at or below zero absolute.
     """
 
     accumulators: Sequence[Accumulator]
     gas: Gas = isothermal
     atmosphere: Any = 101325.0
+    unit: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "accumulators", tuple(self.accumulators))
@@ -64,8 +69,12 @@ class AccumulatorBlock:
                 raise DefinitionError(f"{one!r} is no Accumulator; write Accumulator(volume, charge).")
         if not isinstance(self.gas, Gas):
             raise DefinitionError(f"gas = {self.gas!r} is no gas law; take isothermal, adiabatic, polytropic(1.2) or real_nitrogen().")
+        if self.unit and self.unit not in PRESSURES:
+            raise unknown("Unit", self.unit, PRESSURES, where="The accumulator block")
         if not follows(self.atmosphere) and np.any(single(self.atmosphere) < 0.0):
             raise DefinitionError(f"Atmosphere = {self.atmosphere:.6g} Pa is below zero; give 101325, or 0 for the paper's way.")
+        if not follows(self.atmosphere):
+            in_pascals(self.atmosphere, "Atmosphere")
         if not self.following:
             for charge in self._bank.charges:
                 positive(charge, "Absolute accumulator charge", "give the charge as gauge pressure [Pa]; an accumulator needs gas")
@@ -83,11 +92,20 @@ class AccumulatorBlock:
             Accumulator(setting(motion, each.volume, "Accumulator volume"), setting(motion, each.charge, "Accumulator charge"))
             for each in self.accumulators
         ]
-        return AccumulatorBlock(filled, self.gas, single(setting(motion, self.atmosphere, "Atmosphere"))[()])
+        atmosphere = single(setting(motion, self.atmosphere, "Atmosphere"))[()]
+        return replace(self, accumulators=filled, atmosphere=atmosphere, unit=self.unit or self._followed_unit(motion))
+
+    def _followed_unit(self, motion: Poses) -> str:
+        """Return the unit of pressure of the first dimension that a charge follows; "" where there is none."""
+        charges = following(*(one.charge for one in self.accumulators))
+        names = {name for charge in charges for name in motion.plan.reaches(charge.name or charge)}
+        units = [member.unit for name, member in motion.plan.of_kind(Dimension).items() if name in names]
+        return next((unit for unit in units if unit in PRESSURES), "")
 
     def __str__(self) -> str:
         vessels = ", ".join(map(str, self.accumulators))
-        return f"AccumulatorBlock([{vessels}], gas={self.gas.spelled}, atmosphere={written(self.atmosphere)})"
+        unit = f", unit={self.unit!r}" if self.unit else ""
+        return f"AccumulatorBlock([{vessels}], gas={self.gas.spelled}, atmosphere={written(self.atmosphere)}{unit})"
 
     def gas_volume(self, pressure: ArrayLike) -> Array:
         """Return the gas volume [m3] at a pressure, same shape. DefinitionError below zero absolute or outside the gas law."""
@@ -136,12 +154,10 @@ class AccumulatorBlock:
         """
         bank, pressure = self._bank, self._charged(p1)
         n = self.gas.fast_exponent(pressure) if exponent is None else finite(exponent, "Exponent of the fast change")
-        cooled = [
-            np.maximum(pressure, charge) * (gas / vessel) ** n
-            for charge, vessel, gas in zip(bank.charges, bank.vessels, bank.volumes(pressure), strict=True)
-        ]
-        emptied = [replace(one, charge=charge - self.atmosphere) for one, charge in zip(self.accumulators, cooled, strict=True)]
-        return AccumulatorBlock(emptied, Polytropic(n, self.gas.temperature), self.atmosphere)
+        shares = zip(bank.charges, bank.shares(pressure), strict=True)
+        cooled = [np.maximum(pressure, charge) * share**n for charge, share in shares]
+        emptied = [one.recharged(charge - self.atmosphere) for one, charge in zip(self.accumulators, cooled, strict=True)]
+        return replace(self, accumulators=emptied, gas=Polytropic(n, self.gas.temperature))
 
     def fast_pressure(self, p1: ArrayLike, withdrawn: ArrayLike = 0.0, exponent: ArrayLike | None = None) -> Array:
         """Return the pressure after a fast movement has withdrawn a volume [m3] from the block settled at `p1`.
@@ -151,27 +167,33 @@ class AccumulatorBlock:
         return self.settled(p1, exponent).pressure(p1, withdrawn)
 
     def charges_at(self, temperature: ArrayLike) -> Array:
-        """Return the charges at gas temperatures [K], shape (accumulators, ...): the setting table of the same gas filling."""
-        pressures = [self.gas.charge_at(charge, temperature) for charge in self._bank.charges]
-        return np.asarray(np.stack(pressures) - self.atmosphere)
+        """Return the charges at gas temperatures [K], shape (accumulators, ...): the setting table of the same gas filling.
+
+        NaN for an absent vessel.
+        """
+        pressures = [np.where(vessel > 0.0, self.gas.charge_at(charge, temperature), np.nan) for charge, vessel in self._bank]
+        return np.asarray(np.stack(np.broadcast_arrays(*pressures)) - self.atmosphere)
 
     def at(self, temperature: float) -> AccumulatorBlock:
         """Return the same gas filling at another temperature [K]. DefinitionError for one outside the gas law."""
         charges = self.charges_at(temperature)
-        warmed = [replace(one, charge=charge) for one, charge in zip(self.accumulators, charges, strict=True)]
-        return AccumulatorBlock(warmed, self.gas.at(temperature), self.atmosphere)
+        pairs = zip(self.accumulators, charges, strict=True)
+        warmed = [one.recharged(np.where(one.volume > 0.0, charge, one.charge)[()]) for one, charge in pairs]
+        return replace(self, accumulators=warmed, gas=self.gas.at(temperature))
 
-    def checks(self, p_min: float, p_max: float, allowed: float, unit: str = "bar") -> list[Verdict]:
+    def checks(self, p_min: float, p_max: float, allowed: float, unit: str = "") -> list[Verdict]:
         """Return the accumulator rules for a line working from `p_min` to `p_max`, `allowed` the highest permitted, all gauge.
 
-        An array charge is judged by its worst element; `unit` is for the sentences.
+        An array charge is judged by its worst element, absent vessels not at all; `unit` is for the sentences, without it
+        the block's own.
         DefinitionError for `p_min` above `p_max`, an unknown unit.
         """
         low, high, limit = (float(self._absolute(pressure)) - self.atmosphere for pressure in (p_min, p_max, allowed))
-        line, charges = WorkingRange(low, high, limit, self.atmosphere, unit), self._bank.charges
+        line = WorkingRange(low, high, limit, self.atmosphere, unit or self._unit)
+        charges = {number: there(charge, vessel) for number, (charge, vessel) in enumerate(self._bank, 1) if np.any(vessel > 0.0)}
         return [
-            *(line.charge(number, float(np.max(charge))) for number, charge in enumerate(charges, 1)),
-            *(line.compression(number, float(np.min(charge))) for number, charge in enumerate(charges, 1)),
+            *(line.charge(number, float(np.max(charge))) for number, charge in charges.items()),
+            *(line.compression(number, float(np.min(charge))) for number, charge in charges.items()),
             line.exhausted(float(np.min(self.fluid(p_min)))),
             line.permitted(),
         ]
@@ -179,8 +201,22 @@ class AccumulatorBlock:
     @cached_property
     def _bank(self) -> GasBank:
         self._check_sized()
-        charges = tuple(absolute(one.charge, self.atmosphere, "Accumulator charge") for one in self.accumulators)
-        return GasBank(self.gas, charges, tuple(positive(one.volume, "Accumulator volume") for one in self.accumulators))
+        vessels = [not_negative(one.volume, "Accumulator volume") for one in self.accumulators]
+        if np.any(reduce(np.add, vessels) <= 0.0):
+            raise DefinitionError("Every accumulator of the block has the volume 0, it is absent; give one of them a volume above zero.")
+        given = [finite(one.charge, "Accumulator charge") + self.atmosphere for one in self.accumulators]
+        charges = tuple(above_vacuum(each, self.atmosphere, "Accumulator charge") for each in effective(given, vessels))
+        return GasBank(self.gas, charges, tuple(vessels))
+
+    @property
+    def _unit(self) -> str:
+        """The unit of pressure of its sentences."""
+        return self.unit or "bar"
+
+    @property
+    def lowest_charge(self) -> Array:
+        """The lowest charge [Pa gauge] of the vessels that are there: charged to less, the block is rigid."""
+        return np.asarray(self._bank.lowest - self.atmosphere)[()]
 
     def _check_sized(self) -> None:
         if self.following:
@@ -196,10 +232,11 @@ class AccumulatorBlock:
         pressure, lowest = self._absolute(p1), self._bank.lowest
         rigid = pressure < lowest * (1.0 - ROUNDING)
         if np.any(rigid):
-            p, charge = (float(np.broadcast_to(of, rigid.shape)[rigid][0] - self.atmosphere) / bar for of in (pressure, lowest))
+            p, charge = (float(np.broadcast_to(of, rigid.shape)[rigid][0] - self.atmosphere) for of in (pressure, lowest))
+            low, least = show(p, self._unit, 4), show(charge, self._unit, 4)
             raise DefinitionError(
-                f"The block is rigid: charged to {p:.4g} bar gauge it holds no fluid, its lowest gas charge being {charge:.4g} bar gauge. "
-                f"Charge the line above {charge:.4g} bar, or lower a gas charge."
+                f"The block is rigid: charged to {low} gauge it holds no fluid, its lowest gas charge being {least} gauge. "
+                f"Charge the line above {least}, or lower a gas charge."
             )
         return pressure
 
@@ -224,6 +261,12 @@ class AccumulatorBlock:
         bank = self._bank
         pressure = bank.pressure(np.minimum(volume, bank.total)) - self.atmosphere
         return np.where(volume > bank.total, 0.0, pressure)[()]
+
+
+def there(charge: Array, vessel: Array) -> Array:
+    """Return the charges [Pa] of the designs that have the vessel."""
+    charge, vessel = np.broadcast_arrays(charge, vessel)
+    return charge[vessel > 0.0]
 
 
 def single(atmosphere: Any) -> Array:

@@ -25,7 +25,7 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, unknown
 from linkage.units import MPa, kN, mm
 
-from .inputs import Array, over_poses, positive
+from .inputs import Array, in_metres, over_poses, positive
 from .sizes import next_rod
 from .verdict import Verdict
 
@@ -50,6 +50,7 @@ class Buckling:
     def __post_init__(self) -> None:
         for value, what in ((self.rod, "Rod"), (self.modulus, "Modulus"), (self.yield_strength, "Yield strength")):
             positive(value, what)
+        in_metres(self.rod, "Rod")
         if positive(self.safety, "Buckling safety") < 1.0:
             raise DefinitionError(f"Buckling safety = {self.safety:g} is below 1; 3.5 is usual for hydraulic cylinders.")
         if self.mounting not in MOUNTINGS:
@@ -91,15 +92,23 @@ class Buckling:
         push, long = np.broadcast_arrays(over_poses(thrust, "Thrust"), _length(length))
         use = push / self.critical(long)
         if not np.any(use > 0.0):
-            return Verdict("buckling", True, "the rod is never pushed.")
+            return self.judged(1.0, 0.0)
         worst = int(np.nanargmax(use))
-        force, at = float(push.flat[worst]), float(long.flat[worst])
-        limit, ok = float(self.critical(at)), force <= float(self.allowed(at))
+        return self.judged(float(long.flat[worst]), float(push.flat[worst]))
+
+    def judged(self, length: float, thrust: float, where: str = "", unbounded: bool = False) -> Verdict:
+        """Return the verdict at one length [m] and thrust of one cylinder [N], at a place in words; `unbounded`: it grows from there."""
+        if unbounded:
+            return Verdict("buckling", False, f"the thrust grows without bounds {where}: no rod holds there; keep away from that pose.")
+        if not thrust > 0.0:
+            return Verdict("buckling", True, "the rod is never pushed.")
+        limit, ok = float(self.critical(length)), thrust <= float(self.allowed(length))
+        at = f" {where}" if where else ""
         says = (
-            f"{force / kN:.4g} kN on a {self.rod / mm:.4g} mm rod {at / mm:.0f} mm long ({self.mounting}), "
-            f"buckling at {limit / kN:.4g} kN: safety {limit / force:.3g}, at least {self.safety:g}"
+            f"{thrust / kN:.4g} kN on a {self.rod / mm:.4g} mm rod {length / mm:.0f} mm long ({self.mounting}){at}, "
+            f"buckling at {limit / kN:.4g} kN: safety {limit / thrust:.3g}, at least {self.safety:g}"
         )
-        return Verdict("buckling", ok, f"{says}{'' if ok else self._remedy(at, force)}.")
+        return Verdict("buckling", ok, f"{says}{'' if ok else self._remedy(length, thrust)}.")
 
     def _remedy(self, length: float, thrust: float) -> str:
         thicker = self

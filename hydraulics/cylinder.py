@@ -3,7 +3,8 @@
     thrust                    works = "piston": +    works = "rod": -
     <--[====|-----]======-->  pressure left of |     pressure right of |, on the annulus around the rod
 
-Positive thrust pushes the ends apart. A cylinder that works with its rod side pulls: its thrust is negative.
+Positive thrust pushes the ends apart. A cylinder that works with its rod side pulls: its thrust is negative. One that works
+with "both" pushes with the piston and pulls with the annulus, whichever the load asks for.
 
     >>> from linkage.units import bar, kN, mm
     >>> size = CylinderSize(bore=63 * mm, rod=40 * mm, count=2)
@@ -25,10 +26,10 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, unknown
 from linkage.units import kN, mm
 
-from .inputs import Array, finite, over_poses, positive
+from .inputs import Array, finite, in_metres, over_poses, positive
 from .sizes import next_bore, standard_bores
 
-SIDES = ("piston", "rod")
+SIDES = ("piston", "rod", "both")
 
 
 @final
@@ -44,11 +45,11 @@ class CylinderSize:
     bore: float | Array
     rod: float | Array
     count: int = 1
-    works: Literal["piston", "rod"] = "piston"
+    works: Literal["piston", "rod", "both"] = "piston"
 
     def __post_init__(self) -> None:
-        positive(self.bore, "Bore")
-        positive(self.rod, "Rod")
+        for value, what in ((self.bore, "Bore"), (self.rod, "Rod")):
+            positive(in_metres(value, what), what)
         if np.any(np.greater_equal(self.rod, self.bore)):
             rod, bore = np.broadcast_arrays(self.rod, self.bore)
             thick = rod >= bore
@@ -61,7 +62,8 @@ class CylinderSize:
 
     def __str__(self) -> str:
         many = "1 cylinder" if self.count == 1 else f"{self.count} cylinders"
-        return f"{many} {self.bore / mm:.4g}/{self.rod / mm:.4g} mm, {self.works} side"
+        side = "both sides" if self.works == "both" else f"{self.works} side"
+        return f"{many} {self.bore / mm:.4g}/{self.rod / mm:.4g} mm, {side}"
 
     @property
     def piston_area(self) -> Any:
@@ -80,21 +82,33 @@ class CylinderSize:
 
     @property
     def area(self) -> Any:
-        """The area the pressure acts on, all cylinders, m2."""
-        return self.count * (self.piston_area if self.works == "piston" else self.rod_area)
+        """The area the pressure acts on, all cylinders, m2; of both sides that which pushes."""
+        return self.pull_area if self.works == "rod" else self.push_area
 
     @property
     def back_area(self) -> Any:
         """The area on the other side of the pistons, all cylinders, m2."""
-        return self.count * (self.rod_area if self.works == "piston" else self.piston_area)
+        return self.push_area if self.works == "rod" else self.pull_area
+
+    @property
+    def push_area(self) -> Any:
+        """The area that pushes the ends apart: all pistons, m2."""
+        return self.count * self.piston_area
+
+    @property
+    def pull_area(self) -> Any:
+        """The area that pulls the ends together: all annuli, m2."""
+        return self.count * self.rod_area
 
     @property
     def sense(self) -> int:
         """+1 where the working side pushes the ends apart, -1 where it pulls them together."""
-        return 1 if self.works == "piston" else -1
+        return -1 if self.works == "rod" else 1
 
     def thrust(self, pressure: ArrayLike, back: ArrayLike = 0.0) -> Array:
         """Return the thrust [N] of all cylinders at a pressure, with `back` pressure on the other side; the two broadcast.
+
+        Of both sides it is the push; `-size.pull_area * pressure` is the pull.
 
         Seal friction may be taken off the pressure, so a negative one is not refused. NaN in an array stays NaN.
         DefinitionError for a lone NaN or an infinite pressure.
@@ -106,19 +120,27 @@ class CylinderSize:
     def pressure_for(self, thrust: ArrayLike, back: ArrayLike = 0.0) -> Array:
         """Return the pressure at which all cylinders together give a thrust [N] against a `back` pressure; they broadcast.
 
-        Negative where the load drives the cylinder: this side is empty and the other one holds. NaN and errors as `thrust`.
+        Negative where the load drives the cylinder: this side is empty and the other one holds. Of both sides it is that in the
+        piston side where it pushes, that in the rod side where it pulls. NaN and errors as `thrust`.
         """
-        against = over_poses(back, "Back pressure") * self.back_area
-        pressure: Array = (self.sense * over_poses(thrust, "Thrust") + against) / self.area
+        force, against = over_poses(thrust, "Thrust"), over_poses(back, "Back pressure")
+        if self.works == "both":
+            pushing: Array = (force + against * self.pull_area) / self.push_area
+            return np.where(force < 0.0, (against * self.push_area - force) / self.pull_area, pushing)[()]
+        pressure: Array = (self.sense * force + against * self.back_area) / self.area
         return pressure[()]
 
     def oil(self, travel: ArrayLike) -> Array:
-        """Return the oil [m3] that the working side of all cylinders takes in over a travel [m] in its direction, same shape."""
-        oil: Array = over_poses(travel, "Travel") * self.area
+        """Return the oil [m3] that the working side of all cylinders takes in over a travel [m] in its direction, same shape.
+
+        Of both sides a travel outwards (positive) fills the piston side, one inwards the rod side.
+        """
+        way = over_poses(travel, "Travel")
+        oil: Array = np.where(way < 0.0, -way * self.pull_area, way * self.push_area) if self.works == "both" else way * self.area
         return oil[()]
 
     def speed(self, flow: ArrayLike) -> Array:
-        """Return the speed [m/s] in the working direction at a flow [m3/s] into all cylinders, same shape."""
+        """Return the speed [m/s] in the working direction (of both sides: outwards) at a flow [m3/s] into all cylinders, same shape."""
         speed: Array = over_poses(flow, "Flow") / self.area
         return speed[()]
 
@@ -133,9 +155,11 @@ class CylinderSize:
         """
         force = abs(float(finite(thrust, "Thrust")))
         limit = float(positive(pressure, "Pressure"))
+        pulls = self.works == "both" and thrust < 0.0
         for bore in standard_bores():
-            if bore > self.rod and replace(self, bore=bore).area * limit >= force:
-                return replace(self, bore=bore)
+            size = replace(self, bore=bore) if bore > self.rod else None
+            if size is not None and (size.pull_area if pulls else size.area) * limit >= force:
+                return size
         raise DefinitionError(
             f"No standard bore of ISO 3320 gives {force / kN:.4g} kN with {self.count} of {self}; use more cylinders or a higher pressure."
         )

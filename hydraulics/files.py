@@ -81,11 +81,12 @@ class FloatCircuitEntry(CircuitEntry):
     accumulators: tuple[Vessel, ...] = Field(max_length=VESSELS)
     gas: GasLaw = None
     atmosphere: Pressure = None
+    unit: Word = ""
 
     def given(self) -> dict[str, Any]:
         given = super().given()
         vessels = [Accumulator(each.volume, each.charge) for each in given.pop("accumulators")]
-        block = AccumulatorBlock(vessels, **{name: given.pop(name) for name in ("gas", "atmosphere") if name in given})
+        block = AccumulatorBlock(vessels, **{name: given.pop(name) for name in ("gas", "atmosphere", "unit") if name in given})
         return given | {"block": block}
 
     @classmethod
@@ -103,5 +104,7 @@ def written_block(block: AccumulatorBlock, design: Design) -> dict[str, Any]:
     found: dict[str, Any] = {"accumulators": [{"volume": volume, "charge": charge} for volume, charge in pairs]}
     if block.gas.spelled != usual.gas.spelled:
         found["gas"] = written_gas(block.gas)
+    if block.unit:
+        found["unit"] = block.unit
     atmosphere = design.amount(block.atmosphere)
     return found if repr(atmosphere) == repr(usual.atmosphere) else found | {"atmosphere": atmosphere}

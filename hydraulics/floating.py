@@ -15,15 +15,16 @@ from typing import Any, ClassVar, TypeAlias, final
 import numpy as np
 
 from linkage.errors import DefinitionError
-from linkage.loads import ForceElement, Load, Poses
+from linkage.loads import ForceElement, Load, Poses, Push, Rates
+from linkage.loads.two_point import AT_REST, end_forces
 from linkage.motion import Motion
 from linkage.plan import ArrayReading
-from linkage.quantities import Distance, Reference, label, name_of
+from linkage.quantities import Reference, label, name_of
+from linkage.statics import Case, Loads, stroke_followed
 
 from .accumulator import AccumulatorBlock
 from .inputs import Array, finite, is_traced
-from .lift import drive
-from .member import Cylinder, found_in, is_named, the_cylinder
+from .member import Circuit, Cylinder, found_in, is_named, the_cylinder
 from .settings import number_set
 
 Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
@@ -31,13 +32,14 @@ Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
 
 @final
 @dataclass(frozen=True, eq=False)
-class FloatCircuit(ForceElement):
+class FloatCircuit(Circuit):
     """A cylinder on a closed accumulator block: `FloatCircuit(lift, block, charge_pressure=94 * kgf_cm2, at=h_horizon)`.
 
     The line has `charge_pressure` [Pa gauge] where the stroke that drives the cylinder is `at` [m]; `seal_friction` is what
     the seals take off that pressure [Pa]. `exponent` 1 is a slow movement, by the block's own gas law; above 1 the block has
     settled at the charge pressure and moves fast, by p V^exponent. `block` is an AccumulatorBlock, whose charges and volumes
-    may follow dimensions, or a function of the motion that returns one.
+    may follow dimensions, or a function of the motion that returns one. The cylinder works with one side, and has no other force than
+    the gas's; what its stroke still needs is the drive's.
     """
 
     cylinder: Reference
@@ -46,7 +48,6 @@ class FloatCircuit(ForceElement):
     at: Any = 0.0
     seal_friction: Any = 0.0
     exponent: Any = 1.0
-    places: ClassVar[tuple[str, ...]] = ()
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
         {"charge_pressure": "bar", "at": "m", "seal_friction": "bar", "exponent": ""}
     )
@@ -62,16 +63,24 @@ class FloatCircuit(ForceElement):
         return (*([self.cylinder] if is_named(self.cylinder) else []), *super().parts(), *followed)
 
     def examine(self, members: Mapping[str, Any], title: str) -> None:
-        if is_named(self.cylinder):
-            found_in(members, self.cylinder, f"{title}.{self.name}")
+        found = found_in(members, self.cylinder, f"{title}.{self.name}") if is_named(self.cylinder) else self.cylinder
+        if isinstance(found, Cylinder) and found.works == "both":
+            what = f"{title}.{self.name}: {label(self.cylinder)} works with both sides, but a charged line fills one"
+            raise DefinitionError(f'{what}; say works="piston" or works="rod".')
 
     def __str__(self) -> str:
         block = str(self.block) if isinstance(self.block, AccumulatorBlock) else getattr(self.block, "__name__", "block")
         return f"FloatCircuit({', '.join([label(self.cylinder), block, *self.words()])})"
 
-    def feeds(self, members: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
+    def feeds(self, members: Mapping[str, Any]) -> tuple[ForceElement, ...]:
+        return self.members(members)
+
+    def members(self, members: Mapping[str, Any]) -> tuple[Cylinder, ...]:
         found = found_in(members, self.cylinder, str(self)) if is_named(self.cylinder) else self.cylinder
-        return found.cylinders() if isinstance(found, Cylinder) else ()
+        return (found,) if isinstance(found, Cylinder) else ()
+
+    def pressure_in(self, cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
+        return self.pressure(motion)
 
     def ram(self, motion: Poses) -> Cylinder:
         """Return its cylinder, as the motion's class has it."""
@@ -99,33 +108,29 @@ class FloatCircuit(ForceElement):
         fast = block.settled(number_set(self, motion, "charge_pressure"), exponent).pressure(charge, left)
         return np.where(exponent == 1.0, block.pressure(charge, left), fast) if is_traced(exponent) or np.any(exponent == 1.0) else fast
 
-    def thrust(self, motion: Poses, sense: int = 0) -> Array:
-        """Return the thrust [N], shape (...): frictionless, or while the drive goes on (`sense` 1) or back (-1). (37), (39)"""
-        size = self.ram(motion).sized(motion)
-        friction = finite(self.number(motion, "seal_friction"), "Seal friction") * size.area
-        return np.asarray(size.thrust(self.pressure(motion)) - self._extends(motion, sense) * friction)
-
-    def _extends(self, motion: Poses, sense: int) -> Array:
-        """Return 1 where the cylinder comes out while the drive goes on (`sense` 1) or back (-1), -1 where it goes in, else 0."""
-        if sense == 0:
-            return np.zeros(())
+    def thrust(self, motion: Poses, rates: Rates = AT_REST) -> Array:
+        """Return the thrust [N], shape (...): frictionless at rest, or while strokes move at rates, with the seals' friction. (37), (39)"""
         ram = self.ram(motion)
-        moved = _motion(motion)
-        return np.asarray(sense * np.sign(moved.ratio(Distance(ram.A, ram.B), wrt=drive(moved, ram))))
+        size = ram.sized(motion)
+        free = size.thrust(self.pressure(motion))
+        if not rates:
+            return np.asarray(free)
+        friction = finite(self.number(motion, "seal_friction"), "Seal friction") * size.area
+        return np.asarray(free - np.sign(ram.speed(motion, rates)) * friction)
+
+    def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
+        return [Push(self.ram(motion), self.thrust(motion, rates))]
 
     def loads(self, motion: Poses) -> list[Load]:
-        return self.moving(motion, 0)
+        return self.moving(motion, AT_REST)
 
-    def moving(self, motion: Poses, sense: int) -> list[Load]:
-        ram = self.ram(motion)
-        A, B = name_of(ram.A), name_of(ram.B)
-        push = (motion[B] - motion[A]) / motion.distance(A, B) * self.thrust(motion, sense)
-        return [Load(A, -push), Load(B, push)]
+    def moving(self, motion: Poses, rates: Rates) -> list[Load]:
+        return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
 
 
 def length_at(motion: Poses, ram: Cylinder, at: Array) -> Any:
     """Return a cylinder's length [m] where the stroke that drives it is `at`, the other strokes as they are; broadcasts."""
-    plan, stroke = motion.plan, drive(motion, ram)
+    plan, stroke = motion.plan, stroke_followed(motion.plan, ram)
     reading = ArrayReading(plan.members, plan.table.lengths, motion.inputs | {stroke: at})
     length = plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
     if length is not None:
@@ -137,9 +142,3 @@ def length_at(motion: Poses, ram: Cylinder, at: Array) -> Any:
     if not np.all(np.isfinite(found)):
         raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {stroke} = {np.ravel(at)[0]:.6g}.")
     return found
-
-
-def _motion(poses: Poses) -> Motion:
-    if not isinstance(poses, Motion):
-        raise DefinitionError("A FloatCircuit needs a Motion: machine.sweep(...) or machine.at(...).")
-    return poses

@@ -16,6 +16,17 @@ from linkage.program import Traced
 
 Array: TypeAlias = NDArray[np.float64]
 
+WIDEST = 3.0
+"""m; a larger bore or rod was given in millimetres."""
+LONGEST = 30.0
+"""m; a longer stroke was given in millimetres."""
+SLENDER = 300.0
+"""A stroke of more bores than this was given in millimetres."""
+FAINTEST = 1000.0
+"""Pa; less, and not none, was given in bar or another unit."""
+STRONGEST = 1.0
+"""m3/s; a larger flow was given in litres a minute."""
+
 
 def finite(value: ArrayLike, what: str) -> Array:
     """Return the value as floats, its shape kept; DefinitionError if it is text, NaN or infinite."""
@@ -33,6 +44,48 @@ def positive(value: ArrayLike, what: str, remedy: str = "give a positive number 
     return array
 
 
+def not_negative(value: ArrayLike, what: str, remedy: str = "give zero or more") -> Array:
+    """Return the value as floats, its shape kept; DefinitionError unless every one is finite and not below zero."""
+    array = finite(value, what)
+    if np.any(array < 0.0):
+        raise DefinitionError(f"{what} = {np.min(array):.6g} is below zero; {remedy}.")
+    return array
+
+
+def in_metres(value: ArrayLike, what: str, most: float = WIDEST) -> Array:
+    """Return a length [m], its shape kept; DefinitionError where it is above `most`, so that millimetres were meant."""
+    array = finite(value, what)
+    if np.any(array > most):
+        large = float(np.max(array))
+        raise DefinitionError(f"{what} = {large:.6g} m is more than any cylinder has; write {large:.6g} * mm if these are millimetres.")
+    return array
+
+
+def stroke_in_metres(value: ArrayLike, what: str, bore: ArrayLike | None = None) -> Array:
+    """Return a stroke or a closed length [m]; DefinitionError where it is too long at all, or for a bore [m] that is known."""
+    return in_metres(value, what, LONGEST if bore is None else min(LONGEST, SLENDER * float(np.max(bore))))
+
+
+def in_pascals(value: ArrayLike, what: str) -> Array:
+    """Return a pressure [Pa], its shape kept; DefinitionError where it is next to nothing and not none, so that bar were meant."""
+    array = finite(value, what)
+    size = np.abs(array)
+    faint = (size > 0.0) & (size < FAINTEST)
+    if np.any(faint):
+        text = f"{array[faint][0]:.6g}"
+        raise DefinitionError(f"{what} = {text} Pa is next to nothing; write {text} * bar if these are bar, or {text} * kgf_cm2.")
+    return array
+
+
+def in_cubic_metres(value: ArrayLike, what: str) -> Array:
+    """Return a flow [m3/s], its shape kept; DefinitionError where no pump gives so much, so that litres a minute were meant."""
+    array = finite(value, what)
+    if np.any(array > STRONGEST):
+        large = f"{np.max(array):.6g}"
+        raise DefinitionError(f"{what} = {large} m3/s is more than any pump gives; write {large} * litre / minute if it is in l/min.")
+    return array
+
+
 def over_poses(value: ArrayLike, what: str) -> Array:
     """Return a value over poses as floats: NaN stays where an array marks an unreached pose, else DefinitionError."""
     array = _floats(value, what)
@@ -45,7 +98,11 @@ def over_poses(value: ArrayLike, what: str) -> Array:
 
 def absolute(gauge: ArrayLike, atmosphere: float, what: str) -> Array:
     """Return gauge + atmosphere [Pa]; DefinitionError where that would be below zero."""
-    pressure = finite(gauge, what) + atmosphere
+    return above_vacuum(finite(gauge, what) + atmosphere, atmosphere, what)
+
+
+def above_vacuum(pressure: Array, atmosphere: float, what: str) -> Array:
+    """Return an absolute pressure [Pa]; DefinitionError where it is below zero."""
     if np.any(pressure < 0.0):
         low = float(np.min(pressure)) - atmosphere
         raise DefinitionError(f"{what} = {low:.6g} Pa gauge is below zero absolute; the least is -{atmosphere:.6g} Pa, the atmosphere.")

@@ -1,106 +1,208 @@
-"""What can be said of a lift over its stroke, in sentences. Pressures are gauge; one design, one stroke at a time.
+"""What can be said of a lift over its motion, in sentences: along one stroke, the others held, or along a path of several.
 
-`thrust` is a function of a motion that returns the frictionless thrust [N], such as
-`lambda motion: driving_force(motion, loads)`: it is asked again, closely, so that ranges end where they truly do.
+Pressures are gauge; one design at a time. Extremes and ranges are looked for between the poses, whatever their number. Each
+cylinder is judged with all drives locked, by its own thrust; friction takes its senses from the movement.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TypeAlias
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from linkage.errors import DefinitionError
-from linkage.motion import Motion
-from linkage.report import below_zero, closely, reached_span, spans_in_words
+from linkage.motion import Motion, Span, below_zero, greatest, lowest, reached
+from linkage.statics import Case, Loads, elements_of
 from linkage.units import litre, mm, show
 
 from .cylinder import CylinderSize
 from .inputs import Array
 from .lift import LiftCircuit
+from .member import Cylinder, one_design, one_size
 from .sizes import standard_bores
 from .verdict import Verdict
 
-Thrust: TypeAlias = Callable[[Motion], Array]
 
-
-def lift_verdicts(circuit: LiftCircuit, motion: Motion, thrust: Thrust, *, resistance: float = 0.0, unit: str = "bar") -> list[Verdict]:
+def lift_verdicts(
+    circuit: LiftCircuit, motion: Motion, loads: Loads = None, *, case: Case = None, resistance: float = 0.0, unit: str = "bar"
+) -> list[Verdict]:
     """Return the verdicts on lifting (with the remedy), oil and time, holding, and lowering against a `resistance` [Pa].
 
-    `unit` is that of the pressures in the sentences.
+    `loads` are the machine's own unless others are given; `unit` is that of the pressures in the sentences. Along a path of
+    several strokes, `at(S1=..., S2=...)` with arrays of one axis, it is judged along the path. Of a line of several cylinders each is.
     """
-    if motion.design_shape or len(motion.strokes) != 1:
-        raise DefinitionError("A lift is judged for one design and one stroke at a time; take one, at() or sweep() again.")
+    one_design(motion, "A lift")
+    if len(motion.stroke_shape) > 1:
+        raise DefinitionError("A lift is judged along one stroke or one path; this motion is a grid of several strokes. Give at() arrays.")
+    if not motion.reached.any():
+        raise DefinitionError(f"{motion.plan.title}: no pose of this motion can be assembled, so that there is nothing to judge.")
+    judged = [Judged(circuit, ram, motion, loads, case, unit) for ram in circuit.rams(motion)]
+    nothing = idle(judged)
+    if nothing:
+        return [nothing, filling(circuit, motion)]
+    several = len(judged) > 1
     return [
-        lifting(circuit, motion, thrust, unit),
+        *(named(each.lifting(), each.ram, several) for each in judged),
         filling(circuit, motion),
-        holding(circuit, motion, thrust, unit),
-        lowering(circuit, motion, thrust, resistance, unit),
+        *(named(each.holding(), each.ram, several) for each in judged),
+        *(named(each.lowering(resistance), each.ram, several) for each in judged),
     ]
 
 
-def lifting(circuit: LiftCircuit, motion: Motion, thrust: Thrust, unit: str) -> Verdict:
-    """Return whether the pump lifts over the whole motion; where not, the pressure needed and the standard bore that would do."""
-    fine, (stroke,) = closely(motion), motion.strokes
-    reserve, pump = circuit.reserve(fine, thrust(fine)), show(float(circuit.supply(motion)), unit, 4)
-    if np.isnan(reserve).all():
-        return Verdict("lifting", True, "the load drives all the way: it is not limited by this cylinder.")
-    worst = int(np.nanargmin(reserve))
-    least, where = float(reserve[worst]), f"{stroke} = {fine.strokes[stroke][worst]:.4f} m"
-    driven = below_zero(motion, lambda each: np.asarray(circuit.rod_force(each, thrust(each))))
-    free = f"; the load drives {spans_in_words(driven, stroke)}, there it is not limited by this cylinder" if driven else ""
-    says = f"at {pump} the least reserve is {least:.3f}, at {where}"
-    if least >= 1.0:
-        return Verdict("lifting", True, f"{says}{free}.")
-    short = below_zero(motion, lambda each: np.asarray(circuit.largest(each) - circuit.rod_force(each, thrust(each))))
-    return Verdict("lifting", False, f"{says}; too weak {spans_in_words(short, stroke)}{free}. {remedy(circuit, fine, thrust(fine), unit)}")
+def named(verdict: Verdict, ram: Cylinder, several: bool) -> Verdict:
+    """Return a verdict that names its cylinder, where there are several."""
+    return Verdict(f"{verdict.rule} {ram.name or ram}", verdict.ok, verdict.sentence) if several else verdict
 
 
-def remedy(circuit: LiftCircuit, motion: Motion, thrust: Array, unit: str) -> str:
-    """Return what makes up for a reserve below 1: a pressure, or the next standard bore (ISO 3320) that does, with its reserve."""
-    size, needed = circuit.size(motion), show(float(np.nanmax(circuit.pressure_for(motion, thrust))), unit, 4)
-    force = circuit.rod_force(motion, thrust)
-    for bore in standard_bores():
-        if bore > max(float(size.bore), float(size.rod)) * (1.0 + 1e-9):
-            larger = CylinderSize(bore, float(size.rod), size.count, size.works)
-            most = circuit.efficiency(motion, "hydraulic") * circuit.supply(motion) * larger.area - circuit.back(motion) * larger.back_area
-            gained = float(np.nanmin(most / np.where(force > 0.0, force, np.nan)))
-            if gained >= 1.0:
-                return f"It needs {needed}, or a bore of {bore / mm:.0f} mm, with a reserve of {gained:.2f}."
-    return f"It needs {needed}; no standard bore is large enough."
+def idle(judged: Sequence[Judged]) -> Verdict | None:
+    """Return the verdict on a lift that has nothing to carry; None where it has."""
+    first = judged[0]
+    elements = elements_of(first.motion.plan, first.loads)
+    if any(np.nanmax(np.abs(each.thrust(each.motion)), initial=0.0) > 0.0 for each in judged):
+        return None
+    if any(greatest(each.motion, lambda at, each=each: np.abs(each.thrust(at))).value > 0.0 for each in judged):  # type: ignore[misc]
+        return None
+    acting = [name for name, each in elements if not each.holds and not each.joined(first.motion.plan.members)]
+    why = "no load is declared, such as Weight(G, mass=...)"
+    if acting:
+        why = f"the loads {', '.join(acting)} ask nothing of it; are their masses zero?"
+    return Verdict("lifting", False, f"there is nothing to lift: {why}.")
+
+
+class Judged:
+    """One cylinder of a circuit over a motion."""
+
+    def __init__(self, circuit: LiftCircuit, ram: Cylinder, motion: Motion, loads: Loads, case: Case, unit: str) -> None:
+        self.circuit, self.ram, self.motion, self.loads, self.case, self.unit = circuit, ram, motion, loads, case, unit
+
+    @property
+    def choice(self) -> dict[str, Any]:
+        """Which cylinder and load case is meant."""
+        return {"cylinder": self.ram, "case": self.case}
+
+    def thrust(self, motion: Motion) -> Array:
+        """Return what the cylinder carries without friction [N]."""
+        return self.ram.thrust(motion, self.loads, case=self.case)
+
+    def force(self, motion: Motion) -> Array:
+        """Return the rod force while it lifts [N]."""
+        return self.circuit.rod_force(motion, self.loads, **self.choice)
+
+    def spare(self, motion: Motion) -> Array:
+        """Return the greatest rod force less the needed one [N]."""
+        work = self.circuit.work(motion, self.loads, **self.choice)
+        return self.circuit.most(motion, work) - work.force
+
+    def show(self, pressure: Any) -> str:
+        """Return a pressure in the unit of the sentences."""
+        return show(float(pressure), self.unit, 4)
+
+    # -- lifting -------------------------------------------------------------------------------------------
+
+    def lifting(self) -> Verdict:
+        """Return whether the pump lifts over the whole motion; where not, the pressure needed and the standard bore that would do."""
+        motion, pump = self.motion, self.show(self.circuit.supply(self.motion))
+        worst = greatest(motion, lambda at: self.use(at))
+        driven = below_zero(motion, self.force)
+        if np.isnan(worst.value) or worst.value <= 0.0:
+            return Verdict("lifting", True, f"the load drives all the way: it is not limited by this cylinder{self.other_side()}.")
+        if worst.unbounded:
+            text = f"at {pump} the force needed grows without bounds {worst.where}: no cylinder lifts there; keep away from that pose."
+            return Verdict("lifting", False, text)
+        least = 1.0 / float(worst.value)
+        free = f"; the load drives {spans(driven)}, there it is not limited by this cylinder{self.other_side()}" if driven else ""
+        says = f"at {pump} the least reserve is {least:.3f}, {worst.where}"
+        if least >= 1.0:
+            return Verdict("lifting", True, f"{says}{free}.")
+        short = below_zero(motion, self.spare)
+        return Verdict("lifting", False, f"{says}; too weak {spans(short)}{free}. {self.remedy(least)}")
+
+    def use(self, motion: Motion) -> Array:
+        """Return the needed rod force over the greatest one, 0 where the load drives."""
+        work = self.circuit.work(motion, self.loads, **self.choice)
+        return np.where(work.force > 0.0, work.force / self.circuit.most(motion, work), 0.0) + 0.0 * work.force
+
+    def other_side(self) -> str:
+        """Return the remedy where the thrust changes its sign and one side alone is declared."""
+        return '; works="both" judges the other side as well' if self.ram.works != "both" else ""
+
+    def remedy(self, least: float) -> str:
+        """Return what makes up for a reserve below 1: a pressure, or the next standard bore (ISO 3320) that does, with its reserve."""
+        circuit, motion, size = self.circuit, self.motion, one_size(self.ram.sized(self.motion))
+        needed = self.show(greatest(motion, lambda at: circuit.pressure_for(at, self.loads, **self.choice)).value)
+        if len(circuit.rams(motion)) > 1:
+            return f"It needs {needed}, or larger bores on this line."
+        for bore in standard_bores():
+            if bore > max(size.bore, size.rod) * (1.0 + 1e-9):
+                gained = self.gained(CylinderSize(bore, size.rod, self.ram.count, self.ram.works))
+                if gained >= 1.0:
+                    return f"It needs {needed}, or a bore of {bore / mm:.0f} mm, with a reserve of {gained:.2f}."
+        return f"It needs {needed}; no standard bore is large enough."
+
+    def gained(self, larger: CylinderSize) -> float:
+        """Return the least reserve with another size."""
+
+        def use(motion: Motion) -> Array:
+            work = self.circuit.work(motion, self.loads, **self.choice)
+            other = type(work)(work.thrust, work.sense, larger, work.k_m, work.lifts)
+            return np.where(other.force > 0.0, other.force / self.circuit.most(motion, other), 0.0) + 0.0 * other.force
+
+        return 1.0 / float(greatest(self.motion, use).value)
+
+    # -- holding and lowering ------------------------------------------------------------------------------
+
+    def holding(self) -> Verdict:
+        """Return the pressures that the load makes with the pump off, and whether they stay below the relief valve's."""
+        circuit, motion, limit = self.circuit, self.motion, float(self.circuit.held(self.motion))
+        working, other = (
+            greatest(motion, lambda at, side=side: getattr(circuit.holding(at, self.loads, **self.choice), side))  # type: ignore[misc]
+            for side in ("working", "other")
+        )
+        ok = bool(working.value <= limit and other.value <= limit)
+        sides = "piston" if self.ram.works != "rod" else "rod", "rod" if self.ram.works != "rod" else "piston"
+        where = f", {working.where}" if working.value > 0.0 else ""
+        more = f", up to {self.show(other.value)} in the {sides[1]} side where the load drives, {other.where}" if other.value > 0.0 else ""
+        valve = "the relief valve" if circuit.relief is not None else "the pump, for no relief= is given"
+        says = f"with the pump off up to {self.show(working.value)} stand in the {sides[0]} side{where}{more}"
+        rest = f", held against {valve}, {self.show(limit)}" if ok else f"; that is above {valve}, {self.show(limit)}: take a larger bore"
+        return Verdict("holding", ok, f"{says}{rest}.")
+
+    def lowering(self, resistance: float) -> Verdict:
+        """Return whether it sinks by itself against the resistance of the returning oil; where not, what the other side must give."""
+        circuit, motion, against = self.circuit, self.motion, f"against {self.show(resistance)} in the return line"
+
+        def sinks(at: Motion) -> Any:
+            return circuit.lowering(at, self.loads, resistance=resistance, **self.choice)
+
+        stuck = below_zero(motion, lambda at: np.where(sinks(at).by_itself, 1.0, -1.0) + 0.0 * sinks(at).working)
+        if not stuck:
+            least = lowest(motion, lambda at: sinks(at).working)
+            text = f"it sinks by itself {against}: the load makes at least {self.show(least.value)} in the working side, {least.where}."
+            return Verdict("lowering", True, text)
+        whole = reached(motion)
+        everywhere = len(stuck) == len(whole) and all(str(a) == str(b) for a, b in zip(stuck, whole, strict=True))
+        where = "anywhere" if everywhere else spans(stuck)
+        push = self.show(greatest(motion, lambda at: sinks(at).push).value)
+        return Verdict("lowering", False, f"it does not sink by itself {where} {against}: the other side must push with up to {push}.")
 
 
 def filling(circuit: LiftCircuit, motion: Motion) -> Verdict:
     """Return how much oil the motion takes, and how long the pump's flow needs for it."""
-    says = f"{float(circuit.oil(motion)) / litre:.2f} l from end to end"
+    oil, back = float(circuit.oil(motion)), oil_back(circuit, motion)
+    says = f"{oil / litre:.2f} l from end to end{f' outwards, {back / litre:.2f} l inwards' if back else ''}"
     if not np.any(circuit.number(motion, "flow") > 0.0):
         return Verdict("oil", True, f"{says}; time follows from the pump's flow, which is not given.")
     flow = float(circuit.number(motion, "flow")) * 60.0 / litre
     return Verdict("oil", True, f"{says}, {float(circuit.time(motion)):.1f} s at {flow:.4g} l/min.")
 
 
-def holding(circuit: LiftCircuit, motion: Motion, thrust: Thrust, unit: str) -> Verdict:
-    """Return the pressures that the load makes with the pump off, and whether they stay below the pump's."""
-    fine = closely(motion)
-    held, pump = circuit.holding(fine, thrust(fine)), float(circuit.supply(motion))
-    working, other = float(np.nanmax(held.working)), float(np.nanmax(held.other))
-    ok = working <= pump and other <= pump
-    more = f", up to {show(other, unit, 4)} in the other side where the load drives" if other > 0.0 else ""
-    says = f"with the pump off up to {show(working, unit, 4)} stand in the working side{more}"
-    return Verdict("holding", ok, f"{says}{'' if ok else f'; that is above the pump, {show(pump, unit, 4)}: take a larger bore'}.")
+def oil_back(circuit: LiftCircuit, motion: Motion) -> float:
+    """Return the oil [m3] that the rod sides take over the same way, of cylinders that work with both; 0 where none does."""
+    both = [ram for ram in circuit.rams(motion) if ram.works == "both"]
+    return sum(float(circuit.way(motion, ram) * ram.sized(motion).pull_area) for ram in both)
 
 
-def lowering(circuit: LiftCircuit, motion: Motion, thrust: Thrust, resistance: float, unit: str) -> Verdict:
-    """Return whether it sinks by itself against the resistance of the returning oil; where not, what the other side must give."""
-    (stroke,), fine = motion.strokes, closely(motion)
-    sinks = circuit.lowering(fine, thrust(fine), resistance)
-    against = f"against {show(resistance, unit, 4)} in the return line"
-    low, high = reached_span(motion)
-    if np.all(sinks.by_itself[fine.reached]):
-        least = show(float(np.nanmin(sinks.working)), unit, 4)
-        return Verdict("lowering", True, f"it sinks by itself {against}: the load makes at least {least} in the working side.")
-    stuck = below_zero(motion, lambda each: np.asarray(np.where(circuit.lowering(each, thrust(each), resistance).by_itself, 1.0, -1.0)))
-    where = "anywhere" if stuck == [(low, high)] else spans_in_words(stuck, stroke)
-    push = show(float(np.nanmax(sinks.push)), unit, 4)
-    return Verdict("lowering", False, f"it does not sink by itself {where} {against}: the other side must push with up to {push}.")
+def spans(found: Sequence[Span]) -> str:
+    """Return parts of a motion in words."""
+    return " and ".join(map(str, found))

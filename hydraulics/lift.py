@@ -1,80 +1,121 @@
-"""A pump that lifts by a cylinder: capacity, pressure, oil, time, holding and lowering. Every pressure in this file is gauge [Pa].
+"""A pump that lifts by cylinders: capacity, pressure, oil, time, holding and lowering. Every pressure in this file is gauge [Pa].
 
-Friction as an efficiency: with the frictionless rod force P I (virtual work), the rod carries P I / k_m where the load
-resists and P I k_m where it drives, k_m the mechanical efficiency. The hydraulic efficiency k_h enters only the supply
-pressure: p = rod force / (area k_h). Where the ratio is zero or negative a capacity is "not limited by this
-cylinder": NaN in an array, words in a verdict. Forces count in the cylinder's working direction: the side that
-`works` pushes (or, rod side, pulls) with positive force. Source: worksheet of the mower lift; Dyuzhev, Kotov, Chuprynin (2008), (28), (29).
+What a cylinder carries is its own `thrust(motion)`, with the declared friction of the direction it moves in. An efficiency stands for
+what is not declared: the rod carries T / k_m where the load resists and T k_m where it drives, k_m the mechanical efficiency. The
+hydraulic efficiency k_h enters only the supply pressure: p = rod force / (area k_h). Holding takes no efficiency. Where nothing resists
+a capacity or a reserve is "not limited by this cylinder": NaN in an array, words in a verdict. Forces count in the working direction:
+the side that `works` pushes (or, rod side, pulls) with positive force; of "both" it is the side that the load asks for.
+Source: worksheet of the mower lift; Dyuzhev, Kotov, Chuprynin (2008), (28), (29).
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, final
+from typing import Any, ClassVar, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError
-from linkage.loads import ForceElement, Load, Poses
-from linkage.motion import Motion
-from linkage.plan import Plan
-from linkage.quantities import Distance, Reference, label, name_of
+from linkage.loads import Force, ForceElement, Load, Poses
+from linkage.motion import Motion, greatest, lowest
+from linkage.motion.reach import Mask
+from linkage.quantities import Reference, label, name_of
+from linkage.statics import Case, Loads, elements_of
 
 from .cylinder import CylinderSize
-from .inputs import Array, finite, over_poses, positive
-from .member import Cylinder, found_in, is_named, the_cylinder
+from .inputs import Array, finite, positive
+from .member import Circuit, Cylinder, found_in, is_named, the_cylinder
+
+Feeds: TypeAlias = "Reference | Sequence[Reference]"
 
 
 @final
 @dataclass(frozen=True, eq=False)
-class LiftCircuit(ForceElement):
+class LiftCircuit(Circuit):
     """A pump on a cylinder: `circuit = LiftCircuit(lift, pressure=180 * bar, flow=60 * litre / minute, mechanical_efficiency=0.9)`.
 
-    `pressure` is the pump's highest, gauge [Pa]; `flow` in m3/s; `back_pressure` that of the returning oil on the other
-    side [Pa gauge]. In a class the numbers are design variables such as `circuit.pressure`.
+    Several cylinders on one line, `LiftCircuit([lift, aux], ...)`, share one pressure and carry thrust by area. `pressure` is the
+    pump's highest, gauge [Pa], against which is lifted; `relief` that of the relief valve, against which is held (omitted: the
+    pump's); `flow` in m3/s; `back_pressure` that of the returning oil on the other side [Pa gauge]. In a class the numbers are design
+    variables such as `circuit.pressure`.
     """
 
-    cylinder: Reference
+    cylinder: Feeds
     pressure: Any
     flow: Any = 0.0
     mechanical_efficiency: Any = 1.0
     hydraulic_efficiency: Any = 1.0
     back_pressure: Any = 0.0
-    places: ClassVar[tuple[str, ...]] = ()
+    relief: Any = None
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
-        {"pressure": "bar", "flow": "", "mechanical_efficiency": "", "hydraulic_efficiency": "", "back_pressure": "bar"}
+        {"pressure": "bar", "flow": "", "mechanical_efficiency": "", "hydraulic_efficiency": "", "back_pressure": "bar", "relief": "bar"}
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"flow", "back_pressure"})
+    optional: ClassVar[frozenset[str]] = frozenset({"relief"})
+
+    @property
+    def references(self) -> tuple[Reference, ...]:
+        """Its cylinders, as they were given."""
+        return (self.cylinder,) if isinstance(self.cylinder, (str, ForceElement)) else tuple(self.cylinder)  # type: ignore[arg-type]
 
     def parts(self) -> tuple[Reference, ...]:
-        return (*([self.cylinder] if is_named(self.cylinder) else []), *super().parts())
+        return (*(each for each in self.references if is_named(each)), *super().parts())
 
     def examine(self, members: Mapping[str, Any], title: str) -> None:
-        if is_named(self.cylinder):
-            found_in(members, self.cylinder, f"{title}.{self.name}")
+        if not self.references:
+            raise DefinitionError(f"{title}.{self.name}: the circuit has no cylinder; name one, LiftCircuit(lift, pressure=...).")
+        for each in self.references:
+            if is_named(each):
+                found_in(members, each, f"{title}.{self.name}")
 
     def loads(self, motion: Poses) -> list[Load]:
         return []
 
+    def joined(self, members: Mapping[str, Any]) -> tuple[ForceElement, ...]:
+        return self.members(members)
+
+    def members(self, members: Mapping[str, Any]) -> tuple[Cylinder, ...]:
+        title = self.name or "LiftCircuit"
+        found = (found_in(members, each, title) if is_named(each) else each for each in self.references)
+        return tuple(each for each in found if isinstance(each, Cylinder))
+
     def __str__(self) -> str:
-        return f"LiftCircuit({', '.join([label(self.cylinder), *self.words()])})"
+        names = ", ".join(label(each) for each in self.references)
+        return f"LiftCircuit({', '.join([f'[{names}]' if len(self.references) > 1 else names, *self.words()])})"
 
     # -- what it is made of --------------------------------------------------------------------------------
 
-    def ram(self, motion: Poses) -> Cylinder:
-        """Return its cylinder, as the motion's class has it."""
-        return the_cylinder(motion, self.cylinder)
+    def rams(self, motion: Poses) -> tuple[Cylinder, ...]:
+        """Return its cylinders, as the motion's class has them."""
+        return tuple(the_cylinder(motion, each) for each in self.references)
 
-    def size(self, motion: Poses) -> CylinderSize:
-        """Return the size of its cylinder; bore and rod broadcast against the motion."""
-        return self.ram(motion).sized(motion)
+    def ram(self, motion: Poses) -> Cylinder:
+        """Return its only cylinder; DefinitionError where it has several."""
+        return self.one(motion, None)
+
+    def one(self, motion: Poses, cylinder: Reference | None) -> Cylinder:
+        """Return the cylinder that is meant: its only one, or the one named; DefinitionError where that leaves a choice."""
+        rams = self.rams(motion)
+        if cylinder is None and len(rams) == 1:
+            return rams[0]
+        names = ", ".join(each.name or str(each) for each in rams)
+        named = [each for each in rams if cylinder is not None and (each is cylinder or (each.name and each.name == name_of(cylinder)))]
+        if not named:
+            raise DefinitionError(f"{self.name or 'The circuit'} has the cylinders {names}; say cylinder= one of them.")
+        return named[0]
 
     def supply(self, motion: Poses) -> Array:
         """Return the pump's highest pressure [Pa]; DefinitionError unless it is above zero."""
         return positive(self.number(motion, "pressure"), f"{self.name or 'LiftCircuit'}.pressure")
+
+    def held(self, motion: Poses) -> Array:
+        """Return the pressure at which the relief valve opens [Pa], the pump's where none is given."""
+        if self.relief is None:
+            return self.supply(motion)
+        return positive(self.number(motion, "relief"), f"{self.name or 'LiftCircuit'}.relief")
 
     def efficiency(self, motion: Poses, kind: str) -> Array:
         """Return the "mechanical" or "hydraulic" efficiency; DefinitionError unless it is above 0 and not above 1."""
@@ -93,71 +134,136 @@ class LiftCircuit(ForceElement):
 
     # -- lifting -------------------------------------------------------------------------------------------
 
-    def largest(self, motion: Poses) -> Array:
+    def work(
+        self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None, direction: str | None = None
+    ) -> Work:
+        """Return what a cylinder has to do while it moves in its working direction, or in the one named."""
+        ram = self.one(motion, cylinder)
+        size = ram.sized(motion)
+        if size.works != "both":
+            way = direction or ("extending" if size.works == "piston" else "retracting")
+            thrust = ram.thrust(motion, loads, case=case, direction=way)
+            return Work(thrust, sense_in(way, thrust), size, self.efficiency(motion, "mechanical"), direction is None)
+        if direction is not None:
+            thrust = ram.thrust(motion, loads, case=case, direction=direction)
+            return Work(thrust, sense_in(direction, thrust), size, self.efficiency(motion, "mechanical"), False)
+        out, back = (ram.thrust(motion, loads, case=case, direction=way) for way in ("extending", "retracting"))
+        pushes = out + back >= 0.0  # against a pushing load it extends, against a pulling one it retracts
+        thrust = np.where(pushes, out, back)
+        return Work(thrust, np.where(pushes, 1.0, -1.0), size, self.efficiency(motion, "mechanical"), True)
+
+    def rod_force(self, motion: Motion, loads: Loads = None, **choice: Any) -> Array:
+        """Return the rod force in the working direction [N], shape (...): T / k_m against a load, T k_m under one that drives."""
+        return self.work(motion, loads, **choice).force
+
+    def pressure_for(self, motion: Motion, loads: Loads = None, **choice: Any) -> Array:
+        """Return the pressure on the side that works [Pa gauge], shape (...): the pump's while it lifts; 0 where the load drives.
+
+        `choice`: `case=`, `direction=` of the cylinder where it is not its working direction, `cylinder=` of a line of several (else
+        the one that needs most).
+        """
+        rams = self.rams(motion) if choice.get("cylinder") is None else (self.one(motion, choice["cylinder"]),)
+        each = [self._pressure(motion, loads, **{**choice, "cylinder": ram}) for ram in rams]
+        return np.asarray(np.max(each, axis=0))
+
+    def _pressure(self, motion: Motion, loads: Loads, **choice: Any) -> Array:
+        work = self.work(motion, loads, **choice)
+        back = np.where(work.supplied, self.back(motion) * work.other_area, 0.0)
+        share = np.where(work.supplied, self.efficiency(motion, "hydraulic"), 1.0)
+        return np.asarray(np.maximum(work.force + back, 0.0) / (work.area * share))
+
+    def pressure_in(self, cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
+        return self._pressure(motion, loads, cylinder=cylinder, case=case, direction=direction)
+
+    def largest(self, motion: Motion, loads: Loads = None, *, share: float = 1.0, **choice: Any) -> Array:
         """Return the greatest rod force in the working direction [N]: k_h p area, less the back pressure's share."""
-        size = self.size(motion)
-        force = self.efficiency(motion, "hydraulic") * self.supply(motion) * size.area - self.back(motion) * size.back_area
+        work = self.work(motion, loads, **choice)
+        return self.most(motion, work, share)
+
+    def most(self, motion: Motion, work: Work, share: float = 1.0) -> Array:
+        """Return the greatest rod force [N] with the areas of a work, at a share of the pump's pressure."""
+        force = share * self.efficiency(motion, "hydraulic") * self.supply(motion) * work.area - self.back(motion) * work.other_area
         if np.any(force <= 0.0):
             raise DefinitionError(f"{self}: the back pressure eats up the pump's; lower it or raise the pressure.")
         return np.asarray(force)
 
-    def rod_force(self, motion: Poses, thrust: ArrayLike) -> Array:
-        """Return the rod force while it moves in its working direction [N], same shape: T / k_m against a load, T k_m under a driving one.
+    def reserve(self, motion: Motion, loads: Loads = None, **choice: Any) -> Array:
+        """Return the greatest rod force over the needed one, shape (...); NaN where it is not limited by this cylinder.
 
-        `thrust` is the frictionless one [N], of virtual work, positive where it pushes the ends apart.
+        Of a line of several cylinders the least, unless one is named.
         """
-        needed = self.ram(motion).sized(motion).sense * over_poses(thrust, "Thrust")
-        k_m = self.efficiency(motion, "mechanical")
-        return np.asarray(np.where(needed > 0.0, needed / k_m, needed * k_m))
+        rams = self.rams(motion) if choice.get("cylinder") is None else (self.one(motion, choice["cylinder"]),)
+        with np.errstate(invalid="ignore"):
+            each = [self._reserve(motion, loads, **{**choice, "cylinder": ram}) for ram in rams]
+            found = np.min(np.where(np.isnan(each), np.inf, each), axis=0)
+        return np.where(np.isfinite(found), found, np.nan)
 
-    def pressure_for(self, motion: Poses, thrust: ArrayLike) -> Array:
-        """Return the pump pressure that lifts against a frictionless thrust [N], same shape; 0 where the load drives."""
-        size = self.size(motion)
-        force = self.rod_force(motion, thrust) + self.back(motion) * size.back_area
-        return np.asarray(np.maximum(force, 0.0) / (size.area * self.efficiency(motion, "hydraulic")))
-
-    def reserve(self, motion: Poses, thrust: ArrayLike) -> Array:
-        """Return the greatest rod force over the needed one, same shape; NaN where it is not limited by this cylinder."""
-        needed = self.rod_force(motion, thrust)
-        return np.asarray(self.largest(motion) / np.where(needed > 0.0, needed, np.nan))
-
-    def ratio(self, motion: Motion, point: str, direction: tuple[float, float] = (0.0, 1.0)) -> Array:
-        """Return how far a point goes along a direction for each metre of the cylinder's working travel, shape (...)."""
-        along = np.asarray(direction, float)
-        size = np.hypot(*along)
-        if not (np.isfinite(size) and size > 0.0):
-            raise DefinitionError(f"direction={direction!r} has no length; write one such as (0, 1).")
-        ram = self.ram(motion)
-        stroke = drive(motion, ram)
-        travel = motion.ratio(Distance(ram.A, ram.B), wrt=stroke)
-        still = travel == 0.0
-        if np.any(still):
-            raise DefinitionError(f"{ram}: its length stands still at {int(still.sum())} poses of this motion; leave them out.")
-        rate = motion.ratio(point, wrt=stroke)
-        return np.asarray((along[0] * rate[0] + along[1] * rate[1]) / size / travel * self.size(motion).sense)
+    def _reserve(self, motion: Motion, loads: Loads, **choice: Any) -> Array:
+        work = self.work(motion, loads, **choice)
+        needed = np.where(work.force > 0.0, work.force, np.nan)
+        return np.asarray(self.most(motion, work) / needed)
 
     def capacity(
-        self, motion: Motion, point: str, own: ArrayLike = 0.0, direction: tuple[float, float] = (0.0, 1.0), share: float = 1.0
+        self,
+        motion: Motion,
+        point: str,
+        loads: Loads = None,
+        *,
+        along: tuple[float, float] = (0.0, 1.0),
+        share: float = 1.0,
+        cylinder: Reference | None = None,
+        case: Case = None,
     ) -> Array:
-        """Return the largest load [N] at a point that the pump lifts, shape (...), at a `share` of the pump's pressure.
+        """Return the largest load [N] at a point that the pump lifts beside the machine's own, shape (...), at a `share` of its pressure.
 
-        The load pulls against `direction`. `own` is the frictionless thrust [N] that the machine needs without the load
-        (its links' masses). NaN where the load drives or does nothing: not limited by this cylinder; 0 where the machine
-        alone is too heavy. Source: Dyuzhev, Kotov, Chuprynin (2008), (28).
+        The load pulls against the direction `along`; the machine's own `loads` are those declared unless others are given ([] for
+        none). NaN where the load drives or does nothing: not limited by this cylinder; 0 where the machine alone is too heavy. Declared
+        friction counts with the load's own share. Source: Dyuzhev, Kotov, Chuprynin (2008), (28).
         """
         if not 0.0 < share <= 1.0:
             raise DefinitionError(f"share = {share:.6g} of the pressure is not in 0 to 1; 0.9 is how tractors are tested.")
-        size, ratio = self.size(motion), self.ratio(motion, point, direction)
-        force = share * self.efficiency(motion, "hydraulic") * self.supply(motion) * size.area - self.back(motion) * size.back_area
-        spare = force * self.efficiency(motion, "mechanical") - size.sense * over_poses(own, "Own thrust")
-        lifts = ratio > IDLE
-        return np.asarray(np.where(lifts, np.maximum(spare, 0.0) / np.where(lifts, ratio, 1.0), np.nan))
+        unit = direction_of(along)
+        own: list[Any] = [name for name, _ in elements_of(motion.plan, None)] if loads is None else listed(loads)
+        rams = self.rams(motion) if cylinder is None else (self.one(motion, cylinder),)
+        each = [self._capacity(motion, point, own, unit, share, ram, case) for ram in rams]
+        least = np.min(np.where(np.isnan(each), np.inf, each), axis=0)
+        return np.where(np.isfinite(least), least, np.nan)
+
+    def _capacity(self, motion: Motion, point: str, own: list[Any], unit: Array, share: float, ram: Cylinder, case: Case) -> Array:
+        size, k_m = ram.sized(motion), self.efficiency(motion, "mechanical")
+        lever = ram.thrust(motion, [Force(point, (-unit[0], -unit[1]))])  # what one newton there asks of it
+        sense = np.sign(lever) if size.works == "both" else np.full(np.shape(lever), float(size.sense))
+        lifts, lever = lever * sense > IDLE, lever * sense
+        lifting = Work(sense, sense, size, k_m, True)
+        force = share * self.efficiency(motion, "hydraulic") * self.supply(motion) * lifting.area - self.back(motion) * lifting.other_area
+
+        def carried(load: Array) -> Array:
+            """Return the thrust that the machine and a load there need, in the direction in which it lifts."""
+            loads = [*own, Force(point, (-unit[0] * load, -unit[1] * load))]
+            out, back = (ram.thrust(motion, loads, case=case, direction=way) for way in ("extending", "retracting"))
+            return np.where(sense > 0.0, out, -back)
+
+        alone, safe = carried(np.zeros(motion.shape)), np.where(lifts, lever, 1.0)
+        found = (force * k_m - alone) / safe
+        if any(each.frictions(motion) for _, each in elements_of(motion.plan, own)):
+            for _ in range(ROUNDS):  # friction grows with the load: a line through two states, again until it stays
+                guess = np.where(lifts & (found > 0.0), found, 1.0)
+                slope = (carried(guess) - alone) / guess
+                found = (force * k_m - alone) / np.where(slope > 0.0, slope, safe)
+        return np.where(lifts, np.maximum(found, 0.0), np.nan)
 
     # -- oil and time --------------------------------------------------------------------------------------
 
     def oil(self, motion: Motion) -> Array:
-        """Return the oil [m3] that the working side takes over the motion's range of poses, one value a design."""
-        return np.asarray(for_designs(motion, self.size(motion).area) * travel_of(motion, self.ram(motion)))[()]
+        """Return the oil [m3] that the working sides take over the motion's range of lengths, between its poses too; one a design.
+
+        Of a cylinder that works with both sides it is that outwards; `size.pull_area` over the same way is that inwards.
+        """
+        return np.asarray(sum(for_designs(motion, ram.sized(motion).area) * travel_of(motion, ram) for ram in self.rams(motion)))[()]
+
+    def way(self, motion: Motion, ram: Cylinder) -> Array:
+        """Return greatest less least length of a cylinder over all that a motion covers [m], one value a design."""
+        return travel_of(motion, ram)
 
     def time(self, motion: Motion) -> Array:
         """Return the time [s] that the pump's flow takes for it, one value a design; DefinitionError without a flow."""
@@ -166,23 +272,82 @@ class LiftCircuit(ForceElement):
 
     # -- holding and lowering ------------------------------------------------------------------------------
 
-    def holding(self, motion: Poses, thrust: ArrayLike) -> Holding:
-        """Return the pressures that hold a frictionless thrust [N] with the pump off; friction is not counted on."""
-        size = self.size(motion)
-        force = size.sense * over_poses(thrust, "Thrust")
+    def holding(self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None) -> Holding:
+        """Return the pressures that hold the thrust with the pump off; neither friction nor an efficiency is counted on."""
+        ram = self.one(motion, cylinder)
+        size, thrust = ram.sized(motion), ram.thrust(motion, loads, case=case)
+        force = size.sense * thrust
         return Holding(np.maximum(force, 0.0) / size.area, np.maximum(-force, 0.0) / size.back_area)
 
-    def lowering(self, motion: Poses, thrust: ArrayLike, resistance: ArrayLike = 0.0) -> Lowering:
+    def lowering(
+        self, motion: Motion, loads: Loads = None, *, resistance: ArrayLike = 0.0, cylinder: Reference | None = None, case: Case = None
+    ) -> Lowering:
         """Return how it goes back against its working direction, the oil flowing out against a `resistance` [Pa].
 
         Friction acts against the lowering: the load brings T k_m where it drives and takes T / k_m where it resists.
         """
-        size, k_m = self.size(motion), self.efficiency(motion, "mechanical")
-        force = size.sense * over_poses(thrust, "Thrust")
-        brings = np.where(force > 0.0, force * k_m, force / k_m)
         against = positive(np.asarray(resistance) + 1.0, "Return resistance + 1 Pa") - 1.0
-        push = np.maximum(against * size.area - brings, 0.0) / size.back_area
-        return Lowering(np.maximum(brings, 0.0) / size.area, push, np.asarray(brings > against * size.area))
+        ram, k_m = self.one(motion, cylinder), self.efficiency(motion, "mechanical")
+        size = ram.sized(motion)
+        if size.works == "both":
+            out, back = (ram.thrust(motion, loads, case=case, direction=way) for way in ("extending", "retracting"))
+            pushes = out + back >= 0.0
+            force, area = np.where(pushes, back, -out), np.where(pushes, size.push_area, size.pull_area)
+            other = np.where(pushes, size.pull_area, size.push_area)
+        else:
+            way = "retracting" if size.works == "piston" else "extending"
+            force, area, other = size.sense * ram.thrust(motion, loads, case=case, direction=way), size.area, size.back_area
+        brings = np.where(force > 0.0, force * k_m, force / k_m)
+        push = np.maximum(against * area - brings, 0.0) / other
+        return Lowering(np.maximum(brings, 0.0) / area, push, np.asarray(brings > against * area))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Work:
+    """A cylinder's thrust [N] while it grows (`sense` 1) or shrinks (-1), its size, and the mechanical efficiency.
+
+    `lifts`: whether it moves in its working direction by the pump, as it does where no other direction was named.
+    """
+
+    thrust: Array
+    sense: Array
+    size: CylinderSize
+    k_m: Array
+    lifts: bool
+
+    @property
+    def pulls(self) -> Mask:
+        """Where the rod side works: of both sides where the thrust pulls."""
+        if self.size.works == "both":
+            return np.asarray(self.thrust < 0.0)
+        return np.full(np.shape(self.thrust), self.size.works == "rod")
+
+    @property
+    def area(self) -> Array:
+        """The area of the side that works [m2]."""
+        return np.asarray(np.where(self.pulls, self.size.pull_area, self.size.push_area))
+
+    @property
+    def other_area(self) -> Array:
+        """The area of the other side [m2]."""
+        return np.asarray(np.where(self.pulls, self.size.push_area, self.size.pull_area))
+
+    @property
+    def along(self) -> Array:
+        """The thrust in the direction in which the working side pushes or pulls [N]."""
+        return np.where(self.pulls, -self.thrust, self.thrust)
+
+    @property
+    def supplied(self) -> Mask:
+        """Where the working side is filled by the pump: it moves the way it pushes or pulls."""
+        return np.asarray(self.sense * np.where(self.pulls, -1.0, 1.0) >= 0.0)
+
+    @property
+    def force(self) -> Array:
+        """The rod force in the working direction [N]: over k_m where the load resists the motion, times k_m where it drives."""
+        resists = self.along * np.where(self.supplied, 1.0, -1.0) > 0.0
+        return np.where(resists, self.along / self.k_m, self.along * self.k_m)
 
 
 @final
@@ -207,32 +372,42 @@ class Lowering:
     by_itself: Array
 
 
-IDLE = 1e-12  # a ratio this small lifts nothing
+IDLE = 1e-12
+"""A ratio this small lifts nothing."""
+ROUNDS = 12
+"""How often a capacity with friction is put right; each makes it better by the share of the friction."""
+
+
+def sense_in(direction: str, thrust: Array) -> Array:
+    """Return 1 while a cylinder grows, -1 while it shrinks; without a direction the way that it pushes."""
+    if direction == "frictionless":
+        return np.asarray(np.sign(thrust))
+    return np.full(np.shape(thrust), 1.0 if direction == "extending" else -1.0)
+
+
+def direction_of(along: Any) -> Array:
+    """Return a direction of length one, shape (2,); DefinitionError where it has no length."""
+    unit = np.asarray(along, float)
+    size = float(np.hypot(*unit)) if unit.shape == (2,) else 0.0
+    if not (np.isfinite(size) and size > 0.0):
+        raise DefinitionError(f"along={along!r} has no length; write one such as (0, 1).")
+    return unit / size
+
+
+def listed(loads: Any) -> list[Any]:
+    """Return loads as a list."""
+    return list(loads) if isinstance(loads, Sequence) and not isinstance(loads, str) else [loads]
 
 
 def travel_of(motion: Motion, ram: Cylinder) -> Array:
-    """Return greatest less least length of a cylinder over the motion's poses [m], one value a design."""
-    length = motion.distance(ram.A, ram.B)
-    poses = tuple(range(len(motion.design_shape), length.ndim))
-    if not np.all(np.any(np.isfinite(length), axis=poses)):
+    """Return greatest less least length of a cylinder over all that a motion covers [m], one value a design."""
+    low, high = (found(motion, lambda each: each.distance(ram.A, ram.B)).value for found in (lowest, greatest))
+    if not np.all(np.isfinite(np.asarray(high) - low)):
         raise DefinitionError(f"{ram}: no pose of this motion can be assembled.")
-    return np.asarray(np.nanmax(length, axis=poses) - np.nanmin(length, axis=poses))
+    return np.asarray(np.asarray(high) - low)
 
 
 def for_designs(motion: Motion, value: ArrayLike) -> Array:
     """Return a value that broadcasts against the motion and is the same at all poses, as one of each design."""
     array, tail = np.asarray(value), (1,) * len(motion.stroke_shape)
     return np.asarray(array.reshape(array.shape[: array.ndim - len(tail)]) if array.ndim else array)
-
-
-def drive(motion: Poses, ram: Cylinder) -> str:
-    """Return the stroke that a cylinder's length follows: the only one, else the one named in its bar's length."""
-    plan: Plan = motion.plan
-    if len(plan.strokes) == 1:
-        return next(iter(plan.strokes))
-    ends = {name_of(ram.A), name_of(ram.B)}
-    bars = [bar for bar in plan.cylinders if {bar.P, bar.Q} == ends]
-    found = [name for bar in bars for name in plan.strokes if name in plan.reaches(bar.length)]
-    if len(found) != 1:
-        raise DefinitionError(f"{ram}: its length follows {len(found)} strokes of {', '.join(plan.strokes)}; one is expected.")
-    return found[0]

@@ -2,7 +2,7 @@
 
     >>> from linkage.units import bar, kN, mm
     >>> lift = Cylinder("A", "B", bore=110 * mm, rod=60 * mm, count=2)
-    >>> print(f"{lift.thrust(160 * bar) / kN:.1f} kN; {lift.pressure_for(200 * kN) / bar:.1f} bar")
+    >>> print(f"{lift.size.thrust(160 * bar) / kN:.1f} kN; {lift.size.pressure_for(200 * kN) / bar:.1f} bar")
     304.1 kN; 105.2 bar
     >>> print(lift.standard())
     FAIL standard size: bore 110 mm and rod 60 mm; the rod is not of ISO 3320, next to it are 56 and 63 mm.
@@ -10,17 +10,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, Literal, final
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, unknown
-from linkage.loads import ForceElement, Load, Poses
+from linkage.loads import ForceElement, LoadCase, Poses, Push, Rates, TwoPoint
+from linkage.motion import Motion, greatest, lowest
 from linkage.quantities import Reference, label, name_of
+from linkage.statics import Case, Loads, elements_of, member_thrust
+from linkage.statics.holding import same
 from linkage.units import mm
 
 from .buckling import Buckling
@@ -30,15 +32,18 @@ from .settings import follows, number_set
 from .sizes import BORES_MM, RODS_MM, standard_rods
 from .verdict import Verdict
 
+DIRECTIONS = ("frictionless", "extending", "retracting")
+
 
 @final
 @dataclass(frozen=True, eq=False)
-class Cylinder(ForceElement):
+class Cylinder(TwoPoint):
     """`count` equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
 
     In a class bore and rod [m] are the design variables `lift.bore` and `lift.rod`. `works` is the side the pressure acts
-    on. `closed` is the distance of its pins drawn in, `stroke` how far it comes out [m]; `mounting` and `safety` are for
-    buckling. Its thrust is what the statics look for, so that it puts no load of its own on the mechanism.
+    on: "piston" pushes, "rod" pulls, "both" does what the load asks for. `closed` is the distance of its pins drawn in, `stroke` how
+    far it comes out [m]; `mounting` and `safety` are for buckling. It holds what the mechanism needs, in the place of the drive of one
+    stroke; one that a FloatCircuit feeds has the gas's force instead.
     """
 
     A: Reference
@@ -46,12 +51,11 @@ class Cylinder(ForceElement):
     bore: Any
     rod: Any
     count: int = 1
-    works: Literal["piston", "rod"] = "piston"
+    works: Literal["piston", "rod", "both"] = "piston"
     stroke: float | None = None
     closed: float | None = None
     mounting: str = "pin-pin"
     safety: float = 3.5
-    places: ClassVar[tuple[str, ...]] = ("A", "B")
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm"})
 
     def __post_init__(self) -> None:
@@ -63,11 +67,26 @@ class Cylinder(ForceElement):
             if value is not None:
                 positive(value, what)
 
-    def loads(self, motion: Poses) -> list[Load]:
+    def push(self, motion: Poses, length: Array, rate: Array) -> Array:
+        """Return nothing: it has no law of its own."""
+        return np.zeros(())
+
+    def pushes(self, motion: Poses, rates: Rates = MappingProxyType({})) -> list[Push]:
         return []
 
-    def cylinders(self) -> tuple[tuple[str, str], ...]:
-        return ((name_of(self.A), name_of(self.B)),)
+    @property
+    def holds(self) -> bool:
+        return True
+
+    @property
+    def works_both(self) -> bool:
+        return self.works == "both"
+
+    def area_in(self, motion: Poses, sense: Array) -> Array:
+        size = self.sized(motion)
+        if self.works == "both":
+            return np.asarray(np.where(sense < 0.0, -size.pull_area, size.push_area))
+        return np.asarray(size.sense * size.area + 0.0 * sense)
 
     # -- its size ------------------------------------------------------------------------------------------
 
@@ -88,14 +107,6 @@ class Cylinder(ForceElement):
         bore, rod = number_set(self, motion, "bore"), number_set(self, motion, "rod")
         return CylinderSize(bore[()], rod[()], self.count, self.works)
 
-    def thrust(self, pressure: ArrayLike, back: ArrayLike = 0.0) -> Array:
-        """Return the thrust [N] at a pressure, with `back` pressure on the other side: `CylinderSize.thrust`."""
-        return self.size.thrust(pressure, back)
-
-    def pressure_for(self, thrust: ArrayLike, back: ArrayLike = 0.0) -> Array:
-        """Return the pressure [Pa] that gives a thrust [N]: `CylinderSize.pressure_for`."""
-        return self.size.pressure_for(thrust, back)
-
     def offers(self, thrust: float, pressure: float, length: float | None = None) -> list[CylinderSize]:
         """Return the standard sizes (ISO 3320) that give a thrust [N] at a pressure: the smallest bore, each rod that suits.
 
@@ -104,25 +115,48 @@ class Cylinder(ForceElement):
         thin = CylinderSize(self.size.bore, min(self.size.rod, RODS_MM[0] * mm), self.count, self.works)
         bore = float(thin.sized_for(thrust, pressure).bore)
         sizes = [CylinderSize(bore, rod, self.count, self.works) for rod in standard_rods(bore)]
-        enough = [size for size in sizes if size.area * pressure >= abs(thrust)]
+        enough = [size for size in sizes if one_area(size, thrust) * pressure >= abs(thrust)]
         push = max(thrust, 0.0) / self.count
         return [size for size in enough if length is None or Buckling(float(size.rod), self.mounting, self.safety).allowed(length) >= push]
 
+    # -- what it carries -----------------------------------------------------------------------------------
+
+    def thrust(
+        self, motion: Motion, loads: Loads = None, *, case: Case = None, direction: str = "frictionless", rates: Any = None
+    ) -> Array:
+        """Return what this cylinder carries, whatever drives the machine, shape (...) [N], positive where it pushes its ends apart.
+
+        `loads` are the machine's own unless others are given. It is frictionless unless a `direction` is named: "extending" while this
+        cylinder grows; along a path of several strokes the senses of friction are those of the path. No efficiency is in it. Of one
+        that a FloatCircuit feeds it is the gas's force. DefinitionError where it holds nothing here; SingularError where its length
+        stands still against its drive, and where friction locks the mechanism.
+        """
+        return member_thrust(motion, self, loads, case=case, direction=direction, rates=rates)
+
+    def pressure(self, motion: Motion, loads: Loads = None, *, case: Case = None, direction: str | None = None) -> Array:
+        """Return the pressure on the side that works, shape (...) [Pa gauge]; 0 where the other side holds.
+
+        While it moves in its working direction, or the one named, with what its one LiftCircuit says: efficiencies and back pressure.
+        Of a cylinder that a FloatCircuit feeds it is the line's pressure. DefinitionError where several circuits have it: name one,
+        `circuit.pressure_for(motion)`.
+        """
+        return pressure_of(self, motion, loads, case, direction)
+
     # -- checks --------------------------------------------------------------------------------------------
 
-    def checks(self, motion: Poses, thrust: ArrayLike | None = None) -> list[Verdict]:
-        """Return what can be said of it over a motion of one design: length, standard size, and buckling under a thrust [N]."""
-        return [*self.fits(motion), self.standard(motion), *([] if thrust is None else [self.buckling(motion, thrust)])]
+    def checks(self, motion: Motion, loads: Loads = None, *, case: Case = None) -> list[Verdict]:
+        """Return what can be said of it over a motion of one design: length, standard size, and buckling where it carries something."""
+        return [*self.fits(motion), self.standard(motion), *self.buckling(motion, loads, case=case)]
 
-    def fits(self, motion: Poses) -> list[Verdict]:
-        """Return whether its closed and its open length serve the motion; nothing where neither is given.
+    def fits(self, motion: Motion) -> list[Verdict]:
+        """Return whether its closed and its open length serve the motion, between its poses too; nothing where neither is given.
 
         With the stroke alone it is compared with the travel: largest less least distance of its pins.
         """
-        length = motion.distance(self.A, self.B)
-        if not np.any(np.isfinite(length)):
+        one_design(motion, str(self))
+        if not motion.reached.any():
             raise DefinitionError(f"{self}: no pose of this motion can be assembled, so that there is no length to check.")
-        low, high = float(np.nanmin(length)), float(np.nanmax(length))
+        low, high = (float(found(motion, lambda each: each.distance(self.A, self.B)).value) for found in (lowest, greatest))
         if self.closed is not None:
             return [self._reaches(low, high, self.closed, self.closed + self.stroke if self.stroke is not None else np.inf)]
         return [] if self.stroke is None else [self._travels(high - low, self.stroke)]
@@ -153,14 +187,81 @@ class Cylinder(ForceElement):
         says = f"bore {size.bore / mm:.4g} mm and rod {size.rod / mm:.4g} mm"
         return Verdict("standard size", not faults, f"{'; '.join([says, *faults]) if faults else f'{says} are a pair of ISO 3320'}.")
 
-    def buckling(self, motion: Poses, thrust: ArrayLike) -> Verdict:
-        """Return whether a rod buckles under the thrust [N] of all cylinders over the motion, one design."""
-        size = one_size(self.sized(motion))
-        return Buckling(size.rod, self.mounting, self.safety).check(motion.distance(self.A, self.B), np.asarray(thrust) / self.count)
+    def buckling(self, motion: Motion, loads: Loads = None, *, case: Case = None) -> list[Verdict]:
+        """Return whether a rod buckles at its largest utilisation: over every pose, load case and direction, one design.
+
+        `case` names one load case; without it all that the machine declares are looked at, besides the plain one. Nothing where it
+        carries nothing among these loads.
+        """
+        one_design(motion, str(self))
+        rod = Buckling(one_size(self.sized(motion)).rod, self.mounting, self.safety)
+        cases: Iterable[Case] = [case] if case is not None else [None, *motion.plan.of_kind(LoadCase).values()]
+        worst: tuple[float, float, float, str] | None = None
+        for each in cases:
+            for direction in DIRECTIONS if rubs(motion, loads) else DIRECTIONS[:1]:
+                found = greatest(motion, lambda at, each=each, direction=direction: self._use(at, rod, loads, each, direction))  # type: ignore[misc]
+                if np.isnan(found.value) or (worst is not None and found.value <= worst[0]):
+                    continue
+                place = motion.moved(found.strokes)
+                force = float(self.thrust(place, loads, case=each, direction=direction)) / self.count
+                worst = float(found.value), float(place.distance(self.A, self.B)), force, found.where
+        if worst is None:
+            return [Verdict("buckling", True, "the rod is never pushed.")]
+        return [rod.judged(worst[1], worst[2], worst[3], unbounded=not np.isfinite(worst[0]))]
+
+    def _use(self, motion: Motion, rod: Buckling, loads: Loads, case: Case, direction: str) -> Array:
+        """Return the utilisation of a rod over a motion: one cylinder's push times the safety over the force at which it buckles."""
+        push = self.thrust(motion, loads, case=case, direction=direction) / self.count
+        return np.where(push > 0.0, push / rod.allowed(motion.distance(self.A, self.B)), 0.0) + 0.0 * push
 
     @property
     def _pins(self) -> str:
         return "".join(label(end) for end in (self.A, self.B))
+
+
+def pressure_of(cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
+    """Return a cylinder's pressure by the circuit that has it; without one, of a pump without losses."""
+    members = motion.plan.members
+    circuits = [each for each in members.values() if isinstance(each, Circuit)]
+    mine = [each for each in circuits if any(same(cylinder, one) for one in each.members(members))]
+    if len(mine) > 1:
+        names = ", ".join(each.name for each in mine)
+        remedy = f"name one: {mine[0].name}.pressure_for(motion)"
+        raise DefinitionError(f"{motion.plan.title}: {cylinder.name} is on {len(mine)} circuits, {names}; {remedy}.")
+    if mine:
+        return mine[0].pressure_in(cylinder, motion, loads, case, direction)
+    thrust = cylinder.thrust(motion, loads, case=case, direction=direction or "frictionless")
+    return np.maximum(cylinder.sized(motion).pressure_for(thrust), 0.0)
+
+
+class Circuit(ForceElement):
+    """The base of circuits: what feeds cylinders."""
+
+    places: ClassVar[tuple[str, ...]] = ()
+
+    def members(self, members: Mapping[str, Any]) -> tuple[Cylinder, ...]:
+        """Return its cylinders, as a class has them."""
+        raise NotImplementedError
+
+    def pressure_in(self, cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
+        """Return the pressure on the working side of one of its cylinders, shape (...) [Pa gauge]."""
+        raise NotImplementedError
+
+
+def rubs(motion: Motion, loads: Loads) -> bool:
+    """Return whether there is friction among some loads, or an element that acts otherwise while it moves."""
+    return any(each.frictions(motion) or each.feeds(motion.plan.members) for _, each in elements_of(motion.plan, loads))
+
+
+def one_design(motion: Motion, what: str) -> None:
+    """Raise DefinitionError for a motion of several designs."""
+    if motion.design_shape:
+        raise DefinitionError(f"{what} is judged for one design at a time; this motion has {motion.design_shape}. Take one.")
+
+
+def one_area(size: CylinderSize, thrust: float) -> float:
+    """Return the area that gives a thrust of this sign [m2]: of both sides the one that does, else the working one."""
+    return float(size.pull_area if size.works == "both" and thrust < 0.0 else size.area)
 
 
 def is_named(reference: Reference) -> bool:

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
 from typing import Any, final
 
+import numpy as np
+
 from linkage.loads.element import written
 
-from .inputs import finite, positive
+from .inputs import finite, in_pascals, not_negative
 from .settings import follows
+
+VOLUME = ("Accumulator volume", "give 0 for a vessel that is absent")
+CHARGE = "Accumulator charge"
 
 
 @final
@@ -17,17 +23,22 @@ class Accumulator:
     """A vessel of `volume` [m3] charged with gas to `charge` [Pa gauge], the fluid out, at the gas's temperature.
 
     Either may be an array: one design per element. In a class either may follow dimensions: `Accumulator(V_I, charge=P_I)`.
-    DefinitionError for a volume not above zero.
+    A volume of 0 is an absent vessel: the block is that of the others. DefinitionError for a negative volume.
     """
 
     volume: Any
     charge: Any
 
     def __post_init__(self) -> None:
-        if not follows(self.volume):
-            positive(self.volume, "Accumulator volume")
+        volume = np.ones(()) if follows(self.volume) else not_negative(self.volume, *VOLUME)
         if not follows(self.charge):
-            finite(self.charge, "Accumulator charge")
+            in_pascals(np.where(volume > 0.0, finite(self.charge, CHARGE), 0.0), CHARGE)
+
+    def recharged(self, charge: Any) -> Accumulator:
+        """Return the same vessel with another charge [Pa gauge], one that a gas law gives."""
+        changed = copy(self)
+        object.__setattr__(changed, "charge", charge)
+        return changed
 
     def __str__(self) -> str:
         return f"Accumulator(volume={written(self.volume)}, charge={written(self.charge)})"

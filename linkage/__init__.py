@@ -10,6 +10,9 @@ from .errors import LinkageError as LinkageError
 from .errors import SingularError as SingularError
 from .errors import SingularWarning as SingularWarning
 from .errors import StudyError as StudyError
+from .loads import Actuator as Actuator
+from .loads import Between as Between
+from .loads import Damper as Damper
 from .loads import Force as Force
 from .loads import ForceElement as ForceElement
 from .loads import GuideFriction as GuideFriction
@@ -34,12 +37,12 @@ from .quantities import ref as ref
 from .quantities import x as x
 from .quantities import y as y
 from .statics import PinForces as PinForces
+from .statics import drive_force as drive_force
 from .statics import driving_force as driving_force
 from .statics import max_table as max_table
 from .statics import pin_force as pin_force
 from .statics import pin_forces as pin_forces
 from .statics import reaction as reaction
-from .statics import thrust as thrust
 from .steps import CosineAngle as CosineAngle
 from .steps import Crank as Crank
 from .steps import Dyad as Dyad

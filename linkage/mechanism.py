@@ -100,11 +100,11 @@ class Mechanism:
         With several strokes each is named: `sweep(S1=101, S2=0.15)`, an int is a count, a float a value; two
         counts give a grid. Raises AssemblyError where it cannot be assembled, unless `unreachable="nan"`.
         """
-        return Motion(self.plan, self._values, sweep_values(count, strokes, self.plan.strokes, self.plan.title), unreachable)
+        return Motion(self.plan, self._values, sweep_values(count, strokes, self.plan), unreachable)
 
     def at(self, *, unreachable: str = "raise", **strokes: Any) -> Motion:
         """Return the motion at chosen strokes [SI]: `at(S=[0.0, 0.1])`. They may lie beyond the declared range."""
-        return Motion(self.plan, self._values, at_values(strokes, self.plan.strokes, self.plan.title), unreachable)
+        return Motion(self.plan, self._values, at_values(strokes, self.plan), unreachable)
 
     def evaluate(
         self,
@@ -124,7 +124,7 @@ class Mechanism:
         change points between them. Raises AssemblyError out of reach and SingularError for ratios at a dead point, unless
         `unreachable="nan"`.
         """
-        grid = Grid(self.plan, self._values, at_values(strokes, self.plan.strokes, self.plan.title, as_given), unreachable)
+        grid = Grid(self.plan, self._values, at_values(strokes, self.plan, as_given), unreachable)
         return evaluate(grid, of, out, Way(backend, threads))
 
     def function(self, of: Sequence[Request]) -> PoseFunction:

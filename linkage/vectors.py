@@ -21,6 +21,13 @@ class Side(IntEnum):
     def __str__(self) -> str:
         return self.name
 
+    @classmethod
+    def said(cls, word: Any) -> Side | None:
+        """Return the side that a word says, in small letters or capitals; a side is itself; None for anything else."""
+        if isinstance(word, cls):
+            return word
+        return cls.__members__.get(word.upper()) if isinstance(word, str) else None
+
 
 LEFT = Side.LEFT
 RIGHT = Side.RIGHT

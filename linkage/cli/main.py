@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import warnings
-from argparse import ArgumentParser
+from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any, NoReturn
@@ -60,11 +60,22 @@ def run(arguments: list[str]) -> int:
         branch = subparsers.add_parser(command.name, help=command.help, description=command.help, allow_abbrev=False)
         command.add(branch)
         branch.set_defaults(run=command.run)
-    options = parser.parse_args(arguments)
+    options = parsed(parser, arguments)
     if options.command is None:
         parser.print_help(sys.stderr)
         return BAD_INPUT
     return int(options.run(options))
+
+
+def parsed(parser: Parser, arguments: list[str]) -> Namespace:
+    """Return the arguments by name; names of columns may stand behind options, where argparse leaves them over."""
+    options, left = parser.parse_known_args(arguments)
+    names = [word for word in left if word != "--"]
+    if names and ("columns" not in options or any(word.startswith("-") for word in names)):
+        parser.error(f"unrecognized arguments: {' '.join(left)}")
+    if names:
+        options.columns = [*options.columns, *names]
+    return options
 
 
 def installed_version() -> str:

@@ -9,8 +9,8 @@ import numpy as np
 
 from ..motion import Motion
 from ..program import FloatArray
-from ..quantities import name_of
-from ..steps import Guide, PinSlotDyad, Slide, YokeDyad
+from ..quantities import Joint
+from ..steps import Guide, Slide
 
 MARGIN = 3.2
 """How far a track goes on beyond the travel, in sizes."""
@@ -46,16 +46,14 @@ class Track:
 
 def tracks(motion: Motion) -> tuple[Track, ...]:
     """Return the tracks that something slides on."""
-    return (*guides(motion), *yokes(motion), *pin_slots(motion))
+    return (*guides(motion), *slots(motion))
 
 
 def guides(motion: Motion) -> Iterator[Track]:
     """Yield the guides that points slide on."""
     plan = motion.plan
-    pairs = [pair for step in plan.points.values() for pair in step.slides()]
-    pairs += [(name_of(slide.point), name_of(slide.guide)) for slide in plan.of_kind(Slide).values()]
     for name, guide in plan.of_kind(Guide).items():
-        riders = tuple(dict.fromkeys(point for point, on in pairs if on == name))
+        riders = tuple(dict.fromkeys(joint.point for joint in every(motion) if joint.track == (name,)))
         if riders:
             fixed = set(guide.points) <= set(plan.ground) and (guide.angle is None or not plan.moves(guide.angle))
             line = motion.reading.line(guide)
@@ -64,21 +62,21 @@ def guides(motion: Motion) -> Iterator[Track]:
             )  # fmt: skip
 
 
-def yokes(motion: Motion) -> Iterator[Track]:
-    """Yield the cross slots of the yokes: through X, at the yoke's angle to its guide."""
-    for name, step in motion.plan.of_kind(YokeDyad).items():
-        line, (cos, sin) = motion.reading.line(step.guide), motion.reading.turn(step.angle)
-        slot = line.direction.turned(cos, sin)
-        yield Track(f"{name}|slot", row(motion, *motion[name]), row(motion, slot.x, slot.y), (name_of(step.P),), False)
+def slots(motion: Motion) -> Iterator[Track]:
+    """Yield the slots of bodies: each of a step of its own, with the pin in it."""
+    guides = motion.plan.of_kind(Guide)
+    for name, step in motion.plan.points.items():
+        for joint in step.joints():
+            if joint.track and joint.line is not None and joint.track[0] not in guides:
+                line = joint.line(motion.reading)
+                along = row(motion, line.direction.x, line.direction.y)
+                yield Track(f"{name}|slot", row(motion, line.origin.x, line.origin.y), along, (joint.point,), False)
 
 
-def pin_slots(motion: Motion) -> Iterator[Track]:
-    """Yield the slots that glide over a pin: parallel to P -> X, at an offset to its left."""
-    for name, step in motion.plan.of_kind(PinSlotDyad).items():
-        P, X = motion[name_of(step.P)], motion[name]
-        along = (X - P) / np.hypot(*(X - P))
-        start = P + motion.reading.value(step.offset) * np.array([-along[1], along[0]])
-        yield Track(f"{name}|slot", row(motion, *start), row(motion, *along), (name_of(step.Q),), False)
+def every(motion: Motion) -> Iterator[Joint]:
+    """Yield all joints that points slide in, driven or not."""
+    members = {**motion.plan.points, **motion.plan.of_kind(Slide)}
+    return (joint for member in members.values() for joint in member.joints() if joint.track)
 
 
 def row(motion: Motion, x: object, y: object) -> FloatArray:

@@ -44,6 +44,12 @@ def pair_of(given: Any, info: ValidationInfo) -> tuple[float, float]:
     return number_of(x, info), number_of(y, info)
 
 
+def gravity_of(given: Any, info: ValidationInfo) -> tuple[float, float]:
+    """Return a gravity of two numbers [m/s2]."""
+    x, y = two(given, "two numbers in m/s2, such as [0, -9.81]")
+    return number_of(x, info), number_of(y, info)
+
+
 def force_of(given: Any, info: ValidationInfo) -> tuple[Any, Any]:
     """Return the two parts of a force, numbers or expressions [N]."""
     x, y = two(given, 'a force of two parts in N, such as ["-5 kN", 0]')
@@ -92,6 +98,7 @@ FixedNumber: TypeAlias = Annotated[Any, fixed("")]
 FixedAngle: TypeAlias = Annotated[Any, fixed("angle")]
 FixedMetres: TypeAlias = Annotated[Any, fixed("length")]
 Pair: TypeAlias = Annotated[tuple[float, float], PlainValidator(pair_of)]
+Gravity: TypeAlias = Annotated[tuple[float, float], PlainValidator(gravity_of)]
 ForceVector: TypeAlias = Annotated[tuple[Any, Any], PlainValidator(force_of)]
 BodyName: TypeAlias = Annotated[str, PlainValidator(body_of)]
 LoadName: TypeAlias = Annotated[str, PlainValidator(load_of)]

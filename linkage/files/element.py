@@ -37,7 +37,7 @@ class ElementEntry(Worded):
     @classmethod
     def written_numbers(cls, member: ForceElement, design: Design) -> dict[str, Any]:
         """Return its parameters and options, without those that are as they usually are."""
-        given = {name: design.amount(getattr(member, name), unit, f"{member.name}.{name}") for name, unit in member.parameters.items()}
+        given = {name: design.amount(getattr(member, name), unit, f"{member.name}.{name}") for name, unit in member.numbers.items()}
         usual: dict[str, Any] = {each.name: each.default for each in fields(member)} if is_dataclass(member) else {}
         said = {name: value for name, value in given.items() if repr(value) != repr(usual.get(name, MISSING))}
         return said | {name: option(value) for name, value in cls.kept(member).items()}

@@ -116,7 +116,7 @@ def origin_of(given: Any, info: ValidationInfo) -> str | tuple[float, float]:
 
 def side_of(given: Any) -> Side:
     """Return the side that a word says."""
-    found = Side.__members__.get(given.upper()) if isinstance(given, str) else None
+    found = Side.said(given) if isinstance(given, str) else None
     if found is None:
         raise DefinitionError(f"{shortened(given)} is not a side; write \"LEFT\" or \"RIGHT\".")
     return found

@@ -14,6 +14,7 @@ from .amounts import (
     FixedAngle,
     FixedNumber,
     ForceVector,
+    Gravity,
     LoadName,
     Mass,
     Metres,
@@ -35,7 +36,7 @@ class WeightEntry(ElementEntry):
     describes: ClassVar[type[Member]] = Weight
     parents: PointName = Field(alias="Weight")
     mass: Mass
-    gravity: Pair | None = None
+    gravity: Gravity | None = None
 
 
 class ForceEntry(ElementEntry):
@@ -113,11 +114,11 @@ class LinkMassEntry(BodyEntry):
     parents: BodyName = Field(alias="LinkMass")
     mass: Mass
     at: Pair | None = None
-    gravity: Pair | None = None
+    gravity: Gravity | None = None
 
 
 class CaseEntry(Entry):
-    """`transport = { title = "transport", scale = { load = 2.0 }, only = ["load"], slope = "10 deg", gravity = 9.81 }`"""
+    """`transport = { title = "transport", scale = { load = 2.0 }, only = ["load"], slope = "10 deg", gravity = [0, -9.81] }`"""
 
     section: ClassVar[str] = "cases"
     describes: ClassVar[type[Member]] = LoadCase
@@ -125,7 +126,7 @@ class CaseEntry(Entry):
     scale: dict[LoadName, FixedNumber] = Field(default={})
     only: tuple[LoadName, ...] = ()
     slope: FixedAngle = None
-    gravity: FixedNumber = None
+    gravity: Gravity | None = None
 
     def member(self) -> Member:
         given = {name: getattr(self, name) for name in self.model_fields_set}
@@ -136,5 +137,5 @@ class CaseEntry(Entry):
         usual = LoadCase()
         said: dict[str, Any] = {"title": word_of(member.title), "scale": {name: option(value) for name, value in member.scale.items()}}
         said |= {"only": None if member.only is None else [name_of(each) for each in member.only]}
-        said |= {"slope": in_degrees(float(member.slope)), "gravity": option(member.gravity)}
+        said |= {"slope": in_degrees(float(member.slope)), "gravity": None if member.gravity is None else option(member.gravity)}
         return {name: value for name, value in said.items() if repr(value) != repr(getattr(usual, name))}

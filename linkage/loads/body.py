@@ -14,7 +14,7 @@ from ..quantities import Member, Reference, label, name_of
 from ..steps import Link, Point
 from .element import ForceElement, Poses
 from .load import Array, Load, couple
-from .point import DOWN, two, vector
+from .point import DOWN, gravity_of, turned, two, vector
 
 Body: TypeAlias = "Reference | tuple[Reference, ...]"
 """A link, its name, or points of the body: `arm`, `"arm"`, `"O B"`, `(O, B)`."""
@@ -64,7 +64,7 @@ class OnBody(ForceElement):
         """Raise DefinitionError for points of different bodies; those of no declared body, and of what follows a stroke, may stand."""
         bodies = [set(body.points) for body in plan.links]
         rams = [{bar.P, bar.Q} for bar in plan.cylinders]
-        rams += [set(pair) for element in plan.of_kind(ForceElement).values() for pair in element.cylinders()]
+        rams += [{joint.point for joint in element.joints()} for element in plan.of_kind(ForceElement).values()]
         free = set(plan.telescopes) | (set(points) - set().union(*bodies))
         if free or any(set(points) <= body for body in (*bodies, *rams)):
             return
@@ -95,7 +95,7 @@ class LinkMass(OnBody):
 
     `at=(along, across)` [m] is that centre in the body's axes: from its first point towards the second, and to the left.
     Without it the centre lies in the middle of the points named, as that of a uniform bar does; each point bears an equal
-    share, so that the mass of a cylinder or a telescope goes out with its ends.
+    share, so that the mass of a cylinder or a telescope goes out with its ends. `gravity` (x, y) [m/s2] as for a Weight.
     """
 
     link: Body
@@ -110,6 +110,7 @@ class LinkMass(OnBody):
         centre = np.asarray((0.0, 0.0) if self.at is None else two(self.at, "LinkMass(at=...)"))
         if centre.dtype.kind not in "fiu" or not np.all(np.isfinite(centre)):
             raise DefinitionError(f"{self}: at={self.at!r} is not a place; write (along, across) in m.")
+        object.__setattr__(self, "gravity", gravity_of(self.gravity, "LinkMass"))
 
     def loads(self, motion: Poses) -> list[Load]:
         P, Q, arm = self.axis(motion)
@@ -126,5 +127,5 @@ class LinkMass(OnBody):
         centre: Array = along * float(self.at[0]) + np.stack([-along[1], along[0]]) * float(self.at[1])
         return centre
 
-    def in_gravity(self, gravity: tuple[float, float]) -> LinkMass:
-        return self.renewed(gravity=gravity)
+    def in_gravity(self, gravity: tuple[float, float] | None, slope: float) -> LinkMass:
+        return self.renewed(gravity=turned(self.gravity if gravity is None else gravity, slope))

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from math import cos, sin
+from math import pi
 from typing import ClassVar, final
 
 from ..errors import DefinitionError, unknown
 from ..quantities import Member, Reference, in_degrees, is_number, name_of
 from ..quantities.numbers import plain
-from ..units import g0
+from ..units import deg
 from .element import ForceElement
+from .point import gravity_of
+
+STEEPEST = 0.5 * pi * (1.0 + 1e-9)
 
 
 @final
@@ -19,8 +22,9 @@ from .element import ForceElement
 class LoadCase(Member):
     """A named choice of loads: `transport = LoadCase("transport", scale={"load": 2.0}, slope=10 * deg)`.
 
-    `scale` multiplies loads by name, 0 leaves one out; `only` keeps those named and leaves out all others. `slope` [rad]
-    turns gravity: positive where the ground rises towards +x, so that weights also pull towards -x. `gravity` in m/s2.
+    `scale` multiplies loads by name, 0 leaves one out; `only` keeps those named and leaves out all others. `gravity` (x, y)
+    [m/s2] replaces every element's own; without it each keeps its own. `slope` [rad] turns whichever holds: positive where the
+    ground rises towards +x, so that weights also pull towards -x.
     """
 
     kind: ClassVar[str] = "load case"
@@ -28,12 +32,17 @@ class LoadCase(Member):
     scale: Mapping[str, float] = field(default_factory=dict)
     only: Sequence[Reference] | None = None
     slope: float = 0.0
-    gravity: float = g0
+    gravity: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
-        for name, value in {**self.scale, "slope": self.slope, "gravity": self.gravity}.items():
+        for name, value in {**self.scale, "slope": self.slope}.items():
             if not is_number(value):
                 raise DefinitionError(f"{self}: {name}={value!r} is not a finite number.")
+        if abs(self.slope) > STEEPEST:
+            said = f"slope={plain(self.slope)!r} rad is {self.slope / deg:.4g} deg, steeper than a wall"
+            raise DefinitionError(f"{self.label}: {said}; write slope={plain(self.slope)!r} * deg if these are degrees.")
+        if self.gravity is not None:
+            object.__setattr__(self, "gravity", gravity_of(self.gravity, self.label))
         if isinstance(self.only, str):
             raise DefinitionError(f"{self}: only={self.only!r} is not a list of loads; write [{self.only!r}].")
 
@@ -62,10 +71,9 @@ class LoadCase(Member):
         kept = self.only is None or load in [name_of(each) for each in self.only]
         return float(self.scale.get(load, 1.0)) if kept else 0.0
 
-    @property
-    def down(self) -> tuple[float, float]:
-        """Gravity in the machine's axes [m/s2]."""
-        return -self.gravity * sin(self.slope), -self.gravity * cos(self.slope)
+    def on(self, element: ForceElement) -> ForceElement:
+        """Return an element in the gravity of this case."""
+        return element if self.gravity is None and not self.slope else element.in_gravity(self.gravity, self.slope)
 
     def __str__(self) -> str:
         scale = {name: plain(value) for name, value in self.scale.items()}
@@ -73,5 +81,5 @@ class LoadCase(Member):
         words += [f"scale={scale!r}"] if scale else []
         words += [f"only={[name_of(each) for each in self.only]!r}"] if self.only is not None and not isinstance(self.only, str) else []
         words += [f"slope={in_degrees(float(self.slope))}"] if is_number(self.slope) and self.slope else []
-        words += [f"gravity={plain(self.gravity)!r}"] if self.gravity != g0 else []
+        words += [f"gravity={self.gravity!r}"] if self.gravity is not None else []
         return f"LoadCase({', '.join(words)})"

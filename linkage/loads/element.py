@@ -6,15 +6,15 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, Protocol, Self
+from typing import Any, ClassVar, Protocol, Self, TypeAlias
 
 import numpy as np
 
 from ..errors import DefinitionError
-from ..quantities import Member, Number, Quantity, Reference, label, name_of, quantity, real, spelled
+from ..quantities import Holding, Member, Number, Quantity, Reference, label, name_of, quantity, real, spelled
 from ..quantities.numbers import plain
 from ..steps import Point
-from .load import Array, Load
+from .load import Array, Load, Push
 
 
 class Poses(Protocol):
@@ -44,6 +44,16 @@ class Poses(Protocol):
     def distance(self, P: Reference, Q: Reference) -> Array:
         """Return the distance of two points [m]."""
 
+    def sketched(self, quantity: Quantity) -> Array:
+        """Return what a quantity is at the sketch pose of each design [SI]; broadcasts against results."""
+
+    def ratio(self, target: Any, *, wrt: str | None = None) -> Array:
+        """Return the derivative of a point or a quantity by a stroke."""
+
+
+Rates: TypeAlias = Mapping[str, Any]
+"""How fast strokes move, by name [1/s]; empty at rest. Where only the direction is known, speeds of no size but of that sense."""
+
 
 @dataclass(frozen=True, eq=False)
 class Friction:
@@ -55,7 +65,7 @@ class Friction:
     guide: str = ""
 
 
-class ForceElement(Member):
+class ForceElement(Holding):
     """The base of everything that puts forces on a mechanism. A subclass says `loads(motion)`.
 
     `places` are its attributes that hold points, `parameters` those that hold numbers, with the unit they are shown in.
@@ -67,10 +77,16 @@ class ForceElement(Member):
     places: ClassVar[tuple[str, ...]] = ("point",)
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({})
     not_negative: ClassVar[frozenset[str]] = frozenset()
+    optional: ClassVar[frozenset[str]] = frozenset()
 
     def __post_init__(self) -> None:
-        for name in self.parameters:
+        for name in self.numbers:
             self._check_number(name)
+
+    @property
+    def numbers(self) -> Mapping[str, str]:
+        """Its parameters that are given, with their units; one that may be left out is None where it is."""
+        return {name: unit for name, unit in self.parameters.items() if name not in self.optional or getattr(self, name) is not None}
 
     # -- what a subclass says ------------------------------------------------------------------------------
 
@@ -78,30 +94,39 @@ class ForceElement(Member):
     def loads(self, motion: Poses) -> list[Load]:
         """Return the forces over the motion's poses [N]."""
 
-    def moving(self, motion: Poses, sense: int) -> list[Load]:
-        """Return the forces while the drive goes on (`sense` 1) or back (-1): other ones where the element rubs."""
+    def moving(self, motion: Poses, rates: Rates) -> list[Load]:
+        """Return the forces while strokes move at rates [1/s], as far as they are known: other ones where the element rubs or damps."""
         return self.loads(motion)
+
+    def pushes(self, motion: Poses, rates: Rates) -> list[Push]:
+        """Return what straight two-point members carry by this element's law; it then acts through their pins, and `loads` is not asked."""
+        return []
 
     def frictions(self, motion: Poses) -> list[Friction]:
         """Return the dry friction this element stands for, whose size follows from the joint forces."""
         return []
 
-    def in_gravity(self, gravity: tuple[float, float]) -> ForceElement:
-        """Return this element under another gravity [m/s2]."""
+    def in_gravity(self, gravity: tuple[float, float] | None, slope: float) -> ForceElement:
+        """Return this element under a load case's gravity [m/s2], its own where that is None, turned by a slope [rad]."""
         return self
 
-    def cylinders(self) -> tuple[tuple[str, str], ...]:
-        """Return the pairs of points that this element holds apart as a driven member, declared by no step."""
+    def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
+        """Return the holding elements whose thrust this one gives, as a charged line does; the class's members by name."""
         return ()
 
-    def feeds(self, members: Mapping[str, Member]) -> tuple[tuple[str, str], ...]:
-        """Return the ends of cylinders whose force this element gives, as a charged line does; the class's members by name."""
+    def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
+        """Return the holding elements that this one puts on one pressure line; the class's members by name."""
         return ()
+
+    @property
+    def holds(self) -> bool:
+        """Whether it holds what the mechanism needs, as a cylinder does, and takes over the drive of a stroke."""
+        return False
 
     # -- what follows --------------------------------------------------------------------------------------
 
     def parts(self) -> tuple[Reference, ...]:
-        numbers = (quantity(getattr(self, name)) for name in self.parameters)
+        numbers = (quantity(getattr(self, name)) for name in self.numbers)
         return (*(getattr(self, place) for place in self.places), *(each for each in numbers if not each.is_constant))
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
@@ -115,7 +140,7 @@ class ForceElement(Member):
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
         """Return the design variables this element brings: name, default, kind and unit."""
-        given = {name: quantity(getattr(self, name)) for name in self.parameters}
+        given = {name: quantity(getattr(self, name)) for name in self.numbers}
         kinds = {name: "not negative" if name in self.not_negative else "number" for name in given}
         return tuple(
             (f"{self.name}.{name}", value.number, kinds[name], self.parameters[name])
@@ -169,7 +194,7 @@ class ForceElement(Member):
 
     def words(self) -> list[str]:
         """Return its parameters and options as they are written."""
-        given = {name: written(getattr(self, name)) for name in self.parameters}
+        given = {name: written(getattr(self, name)) for name in self.numbers}
         more = {name: label(value) if isinstance(value, Member) else repr(plain(value)) for name, value in self.options().items()}
         return [f"{name}={text}" for name, text in (given | more).items()]
 
@@ -178,7 +203,7 @@ class ForceElement(Member):
         return f"{type(self).__name__}({', '.join([*places, *self.words()])})"
 
     def having(self, values: Mapping[str, float]) -> Self:
-        keys = {name: f"{self.name}.{name}" for name in self.parameters}
+        keys = {name: f"{self.name}.{name}" for name in self.numbers}
         return self.renewed(**{name: values[key] for name, key in keys.items() if key in values})
 
 

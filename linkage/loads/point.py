@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import cos, sin
 from types import MappingProxyType
 from typing import Any, ClassVar, final
 
 import numpy as np
 
 from ..errors import DefinitionError
-from ..quantities import Reference, label, name_of
+from ..quantities import Reference, is_number, label, name_of
+from ..quantities.numbers import plain
 from ..units import g0
 from .element import ForceElement, Poses, written
 from .load import Array, Load
@@ -21,7 +23,10 @@ DOWN = (0.0, -g0)  # gravity, m/s2
 @final
 @dataclass(frozen=True, eq=False)
 class Weight(ForceElement):
-    """The weight of a mass [kg] at a point: `load = Weight(G, mass=1200)`. Gravity 9.80665 m/s2, downwards."""
+    """The weight of a mass [kg] at a point: `load = Weight(G, mass=1200)`.
+
+    `gravity` (x, y) [m/s2] is 9.80665 downwards unless another is given; a load case may replace or turn it.
+    """
 
     point: Reference
     mass: Any
@@ -29,11 +34,31 @@ class Weight(ForceElement):
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"mass": "kg"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"mass"})
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        object.__setattr__(self, "gravity", gravity_of(self.gravity, "Weight"))
+
     def loads(self, motion: Poses) -> list[Load]:
         return [Load(name_of(self.point), vector(self.number(motion, "mass"), self.gravity))]
 
-    def in_gravity(self, gravity: tuple[float, float]) -> Weight:
-        return self.renewed(gravity=gravity)
+    def in_gravity(self, gravity: tuple[float, float] | None, slope: float) -> Weight:
+        return self.renewed(gravity=turned(self.gravity if gravity is None else gravity, slope))
+
+
+def gravity_of(given: Any, what: str) -> tuple[float, float]:
+    """Return gravity as a vector [m/s2]; DefinitionError for anything but two finite numbers."""
+    if is_number(given):
+        raise DefinitionError(f"{what}: gravity={given!r} has no direction; write the vector gravity=(0, {-abs(plain(given))!r}).")
+    x, y = (plain(part) for part in two(given, f"{what}(gravity=...)"))
+    if not (is_number(x) and is_number(y)):
+        raise DefinitionError(f"{what}: gravity={given!r} is not two finite numbers; write (x, y) in m/s2, such as (0, -9.81).")
+    return x, y
+
+
+def turned(gravity: tuple[float, float], slope: float) -> tuple[float, float]:
+    """Return gravity on ground that rises towards +x by a slope [rad], in axes that lie along the ground [m/s2]."""
+    x, y = gravity
+    return x * cos(slope) + y * sin(slope), y * cos(slope) - x * sin(slope)
 
 
 class Pair(ForceElement):

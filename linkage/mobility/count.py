@@ -13,7 +13,7 @@ from ..graph import merged
 from ..plan import Plan, Reading, strokes_text
 from ..program import FloatArray
 from ..quantities import name_of
-from ..steps import Guide, Link, Offset, Slide, YokeDyad
+from ..steps import Link, Offset, Slide
 from ..units import mm
 from .rows import Rows, link_rows, step_rows
 
@@ -72,27 +72,17 @@ def mobility_at(plan: Plan, strokes: dict[str, float]) -> Mobility:
 
 def implied(plan: Plan) -> set[str]:
     """Return the links whose points are one body by the steps alone, or that a group's equations hold."""
-    groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in plan.bars if bar not in plan.cylinders]
+    groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in plan.rods]
     groups += [body for point in plan.points.values() for body in point.bodies()]
     groups += [(*map(str, step.parents), step.X) for group in plan.groups.values() for step in group.rigid]
     bodies = merged(groups, plan.ground)
     links = {name for name, link in plan.of_kind(Link).items() if any(set(link.point_names) <= set(body.points) for body in bodies)}
-    used = {pair for point in plan.points.values() for pair in point.slides()}
     grouped = {slide.name for group in plan.groups.values() for slide in group.slides}
-    slides = {name for name, slide in plan.of_kind(Slide).items() if (name_of(slide.point), name_of(slide.guide)) in used}
-    return links | slides | grouped | slots(plan)
-
-
-def slots(plan: Plan) -> set[str]:
-    """Return the slides that a pin-slot or a yoke dyad holds by its own construction."""
-    held = {(pin, frozenset(body)) for point in plan.points.values() for pin, *body in point.pin_slots()}
-    yokes = {step.P for step in plan.of_kind(YokeDyad).values()}
-    found = set()
-    for name, slide in plan.of_kind(Slide).items():
-        guide = plan.of_kind(Guide)[name_of(slide.guide)]
-        if (name_of(slide.point), frozenset(guide.points)) in held or name_of(slide.point) in yokes:
-            found.add(name)
-    return found
+    held = [joint for point in plan.points.values() for joint in point.joints() if joint.track]
+    tracks, slots = {(joint.point, plan.track(joint)) for joint in held}, {joint.point for joint in held if joint.kind == "slot"}
+    slides = {name: joint for name, slide in plan.of_kind(Slide).items() for joint in slide.joints()}
+    used = {name for name, joint in slides.items() if (joint.point, plan.track(joint)) in tracks or joint.point in slots}
+    return links | used | grouped
 
 
 def rank(matrix: FloatArray) -> int:

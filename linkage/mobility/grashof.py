@@ -62,7 +62,7 @@ def grashof(ground: float, crank: float, coupler: float, follower: float) -> str
 def four_bars(plan: Plan, inputs: Mapping[str, Any]) -> list[FourBar]:
     """Return the four-bars whose frame link is fixed: a dyad on a fixed point and on the end of a link that hangs on another."""
     reading = Reading(plan.members, plan.table.lengths, inputs)
-    rigid = [(bar.P, bar.Q) for bar in plan.bars if bar not in plan.cylinders]
+    rigid = [(bar.P, bar.Q) for bar in plan.rods]
     found = []
     for name, dyad in plan.of_kind(Dyad).items():
         for Q, P in ((dyad.Q, dyad.P), (dyad.P, dyad.Q)):

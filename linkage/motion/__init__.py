@@ -1,5 +1,6 @@
 """Where everything is over the stroke: positions, ratios, angles, distances."""
 
+from .asked import rates_of as rates_of
 from .below import Span as Span
 from .below import below_zero as below_zero
 from .below import reached as reached

@@ -66,6 +66,12 @@ class Motion(Outputs):
             return None
         return {name: np.gradient(value) for name, value in self.strokes.items()}
 
+    def sketched(self, quantity: Quantity) -> FloatArray:
+        """Return what a quantity is at the sketch pose of each design [SI], shaped to broadcast against results."""
+        strokes = {name: np.asarray(value) for name, value in self.plan.sketch_strokes.items()}
+        found = Motion(self.plan, self.designs, strokes, "nan").value(quantity)
+        return found.reshape(*self.design_shape, *(1,) * len(self.stroke_shape))
+
     # -- ratios ----------------------------------------------------------------------------------------
 
     def ratio(

@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from math import isfinite
+from math import isfinite, pi
 from typing import Any
 
 import numpy as np
 
 from ..errors import DefinitionError, unknown
+from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import Stroke, real
+from .reach import stroke_unit
+
+TURN = 2.0 * pi
+FEW, MANY = 2, 8
+"""Turns beyond a crank's declared range: of degrees if the number is round, as 45 is and no part of pi; of degrees in any case."""
+FAR = 40.0
+"""A stroke of a metre or more that is so many times the declared one was given in millimetres."""
 
 
 def known_strokes(given: Mapping[str, Any], strokes: Mapping[str, Stroke], title: str) -> None:
@@ -23,18 +31,20 @@ def known_strokes(given: Mapping[str, Any], strokes: Mapping[str, Stroke], title
         raise DefinitionError(f"{title}: the stroke {', '.join(missing)} is not given; say {', '.join(f'{name}=...' for name in missing)}.")
 
 
-def at_values(
-    given: Mapping[str, Any], strokes: Mapping[str, Stroke], title: str, take: Callable[[Any], FloatArray] = real
-) -> dict[str, FloatArray]:
+def at_values(given: Mapping[str, Any], plan: Plan, take: Callable[[Any], FloatArray] = real) -> dict[str, FloatArray]:
     """Return chosen stroke values, broadcast against each other; `take` makes arrays of them."""
+    strokes, title = plan.strokes, plan.title
     known_strokes(given, strokes, title)
     try:
         arrays = [take(given[name]) for name in strokes]
     except ValueError:
         raise DefinitionError(f"{title}: strokes are numbers or arrays of numbers (SI); given {dict(given)!r}.") from None
     for name, array in zip(strokes, arrays, strict=True):
-        if array.size and not (isfinite(array.min()) and isfinite(array.max())):
-            raise DefinitionError(f"{title}: the stroke {name} holds a value that is not finite.")
+        if array.size:
+            ends = float(array.min()), float(array.max())
+            if not (isfinite(ends[0]) and isfinite(ends[1])):
+                raise DefinitionError(f"{title}: the stroke {name} holds a value that is not finite.")
+            check_unit(name, ends, plan)
     try:
         return dict(zip(strokes, np.broadcast_arrays(*arrays), strict=True))
     except ValueError:
@@ -42,13 +52,37 @@ def at_values(
         raise DefinitionError(f"{title}: the strokes' shapes do not fit each other: {shapes}.") from None
 
 
+def check_unit(name: str, values: tuple[float, ...], plan: Plan) -> None:
+    """Raise DefinitionError for a stroke's value so far beyond its declared range that degrees or millimetres were meant."""
+    stroke = plan.strokes[name]
+    low, high = min(stroke.start, stroke.end), max(stroke.start, stroke.end)
+    for value in values:
+        if low <= value <= high:
+            continue
+        if stroke_unit(plan, name) == "rad":
+            beyond = max(low - value, value - high) / TURN
+            if beyond > (FEW if is_round(value) else MANY):
+                said = f"{name} = {value:.6g} is an angle in radians, {value / TURN:.3g} turns"
+                remedy = f"write {value:.6g} * deg if these are degrees, or declare the stroke as long as that"
+                raise DefinitionError(f"{plan.title}: {said}, and the stroke is {low:.6g} to {high:.6g} rad; {remedy}.")
+        elif abs(value) >= 1.0 and abs(value) > FAR * max(abs(low), abs(high)):
+            remedy = f"write {value:.6g} * mm if these are millimetres, or declare the stroke as long as that"
+            raise DefinitionError(f"{plan.title}: {name} = {value:.6g} m, and the stroke is {low:.6g} to {high:.6g} m; {remedy}.")
+
+
+def is_round(value: float) -> bool:
+    """Return whether a number has one decimal at the most."""
+    return abs(10.0 * value - round(10.0 * value)) < 1e-9 * abs(value)
+
+
 def as_given(value: Any) -> FloatArray:
     """Return an array of floats as it is, not copied; anything else as `real` does."""
     return value if type(value) is np.ndarray and value.dtype == np.float64 else real(value)
 
 
-def sweep_values(count: int | None, given: Mapping[str, Any], strokes: Mapping[str, Stroke], title: str) -> dict[str, FloatArray]:
+def sweep_values(count: int | None, given: Mapping[str, Any], plan: Plan) -> dict[str, FloatArray]:
     """Return strokes over their ranges: an int is a count, a float a value; two counts give a grid."""
+    strokes, title = plan.strokes, plan.title
     if count is not None:
         if not strokes:
             raise DefinitionError(f"{title} has no stroke, so there is nothing to sweep; declare one, S = Stroke(0, 0.25), or ask at().")
@@ -60,14 +94,15 @@ def sweep_values(count: int | None, given: Mapping[str, Any], strokes: Mapping[s
             raise DefinitionError(f"{title}: sweep({count!r}): a whole number of poses is expected; {remedy}.")
         given = {next(iter(strokes)): count}
     known_strokes(given, strokes, title)
-    axes = [_axis(name, given[name], strokes[name], title) for name in strokes]
+    axes = [_axis(name, given[name], plan) for name in strokes]
     counted = [axis for axis in axes if axis.ndim]
     grids = iter(np.meshgrid(*counted, indexing="ij")) if counted else iter(())
     full = [next(grids) if axis.ndim else axis for axis in axes]
     return dict(zip(strokes, np.broadcast_arrays(*full), strict=True))
 
 
-def _axis(name: str, asked: Any, stroke: Stroke, title: str) -> FloatArray:
+def _axis(name: str, asked: Any, plan: Plan) -> FloatArray:
+    stroke, title = plan.strokes[name], plan.title
     if isinstance(asked, (int, np.integer)) and not isinstance(asked, bool):
         if asked < 1:
             raise DefinitionError(f"{title}: sweep({name}={asked}): a count of at least 1 is expected; for a value write {float(asked)}.")
@@ -76,5 +111,6 @@ def _axis(name: str, asked: Any, stroke: Stroke, title: str) -> FloatArray:
         except (MemoryError, OverflowError, ValueError):
             raise DefinitionError(f"{title}: sweep({name}={asked}): so many poses do not fit into memory; ask for fewer.") from None
     if isinstance(asked, (float, np.floating)) and np.isfinite(asked):
+        check_unit(name, (float(asked),), plan)
         return np.asarray(asked, float)
     raise DefinitionError(f"{title}: sweep({name}={asked!r}): an int is a count, a float a value; for chosen values use at({name}=...).")

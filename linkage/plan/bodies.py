@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..graph import Body, gruebler, merged
-from ..quantities import name_of
-from ..steps import Guide, Link, OnGuide
+from ..steps import Guide, Link, Point
 
 if TYPE_CHECKING:
     from .members import Members
@@ -14,7 +13,7 @@ if TYPE_CHECKING:
 
 def rigid_bodies(plan: Members) -> tuple[Body, ...]:
     """Return the rigid bodies, the frame first."""
-    groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in plan.bars if bar not in plan.cylinders]
+    groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in plan.rods]
     groups += [body for name, point in plan.points.items() if name not in plan.telescopes for body in point.bodies()]
     groups += [link.point_names for link in plan.of_kind(Link).values() if len(link.point_names) > 2 or not plan.is_cylinder(link)]
     rest = resting(plan)
@@ -25,15 +24,21 @@ def rigid_bodies(plan: Members) -> tuple[Body, ...]:
 
 def resting(plan: Members) -> dict[str, Guide]:
     """Return the points at a fixed place on a guide, which are rigid with it."""
-    steps = {name: step for name, step in plan.of_kind(OnGuide).items() if not plan.moves(step.along)}
-    return {name: plan.of_kind(Guide)[name_of(step.guide)] for name, step in steps.items()}
+    found = [(joint.point, joint) for point in plan.points.values() for joint in point.joints() if joint.drives and joint.track]
+    guides = plan.of_kind(Guide)
+    return {point: guides[joint.track[0]] for point, joint in found if not plan.is_there(joint)}
 
 
 def gruebler_count(plan: Members) -> int:
     """Return 3 (n - 1) - 2 j1 - j2; a point that only guides hold counts as a pin of its own."""
     rest = resting(plan)
     free = {name: point for name, point in plan.points.items() if name not in rest}
-    halves = sum(len(point.half_joints()) for point in free.values()) + sum(len(group.slides) for group in plan.groups.values())
+    halves = sum(map(half_joints, free.values())) + sum(len(group.slides) for group in plan.groups.values())
     bodies = {name for body in plan.links for name in body.points} | {end for bar in plan.cylinders for end in (bar.P, bar.Q)}
-    lone = sum(1 for name, point in free.items() if name not in bodies and (point.half_joints() or name in plan.telescopes))
+    lone = sum(1 for name, point in free.items() if name not in bodies and (half_joints(point) or name in plan.telescopes))
     return gruebler(plan.links, [(bar.P, bar.Q) for bar in plan.cylinders]) - halves - len(plan.telescopes) + 2 * lone
+
+
+def half_joints(point: Point) -> int:
+    """Return how many guides and slots take one freedom each at a step."""
+    return sum(1 for joint in point.joints() if joint.track)

@@ -10,8 +10,8 @@ from typing import TypeVar
 
 from ..errors import DefinitionError, unknown
 from ..graph import Body, ordered
-from ..quantities import Distance, Function, Length, Member, Number, Operation, Quantity, Stroke, Variable, needs, unnamed
-from ..steps import Arrow, Bar, Drawn, Ground, Group, Link, OnLink, Point
+from ..quantities import Distance, Function, Joint, Length, Member, Number, Operation, Quantity, Stroke, Variable, needs, unnamed
+from ..steps import Arrow, Bar, Drawn, Ground, Group, Guide, Link, Point, Slide
 from .bodies import gruebler_count, rigid_bodies
 from .printing import printed
 from .sums import terms, turning
@@ -114,14 +114,41 @@ class Members:
         return (*steps, *(rod for group in self.groups.values() for rod in group.rods))
 
     @cached_property
+    def rods(self) -> tuple[Bar, ...]:
+        """The bars of a length that no stroke changes."""
+        return tuple(bar for bar in self.bars if not self.moves(bar.length))
+
+    @cached_property
     def cylinders(self) -> tuple[Bar, ...]:
-        """The bars whose length follows a stroke."""
-        return tuple(bar for bar in self.bars if self.moves(bar.length))
+        """The driven lengths: bars of steps, and links of two points, whose length follows a stroke; each pair of points once."""
+        lengths = [(frozenset(link.point_names), link) for link in self.of_kind(Link).values() if len(link.point_names) == 2]
+        known = [(link.point_names, self.table.lengths[pair]) for pair, link in lengths if pair in self.table.lengths]
+        links = [Bar(P, Q, length) for (P, Q, *_), length in known]
+        found: dict[frozenset[str], Bar] = {}
+        for bar in (*self.bars, *links):
+            if self.moves(bar.length):
+                found.setdefault(frozenset((bar.P, bar.Q)), bar)
+        return tuple(found.values())
+
+    @cached_property
+    def joints(self) -> tuple[tuple[str, Joint], ...]:
+        """What the steps, guides and slides hold, each with its member's name; driven joints only where a stroke drives them."""
+        holding = {**self.of_kind(Point), **self.of_kind(Guide), **self.of_kind(Slide)}
+        return tuple((name, joint) for name, member in holding.items() for joint in member.joints() if self.is_there(joint))
+
+    def is_there(self, joint: Joint) -> bool:
+        """Return whether a joint holds two bodies apart: one whose drives all stand still makes them one body."""
+        return not joint.drives or any(self.moves(drive.quantity) for drive in joint.drives)
+
+    def track(self, joint: Joint) -> tuple[str, ...]:
+        """Return what a joint's point slides on: the two points of a moving line, sorted, or a guide's name; empty for no slide."""
+        guide = self.of_kind(Guide).get(joint.track[0]) if len(joint.track) == 1 else None
+        return joint.track if guide is None or guide.Q is None else tuple(sorted(guide.points))
 
     @cached_property
     def telescopes(self) -> tuple[str, ...]:
         """The points that move along their body because a label of theirs follows a stroke."""
-        return tuple(name for name, step in self.of_kind(OnLink).items() if any(map(self.moves, step.dimensions())))
+        return tuple(name for name, joint in self.joints if joint.arm)
 
     def is_cylinder(self, link: Link) -> bool:
         """Return whether a link of two points follows a stroke."""

@@ -3,6 +3,13 @@
 from .inputs import Dimension as Dimension
 from .inputs import Stroke as Stroke
 from .inputs import Variable as Variable
+from .joint import FRAME_SIDE as FRAME_SIDE
+from .joint import Driven as Driven
+from .joint import Holding as Holding
+from .joint import Joint as Joint
+from .joint import JointSide as JointSide
+from .joint import guided as guided
+from .joint import pinned as pinned
 from .member import Member as Member
 from .member import Reference as Reference
 from .member import name_of as name_of

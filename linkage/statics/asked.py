@@ -1,4 +1,4 @@
-"""A thrust as something to ask for: in `evaluate` and `function` at a kernel's speed, in `gradient` with exact derivatives."""
+"""The force of a drive as something to ask for: in `evaluate` and `function` at a kernel's speed, in `gradient` with exact derivatives."""
 
 from __future__ import annotations
 
@@ -8,35 +8,35 @@ from typing import Any, final
 from ..motion import Asked, Motion, Wanted
 from ..plan import Plan
 from ..program import Node, Notes
-from .drives import drive_of
 from .driving import driving_force
 from .law import Law
 from .loaded import Case, Loads
+from .movement import drive_of
 from .work import by_work
 
 
 @final
 @dataclass(frozen=True, eq=False)
-class Thrust(Asked):
+class DriveForce(Asked):
     """The frictionless force of a drive, as something to ask for."""
 
     drive: str | None = None
     loads: Loads = None
     case: Case = None
 
-    def settled(self, plan: Plan) -> ThrustOf:
+    def settled(self, plan: Plan) -> DriveForceOf:
         drive = drive_of(plan, self.drive)
         law = Law.of(plan, self.loads, self.case)
-        return ThrustOf(self.loads, self.case, drive, law.key, frozenset(law.names), frozenset(law.carriers))
+        return DriveForceOf(self.loads, self.case, drive, law.key, frozenset(law.names), frozenset(law.carriers))
 
 
-def thrust(drive: str | None = None, loads: Loads = None, case: Case = None) -> Thrust:
-    """Return the request for the force of a drive, in `evaluate`, `function` and `gradient`: thrust [N], a crank's torque [Nm].
+def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None) -> DriveForce:
+    """Return the request for the generalised force of a stroke, in `evaluate`, `function` and `gradient`: [N], a crank's torque [Nm].
 
-    It is the frictionless `driving_force(motion, loads, drive, case=case)`: `motion.gradient(thrust(), wrt=["OB", "load.mass"])`.
+    It is the frictionless `driving_force(motion, loads, drive, case=case)`: `motion.gradient(drive_force(), wrt=["OB", "load.mass"])`.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
-    return Thrust(drive, loads, case)
+    return DriveForce(drive, loads, case)
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,8 +68,8 @@ class ForceOf(Wanted):
 
 @final
 @dataclass(frozen=True, eq=False)
-class ThrustOf(ForceOf):
-    """A thrust settled: its drive, the key of its loads, the members it reads, and those it is differentiated through."""
+class DriveForceOf(ForceOf):
+    """A drive's force settled: its drive, the key of its loads, the members it reads, and those it is differentiated through."""
 
     drive: str
     law: tuple[Any, ...]
@@ -78,7 +78,7 @@ class ThrustOf(ForceOf):
 
     @property
     def key(self) -> Any:
-        return "thrust", self.drive, self.law
+        return "drive force", self.drive, self.law
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
         law = self.laws(plan)
@@ -95,4 +95,4 @@ class ThrustOf(ForceOf):
         driving_force(motion, self.loads, self.drive, case=self.case)
 
     def __str__(self) -> str:
-        return f"the thrust of {self.drive}"
+        return f"the driving force of {self.drive}"

@@ -11,21 +11,21 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError, SingularWarning, unknown
-from ..loads import ForceElement
 from ..motion import Asked, Motion
 from ..plan import Plan
-from ..program import Node, eliminated
+from ..program import FloatArray, Node, eliminated
 from .asked import ForceOf
 from .balance import Equations
 from .contacts import Contact
 from .forces import pin_forces
 from .law import Law
-from .loaded import Case, Loads
+from .loaded import Case, Loaded, Loads
 from .poses import Poses
-from .result import body_named, met
+from .result import met
 from .solved import Solved
 from .structure import Structure
 from .system import System
+from .traced import TracedMotion
 
 #: What can be asked of a force, from its parts.
 COMPONENTS: Mapping[str, Callable[[Any, Any], Any]] = MappingProxyType({"x": lambda x, y: x, "y": lambda x, y: y, "size": np.hypot})
@@ -47,10 +47,12 @@ class PinForce(Asked):
     def settled(self, plan: Plan) -> PinForceOf:
         if self.component not in COMPONENTS:
             raise unknown("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
-        law, asked = Law.of(plan, self.loads, self.case), replace(self, on=body_named(plan, self.on))
-        joint, _ = joint_of(Structure(plan, law.loaded.elements), self.point, asked.on)
-        spans = tuple(span for element in law.loaded.elements for span in element.cylinders())
-        length = plan.made(("held", spans), lambda _: held(plan, law.loaded.elements))
+        law = Law.of(plan, self.loads, self.case)
+        structure = Structure(plan, law.loaded.elements, law.loaded.pushing)
+        asked = replace(self, on=structure.called(self.on))
+        joint, _ = joint_of(structure, self.point, asked.on)
+        spans = tuple((strut.name, strut.P, strut.Q) for strut in structure.struts)
+        length = plan.made(("held", spans), lambda _: held(plan, law.loaded))
         return PinForceOf(self.loads, self.case, asked, (*law.key, spans), length, str(joint))
 
 
@@ -79,10 +81,9 @@ class PinForceOf(ForceOf):
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
         law = self.laws(plan)
-        structure, motion = Structure(plan, law.loaded.elements), law.motion
+        structure, motion = Structure(plan, law.loaded.elements, law.loaded.pushing), law.motion
         system = System(structure, law.poses, law.loaded.acting, length=self.length)
-        A, l = ([*map(motion.node, row)] for row in system.A[0]), map(motion.node, system.load_rows[0])
-        u = motion.array([eliminated(list(A), [-each for each in l])])
+        u = unknowns(system, motion)
         none = np.zeros((1, 0))
         joint, sign = joint_of(structure, self.asked.point, self.asked.on)
         force, _ = Solved(system, u, none, np.zeros(1, bool), []).transmitted(joint.contact)
@@ -127,7 +128,14 @@ def joint_of(structure: Structure, point: str, on: str) -> tuple[Met, float]:
     return met(joints, point, on, structure.plan.title)
 
 
-def held(plan: Plan, elements: tuple[ForceElement, ...]) -> float:
+def unknowns(system: System, motion: TracedMotion) -> FloatArray:
+    """Return the joint forces of a traced system, eliminated symbolically, shape (1, columns)."""
+    equations = Equations(system, bound=tuple(system.known()))
+    A, right = equations.A[0], equations.right[0, :, 0]
+    return motion.array([eliminated([[motion.node(each) for each in row] for row in A], [motion.node(each) for each in right])])
+
+
+def held(plan: Plan, loaded: Loaded) -> float:
     """Return a length of the mechanism [m]; DefinitionError where a body hangs loose or a link is redundant."""
     along = np.linspace(0.0, 1.0, SAMPLE)
     ranges = {name: each.start + along * (each.end - each.start) for name, each in plan.strokes.items()}
@@ -135,8 +143,10 @@ def held(plan: Plan, elements: tuple[ForceElement, ...]) -> float:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", SingularWarning)
         poses = Poses(Motion(plan, plan.defaults, strokes, "nan"), "The joint forces")
-    system = System(Structure(plan, elements), poses, ())
+    still = tuple(replace(each, thrust=np.zeros(poses.motion.shape)) for each in loaded.pushing)
+    system = System(Structure(plan, loaded.elements, still), poses, ())
     if not poses.count:
         raise DefinitionError(f"{plan.title}: the declared design cannot be assembled at any of {SAMPLE} poses; declare one that can.")
-    Equations(system).check(system.height, system.width)
+    equations = Equations(system, bound=tuple(system.known()))
+    equations.check(*equations.A.shape[1:])
     return system.scale

@@ -40,7 +40,7 @@ class Equations:
     @property
     def free(self) -> int:
         """How many unknowns are not joint forces: the supports."""
-        return len(self.bound)
+        return 0 if self.supports is None else int(self.supports.shape[2])
 
     @cached_property
     def A(self) -> FloatArray:
@@ -48,7 +48,7 @@ class Equations:
         upper = self.system.A
         if self.supports is not None:
             upper = np.concatenate([upper, self.supports], axis=2)
-        rows = [np.concatenate([form.row, np.zeros((len(form.row), self.free))], axis=1)[:, None] for form, _ in self.bound]
+        rows = [np.concatenate([form.row, self.system.poses.zeros(self.free)], axis=1)[:, None] for form, _ in self.bound]
         return np.concatenate([upper, *rows], axis=1)
 
     @cached_property

@@ -2,40 +2,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 
 import numpy as np
 
 from ..program import FloatArray
-from ..steps import OnLink, YokeDyad
+from ..quantities import Joint
 from .poses import Poses, left
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Contact:
-    """A joint: its force acts on the body `on` from the body `by` (indices, -1 the frame), at a point.
+    """A joint between two bodies: its force acts on the body `on` from the body `by` (indices, -1 the frame), at a point.
 
-    `line` gives its direction: a guide's name, or two points; `step` is the member that declares it.
+    `holds` are the letters of what it transmits: x, y, n across its line, t along it, c a couple. `owner` is the member that
+    declares it, `joint` what that says; `track` the points or the guide of the line it slides on.
     """
 
     kind: str
     point: str
     on: int
     by: int
-    line: tuple[str, ...] = ()
-    step: str = ""
+    holds: str = "xy"
+    owner: str = ""
+    joint: Joint | None = None
+    track: tuple[str, ...] = ()
 
     @property
     def columns(self) -> int:
         """How many unknowns it brings."""
-        return len(CARRIES[self.kind])
+        return len(self.holds)
 
     @property
     def has_force(self) -> bool:
         """Whether it transmits a force; a crank's drive has only a couple."""
-        return CARRIES[self.kind] != "c"
+        return self.holds != "c"
+
+    @property
+    def slides(self) -> bool:
+        """Whether its point slides along its line."""
+        return bool(self.track)
+
+    def goes_by(self, name: str) -> bool:
+        """Return whether it is meant by the name of a guide, a step or a point of its line."""
+        given = self.joint.track if self.joint is not None else ()
+        return name in (self.owner, *self.track, *given)
 
 
 @dataclass(frozen=True)
@@ -47,19 +58,15 @@ class Wrench:
     couple: FloatArray
 
 
-#: What a joint carries: forces along x and y, across its line, along its line; a couple.
-CARRIES: Mapping[str, str] = MappingProxyType(
-    {"pin": "xy", "guide": "n", "slot": "n", "driven": "nt", "crank": "c", "slider": "nc", "telescope": "ntc", "upright": "c"}
-)
-
-
 def wrenches(contact: Contact, poses: Poses, scale: float) -> list[Wrench]:
     """Return the unit wrenches of a contact's unknowns; all unknowns are in N, a couple is `scale` [m] times its own."""
-    t = direction(contact, poses)
     right, none = rightwards(poses), np.zeros((2, poses.count))
-    forces = {"x": right, "y": left(right), "t": t, "n": left(t), "c": none}
+    forces = {"x": right, "y": left(right), "c": none}
+    if set("nt") & set(contact.holds):
+        t = direction(contact, poses)
+        forces |= {"t": t, "n": left(t)}
     place = poses.at(contact.point)
-    return [Wrench(place, forces[each], none[0] + (scale if each == "c" else 0.0)) for each in CARRIES[contact.kind]]
+    return [Wrench(place, forces[each], none[0] + (scale if each == "c" else 0.0)) for each in contact.holds]
 
 
 def rightwards(poses: Poses) -> FloatArray:
@@ -68,34 +75,10 @@ def rightwards(poses: Poses) -> FloatArray:
 
 
 def direction(contact: Contact, poses: Poses) -> FloatArray:
-    """Return the direction of a contact's line, shape (2, n); that of the x axis where it has none."""
-    return DIRECTIONS.get(contact.kind, of_line)(contact, poses)
-
-
-def of_line(contact: Contact, poses: Poses) -> FloatArray:
-    """Return the direction of a guide, or from one point to another."""
-    if not contact.line:
+    """Return the direction of a contact's line, of length one, shape (2, n)."""
+    if contact.joint is None or contact.joint.line is None:
         return rightwards(poses)
-    return poses.along(*contact.line) if len(contact.line) == 2 else poses.line(contact.line[0])[1]
-
-
-def of_yoke(contact: Contact, poses: Poses) -> FloatArray:
-    """Return the direction of a yoke's slot: its guide's, turned."""
-    step = poses.plan.members[contact.step]
-    assert isinstance(step, YokeDyad)
-    return turned(poses.line(step.guide)[1], poses.pair(*poses.reading.turn(step.angle)))
-
-
-def of_telescope(contact: Contact, poses: Poses) -> FloatArray:
-    """Return the direction in which a telescope goes out: that of its body, turned."""
-    step = poses.plan.members[contact.step]
-    assert isinstance(step, OnLink)
-    return turned(poses.along(step.P, step.Q), poses.pair(*step.turn(poses.reading, 1.0)))
-
-
-def turned(vector: FloatArray, turn: FloatArray) -> FloatArray:
-    """Return a vector turned by an angle given as its cosine and sine, shape (2, n)."""
-    return np.stack([vector[0] * turn[0] - vector[1] * turn[1], vector[0] * turn[1] + vector[1] * turn[0]])
-
-
-DIRECTIONS: Mapping[str, Callable[[Contact, Poses], FloatArray]] = MappingProxyType({"slot": of_yoke, "telescope": of_telescope})
+    with np.errstate(all="ignore"):
+        along = contact.joint.line(poses.reading).direction
+    vector = poses.pair(along.x, along.y)
+    return np.asarray(vector / np.hypot(vector[0], vector[1]))

@@ -1,6 +1,9 @@
-"""The force of a drive: thrust [N] of a cylinder, torque [Nm] of a crank."""
+"""The generalised force of a stroke, by virtual work."""
 
 from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -8,9 +11,10 @@ from ..errors import DefinitionError
 from ..motion import Motion
 from ..program import FloatArray
 from ..quantities import is_number
-from .drives import drive_of
+from .drives import cut
 from .forces import locked_words
 from .loaded import Case, Loads, gathered
+from .movement import drive_of, movement_of
 from .poses import Poses
 from .solved import solve
 from .work import by_work, rubbed
@@ -23,25 +27,30 @@ def driving_force(
     *,
     case: Case = None,
     direction: str = "frictionless",
+    rates: Mapping[str, Any] | None = None,
     efficiency: float = 1.0,
 ) -> FloatArray:
-    """Return the force of a drive by virtual work, shape (...): thrust [N], positive where it pushes the ends apart; a crank's torque [Nm].
+    """Return the generalised force of a stroke by virtual work, shape (...): [N], for a crank's angle the torque [Nm].
 
-    It is the force of the stroke: a positive one pulls where the length falls with it (`AB=L0 - S`), with `AB=L0 + 2 * S` it is
-    twice the thrust.
-    `loads` are the machine's own unless others are given; `case` a LoadCase or its name. While "extending" or "retracting" friction adds
-    its work; given as an `efficiency` k, the force is F / k where the load resists and F k where it drives. The other drives of several
-    stand still. Raises SingularError at a dead point and where friction locks the mechanism.
+    It is positive the way the stroke grows, and not a cylinder's thrust: with `AB=L0 - S` a positive one pulls, with `AB=L0 + 2 * S`
+    it is twice the thrust, which `pin_forces(...).thrusts` and a cylinder's own `thrust(motion)` tell.
+    `loads` are the machine's own unless others are given; `case` a LoadCase or its name. While "extending" (the stroke grows) or
+    "retracting" friction adds its work; along a path of several strokes its senses are those of the path. `rates`, such as
+    `dict(S=0.05)` [1/s], are what dampers ask for. Given as an `efficiency` k, the force is F / k where the load resists and F k where
+    it drives. Raises SingularError at a dead point and where friction locks the mechanism.
     """
-    stroke, loaded = drive_of(motion.plan, drive), gathered(motion, loads, case, direction)
+    stroke = drive_of(motion.plan, drive)
+    movement = movement_of(motion, direction, rates, stroke)
+    loaded = gathered(motion, loads, case, movement)
     names = {name for point in loaded.points for name in motion.plan.reaches(point)}
     poses = Poses(motion, f"The driving force of {stroke}", None if loaded.frictions else names)
     force = by_work(poses, loaded, stroke)
     if loaded.frictions:
-        solved = solve(poses, loaded, stroke)
+        solved = solve(poses, loaded)
         locked_words(solved, direction)
-        force = force + loaded.sense * rubbed(solved.rubbing, solved.q)
-    return poses.full(with_losses(force, efficiency, loaded.sense))
+        alone = tuple(movement.rates) == (stroke,) and not movement.is_timed
+        force = force + movement.sense * rubbed(solved.rubbing, solved.q) if alone else solved.value(cut(solved.system, stroke))
+    return poses.full(with_losses(force, efficiency, movement.sense))
 
 
 def with_losses(force: FloatArray, efficiency: float, sense: int) -> FloatArray:

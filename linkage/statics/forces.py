@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -10,12 +11,13 @@ from ..errors import SingularError
 from ..motion import Motion
 from ..motion.reach import where_words
 from ..program import FloatArray
-from .drives import cut, drive_of
+from .drives import cut
 from .loaded import Case, Loaded, Loads, gathered
+from .movement import drive_of, movement_of
 from .poses import Poses
 from .result import PinForces
-from .solved import Solved, joint_forces, on_bodies, residual, solve
-from .work import by_work, gap
+from .solved import Solved, joint_forces, solve
+from .work import by_work
 
 
 def pin_forces(
@@ -25,25 +27,32 @@ def pin_forces(
     case: Case = None,
     direction: str = "frictionless",
     drive: str | None = None,
+    rates: Mapping[str, Any] | None = None,
     split: str = "refuse",
 ) -> PinForces:
     """Return every joint force at every pose, by equilibrium of every body, in one solve over designs and strokes.
 
-    `loads` are the machine's own unless others are given; `case` a LoadCase or its name. `direction` is "extending",
-    "retracting" or "frictionless"; with friction and several strokes `drive` says which one moves. Raises DefinitionError
-    where a body hangs loose or a link is redundant (unless `split="least squares"`), SingularError at a singular pose and
-    where friction leaves no bounded forces (unless the motion has `unreachable="nan"`).
+    `loads` are the machine's own unless others are given; `case` a LoadCase or its name. `direction` is "extending" (the stroke
+    grows), "retracting" or "frictionless"; with friction and several strokes `drive` says which one moves, along a path of several
+    they move as it goes. `rates`, such as `dict(S=0.05)` [1/s], are what dampers ask for. Raises DefinitionError where a body hangs
+    loose or a link is redundant (unless `split="least squares"`), SingularError at a singular pose and where friction leaves no
+    bounded forces (unless the motion has `unreachable="nan"`).
     """
-    loaded = gathered(motion, loads, case, direction)
+    movement = movement_of(motion, direction, rates, drive)
+    if drive is not None:
+        drive_of(motion.plan, drive)
+    loaded = gathered(motion, loads, case, movement)
     poses = Poses(motion, "The joint forces")
-    moved = drive_of(motion.plan, drive) if loaded.frictions or drive is not None else ""
-    solved = solve(poses, loaded, moved, split)
+    solved = solve(poses, loaded, split)
     remarks = locked_words(solved, direction)
     drives = {name: poses.full(solved.value(cut(solved.system, name))) for name in motion.strokes}
-    remarks += held_words(poses, loaded, drives, moved, direction)
+    thrusts = {each.name: poses.full(solved.value(solved.system.thrust(each))) for each in solved.system.structure.struts}
+    remarks += [*held_words(poses, loaded, drives), *rest_words(loaded)]
+    structure = solved.system.structure
+    on = tuple((structure.name(body), each) for body, each, _ in solved.system.loads)
+    locked = poses.full(solved.locked.astype(float)) == 1.0
     return PinForces(
-        motion, joint_forces(solved), drives, on_bodies(solved), loaded.case, direction, residual(solved),
-        gap(poses, loaded, drives, solved.rubbing), poses.full(solved.locked.astype(float)) == 1.0, tuple(remarks),
+        motion, joint_forces(solved), drives, thrusts, loaded.case, direction, locked, tuple(remarks), poses, loaded, on, structure
     )  # fmt: skip
 
 
@@ -63,15 +72,27 @@ def locked_words(solved: Solved, direction: str) -> list[str]:
     return [text]
 
 
-def held_words(poses: Poses, loaded: Loaded, drives: Mapping[str, FloatArray], moved: str, direction: str) -> list[str]:
+def held_words(poses: Poses, loaded: Loaded, drives: Mapping[str, FloatArray]) -> list[str]:
     """Return the words for poses where friction alone holds the load: it drives, and must still be pushed."""
-    if not loaded.frictions or not moved:
+    movement = loaded.movement
+    if not loaded.frictions or len(movement.rates) != 1:
         return []
+    ((moved, rate),) = movement.rates.items()
     motion = poses.motion
     free = poses.full(by_work(poses, loaded, moved))
     with np.errstate(invalid="ignore"):
-        mask = (free * loaded.sense < 0.0) & (drives[moved] * loaded.sense > 0.0)
+        mask = (free * rate < 0.0) & (drives[moved] * rate > 0.0)
     if not mask.any():
         return []
     where = where_words(motion.plan, mask, motion.strokes)
-    return [f"Self-locking while {direction} {where}: friction holds the load, which would move {moved} without it; the drive must help."]
+    held = f"friction holds the load, which would move {moved} without it; the drive must help"
+    return [f"Self-locking while {movement.direction} {where}: {held}."]
+
+
+def rest_words(loaded: Loaded) -> list[str]:
+    """Return the words for dampers that give nothing, because no rates are given."""
+    if not loaded.at_rest:
+        return []
+    return [f"{', '.join(loaded.at_rest)}: at rest a damper gives nothing; give the speeds, rates=dict(S=0.05)."]
+
+

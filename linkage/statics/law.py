@@ -8,10 +8,11 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError
-from ..loads import Load
+from ..loads import Load, Push
 from ..plan import Plan
 from ..program import FloatArray, Notes
-from .loaded import Acting, Case, Chosen, Loaded, Loads, called, case_of, chosen, known_points
+from .loaded import Acting, Case, Chosen, Loaded, Loads, Pushing, called, case_of, chosen, known_points, member_name
+from .movement import AT_REST, Movement
 from .poses import Poses
 from .traced import TracedMotion
 
@@ -23,28 +24,29 @@ ONE = RLock()
 class Law:
     """The loads of a mechanism, traced on a plan's program."""
 
-    def __init__(self, motion: TracedMotion, loads: Loads, case: Case) -> None:
+    def __init__(self, motion: TracedMotion, loads: Loads, case: Case, movement: Movement) -> None:
         self.motion = motion
-        self.loaded: Loaded = traced(motion, loads, case)
+        self.loaded: Loaded = traced(motion, loads, case, movement)
         self.poses = Poses(motion, "")
 
     @classmethod
-    def of(cls, plan: Plan, loads: Loads, case: Case) -> Law:
+    def of(cls, plan: Plan, loads: Loads, case: Case, movement: Movement = AT_REST) -> Law:
         """Return the loads traced on a program that is kept for this: equal loads have equal nodes there."""
         with ONE:
             kept = plan.made(("traced loads",), lambda twin: twin)
-            return cls(TracedMotion(kept, kept.trace.view()), loads, case)
+            return cls(TracedMotion(kept, kept.trace.view()), loads, case, movement)
 
     @classmethod
-    def on(cls, plan: Plan, loads: Loads, case: Case) -> Law:
+    def on(cls, plan: Plan, loads: Loads, case: Case, movement: Movement = AT_REST) -> Law:
         """Return the loads traced on a plan's own program."""
-        return cls(TracedMotion(plan, plan.trace), loads, case)
+        return cls(TracedMotion(plan, plan.trace), loads, case, movement)
 
     @property
     def key(self) -> tuple[Any, ...]:
         """What tells these loads from others: the program, and where which nodes act."""
         acting = ((each.load.point, each.load.on, *(self.motion.node(part).number for part in each.force)) for each in self.loaded.acting)
-        return self.motion.reading.graph, *acting, *self.notes.assumed, None, *self.notes.switches
+        pushing = ((each.name, each.ends, self.motion.node(each.thrust).number) for each in self.loaded.pushing)
+        return self.motion.reading.graph, *acting, *pushing, *self.notes.assumed, None, *self.notes.switches
 
     @property
     def notes(self) -> Notes:
@@ -62,18 +64,24 @@ class Law:
         return self.motion.read | self.carriers
 
 
-def traced(motion: TracedMotion, loads: Loads, case: Case) -> Loaded:
+def traced(motion: TracedMotion, loads: Loads, case: Case, movement: Movement) -> Loaded:
     """Return the loads that act without friction, as nodes; DefinitionError, with the load's name, for a law that cannot be traced."""
     kept = chosen(motion.plan, loads, case)
-    acting = tuple(load for each in kept for load in traced_element(motion, each))
-    return Loaded(acting, (), tuple(each.element for each in kept), case_of(motion.plan, case).label, 0)
+    found = [traced_element(motion, each, movement) for each in kept]
+    acting, pushing = (tuple(one for each in found for one in each[k]) for k in (0, 1))
+    elements = tuple(each.element for each in kept)
+    return Loaded(acting, pushing, (), elements, case_of(motion.plan, case).label, movement)  # type: ignore[arg-type]
 
 
-def traced_element(motion: TracedMotion, element: Chosen) -> list[Acting]:
-    """Return the loads of one element as they act."""
+def traced_element(motion: TracedMotion, element: Chosen, movement: Movement) -> tuple[list[Acting], list[Pushing]]:
+    """Return the loads and the thrusts of one element as they act."""
     motion.notes.owner, motion.notes.tests = element.name, 0
     try:
-        found = called(element.in_case, motion, 0, element.name)
+        pushes = element.in_case.pushes(motion, movement.rates)
+        pushing = [
+            Pushing(member_name(push.member, element.name), push.member, traced_thrust(motion, push) * element.factor) for push in pushes
+        ]
+        found = [] if pushes else called(element.in_case, motion, movement.rates, element.name)
         acting = [Acting(load, traced_force(motion, load) * element.factor, element.name) for load in found]
     except Exception as error:
         raise DefinitionError(
@@ -82,7 +90,20 @@ def traced_element(motion: TracedMotion, element: Chosen) -> list[Acting]:
         ) from error
     for load in found:
         known_points(load, motion.plan, element.name)
-    return acting
+    return acting, pushing
+
+
+def traced_thrust(motion: TracedMotion, push: Push) -> FloatArray:
+    """Return a member's thrust, one traced number."""
+    motion[push.member.ends[0]], motion[push.member.ends[1]]
+    shape = np.shape(np.asarray(push.thrust, object))
+    if shape != ():
+        raise DefinitionError(
+            f"its thrust has the shape {shape}, where one number is expected; what varies over poses or designs comes from a point, "
+            "a quantity or a parameter of an element declared in the class."
+        )
+    number: FloatArray = motion.number(np.asarray(push.thrust, object)[()])
+    return number
 
 
 def traced_force(motion: TracedMotion, load: Load) -> FloatArray:

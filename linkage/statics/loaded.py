@@ -4,21 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 
 from ..errors import DefinitionError, SingularError, unknown
-from ..loads import ForceElement, Friction, Load, LoadCase
+from ..loads import Damper, ForceElement, Friction, Load, LoadCase, Rates, TwoPoint
 from ..loads import Poses as Moved
 from ..motion import Motion
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import name_of
-
-SENSES: Mapping[str, int] = MappingProxyType({"frictionless": 0, "extending": 1, "retracting": -1})
-"""Where the drive goes: its coordinate grows (a cylinder extends) or falls."""
+from .movement import Movement
 
 
 class Loading(Protocol):
@@ -52,19 +49,35 @@ class Acting:
 
 
 @dataclass(frozen=True)
+class Pushing:
+    """What a two-point member carries by a law: its name, its ends, its thrust at the poses [N] in the motion's shape."""
+
+    name: str
+    member: TwoPoint
+    thrust: FloatArray
+
+    @property
+    def ends(self) -> tuple[str, str]:
+        """The points at its ends."""
+        return self.member.ends
+
+
+@dataclass(frozen=True)
 class Loaded:
-    """All loads on a motion in one load case and one direction of motion, with the friction asked for."""
+    """All that acts on a motion in one load case and one movement: loads, members with a thrust of their own, friction."""
 
     acting: tuple[Acting, ...]
+    pushing: tuple[Pushing, ...]
     frictions: tuple[Friction, ...]
     elements: tuple[ForceElement, ...]
     case: str
-    sense: int
+    movement: Movement
+    at_rest: tuple[str, ...] = ()
 
     @property
     def points(self) -> set[str]:
         """The points that carry loads."""
-        return {each.load.point for each in self.acting}
+        return {each.load.point for each in self.acting} | {end for each in self.pushing for end in each.ends}
 
 
 class Plain(ForceElement):
@@ -82,23 +95,45 @@ class Plain(ForceElement):
         return str(self.element)
 
 
-def sense_of(direction: str) -> int:
-    """Return 1, -1 or 0 for a direction of motion."""
-    if direction not in SENSES:
-        raise unknown("Direction", direction, SENSES)
-    return SENSES[direction]
-
-
-def gathered(motion: Motion, loads: Loads, case: Case, direction: str, without: str = "") -> Loaded:
+def gathered(motion: Motion, loads: Loads, case: Case, movement: Movement, without: str = "") -> Loaded:
     """Return the loads that act; DefinitionError for what is no force element or gives no proper force."""
-    sense, label = sense_of(direction), "given loads" if case is None and loads is not None else case_of(motion.plan, case).label
+    label = "given loads" if case is None and loads is not None else case_of(motion.plan, case).label
     kept = chosen(motion.plan, loads, case, without)
     acting: list[Acting] = []
+    pushing: list[Pushing] = []
     for each in kept:
-        found = called(each.in_case, motion, sense, each.name)
+        pushes = each.in_case.pushes(motion, movement.rates)
+        pushing += [
+            Pushing(member_name(push.member, each.name), push.member, over_poses(push.thrust, motion, each.name, "thrust") * each.factor)
+            for push in pushes
+        ]
+        found = [] if pushes else called(each.in_case, motion, movement.rates, each.name)
         acting += [Acting(load, fitted(load, motion, each.name) * each.factor, each.name) for load in found]
-    frictions = tuple(friction for each in kept for friction in each.element.frictions(motion)) if sense else ()
-    return Loaded(tuple(acting), frictions, tuple(each.element for each in kept), label, sense)
+    frictions = tuple(friction for each in kept for friction in each.element.frictions(motion)) if movement.rubs else ()
+    still = tuple(each.name for each in kept if isinstance(each.element, Damper) and not movement.is_timed)
+    return Loaded(tuple(acting), tuple(pushing), frictions, tuple(each.element for each in kept), label, movement, still)
+
+
+def member_name(member: TwoPoint, owner: str) -> str:
+    """Return the name under which a two-point member is a body: its own, or that of the element which gives its thrust."""
+    return member.name or (owner if owner.isidentifier() else f"{type(member).__name__} {''.join(member.ends)}")
+
+
+def over_poses(values: Any, motion: Motion, name: str, what: str) -> FloatArray:
+    """Return numbers over the poses in the motion's shape; DefinitionError where they do not fit or are none."""
+    title = motion.plan.title
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiu":
+        raise DefinitionError(f"{title}: {name}: its {what} holds {array.dtype.name}, no real numbers.")
+    try:
+        full = np.broadcast_to(array, motion.shape)
+    except ValueError:
+        raise DefinitionError(f"{title}: {name}: its {what}, shape {array.shape}, does not fit the poses {motion.shape}.") from None
+    missing = ~np.isfinite(full) & motion.reached
+    if missing.any() and motion.unreachable == "raise":
+        text = f"{title}: {name} gives no finite {what} at {int(missing.sum())} of {missing.size} poses."
+        raise SingularError(text, mask=missing, motion=motion)
+    return np.asarray(full, float)
 
 
 def chosen(plan: Plan, loads: Loads, case: Case, without: str = "") -> list[Chosen]:
@@ -109,12 +144,12 @@ def chosen(plan: Plan, loads: Loads, case: Case, without: str = "") -> list[Chos
         if name not in known:
             raise unknown("Load", name, known, where=f"{plan.title}, {chosen.label}")
     kept = [(name, element) for name, element in present if chosen.factor(name) != 0.0 and name != without]
-    return [Chosen(name, element, element.in_gravity(chosen.down), chosen.factor(name)) for name, element in kept]
+    return [Chosen(name, element, chosen.on(element), chosen.factor(name)) for name, element in kept]
 
 
-def called(element: ForceElement, motion: Moved, sense: int, name: str) -> list[Load]:
+def called(element: ForceElement, motion: Moved, rates: Rates, name: str) -> list[Load]:
     """Return an element's loads; DefinitionError where they are no list of loads."""
-    found = element.moving(motion, sense) if sense else element.loads(motion)
+    found = element.moving(motion, rates) if rates else element.loads(motion)
     if not isinstance(found, (list, tuple)) or not all(isinstance(each, Load) for each in found):
         raise DefinitionError(f"{motion.plan.title}: {name}: loads(motion) gives {found!r}; a list of Load(point, force) is expected.")
     return list(found)

@@ -109,6 +109,13 @@ class Poses:
             self._rates[key] = self.ratio(point, drive)
         return self._rates[key]
 
+    def growth(self, P: str, Q: str, drive: str) -> FloatArray:
+        """Return how the distance of two points grows with a stroke, shape (n,); 0 where they coincide."""
+        arm = self.at(Q) - self.at(P)
+        length = np.hypot(arm[0], arm[1])
+        rate = self.rate(Q, drive) - self.rate(P, drive)
+        return np.asarray((arm * rate).sum(axis=0) / over_zero(length))
+
     def ratio(self, target: Any, drive: str) -> FloatArray:
         """Return the ratio of a point (2, n) or a quantity (n,); what is near singular has been told already."""
         with warnings.catch_warnings():
@@ -128,7 +135,13 @@ class Poses:
     def along(self, P: str, Q: str) -> FloatArray:
         """Return the direction from P to Q, of length one, shape (2, n)."""
         arm = self.at(Q) - self.at(P)
-        return np.asarray(arm / np.hypot(arm[0], arm[1]))
+        length = np.hypot(arm[0], arm[1])
+        return np.asarray(arm / over_zero(length))
+
+
+def over_zero(length: FloatArray) -> FloatArray:
+    """Return lengths to divide by, 1 in the place of none; numbers of a program as they are."""
+    return length if length.dtype == object else np.where(length == 0.0, 1.0, length)
 
 
 def left(vector: FloatArray) -> FloatArray:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol, TypeVar
 
 import numpy as np
@@ -11,10 +12,13 @@ import numpy as np
 from ..errors import DefinitionError, unknown
 from ..motion import Motion, stroke_unit
 from ..motion.reach import Mask
-from ..plan import Plan
 from ..program import FloatArray
-from ..steps import Link
 from ..units import kN
+from .bodies import FRAME_NAME
+from .loaded import Acting, Loaded
+from .poses import Poses
+from .structure import Structure
+from .work import gap
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,21 +55,23 @@ class JointForce:
 class PinForces:
     """All joint forces of a motion in one load case and one direction of motion; shapes (2, ...) and (...).
 
-    `drives` are the thrusts [N] and torques [Nm] by stroke, `residual` the largest imbalance of any body over the largest force,
-    `gap` the largest difference to the drive's force by virtual work over the works of the loads (NaN with friction).
-    `remarks` say in words where friction locks the mechanism; there the forces are NaN, and `locked` is true.
+    `drives` are the generalised forces of the strokes [N or Nm], `thrusts` what each driven length and each two-point element carries
+    [N], positive where it pushes its ends apart. `remarks` say in words where friction locks the mechanism (there the forces are NaN,
+    and `locked` is true) and which dampers stand still.
     """
 
     motion: Motion
     joints: tuple[JointForce, ...]
     drives: Mapping[str, FloatArray]
-    on_bodies: Mapping[str, Mapping[str, FloatArray]]
+    thrusts: Mapping[str, FloatArray]
     case: str
     direction: str
-    residual: float
-    gap: float
     locked: Mask
     remarks: tuple[str, ...]
+    _poses: Poses
+    _loaded: Loaded
+    _loads: tuple[tuple[str, Acting], ...]
+    _structure: Structure
 
     def at(self, point: str) -> tuple[JointForce, ...]:
         """Return the joints at a point."""
@@ -74,35 +80,77 @@ class PinForces:
     def force(self, point: str, on: str = "") -> FloatArray:
         """Return the force at a point on a body from the other one, shape (2, ...) [N].
 
-        Where several joints meet, `on` says on which body it acts, by its points or its link's name; DefinitionError where that
-        leaves a choice.
+        Where several joints meet, `on` says on which body it acts: by its points, its link's or its element's name; DefinitionError
+        where that leaves a choice.
         """
-        joint, sign = met(self.joints, point, body_named(self.motion.plan, on), self.motion.plan.title)
+        joint, sign = met(self.joints, point, self.body_named(on), self.motion.plan.title)
         return sign * joint.force
 
     def on_body(self, name: str) -> Mapping[str, FloatArray]:
         """Return all forces on a body by the point they act at, joints and loads, shape (2, ...) [N]: they balance (for FEM)."""
-        found = body_named(self.motion.plan, name)
+        found = self.body_named(name)
         if found not in self.on_bodies:
             raise unknown("Body", name, self.on_bodies, where=self.motion.plan.title)
         return self.on_bodies[found]
+
+    def body_named(self, name: str) -> str:
+        """Return a body's name for what it goes by; else the name as given."""
+        return self._structure.called(name)
+
+    @cached_property
+    def on_bodies(self) -> Mapping[str, Mapping[str, FloatArray]]:
+        """All forces by the body and the point they act at."""
+        found: dict[str, dict[str, FloatArray]] = {name: {} for name in self._structure.bodies}
+
+        def add(body: str, point: str, force: FloatArray) -> None:
+            there = found.setdefault(body, {})
+            there[point] = there[point] + force if point in there else force
+
+        for joint in self.joints:
+            add(joint.on, joint.point, joint.force)
+            add(joint.by, joint.point, -joint.force)
+        for body, load in self._loads:
+            add(body, load.load.point, load.force)
+        return found
+
+    @cached_property
+    def residual(self) -> float:
+        """The largest imbalance of forces or moments of any body over the largest force, at the worst pose."""
+        return residual(self)
+
+    @cached_property
+    def gap(self) -> float:
+        """The largest difference of the drives' forces to those by virtual work, over the works of the loads; NaN with friction."""
+        return gap(self._poses, self._loaded, self.drives)
 
     def __str__(self) -> str:
         head = f"{self.motion.plan.title}, {self.case}, {self.direction}"
         units = {name: "Nm" if stroke_unit(self.motion.plan, name) == "rad" else "N" for name in self.drives}
         lines = [f"  {name}: {spoken(values, units[name])}" for name, values in self.drives.items()]
+        lines += [f"  thrust of {name}: {spoken(values, 'kN')}" for name, values in self.thrusts.items()]
         lines += [f"  {each}: {spoken(each.size, 'kN') if each.has_force else spoken(each.couple, 'Nm')}" for each in self.joints]
-        gap = "" if np.isnan(self.gap) else f"; against virtual work {self.gap:.0e}"
-        return "\n".join([head, *lines, f"  residual of equilibrium {self.residual:.0e}{gap}", *(f"  {each}" for each in self.remarks)])
+        against = "" if np.isnan(self.gap) else f"; against virtual work {self.gap:.0e}"
+        return "\n".join([head, *lines, f"  residual of equilibrium {self.residual:.0e}{against}", *(f"  {each}" for each in self.remarks)])
 
 
-def body_named(plan: Plan, name: str) -> str:
-    """Return a body's name as the forces have it, for its link's name (`arm`) or some of its points (`O B`); else the name as given."""
-    bodies = {each.name: set(each.points) for each in plan.links} | {bar.P + bar.Q: {bar.P, bar.Q} for bar in plan.cylinders}
-    link = plan.of_kind(Link).get(name)
-    points = set(link.point_names if link else name.split())
-    found = [each for each, its in bodies.items() if len(points) > 1 and points <= its]
-    return found[0] if name not in bodies and len(found) == 1 else name
+def residual(found: PinForces) -> float:
+    """Return the largest imbalance of any body over the largest force there is, at the worst pose; moments over the machine's size."""
+    motion, shape = found.motion, found.motion.shape
+    places = {point: motion[point] for point in motion.plan.points}
+    extent = max((float(np.nanmax(place, initial=0.0) - np.nanmin(place, initial=0.0)) for place in places.values()), default=1.0) or 1.0
+    sums: dict[str, FloatArray] = {}
+    largest = np.zeros(shape)
+    acting = [(each.on, each.point, each.force, each.couple) for each in found.joints]
+    acting += [(each.by, each.point, -each.force, -each.couple) for each in found.joints]
+    acting += [(body, load.load.point, load.force, np.zeros(())) for body, load in found._loads]
+    for body, point, force, couple in acting:
+        moment = (places[point][0] * force[1] - places[point][1] * force[0] + couple) / extent
+        row = np.stack(np.broadcast_arrays(*force, moment))
+        sums[body] = sums[body] + row if body in sums else row
+        largest = np.maximum(largest, np.hypot(force[0], force[1]))
+    bodies = [np.abs(rows[: 2 if body.startswith("pin ") else 3]).max(axis=0) for body, rows in sums.items() if body != FRAME_NAME]
+    worst = np.max(bodies, axis=0, initial=0.0) if bodies else np.zeros(shape)
+    return float(np.nanmax(worst / np.where(largest > 0.0, largest, 1.0), initial=0.0))
 
 
 class Joint(Protocol):

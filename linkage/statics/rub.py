@@ -11,11 +11,11 @@ from ..loads import Friction
 from ..program import FloatArray
 from .bodies import FRAME
 from .contacts import Contact, Wrench, direction
+from .movement import Movement
 from .poses import Poses, cross, left
 from .structure import Structure
 from .system import Column
 
-PINS, GUIDES = ("pin",), ("guide", "driven", "slider", "slot")
 STILL = 1e-10  # relative turning below this part of the largest in the mechanism is none
 
 
@@ -29,10 +29,19 @@ class Rub:
 
 
 class Rates:
-    """How bodies turn and points slide while one drive moves by one unit."""
+    """How bodies turn and points slide while strokes move."""
 
-    def __init__(self, structure: Structure, poses: Poses, drive: str) -> None:
-        self.structure, self.poses, self.drive = structure, poses, drive
+    def __init__(self, structure: Structure, poses: Poses, movement: Movement) -> None:
+        self.structure, self.poses = structure, poses
+        self.rates = {name: poses.flat(rate) for name, rate in movement.rates.items()}
+        self._points: dict[str, FloatArray] = {}
+
+    def rate(self, point: str) -> FloatArray:
+        """Return a point's velocity, shape (2, n) [m/s, or per unit of what moves]."""
+        if point not in self._points:
+            parts = [self.poses.rate(point, name) * rate for name, rate in self.rates.items()]
+            self._points[point] = sum(parts, np.zeros((2, self.poses.count)))
+        return self._points[point]
 
     def axis(self, body: int) -> tuple[str, str] | None:
         """Return the two points farthest apart that turn with a body; None where it does not turn."""
@@ -49,7 +58,7 @@ class Rates:
         if axis is None:
             return np.zeros(self.poses.count)
         arm = self.poses.at(axis[1]) - self.poses.at(axis[0])
-        rate = self.poses.rate(axis[1], self.drive) - self.poses.rate(axis[0], self.drive)
+        rate = self.rate(axis[1]) - self.rate(axis[0])
         return np.asarray(cross(arm, rate) / (arm[0] ** 2 + arm[1] ** 2))
 
     def moves(self, body: int, place: FloatArray) -> FloatArray:
@@ -58,22 +67,23 @@ class Rates:
             return np.zeros((2, self.poses.count))
         bodies = len(self.structure.parts)
         start = self.structure.parts[body].points[0] if body < bodies else self.structure.lone[body - bodies]
-        return self.poses.rate(start, self.drive) + left(place - self.poses.at(start)) * self.spin(body)
+        return self.rate(start) + left(place - self.poses.at(start)) * self.spin(body)
 
 
-def rubs(structure: Structure, poses: Poses, frictions: tuple[Friction, ...], drive: str, sense: int) -> list[Rub]:
-    """Return the rubbing joints while a drive goes on or back."""
-    rates = Rates(structure, poses, drive)
+def rubs(structure: Structure, poses: Poses, frictions: tuple[Friction, ...], movement: Movement) -> list[Rub]:
+    """Return the rubbing joints while strokes move."""
+    rates = Rates(structure, poses, movement)
     found: list[Rub] = []
     for friction in frictions:
-        law, kinds = (turning, PINS) if friction.radius is not None else (sliding, GUIDES)
-        there = [each for each in structure.contacts if each.kind in kinds and each.point == friction.point]
-        chosen = [each for each in there if not friction.guide or friction.guide in (*each.line, each.step)]
+        turns = friction.radius is not None
+        law = turning if turns else sliding
+        there = [each for each in structure.contacts if each.point == friction.point and (each.kind == "pin" if turns else each.slides)]
+        chosen = [each for each in there if not friction.guide or each.goes_by(friction.guide)]
         if not chosen:
             what = "no pin joint" if friction.radius is not None else f"nothing that slides on {friction.guide or 'a guide'}"
             text = f"{structure.plan.title}: there is {what} at {friction.point}: no friction arises; {remedy(structure, friction)}."
             raise DefinitionError(text)
-        found += [law(contact, friction, rates, sense) for contact in chosen]
+        found += [law(contact, friction, rates) for contact in chosen]
     return found
 
 
@@ -84,10 +94,10 @@ def remedy(structure: Structure, friction: Friction) -> str:
     return f"declare the block that slides there as a body, Link of {friction.point} and a second point on the guide"
 
 
-def turning(contact: Contact, friction: Friction, rates: Rates, sense: int) -> Rub:
+def turning(contact: Contact, friction: Friction, rates: Rates) -> Rub:
     """Return the friction of a pin: a couple against the turning of its bodies."""
     poses = rates.poses
-    rate = (rates.spin(contact.on) - rates.spin(contact.by)) * sense
+    rate = rates.spin(contact.on) - rates.spin(contact.by)
     largest = max(float(np.max(np.abs(rates.spin(body)), initial=0.0)) for body in range(FRAME, len(rates.structure.parts)))
     sign = np.where(np.abs(rate) > STILL * largest, np.sign(rate), 0.0)
     radius = poses.flat(friction.radius)
@@ -95,14 +105,14 @@ def turning(contact: Contact, friction: Friction, rates: Rates, sense: int) -> R
     return Rub(Column(contact, wrench), poses.flat(friction.coefficient), radius * np.abs(rate))
 
 
-def sliding(contact: Contact, friction: Friction, rates: Rates, sense: int) -> Rub:
+def sliding(contact: Contact, friction: Friction, rates: Rates) -> Rub:
     """Return the friction on a guide: a force along it against the sliding."""
     poses = rates.poses
     t, place = direction(contact, poses), poses.at(contact.point)
-    point, by = poses.rate(contact.point, rates.drive), rates.moves(contact.by, place)
+    point, by = rates.rate(contact.point), rates.moves(contact.by, place)
     if contact.kind == "slot":
         point, by = rates.moves(contact.on, place), point
-    rate = ((point - by) * t).sum(axis=0) * sense
+    rate = ((point - by) * t).sum(axis=0)
     size = np.abs(point).max(axis=0) + np.abs(by).max(axis=0)
     sign = np.where(np.abs(rate) > STILL * size, np.sign(rate), 0.0)
     return Rub(Column(contact, Wrench(place, -t * sign, np.zeros(poses.count))), poses.flat(friction.coefficient), np.abs(rate))

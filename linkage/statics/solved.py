@@ -44,15 +44,38 @@ class Solved:
         return force, couple
 
 
-def solve(poses: Poses, loaded: Loaded, moved: str, split: str = "refuse") -> Solved:
-    """Return the joint forces of a loaded motion while one stroke moves."""
-    return consistent(Equations(*prepared(poses, loaded, moved), split))
+def solve(poses: Poses, loaded: Loaded, split: str = "refuse") -> Solved:
+    """Return the joint forces of a loaded motion."""
+    system, rubbing = prepared(poses, loaded)
+    found = consistent(Equations(system, rubbing, split, tuple(system.known())))
+    pulled = pulling(found)
+    if not pulled.any():
+        return found
+    other = consistent(Equations(system, rubbing, split, tuple(system.known(-1))))
+    return chosen(pulled, other, found)
 
 
-def prepared(poses: Poses, loaded: Loaded, moved: str) -> tuple[System, list[Rub]]:
+def pulling(solved: Solved) -> Mask:
+    """Return the poses where a line of several cylinders, one of which works with both sides, pulls with its first (n,)."""
+    system = solved.system
+    mask = np.zeros(system.poses.count, bool)
+    for line in system.structure.holding.lines:
+        if len(line.cylinders) > 1 and any(each.works_both for each in line.cylinders):
+            first = next(each for each in system.structure.struts if each.line is line)
+            mask |= solved.value(system.thrust(first)) < 0.0
+    return mask
+
+
+def chosen(mask: Mask, there: Solved, else_: Solved) -> Solved:
+    """Return one solution where a mask (n,) holds, the other one elsewhere."""
+    u, q = (np.where(mask[:, None], a, b) for a, b in ((there.u, else_.u), (there.q, else_.q)))
+    return Solved(else_.system, u, q, np.where(mask, there.locked, else_.locked), else_.rubbing)
+
+
+def prepared(poses: Poses, loaded: Loaded) -> tuple[System, list[Rub]]:
     """Return the equations' system and its rubbing joints."""
-    structure = Structure(poses.plan, loaded.elements)
-    rubbing = rubs(structure, poses, loaded.frictions, moved, loaded.sense) if loaded.frictions else []
+    structure = Structure(poses.plan, loaded.elements, loaded.pushing)
+    rubbing = rubs(structure, poses, loaded.frictions, loaded.movement) if loaded.frictions else []
     return System(structure, poses, loaded.acting, tuple(rub.column for rub in rubbing)), rubbing
 
 
@@ -73,31 +96,3 @@ def joint_forces(solved: Solved) -> tuple[JointForce, ...]:
         on, by = structure.name(contact.on), structure.name(contact.by)
         found.append(JointForce(contact.point, on, by, contact.kind, full(force), full(couple), axis))
     return tuple(found)
-
-
-def on_bodies(solved: Solved) -> dict[str, dict[str, FloatArray]]:
-    """Return all forces on each body by the point they act at, joints and loads, in the motion's shape."""
-    structure, full = solved.system.structure, solved.system.poses.full
-    found: dict[str, dict[str, FloatArray]] = {structure.name(body): {} for body in range(-1, len(structure.parts))}
-
-    def add(body: int, point: str, force: FloatArray) -> None:
-        there = found.setdefault(structure.name(body), {})
-        there[point] = there.get(point, np.zeros_like(force)) + force
-
-    for contact in structure.contacts:
-        force, _ = solved.transmitted(contact)
-        add(contact.on, contact.point, full(force))
-        add(contact.by, contact.point, -full(force))
-    for body, each, wrench in solved.system.loads:
-        add(body, each.load.point, full(wrench.force))
-    return found
-
-
-def residual(solved: Solved) -> float:
-    """Return the largest imbalance of any body over the largest force, at the worst pose."""
-    system = solved.system
-    u = solved.u[:, : system.width]
-    rows = (system.A @ u[:, :, None])[:, :, 0] + (system.B @ solved.q[:, :, None])[:, :, 0] + system.load_rows
-    size = np.maximum(np.abs(u).max(axis=1, initial=0.0), np.abs(system.load_rows).max(axis=1, initial=0.0))
-    worst = np.abs(rows).max(axis=1, initial=0.0) / np.where(size > 0.0, size, 1.0)
-    return float(np.nanmax(worst, initial=0.0))

@@ -2,34 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 
 from ..errors import DefinitionError, unknown
 from ..loads import ForceElement, Load
 from ..plan import Plan
-from ..quantities import Quantity, name_of
-from ..steps import Crank, Guide, OnGuide, OnLink, PinSlotDyad, Slide, YokeDyad
-from .bodies import FRAME, FRAME_NAME, blocks, frame_points, parts, upright
+from ..quantities import Joint, JointSide, Quantity
+from ..steps import Guide
+from .bodies import FRAME, FRAME_NAME, Strut, blocks, frame_points, parts, refuse_driven
 from .contacts import Contact
-from .coordinates import replaced
-from .turns import measured_from
+from .holding import Holding, holding_of
+from .loaded import Pushing
+from .turns import drives_of, measured_from
 
 
 class Structure:
     """Bodies, lone pins and contacts of a plan. An index -1 is the frame; lone pins come after the bodies."""
 
-    def __init__(self, plan: Plan, elements: Iterable[ForceElement] = ()) -> None:
+    def __init__(self, plan: Plan, elements: Iterable[ForceElement] = (), pushing: Sequence[Pushing] = ()) -> None:
         self.plan = plan
         self.fixed = frame_points(plan)
         elements = tuple(elements)
-        bodies, self.rams = parts(plan, elements)
-        self.blocks = blocks(plan, elements, bodies, (point for point, _ in self.slides()))
+        self.holding: Holding = holding_of(plan, elements)
+        bodies, self.struts = parts(plan, self.holding, pushing)
+        sliding = dict.fromkeys((joint.point, plan.track(joint)) for _, joint in plan.joints if joint.kind == "guide")
+        self.blocks = blocks(plan, elements, bodies, (point for point, _ in sliding))
         self.parts = (*self.blocks, *bodies)
-        self.coordinates = replaced(plan, sum(ram.quantity is None for ram in self.rams))
-        slid = [point for point, _ in self.slides()] + list(plan.of_kind(OnGuide))
-        self.lone = tuple(dict.fromkeys(point for point in slid if not self.owners(point)))
-        self.contacts = (*self.pins(), *self.guides(), *self.yokes(), *self.driven(), *self.cranks(), *self.telescopes(), *self.uprights())
+        tracked = [joint.point for _, joint in plan.joints if joint.track and joint.on.role == "runner"]
+        self.lone = tuple(dict.fromkeys(point for point in tracked if not self.owners(point)))
+        self.contacts = (*self.pins(), *self.joints())
 
     # -- who owns what -------------------------------------------------------------------------------------
 
@@ -58,7 +60,14 @@ class Structure:
         """Return the body that a load acts on."""
         if load.point not in self.plan.points:
             raise unknown("Point", load.point, self.plan.points, where=self.plan.title)
-        return self.carrier(load.on[0], load.on[1], "a load") if len(load.on) > 1 else self.holder(load.point)
+        if len(load.on) == 1:
+            return self.index(load.on[0])
+        return self.carrier(load.on[0], load.on[1], "a load") if load.on else self.holder(load.point)
+
+    def body_of(self, strut: Strut) -> int:
+        """Return the body that a two-point member is, or is part of."""
+        name = strut.host or strut.name
+        return next(index for index, part in enumerate(self.parts) if part.name == name and {strut.P, strut.Q} <= set(part.points))
 
     def name(self, index: int) -> str:
         """Return a body's name."""
@@ -66,13 +75,35 @@ class Structure:
             return FRAME_NAME
         return self.parts[index].name if index < len(self.parts) else f"pin {self.lone[index - len(self.parts)]}"
 
+    @cached_property
+    def names(self) -> dict[str, str]:
+        """The names of all bodies by what they go by: their own, their link's, their points; not what several go by."""
+        found: dict[str, str] = {}
+        labels = [(part.label, part.name) for part in self.parts if part.label]
+        for label, name in labels:
+            if [each for each, _ in labels].count(label) == 1:
+                found[label] = name
+        return found | {self.name(index): self.name(index) for index in range(FRAME, len(self.parts) + len(self.lone))}
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """The names of the frame and of all bodies."""
+        return tuple(self.name(body) for body in range(FRAME, len(self.parts)))
+
+    def called(self, name: str) -> str:
+        """Return a body's name for what it goes by: its own, its link's, its points, or two or more of them (`O B`); else as given."""
+        if name in self.names:
+            return self.names[name]
+        points = set(name.split())
+        found = [part.name for part in self.parts if len(points) > 1 and points <= set(part.points)]
+        return found[0] if len(found) == 1 else name
+
     def index(self, name: str) -> int:
-        """Return a body by its name or its link's; DefinitionError for any other."""
-        names = {part.label: index for index, part in enumerate(self.parts) if part.label}
-        names |= {self.name(index): index for index in range(FRAME, len(self.parts) + len(self.lone))}
-        if name not in names:
-            raise unknown("Body", name, names, where=self.plan.title)
-        return names[name]
+        """Return a body by its name, its link's or its points; DefinitionError for any other."""
+        if name not in self.names:
+            raise unknown("Body", name, self.names, where=self.plan.title)
+        indices = {self.name(index): index for index in range(FRAME, len(self.parts) + len(self.lone))}
+        return indices[self.names[name]]
 
     # -- contacts ------------------------------------------------------------------------------------------
 
@@ -82,45 +113,58 @@ class Structure:
             first, *others = self.owners(point) or [FRAME]
             yield from (Contact("pin", point, other, first) for other in others)
 
-    def slides(self) -> dict[tuple[str, tuple[str, ...]], str]:
-        """Return the points that run on guides and slots: (point, the line's points or the guide's name) with what declares it."""
-        found: dict[tuple[str, tuple[str, ...]], str] = {}
-        pairs = [pair for name, step in self.plan.points.items() if name not in self.apart for pair in step.slides()]
-        pairs += [(name_of(slide.point), name_of(slide.guide)) for slide in self.plan.of_kind(Slide).values()]
-        for point, name in pairs:
-            found.setdefault((point, self.line_of(name)), name)
-        for name, step in self.plan.of_kind(PinSlotDyad).items():
-            self.refuse_driven(step.offset, f"{step.sentence()}: its offset")
-            for pin, P, X in step.pin_slots():
-                found.setdefault((pin, tuple(sorted((P, X)))), name)
-        return found
+    def joints(self) -> Iterator[Contact]:
+        """Yield what the steps, guides and slides hold: equal slides once, of drives that a cylinder replaces what is left."""
+        seen: set[tuple[str, tuple[str, ...]]] = set()
+        for name, joint in sorted(self.plan.joints, key=lambda each: ORDER.get(each[1].kind, len(ORDER))):
+            track = self.plan.track(joint)
+            holds, kind = self.left(joint), joint.kind
+            if joint.on.role == "slider" and joint.on.points[0] in self.fixed:
+                continue
+            if track and kind in ("guide", "driven"):
+                if (joint.point, track) in seen:
+                    continue
+                seen.add((joint.point, track))
+            if not holds:
+                continue
+            refuse_driven(self.plan, joint.still)
+            on, by = self.side(joint.on, joint, name), self.side(joint.by, joint, name)
+            if kind == "driven" and "t" not in holds:
+                kind = "guide"
+            if kind == "guide" and 0 <= on < len(self.blocks):
+                kind, holds = "slider", holds + "c"
+            if kind == "crank" and (base := measured_from(self.plan, joint, name)) is not None:
+                by = self.carrier(*base, name)
+            yield Contact(kind, joint.point, on, by, holds, name, joint, track)
+
+    def left(self, joint: Joint) -> str:
+        """Return what a joint still holds when cylinders have taken over strokes."""
+        gone = [letter for letter in joint.holds if (strokes := self.strokes_of(joint, letter)) and strokes <= self.holding.taken]
+        return "".join(letter for letter in joint.holds if letter not in gone)
+
+    def strokes_of(self, joint: Joint, letter: str) -> set[str]:
+        """Return the strokes that drive a joint along one of its letters."""
+        reached = [self.plan.reaches(drive.quantity.name or drive.quantity) for drive in joint.drives if drive.along == letter]
+        return set[str]().union(*reached) & set(self.plan.strokes)
+
+    def side(self, side: JointSide, joint: Joint, owner: str) -> int:
+        """Return the body that one side of a joint names."""
+        if side.role == "guide":
+            return self.guide_carrier(self.plan.of_kind(Guide)[side.points[0]])
+        if side.role == "slider":
+            return self.slider(side.points[0])
+        if side.role == "runner":
+            return self.runner(side.points[0], self.plan.track(joint))
+        if not side.points:
+            return FRAME
+        if joint.arm and side is joint.on:
+            return next(index for index, part in enumerate(self.parts) if owner in part.points)
+        return self.holder(side.points[0]) if len(side.points) == 1 else self.carrier(side.points[0], side.points[1], owner)
 
     @cached_property
     def running(self) -> set[tuple[str, tuple[str, ...]]]:
         """The points that run on guides and slots, the driven ones too, each with its line."""
-        driven = {(name, self.line_of(name_of(step.guide))) for name, step in self.plan.of_kind(OnGuide).items()}
-        return driven | set(self.slides())
-
-    def line_of(self, name: str) -> tuple[str, ...]:
-        """Return a guide's two points, or its name."""
-        guide = self.plan.members[name]
-        assert isinstance(guide, Guide)
-        return tuple(sorted(guide.points)) if guide.Q is not None else (name,)
-
-    @cached_property
-    def apart(self) -> set[str]:
-        """The points whose guides are not plain slides."""
-        return {*self.plan.of_kind(OnGuide), *self.plan.of_kind(YokeDyad)}
-
-    def guides(self) -> Iterator[Contact]:
-        """Yield the plain slides: a normal force on the point from the body that carries the guide; on a block also a couple."""
-        for (point, line), name in self.slides().items():
-            guide, on = self.plan.members[name], self.runner(point, line)
-            kind = "slider" if 0 <= on < len(self.blocks) else "guide"
-            if isinstance(guide, PinSlotDyad):
-                yield Contact(kind, point, on, self.carrier(guide.P, guide.X, name), (guide.P, guide.X), name)
-            elif isinstance(guide, Guide):
-                yield Contact(kind, point, on, self.guide_carrier(guide), guide.points if len(line) == 2 else line, name)
+        return {(joint.point, self.plan.track(joint)) for _, joint in self.plan.joints if joint.track and joint.on.role == "runner"}
 
     def runner(self, point: str, line: tuple[str, ...]) -> int:
         """Return the body that a guide or slot holds at a point: one that runs on it with two points, else the carrier of the pin."""
@@ -132,7 +176,7 @@ class Structure:
     def guide_carrier(self, guide: Guide) -> int:
         """Return the body that a guide belongs to."""
         if guide.angle is not None:
-            self.refuse_driven(guide.angle, f"{guide.name} = {guide}: its angle")
+            refuse_driven(self.plan, ((guide.angle, f"{guide.name} = {guide}: its angle"),))
         if len(guide.points) == 2:
             return self.carrier(guide.points[0], guide.points[1], f"{guide.name} = {guide}")
         moving = [point for point in guide.points if point not in self.fixed]
@@ -142,48 +186,16 @@ class Structure:
         """Return the body at a point that moves without turning."""
         return next(index for index, part in enumerate(self.parts) if part.points == (point,) and part.slides)
 
-    def yokes(self) -> Iterator[Contact]:
-        """Yield the joints of sliders with a cross slot: guided without turning, and the pin in the slot."""
-        for name, step in self.plan.of_kind(YokeDyad).items():
-            self.refuse_driven(step.angle, f"{step.sentence()}: its angle")
-            slider = self.slider(name)
-            guide = self.plan.members[step.guide]
-            assert isinstance(guide, Guide)
-            yield Contact("slider", name, slider, self.guide_carrier(guide), (step.guide,), name)
-            yield Contact("slot", step.P, slider, self.holder(step.P), (), name)
+    # -- drives --------------------------------------------------------------------------------------------
 
-    def driven(self) -> Iterator[Contact]:
-        """Yield the points that are driven along a guide."""
-        for name, step in self.plan.of_kind(OnGuide).items():
-            guide = self.plan.members[name_of(step.guide)]
-            assert isinstance(guide, Guide)
-            on = self.runner(name, self.line_of(guide.name))
-            yield Contact("guide" if name in self.coordinates else "driven", name, on, self.guide_carrier(guide), (guide.name,), name)
+    def driven(self, contact: Contact) -> Iterator[tuple[Quantity, str, float]]:
+        """Yield what a contact drives: the quantity, the letter of the force that is conjugate to it, and its sign."""
+        joint = contact.joint
+        for drive in joint.drives if joint is not None else ():
+            if drive.along in contact.holds and drive.along:
+                terms = drives_of(self.plan, drive.quantity) if drive.along == "c" and contact.kind == "crank" else [(1.0, drive.quantity)]
+                yield from ((term, drive.along, drive.sign * sign) for sign, term in terms)
 
-    def cranks(self) -> Iterator[Contact]:
-        """Yield the drives that turn a link against the frame."""
-        for name, step in self.plan.of_kind(Crank).items():
-            if name in self.coordinates:
-                continue
-            base = measured_from(self.plan, step)
-            by = self.carrier(*base, step.sentence()) if base else FRAME
-            yield Contact("crank", step.P, self.carrier(step.P, name, step.sentence()), by, (), name)
 
-    def uprights(self) -> Iterator[Contact]:
-        """Yield what keeps the carriers of guides through moving points from turning."""
-        for point in upright(self.plan, self.fixed):
-            yield Contact("upright", point, self.slider(point), FRAME)
-
-    def telescopes(self) -> Iterator[Contact]:
-        """Yield the driven arms of bodies: they hold each other along, across and against turning."""
-        for name in self.plan.telescopes:
-            step = self.plan.members[name]
-            assert isinstance(step, OnLink)
-            arm = next(index for index, part in enumerate(self.parts) if name in part.points)
-            yield Contact("telescope", step.P, arm, self.carrier(step.P, step.Q, step.sentence()), (), name)
-
-    def refuse_driven(self, quantity: Quantity, what: str) -> None:
-        """Raise DefinitionError for a drive whose force is not provided."""
-        if self.plan.moves(quantity):
-            provided = "forces are provided for driven lengths, cranks, OnGuide and OnLink"
-            raise DefinitionError(f"{self.plan.title}: {what} follows a stroke; {provided}.")
+#: The order in which joints are listed, after the pins.
+ORDER = {kind: place for place, kind in enumerate(("guide", "slider", "slot", "driven", "crank", "telescope", "upright"))}

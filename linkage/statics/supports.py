@@ -2,26 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError, unknown
+from ..errors import DefinitionError, unknown
 from ..loads import Support
 from ..motion import Motion
-from ..motion.reach import where_words
 from ..program import FloatArray
 from ..quantities import name_of, real
 from .balance import Equations
 from .contacts import Wrench
-from .drives import cut, drive_of
+from .drives import cut
 from .forces import locked_words
 from .loaded import Case, Loaded, Loads, gathered
+from .movement import drive_of, movement_of
 from .poses import Poses
+from .quotients import quotient
 from .solved import consistent, prepared
 from .work import by_work
-
-LOST = 1e-12  # a support that moves less than this part of what its point moves does not feel the drive
 
 
 def reaction(
@@ -29,22 +29,24 @@ def reaction(
     loads: Loads = None,
     support: Support | str | None = None,
     *,
-    thrust: Any = 0.0,
+    drive_force: Any = 0.0,
     drive: str | None = None,
     case: Case = None,
     direction: str = "frictionless",
+    rates: Mapping[str, Any] | None = None,
 ) -> FloatArray:
     """Return the force of a support along its direction, shape (...) [N], when the drive's force is known.
 
-    `thrust` [N or Nm] is the drive's own force, a number or an array over the motion; leave it 0 where a load along the
-    cylinder stands for it. The machine's only Support is meant unless one is given; its own `force` does not count. With
-    several strokes `drive` names the one that the support balances; the others stand still. Raises SingularError where
-    the support's point does not move along its direction with the drive.
+    `drive_force` [N or Nm] is the drive's own, as `driving_force` counts it, a number or an array over the motion; leave it 0 where
+    an element such as a charged line stands for it. The machine's only Support is meant unless one is given; its own `force` does
+    not count. With several strokes `drive` names the one that the support balances; the others stand still. Raises SingularError
+    where the support's point does not move along its direction with the drive.
     """
     name, held = support_of(motion, support)
-    stroke, loaded = drive_of(motion.plan, drive), gathered(motion, loads, case, direction, without=name)
+    stroke = drive_of(motion.plan, drive)
+    loaded = gathered(motion, loads, case, movement_of(motion, direction, rates, stroke), without=name)
     poses = Poses(motion, f"The reaction of {name}")
-    known = poses.flat(thrust_over(motion, thrust))
+    known = poses.flat(known_force(motion, drive_force))
     lever = felt(poses, held, stroke, name)
     if not loaded.frictions:
         return poses.full((by_work(poses, loaded, stroke) - known) / lever)
@@ -65,36 +67,35 @@ def support_of(motion: Motion, support: Support | str | None) -> tuple[str, Supp
     return support, own[support]
 
 
-def thrust_over(motion: Motion, thrust: Any) -> FloatArray:
-    """Return a known thrust in the motion's shape; DefinitionError where it does not fit."""
+def known_force(motion: Motion, drive_force: Any) -> FloatArray:
+    """Return a known force of a drive in the motion's shape; DefinitionError where it does not fit or is not finite."""
     try:
-        return np.asarray(np.broadcast_to(real(thrust), motion.shape))
+        known = np.asarray(np.broadcast_to(real(drive_force), motion.shape))
     except ValueError:
-        raise DefinitionError(f"thrust={thrust!r}: a number or an array that fits the poses {motion.shape} is expected.") from None
+        what = f"a number or an array that fits the poses {motion.shape} is expected"
+        raise DefinitionError(f"drive_force={drive_force!r}: {what}.") from None
+    if not np.all(np.isfinite(known[motion.reached])):
+        raise DefinitionError(f"drive_force={drive_force!r} is not finite at every pose; give numbers in N or Nm.")
+    return known
 
 
 def felt(poses: Poses, support: Support, drive: str, name: str) -> FloatArray:
     """Return how far the support's point moves along its direction on a unit of the stroke, shape (n,); SingularError where it does not."""
-    rate = poses.rate(name_of(support.point), drive)
+    point = name_of(support.point)
+    rate = poses.rate(point, drive)
     along = (rate * support.unit[:, None]).sum(axis=0)
-    blind = np.abs(along) <= LOST * np.hypot(rate[0], rate[1])
-    if blind.any():
-        motion, mask = poses.motion, poses.full(blind.astype(float)) == 1.0
-        where = where_words(motion.plan, mask, motion.strokes)
-        what = f"{name}: its point {name_of(support.point)} does not move along its direction with {drive}"
-        text = f"{what} {where}: no reaction balances the thrust there."
-        if motion.unreachable == "raise":
-            raise SingularError(text, mask=mask, motion=motion)
-    return np.where(blind, np.nan, along)
+    what = f"{name}: its point {point} does not move along its direction with {drive}"
+    return quotient(poses, along, np.hypot(rate[0], rate[1]), f"The reaction of {what}", "no reaction balances the drive there")
 
 
 def rubbing_reaction(poses: Poses, loaded: Loaded, support: Support, drive: str, known: FloatArray, direction: str) -> FloatArray:
     """Return the reaction at which friction, joint forces and the known drive force agree, shape (n,)."""
-    system, rubbing = prepared(poses, loaded, drive)
+    system, rubbing = prepared(poses, loaded)
     column = np.zeros((poses.count, system.height, 1))
     point = name_of(support.point)
     push = Wrench(poses.at(point), np.zeros((2, poses.count)) + support.unit[:, None], np.zeros(poses.count))
     system.put(column[:, :, 0], system.structure.holder(point), push)
-    solved = consistent(Equations(system, rubbing, bound=((cut(system, drive), known),), supports=column))
+    bound = (*system.known(), (cut(system, drive), known))
+    solved = consistent(Equations(system, rubbing, bound=bound, supports=column))
     locked_words(solved, direction)
     return solved.u[:, -1]

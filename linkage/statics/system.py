@@ -12,8 +12,10 @@ from functools import cached_property
 import numpy as np
 
 from ..program import FloatArray
-from .bodies import FRAME
+from ..quantities import Distance
+from .bodies import FRAME, Strut
 from .contacts import Contact, Wrench, wrenches
+from .holding import Line
 from .loaded import Acting
 from .poses import Poses, cross
 from .structure import Structure
@@ -142,21 +144,58 @@ class System:
 
     # -- what is read off ----------------------------------------------------------------------------------
 
-    def unknown(self, kind: str, step: str, place: int, factor: float) -> Form:
-        """Return an unknown of the contact that a step declares, times a factor."""
-        contact = next(each for each in self.structure.contacts if each.kind == kind and each.step == step)
-        row = np.zeros((self.poses.count, self.width))
-        row[:, self.first[contact] + place] = factor
-        return Form(row, np.zeros((self.poses.count, len(self.rubs))), np.zeros(self.poses.count))
+    def unknown(self, contact: Contact, letter: str, sign: float) -> Form:
+        """Return an unknown of a contact, signed; a couple in Nm."""
+        factor = sign * (self.scale if letter == "c" else 1.0)
+        row = self.poses.zeros(self.width)
+        row[:, self.first[contact] + contact.holds.index(letter)] = self.poses.motion.array(factor)
+        return Form(row, self.poses.zeros(len(self.rubs)), self.poses.zeros())
+
+    def thrust(self, strut: Strut) -> Form:
+        """Return a two-point member's thrust [N]: what pushes its far end against all that acts there."""
+        body = self.structure.body_of(strut)
+        points = self.structure.parts[body].points
+
+        def far(contact: Contact) -> bool:
+            at = contact.point if contact.point in points else next(iter(contact.track), "")
+            return at in strut.far
+
+        return self.sum_along(body, far, strut.far.__contains__, self.poses.along(strut.P, strut.Q))
+
+    def known(self, way: int = 1) -> list[tuple[Form, FloatArray]]:
+        """Return what the thrusts of members are bound to: those of a law to its value, those of one line to each other's areas.
+
+        `way` is 1 where the first cylinder of a line pushes, -1 where it pulls: it tells which side's area a cylinder works with.
+        """
+        found = [(self.thrust(each), self.poses.flat(each.pushing.thrust)) for each in self.structure.struts if each.pushing is not None]
+        for line in self.structure.holding.lines:
+            struts = [each for each in self.structure.struts if each.line is line]
+            (first, *others) = [(self.thrust(each), area) for each, area in zip(struts, areas(line, self.poses, way), strict=True)]
+            none = self.poses.zeros()
+            found += [(form.times(first[1]) + first[0].times(-1.0 * area), none) for form, area in others]
+        return found
 
     def sum_along(self, body: int, far: Callable[[Contact], bool], near: Callable[[str], bool], u: FloatArray) -> Form:
         """Return minus the forces on one side of a body along a direction u, shape (2, n): what a cut there transmits."""
-        row, rub = (np.zeros((self.poses.count, len(columns))) for columns in (self.columns, self.rubs))
+        row, rub = (self.poses.zeros(len(columns)) for columns in (self.columns, self.rubs))
         for values, columns in ((row, self.columns), (rub, self.rubs)):
             for index, column in enumerate(columns):
                 sign = float(column.contact.on == body) - float(column.contact.by == body)
                 if sign and far(column.contact):
                     values[:, index] = -sign * (column.wrench.force * u).sum(axis=0)
         pushes = [wrench.force for bearer, each, wrench in self.loads if bearer == body and near(each.load.point)]
-        rest = sum(((force * u).sum(axis=0) for force in pushes), np.zeros(self.poses.count))
+        rest = sum(((force * u).sum(axis=0) for force in pushes), self.poses.zeros())
         return Form(row, rub, -rest)
+
+
+def areas(line: Line, poses: Poses, way: int) -> list[FloatArray]:
+    """Return the thrust of each cylinder of a line at one unit of the line's pressure [m2], shape (n,).
+
+    Along the stroke that the line holds, some cylinders grow with the first and some against it: where the first one pushes
+    (`way` 1), the others drive the stroke the same way.
+    """
+    if len(line.cylinders) == 1:
+        return [np.ones(poses.count)]
+    growth = [poses.ratio(Distance(*each.ends), line.stroke) for each in line.cylinders]
+    senses = [poses.full(np.sign(rate * growth[0]) * way) for rate in growth]
+    return [poses.flat(each.area_in(poses.motion, sense)) for each, sense in zip(line.cylinders, senses, strict=True)]

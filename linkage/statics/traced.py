@@ -8,9 +8,10 @@ from typing import Any, final
 
 import numpy as np
 
+from ..errors import DefinitionError
 from ..motion.asked import named
 from ..motion.request import stroke_of
-from ..plan import Plan, Trace
+from ..plan import ArrayReading, Plan, Trace
 from ..program import FloatArray, Node, Notes, Tangent, Traced, node_of
 from ..quantities import Angle, Distance, Quantity, Reference
 from ..steps import Arrow, Point
@@ -89,6 +90,13 @@ class TracedMotion:
     def distance(self, P: Reference, Q: Reference) -> Any:
         """Return the distance of two points [m]."""
         return self.value(Distance(P, Q))
+
+    def sketched(self, quantity: Quantity) -> Any:
+        """Return what a quantity is at the sketch pose; DefinitionError where groups have to be solved for it."""
+        if self.plan.groups:
+            raise DefinitionError("it asks for the sketch pose, which groups of links have no closed form for")
+        reading = ArrayReading(self.plan.members, self.plan.table.lengths, {**self.inputs, **self.plan.sketch_strokes})
+        return reading.value(quantity)
 
     def x(self, point: str) -> Any:
         """Return a point's x coordinate [m]."""

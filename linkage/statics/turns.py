@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from ..errors import DefinitionError
 from ..plan import Plan
-from ..quantities import Angle, Negative, Quantity, Ref, Sum, name_of
-from ..steps import Crank, Point
+from ..quantities import Angle, Joint, Negative, Quantity, Ref, Sum, name_of
+from ..steps import Point
 
 
 def terms(plan: Plan, quantity: Quantity, sign: float = 1.0) -> Iterator[tuple[float, Quantity]]:
@@ -30,23 +30,25 @@ def follows_points(plan: Plan, quantity: Quantity) -> bool:
     return any(isinstance(plan.members[name], Point) and name in plan.moving for name in plan.reaches(quantity))
 
 
-def measured_from(plan: Plan, crank: Crank) -> tuple[str, str] | None:
-    """Return the two points whose direction a crank's angle is counted from; None where that is the frame.
+def measured_from(plan: Plan, joint: Joint, owner: str) -> tuple[str, str] | None:
+    """Return the two points whose direction a turned joint's angle is counted from; None where that is the frame.
 
     Raises DefinitionError for an angle that depends on moving points in another way: its torque has no one body to act against.
     """
-    moving = [(sign, term) for sign, term in terms(plan, crank.angle) if follows_points(plan, term)]
-    if not moving:
-        return None
-    (sign, term), *others = moving
-    if others or sign < 0.0 or not isinstance(term, Angle):
-        raise DefinitionError(
-            f"{plan.title}: {crank.sentence()}: for forces its angle is counted from the frame or from one body, "
-            f"such as angle(A, B) + phi; {crank.angle} is neither."
-        )
-    return name_of(term.P), name_of(term.Q)
+    for drive in joint.drives:
+        moving = [(sign, term) for sign, term in terms(plan, drive.quantity) if follows_points(plan, term)]
+        if not moving:
+            continue
+        (sign, term), *others = moving
+        if others or sign < 0.0 or not isinstance(term, Angle):
+            raise DefinitionError(
+                f"{plan.title}: {owner} = {plan.members[owner]}: for forces its angle is counted from the frame or from one body, "
+                f"such as angle(A, B) + phi; {drive.quantity} is neither."
+            )
+        return name_of(term.P), name_of(term.Q)
+    return None
 
 
-def drives_of(plan: Plan, crank: Crank) -> list[tuple[float, Quantity]]:
-    """Return the terms of a crank's angle that are not another body's direction, with their signs."""
-    return [(sign, term) for sign, term in terms(plan, crank.angle) if not follows_points(plan, term)]
+def drives_of(plan: Plan, angle: Quantity) -> list[tuple[float, Quantity]]:
+    """Return the terms of an angle that are not another body's direction, with their signs."""
+    return [(sign, term) for sign, term in terms(plan, angle) if not follows_points(plan, term)]

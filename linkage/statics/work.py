@@ -22,6 +22,10 @@ def works(poses: Poses, loaded: Loaded, drive: str) -> Iterator[FloatArray]:
     for each in loaded.acting:
         if each.load.point in poses.plan.moving:
             yield (poses.flat(each.force) * poses.rate(each.load.point, drive)).sum(axis=0)
+    for push in loaded.pushing:
+        P, Q = push.ends
+        if {P, Q} & set(poses.plan.moving):
+            yield poses.flat(push.thrust) * poses.growth(P, Q, drive)
 
 
 def rubbed(rubbing: list[Rub], q: FloatArray) -> FloatArray:
@@ -29,16 +33,25 @@ def rubbed(rubbing: list[Rub], q: FloatArray) -> FloatArray:
     return np.asarray(sum((q[:, k] * rub.rate for k, rub in enumerate(rubbing)), np.zeros(len(q))))
 
 
-def gap(poses: Poses, loaded: Loaded, drives: Mapping[str, FloatArray], rubbing: list[Rub]) -> float:
-    """Return the largest difference between the drives' forces by equilibrium and by work, over the loads' works; NaN with friction.
+def gap(poses: Poses, loaded: Loaded, drives: Mapping[str, FloatArray]) -> float:
+    """Return the largest difference between the drives' forces by equilibrium and by work, over the loads' powers; NaN with friction.
 
-    The works are added by their size: where the loads balance each other, as counterweights do, the drive's own force is nearly nothing.
+    A load's power counts as force times way, whatever the angle between them: where loads balance each other, as counterweights do, or
+    do no work, the drive's own force is nearly nothing.
     """
-    if rubbing:
+    if loaded.frictions:
         return float("nan")
     worst = 0.0
     for name, force in drives.items():
-        work = by_work(poses, loaded, name)
-        size = max(float(np.max(sum(map(np.abs, works(poses, loaded, name)), np.zeros(poses.count)), initial=0.0)), np.finfo(float).tiny)
-        worst = max(worst, float(np.max(np.abs(poses.flat(force) - work), initial=0.0)) / size)
+        missed = float(np.nanmax(np.abs(poses.flat(force) - by_work(poses, loaded, name)), initial=0.0))
+        power = float(np.max(sum(powers(poses, loaded, name), np.zeros(poses.count)), initial=0.0))
+        worst = max(worst, missed / power if power > 0.0 else missed)
     return worst
+
+
+def powers(poses: Poses, loaded: Loaded, drive: str) -> Iterator[FloatArray]:
+    """Yield the size of each load's force times the way of its point on a unit of a drive's stroke [N or Nm], shape (n,)."""
+    acting = [(each.load.point, np.hypot(*poses.flat(each.force))) for each in loaded.acting]
+    acting += [(end, np.abs(poses.flat(push.thrust))) for push in loaded.pushing for end in push.ends]
+    for point, size in acting:
+        yield size * np.hypot(*poses.rate(point, drive))

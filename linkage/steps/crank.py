@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..errors import DefinitionError
-from ..quantities import Quantity, Reference, Where, quantity, spelled
+from ..quantities import FRAME_SIDE, Driven, Joint, JointSide, Quantity, Reference, Where, quantity, spelled
 from ..vectors import Scalar, Vec
 from .labels import Slot
 from .step import UNBOUND, Bar, Step
@@ -50,6 +50,9 @@ class Crank(Step):
 
     def bars(self) -> tuple[Bar, ...]:
         return (Bar(self.P, self.X, self.PX),)
+
+    def joints(self) -> tuple[Joint, ...]:
+        return (Joint("crank", self.P, JointSide((self.P, self.X)), FRAME_SIDE, "c", drives=(Driven(self.angle, "c"),)),)
 
     def arguments(self) -> list[str]:
         return [*super().arguments(), f"angle={spelled(self.angle, 0, 'angle')}"]

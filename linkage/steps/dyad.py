@@ -37,7 +37,9 @@ class Dyad(Step):
     measures = "distances"
     expects = (("P", "point"), ("Q", "point"), ("PX", "quantity"), ("QX", "quantity"))
 
-    def __init__(self, P: Reference, Q: Reference, *, side: Side | None = None, near: Any = None, at: Any = None, **lengths: Any) -> None:
+    def __init__(
+        self, P: Reference, Q: Reference, *, side: Side | str | None = None, near: Any = None, at: Any = None, **lengths: Any
+    ) -> None:
         super().__init__(P, Q, labels=lengths, side=side, near=near, at=at)
 
     def slots(self) -> tuple[Slot, ...]:

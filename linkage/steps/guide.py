@@ -6,13 +6,30 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..errors import DefinitionError
-from ..quantities import Member, Number, Quantity, Reference, Variable, Where, label, name_of, quantity, spelled
+from ..quantities import (
+    FRAME_SIDE,
+    Driven,
+    Holding,
+    Joint,
+    JointSide,
+    Member,
+    Number,
+    Quantity,
+    Reference,
+    Variable,
+    Where,
+    guided,
+    label,
+    name_of,
+    quantity,
+    spelled,
+)  # fmt: skip
 from ..vectors import Line, Scalar, Vec
 from .labels import Claims
 from .step import Point, position
 
 
-class Guide(Member):
+class Guide(Holding):
     """A straight line to slide on: `Guide((0.0, -0.2), angle=0)` in the frame, `Guide(P, Q)` the line of two points.
 
     The first point is the guide's origin, its direction goes by the angle [rad] or from P to Q. Numbers are design
@@ -59,13 +76,20 @@ class Guide(Member):
         angle: Quantity = Variable(f"{self.name}.angle") if self.angle.is_constant else self.angle
         return Line(origin, Vec(*where.turn(angle)))
 
+    def joints(self) -> tuple[Joint, ...]:
+        """Return what keeps the carrier of a guide of a given direction from turning, where it goes through a moving point."""
+        if self.P is None or self.angle is None:
+            return ()
+        P = name_of(self.P)
+        return (Joint("upright", P, JointSide((P,), "slider"), FRAME_SIDE, "c"),)
+
     def __str__(self) -> str:
         start = label(self.P) if self.P is not None else str(self.fixed_at)
         end = label(self.Q) if self.Q is not None else f"angle={spelled(quantity(self.angle or 0.0), 0, 'angle')}"
         return f"Guide({start}, {end})"
 
 
-class Slide(Member):
+class Slide(Holding):
     """A point that slides on a guide: `shoe = Slide("C", rail)`."""
 
     expects = (("point", "point"), ("guide", "guide"))
@@ -80,6 +104,9 @@ class Slide(Member):
         """Return the point's distance from the guide [m], positive on its left: zero when it slides on it."""
         line = where.line(self.guide)
         return line.direction.cross(where.at(self.point) - line.origin)
+
+    def joints(self) -> tuple[Joint, ...]:
+        return (guided(name_of(self.point), name_of(self.guide)),)
 
     def __str__(self) -> str:
         return f"Slide({label(self.point)}, {label(self.guide)})"
@@ -108,8 +135,10 @@ class OnGuide(Point):
         miss = where.at(self.name) - self.place(where)
         return miss.x, miss.y
 
-    def slides(self) -> tuple[tuple[str, str], ...]:
-        return ((self.name, name_of(self.guide)),)
+    def joints(self) -> tuple[Joint, ...]:
+        guide, drives = name_of(self.guide), (Driven(self.along, "t"),)
+        on, by = JointSide((self.name,), "runner"), JointSide((guide,), "guide")
+        return (Joint("driven", self.name, on, by, "nt", lambda where: where.line(guide), (guide,), drives),)
 
     def __str__(self) -> str:
         return f"OnGuide({label(self.guide)}, at={spelled(self.along)})"

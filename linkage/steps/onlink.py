@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from ..errors import DefinitionError
-from ..quantities import Number, Quantity, Reference, Turning, Where
-from ..vectors import Scalar, Side, Vec
+from ..quantities import Driven, Joint, JointSide, Number, Quantity, Reference, Turning, Where
+from ..vectors import Line, Scalar, Side, Vec
 from .dyad import triangle
 from .labels import Slot
 from .step import UNBOUND, Step
@@ -27,7 +27,9 @@ class OnLink(Step):
     measures = "angle"
     expects = (("P", "point"), ("Q", "point"))
 
-    def __init__(self, P: Reference, Q: Reference, *, side: Side | None = None, near: Any = None, at: Any = None, **labels: Any) -> None:
+    def __init__(
+        self, P: Reference, Q: Reference, *, side: Side | str | None = None, near: Any = None, at: Any = None, **labels: Any
+    ) -> None:
         super().__init__(P, Q, labels=labels, side=side, near=near, at=at)
 
     def slots(self) -> tuple[Slot, ...]:
@@ -76,6 +78,27 @@ class OnLink(Step):
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
         miss = where.at(self.X) - self.place(where)
         return miss.x, miss.y
+
+    def joints(self) -> tuple[Joint, ...]:
+        """Return what holds the arm that a driven label moves: along it, across it and against turning."""
+        P, Q = self.P, self.Q
+
+        def line(where: Where) -> Line:
+            base = where.link_length(P, Q)
+            return Line(where.at(P), (where.at(Q) - where.at(P)).turned(*self.turn(where, base)) * (1.0 / base))
+
+        drives = [Driven(self.PX, "t")]
+        if self.QPX is not UNBOUND:
+            drives.append(Driven(self.QPX, "c", 1.0 if self.side is None else float(self.side)))
+        if self.QX is not UNBOUND:
+            drives.append(Driven(self.QX, ""))
+        third = f"{self.sentence()}: its third side"
+        return (
+            Joint(
+                "telescope", P, JointSide((self.X,)), JointSide((P, Q)), "ntc", line,
+                drives=tuple(drives), arm=True, still=((self.QX, third),) if self.QX is not UNBOUND else (),
+            ),
+        )  # fmt: skip
 
     def bodies(self) -> tuple[tuple[str, ...], ...]:
         return ((self.P, self.Q, self.X),)

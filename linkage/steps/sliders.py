@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..quantities import Number, Quantity, Reference, Where, quantity, spelled
-from ..vectors import Scalar, Side, Vec
+from ..quantities import Joint, JointSide, Number, Quantity, Reference, Where, guided, quantity, spelled
+from ..vectors import Line, Scalar, Side, Vec
 from .labels import Slot
 from .step import UNBOUND, Bar, Step
 
@@ -22,7 +22,7 @@ class SliderDyad(Step):
     parent_letters = ("P", "guide")
     expects = (("P", "point"), ("guide", "guide"))
 
-    def __init__(self, P: Reference, guide: Reference, *, side: Side | None = None, near: Any = None, **lengths: Any) -> None:
+    def __init__(self, P: Reference, guide: Reference, *, side: Side | str | None = None, near: Any = None, **lengths: Any) -> None:
         super().__init__(P, guide, labels=lengths, side=side, near=near)
 
     def slots(self) -> tuple[Slot, ...]:
@@ -67,8 +67,8 @@ class SliderDyad(Step):
     def bars(self) -> tuple[Bar, ...]:
         return (Bar(self.P, self.X, self.PX),)
 
-    def slides(self) -> tuple[tuple[str, str], ...]:
-        return ((self.X, self.guide),)
+    def joints(self) -> tuple[Joint, ...]:
+        return (guided(self.X, self.guide),)
 
 
 class PinSlotDyad(Step):
@@ -84,9 +84,9 @@ class PinSlotDyad(Step):
     expects = (("P", "point"), ("Q", "point"))
 
     def __init__(
-        self, P: Reference, Q: Reference, *, offset: Any = 0.0, side: Side | None = None, near: Any = None, **lengths: Any
+        self, P: Reference, Q: Reference, *, offset: Any = 0.0, side: Side | str | None = None, near: Any = None, **lengths: Any
     ) -> None:
-        super().__init__(P, Q, labels=lengths, side=side or (None if near is not None else Side.RIGHT), near=near)
+        super().__init__(P, Q, labels=lengths, side=Side.RIGHT if side is None and near is None else side, near=near)
         self.offset = quantity(offset)
 
     def parts(self) -> tuple[Reference, ...]:
@@ -137,11 +137,19 @@ class PinSlotDyad(Step):
         given = [] if isinstance(self.offset, Number) and self.offset.number == 0.0 else [f"offset={spelled(self.offset)}"]
         return [*super().arguments(), *given]
 
-    def half_joints(self) -> tuple[str, ...]:
-        return (self.Q,)
+    def joints(self) -> tuple[Joint, ...]:
+        return (
+            Joint(
+                "guide", self.Q, JointSide((self.Q,), "runner"), JointSide((self.P, self.X)), "n", self.slot,
+                tuple(sorted((self.P, self.X))), still=((self.offset, f"{self.sentence()}: its offset"),),
+            ),
+        )  # fmt: skip
 
-    def pin_slots(self) -> tuple[tuple[str, str, str], ...]:
-        return ((self.Q, self.P, self.X),)
+    def slot(self, where: Where) -> Line:
+        """Return the line the pin slides on: parallel to P -> X, at the offset to its left."""
+        arm = where.at(self.X) - where.at(self.P)
+        along = arm * (1.0 / arm.length())
+        return Line(where.at(self.P) + along.left() * where.value(self.offset), along)
 
 
 class GuideCross(Step):
@@ -182,8 +190,8 @@ class GuideCross(Step):
     def sense(self) -> float:
         return 1.0
 
-    def slides(self) -> tuple[tuple[str, str], ...]:
-        return (self.X, self.guide), (self.X, self.other)
+    def joints(self) -> tuple[Joint, ...]:
+        return guided(self.X, self.guide), guided(self.X, self.other)
 
 
 class YokeDyad(Step):
@@ -234,11 +242,17 @@ class YokeDyad(Step):
     def sense(self) -> float:
         return 1.0
 
-    def slides(self) -> tuple[tuple[str, str], ...]:
-        return ((self.X, self.guide),)
+    def joints(self) -> tuple[Joint, ...]:
+        own, still = JointSide((self.X,), "slider"), ((self.angle, f"{self.sentence()}: its angle"),)
+        by, guide = JointSide((self.guide,), "guide"), self.guide
+        return (
+            Joint("slider", self.X, own, by, "nc", lambda where: where.line(guide), (guide,)),
+            Joint("slot", self.P, own, JointSide((self.P,)), "n", self.slot, (f"{self.X}|slot",), still=still),
+        )
 
-    def half_joints(self) -> tuple[str, ...]:
-        return self.guide, self.P
+    def slot(self, where: Where) -> Line:
+        """Return the line of the cross slot."""
+        return Line(where.at(self.X), where.line(self.guide).direction.turned(*where.turn(self.angle)))
 
     def arguments(self) -> list[str]:
         return [*super().arguments(), f"angle={spelled(self.angle, 0, 'angle')}"]

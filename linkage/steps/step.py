@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from ..errors import DefinitionError
-from ..quantities import Member, Number, Quantity, Reference, Where, name_of, quantity
+from ..quantities import Holding, Number, Quantity, Reference, Where, name_of, quantity
 from ..vectors import Scalar, Side, Vec
 from .labels import Claims, Slot, match, relabelled, written_labels
 
@@ -33,7 +33,7 @@ class Bar:
     length: Quantity
 
 
-class Point(Member):
+class Point(Holding):
     """A named point of the mechanism."""
 
     kind = "point"
@@ -68,18 +68,6 @@ class Point(Member):
         """Return the points this step makes rigid with each other."""
         return ()
 
-    def slides(self) -> tuple[tuple[str, str], ...]:
-        """Return the points this step keeps on guides: (point, guide)."""
-        return ()
-
-    def half_joints(self) -> tuple[str, ...]:
-        """Return the guides and slots that take one freedom each."""
-        return tuple(guide for _, guide in self.slides())
-
-    def pin_slots(self) -> tuple[tuple[str, str, str], ...]:
-        """Return the pins this step holds in a slot, each with the two points of the slot's body."""
-        return ()
-
     def meeting(self, where: Where) -> tuple[Vec, ...]:
         """Return the two directions whose angle is the transmission angle of this joint; empty where it has none."""
         return ()
@@ -110,7 +98,9 @@ class Step(Point):
     measures: str = ""
     """What `at=(x, y)` supplies: the `distances` from both parents, or one distance and the `angle`."""
 
-    def __init__(self, *parents: Reference, labels: Mapping[str, Any], side: Side | None = None, near: Any = None, at: Any = None) -> None:
+    def __init__(
+        self, *parents: Reference, labels: Mapping[str, Any], side: Side | str | None = None, near: Any = None, at: Any = None
+    ) -> None:
         self.parents = parents
         self.labels = dict(labels)
         self.side = None if side is None else side_of(side, type(self).__name__)
@@ -196,10 +186,11 @@ def parent_text(parent: Reference) -> str:
 
 
 def side_of(side: Any, what: str) -> Side:
-    """Return the side; raise DefinitionError for anything but LEFT and RIGHT."""
-    if not isinstance(side, Side):
+    """Return the side; raise DefinitionError for anything but LEFT and RIGHT, or these words."""
+    found = Side.said(side)
+    if found is None:
         raise DefinitionError(f"{what}: side={side!r}; say side=LEFT or side=RIGHT.")
-    return side
+    return found
 
 
 def position(value: Any, what: str) -> tuple[float, float] | None:

@@ -57,7 +57,7 @@ def zone(machine: Mechanism, quantity: Asked, over: Mapping[str, Any], **strokes
     one_design(machine)
     box = Box.of(machine, over)
     given = strokes or {name: np.linspace(each.start, each.end, POSES) for name, each in machine.strokes.items()}
-    poses = at_values(given, machine.plan.strokes, machine.plan.title)
+    poses = at_values(given, machine.plan)
     shape = next(iter(poses.values())).shape
     if 0 in shape:
         raise DefinitionError(f"{machine.plan.title}: there are no strokes to look at; give at least one value of {', '.join(poses)}.")

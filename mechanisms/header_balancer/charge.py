@@ -75,7 +75,7 @@ def charge_limits(motion: Motion, way: Way) -> FloatArray:
     balance = Balance(motion)
     block, left = block_in(motion, way), balance.circuit.withdrawn(motion)
     allowed = balance.required_while("retracting")
-    lowest = float(min(np.min(one.charge) for one in block.accumulators))
+    lowest = float(np.min(block.lowest_charge))
     refuse_light(motion, allowed, left, lowest)
     held = np.maximum(allowed, lowest)
     slow = np.where(allowed < lowest, block.pressure_holding(np.maximum(left, 0.0)), block.pressure(held, -left))

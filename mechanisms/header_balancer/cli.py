@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
-from linkage import DefinitionError
+from linkage import DefinitionError, Motion
 from linkage.cli.command import Command, counted, machine_arguments
 from linkage.cli.machines import find_like
 from linkage.cli.output import figure_path, picture_argument
@@ -47,18 +47,37 @@ class Balance(Command):
         machine = chosen(options)
         path = figure_path(options, type(machine), self.name)
         motion = machine.at(h=machine.strokes["h"].start)
-        over = over_following(motion, options.count)
         compared = deviations(motion, read_measured(options.measured)) if options.measured else []
-        verdicts = [*criteria(motion), *(each.verdict for each in compared)]
-        horizon = show(float(over["h_horizon"][0]), "mm", 4)
-        print(f"Charged to {kgf_cm2_text(machine['charge'])} at the horizon, h = {horizon}. Pressures are gauge.\n")
-        columns = setting_table(WANTED, changes(machine.plan, options)) if options.table else reaction_columns(over)
-        write_table(columns, len(columns[0].values), options.csv)
-        print()
-        for verdict in verdicts:
-            print(verdict)
+        if options.table:
+            print_settings(machine, options)
+        if not options.table or options.header or options.pressure or options.reaction or compared:
+            print_header(motion, options, compared)
         draw(machine, options, path, compared)
         return 0
+
+
+def print_settings(machine: HeaderBalancer, options: Namespace) -> None:
+    """Print the table of all headers, which is about none of them alone."""
+    columns = setting_table(WANTED, changes(machine.plan, options))
+    print("Charge pressures at the horizon, gauge, for each header and each wanted reaction of all shoes; the least reaction that is left")
+    print("moving down over the following range; safe: 1 where the shoe never lifts off. A dash: the header or its line cannot give it.\n")
+    write_table(columns, len(columns[0].values), options.csv)
+
+
+def print_header(motion: Motion, options: Namespace, compared: list[Deviation]) -> None:
+    """Print the reactions of one header and the verdicts on it; beside the table of all headers the verdicts alone."""
+    over = over_following(motion, options.count)
+    verdicts = [*criteria(motion), *(each.verdict for each in compared)]
+    horizon = show(float(over["h_horizon"][0]), "mm", 4)
+    alone = f"\nHeader {options.header} alone. " if options.header else "\nThe header that is set alone. "
+    charged = f"Charged to {kgf_cm2_text(float(motion.inputs['charge']))} at the horizon, h = {horizon}. Pressures are gauge.\n"
+    print(f"{alone if options.table else ''}{charged}")
+    if not options.table:
+        columns = reaction_columns(over)
+        write_table(columns, len(columns[0].values), options.csv)
+        print()
+    for verdict in verdicts:
+        print(verdict)
 
 
 def chosen(options: Namespace) -> HeaderBalancer:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
-from hydraulics.inputs import positive
+from hydraulics.inputs import in_pascals, positive
 from linkage import RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, Motion, OnLink, Stroke, angle, distance, y
 from linkage.loads import PinFriction, Support, Weight
 from linkage.units import deg, kg, kgf_cm2, litre, mm
@@ -46,7 +46,7 @@ class HeaderBalancer(Mechanism):
     m1 = Dimension(1500 * kg, unit="kg")
     m2 = Dimension(1000 * kg, unit="kg")
     charge = Dimension(34 * kgf_cm2, unit="kgf/cm2")            # of the line, at the horizon
-    V_I = Dimension(4 * litre, unit="l")                        # two accumulators of 2 l
+    V_I = Dimension(4 * litre, unit="l")                        # two accumulators of 2 l; 0: none
     P_I = Dimension(50 * kgf_cm2, unit="kgf/cm2")
     V_II = Dimension(4 * litre, unit="l")
     P_II = Dimension(25 * kgf_cm2, unit="kgf/cm2")
@@ -72,11 +72,16 @@ class HeaderBalancer(Mechanism):
     def __init__(self, **dimensions: Any) -> None:
         """Set the design [SI]; DefinitionError also for what cannot be: no mass, no pressure, a shoe out of the stroke's reach."""
         super().__init__(**dimensions)
-        for name in ("L_min", "L_OB", "L_OR", "m1", "charge", "V_I", "P_I", "V_II", "P_II", "follows", "shoes", "pump", "valve"):
+        for name in ("L_min", "L_OB", "L_OR", "m1", "charge", "follows", "shoes", "pump", "valve"):
             positive(self[name], name)
-        for name in ("m2", "seals", "atmosphere"):
+        for name in ("m2", "seals", "atmosphere", "V_I", "V_II"):
             if np.any(np.asarray(self[name]) < 0.0):
                 raise DefinitionError(f"{name} = {np.min(self[name]):.6g} is negative; give zero or more.")
+        for volume, charge in (("V_I", "P_I"), ("V_II", "P_II")):
+            there = np.asarray(self[volume]) > 0.0
+            in_pascals(positive(self[charge] if np.all(there) else np.where(there, self[charge], self["pump"]), charge), charge)
+        for name in ("charge", "seals", "atmosphere", "pump", "valve"):
+            in_pascals(self[name], name)
         if np.any(np.asarray(self["charge"]) > np.asarray(self["pump"])):
             raise DefinitionError(
                 f"The charge pressure {np.max(self['charge']) / kgf_cm2:.4g} kgf/cm2 is above the pump's, "

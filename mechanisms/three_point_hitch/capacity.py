@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydraulics import LiftCircuit
-from linkage import ForceElement, Motion, driving_force
+from linkage import Force, ForceElement, Motion
 from linkage.program import FloatArray
 from linkage.units import deg, mm
 
@@ -25,15 +25,9 @@ def circuit_of(motion: Motion) -> LiftCircuit:
     return found
 
 
-def own_thrust(motion: Motion) -> FloatArray:
-    """Return the thrust without friction that the hitch needs without its implement [N], shape (...): that of masses added to it."""
-    others = [name for name in motion.plan.of_kind(ForceElement) if name not in NOT_OWN]
-    return driving_force(motion, others) if others else np.zeros(motion.shape)
-
-
-def thrust(motion: Motion) -> FloatArray:
-    """Return the cylinders' thrust without friction that holds hitch and implement [N], shape (...)."""
-    return driving_force(motion)
+def own_loads(motion: Motion) -> list[str]:
+    """Return the loads of the hitch without its implement, by name: masses, friction and what else is added to it."""
+    return [name for name in motion.plan.of_kind(ForceElement) if name not in NOT_OWN]
 
 
 def capacity(motion: Motion, point: str = "G", share: float = 1.0) -> FloatArray:
@@ -41,7 +35,7 @@ def capacity(motion: Motion, point: str = "G", share: float = 1.0) -> FloatArray
 
     F_cyl = p_max area (29), I = dy/dS of the point. NaN where I is not above zero: not limited by this cylinder.
     """
-    return circuit_of(motion).capacity(motion, point, own_thrust(motion), share=share)
+    return circuit_of(motion).capacity(motion, point, own_loads(motion), share=share)
 
 
 def at_hitch_points(motion: Motion, share: float = SHARE) -> FloatArray:
@@ -53,7 +47,7 @@ def behind(motion: Motion, distance: float = BEHIND, share: float = SHARE) -> Fl
     """Return the capacity with the load's centre a distance [m] behind the hitch points, square to the upright [N], shape (...)."""
     tested = {"FG": distance, "KFG": 90 * deg}
     moved = Motion(motion.plan, motion.designs | tested, motion.strokes, motion.unreachable)
-    return circuit_of(moved).capacity(moved, "G", own_thrust(motion), share=share)
+    return circuit_of(moved).capacity(moved, "G", own_loads(motion), share=share)
 
 
 def stroke_per_newton(motion: Motion) -> FloatArray:
@@ -62,9 +56,11 @@ def stroke_per_newton(motion: Motion) -> FloatArray:
     Unlike the capacity it has no gap where the ratio goes through zero, so that extremes are sought in it.
     """
     circuit = circuit_of(motion)
-    spare = circuit.largest(motion) * circuit.efficiency(motion, "mechanical") - own_thrust(motion)
+    (lift,) = circuit.rams(motion)
+    most = circuit.largest(motion, own_loads(motion)) * circuit.efficiency(motion, "mechanical")
+    spare = most - lift.thrust(motion, own_loads(motion), direction="extending")
     with np.errstate(divide="ignore"):
-        return np.asarray(circuit.ratio(motion, "G") / np.maximum(spare, 0.0))
+        return np.asarray(lift.thrust(motion, [Force("G", (0.0, -1.0))]) / np.maximum(spare, 0.0))
 
 
 def from_stroke_per_newton(value: FloatArray) -> FloatArray:

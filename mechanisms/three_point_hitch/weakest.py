@@ -136,4 +136,4 @@ def limit_verdict(motion: Motion) -> Verdict:
 def pressure_words(motion: Motion) -> str:
     """Return the pump's pressure and the cylinders in words."""
     circuit = circuit_of(motion)
-    return f"{circuit.size(motion)} at {float(circuit.supply(motion)) / 1e6:.4g} MPa"
+    return f"{circuit.rams(motion)[0].sized(motion)} at {float(circuit.supply(motion)) / 1e6:.4g} MPa"

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from linkage import Weight, driving_force, pin_force, pin_forces, thrust
+from linkage import Weight, drive_force, driving_force, pin_force, pin_forces
 from linkage.program import FloatArray, pinned
 from linkage.program.fused import is_there
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -49,7 +49,7 @@ def by_differences(request: Callable[[Hitch], FloatArray]) -> FloatArray:
     return np.array([(up - down) / (2.0 * STEP) for up, down in found])
 
 
-ASKED = {"thrust": thrust(), "pin force": pin_force("C", "CD", "x")}
+ASKED = {"thrust": drive_force(), "pin force": pin_force("C", "CD", "x")}
 BY_HAND: dict[str, tuple[str, Callable[[Hitch, FloatArray], FloatArray]]] = {
     "thrust": ("at() and driving_force", lambda hitch, stroke: driving_force(hitch.at(S=stroke))),
     "pin force": ("at() and pin_forces, all joints", lambda hitch, stroke: pin_forces(hitch.at(S=stroke)).force("C", on="CD")[0]),

@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
@@ -282,14 +282,72 @@ def test_the_list_may_change_afterwards():
     assert_allclose(block.gas_volume(10 * bar), 4 * litre)
 
 
+# -- absent vessels ----------------------------------------------------------------------------------------
+
+NOWHERE = st.builds(Accumulator, volume=st.just(0.0), charge=st.sampled_from([0.0, -7 * bar, 3 * bar, 40 * bar, 900 * bar]))
+
+
+def answers(block, p1, withdrawn, at):
+    """Return everything that a block tells of pressures and volumes, in one array."""
+    fast = block.settled(p1)
+    asked = [block.gas_volume(at), block.fluid(at), block.pressure(p1, withdrawn), block.stiffness(p1, withdrawn)]
+    asked += [fast.pressure(p1, withdrawn), fast.stiffness(p1, withdrawn), block.fast_pressure(p1, withdrawn, 1.2)]
+    warm = block.at(310.0)
+    return np.stack([*asked, warm.fluid(at), np.full_like(withdrawn, block.lowest_charge), warm.pressure_holding(block.fluid(at) / 2)])
+
+
+@settings(deadline=None, max_examples=60)  # real nitrogen is found by iteration
+@given(charged(), NOWHERE, st.integers(0, 5))
+def test_a_block_with_an_absent_vessel_is_the_block_without_it(case, absent, place):
+    block, p1, p2 = case
+    vessels = list(block.accumulators)
+    vessels.insert(place, absent)
+    more = AccumulatorBlock(vessels, block.gas, block.atmosphere)
+    withdrawn = np.append(block.fluid(p1) * np.array([0.0, 0.3, 0.8, 1.2]), -0.05 * block.gas_volume(p1))
+    at = np.linspace(0.0, max(p1, p2), 5)
+    assert np.array_equal(answers(more, p1, withdrawn, at), answers(block, p1, withdrawn, at))
+    said = [each.sentence for each in more.checks(p1, p1 + 50 * bar, 300 * bar)]
+    assert said == [each.sentence for each in block.checks(p1, p1 + 50 * bar, 300 * bar)]
+
+
+@given(NOWHERE)
+def test_vessels_absent_in_some_designs_only(absent):
+    """A batch whose vessels differ: each design is the block of what it has."""
+    first, second = np.array([4.0, 0.0, 1.0]) * litre, np.array([0.0, 2.0, 3.0]) * litre
+    charges = np.where(second > 0.0, 50 * bar, absent.charge)
+    batch = AccumulatorBlock([Accumulator(first, 25 * bar), Accumulator(second, charges)])
+    withdrawn = np.array([[-0.1], [0.2], [0.9]]) * litre
+    for ask in ("pressure", "stiffness", "fast_pressure"):
+        found = getattr(batch, ask)(70 * bar, withdrawn)
+        for row, (one, two) in enumerate(zip(first, second, strict=True)):
+            alone = AccumulatorBlock([Accumulator(v, p) for v, p in ((one, 25 * bar), (two, 50 * bar)) if v > 0.0])
+            assert_allclose(found[:, row], getattr(alone, ask)(70 * bar, withdrawn[:, 0]), rtol=1e-14)
+    rules = {each.rule: each for each in batch.checks(30 * bar, 100 * bar, 200 * bar)}
+    assert "50 bar" not in rules["charge of accumulator 1"].sentence
+    assert rules["charge of accumulator 2"].sentence.startswith("51.01 bar against 27.91 bar")
+    assert np.array_equal(np.isnan(batch.charges_at(300.0)), [first == 0.0, second == 0.0])
+
+
+def test_verdicts_keep_the_numbers_of_the_vessels_and_say_nothing_of_absent_ones():
+    block = AccumulatorBlock([Accumulator(0.0, 500 * bar), Accumulator(4 * litre, 25 * bar)])
+    rules = [each.rule for each in block.checks(30 * bar, 80 * bar, 100 * bar)]
+    assert rules == ["charge of accumulator 2", "compression of accumulator 2", "exhausted", "allowed pressure"]
+
+
 ONE = Accumulator(4 * litre, 25 * bar)
 
 
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (partial(Accumulator, 0.0, 25 * bar), "Accumulator volume = 0 is not above zero"),
-        (partial(Accumulator, -1e-3, 25 * bar), "Accumulator volume = -0.001 is not above zero"),
+        (partial(Accumulator, -1e-3, 25 * bar), "Accumulator volume = -0.001 is below zero; give 0 for a vessel that is absent"),
+        (partial(AccumulatorBlock, [Accumulator(0.0, 25 * bar)] * 2), "Every accumulator of the block has the volume 0, it is absent"),
+        (partial(AccumulatorBlock, [Accumulator(np.array([1e-3, 0.0]), 25 * bar)]), "Every accumulator of the block has the volume 0"),
+        (partial(Accumulator, 4 * litre, 50), r"charge = 50 Pa is next to nothing; write 50 \* bar if these are bar, or 50 \* kgf_cm2"),
+        (partial(Accumulator, 4 * litre, np.array([50 * bar, -0.5])), r"charge = -0\.5 Pa is next to nothing; write -0\.5 \* bar"),
+        (partial(AccumulatorBlock, [ONE], atmosphere=1.013), r"Atmosphere = 1\.013 Pa is next to nothing; write 1\.013 \* bar"),
+        (partial(AccumulatorBlock, [ONE], unit="mm"), "Unit 'mm' is unknown"),
+        (partial(AccumulatorBlock([ONE], unit="kgf/cm2").pressure, 20 * kgf_cm2), "charged to 20 kgf/cm2 .* being 25.49 kgf/cm2 gauge"),
         (partial(Accumulator, np.nan, 25 * bar), "Accumulator volume = nan is not finite"),
         (partial(Accumulator, 4 * litre, np.nan), "Accumulator charge = nan is not finite"),
         (partial(Accumulator, 4 * litre, "25 bar"), "Accumulator charge = '25 bar' is not a number"),
@@ -323,6 +381,16 @@ ONE = Accumulator(4 * litre, 25 * bar)
 def test_refusals(call, message):
     with pytest.raises(DefinitionError, match=message):
         call()
+
+
+def test_small_pressures_that_are_meant_pass():
+    """No gauge charge, a vacuum, an absent vessel, no atmosphere; a settled gas may come near the atmosphere by itself."""
+    for charge in (0.0, -0.5 * bar, 1000.0):
+        assert AccumulatorBlock([Accumulator(4 * litre, charge)]).pressure(60 * bar) == pytest.approx(60 * bar)
+    assert Accumulator(0.0, 5.0).volume == 0.0
+    block = AccumulatorBlock([Accumulator(4 * litre, 10 * bar)])
+    near = brentq(lambda p1: block.settled(p1).accumulators[0].charge - 500.0, 11 * bar, 40000 * bar)
+    assert 0.0 < block.settled(near).accumulators[0].charge < 1000.0
 
 
 def test_a_line_charged_just_to_the_lowest_charge_is_not_rigid():

@@ -58,6 +58,15 @@ def test_circuits_come_back_with_their_pressures(write, case):
     assert back().ram.checks(back().sweep(5), 1e4) == Carried().ram.checks(Carried().sweep(5), 1e4)
 
 
+def test_a_block_with_an_absent_vessel_and_a_unit_comes_back():
+    block = AccumulatorBlock([Accumulator(0.0, 50 * bar), Accumulator(4 * litre, 25 * bar)], unit="MPa")
+    spoken = type("Spoken", (Carried,), {"fixed": FloatCircuit("ram", block, charge_pressure=20 * bar)})
+    back = load(to_toml(spoken))
+    assert str(back.plan.members["fixed"]) == str(spoken.plan.members["fixed"])
+    with pytest.raises(DefinitionError, match=r"charged to 2 MPa gauge it holds no fluid, .* being 2\.5 MPa gauge"):
+        back.fixed.pressure(back().sweep(3))
+
+
 def test_instance_saves_what_its_hydraulics_are_set_to():
     design = Carried(**{"ram.bore": 0.07, "thick": 0.041, "fixed.charge_pressure": 55 * bar, "V": 3 * litre, "n": 1.4, "pump.flow": 0.002})
     back = load(to_toml(design))()

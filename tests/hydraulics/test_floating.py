@@ -164,7 +164,7 @@ def test_block_that_follows_is_written_as_it_is_said():
         (lambda: Followed.block.gas_volume(60 * bar), "ask sized"),
         (lambda: Followed.block.checks(20 * bar, 80 * bar, 90 * bar), "ask sized"),
         (lambda: Followed.line.pressure(Followed(air=np.array([0.0, 1e5])).sweep(3)), "atmosphere is one number for all designs"),
-        (lambda: Followed.line.pressure(Followed(V=0.0).sweep(3)), "Accumulator volume = 0 is not above zero"),
+        (lambda: Followed.line.pressure(Followed(V=0.0).sweep(3)), "Every accumulator of the block has the volume 0"),
         (lambda: Followed.line.pressure(Followed(n=0.5).sweep(3)), "outside 1..10"),
         (lambda: type("Gone", (Followed,), {"V": None}), "'V'"),
     ],

@@ -34,7 +34,7 @@ from linkage import (
     driving_force,
     pin_forces,
 )
-from linkage.loads import ForceElement
+from linkage.loads import ForceElement, TwoPoint
 from linkage.mechanism import declared
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.random_mechanisms import random_mechanism
@@ -176,6 +176,7 @@ def test_friction_takes_the_difference_of_work_up_and_down(machine):
 def dissipated(motion, name, machine, found):
     """Return the work [N or Nm] that the pins' couples take on a unit of the stroke."""
     bodies = {body.name: body.points[:2] for body in machine.plan.links} | {bar.P + bar.Q: (bar.P, bar.Q) for bar in machine.plan.cylinders}
+    bodies |= {name: each.ends for name, each in machine.plan.of_kind(TwoPoint).items()}
 
     def spin(body):
         turns = body in bodies and body != "frame"

@@ -172,7 +172,7 @@ class Loaded(Hitch):
     slide = GuideFriction(P, coefficient=0.1, guide=rail)
 
     transport = LoadCase("on the road", scale={"load": 2.0, "pull": 0}, slope=10 * deg)
-    bare = LoadCase(only=["load", own, "pin_E"], gravity=1.62)
+    bare = LoadCase(only=["load", own, "pin_E"], gravity=(0, -1.62))
     plain = LoadCase()
 
 

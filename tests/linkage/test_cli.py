@@ -102,6 +102,24 @@ def test_table_of_chosen_columns_and_strokes(said):
     assert [" ".join(line.split()) for line in out.splitlines()] == ["S, m kz I", "0.5500 0.963 7.262", "0.8000 2.781 2.513"]
 
 
+@pytest.mark.parametrize("arguments", [
+    "mower_lift --at S=0.55,800mm kz I", "mower_lift kz --at S=0.55,800mm I", "--at S=0.55,800mm mower_lift kz I",
+    "mower_lift --at S=0.55,800mm -- kz I",
+])  # fmt: skip
+def test_columns_stand_anywhere_between_options(said, arguments):
+    expected = said("table", "mower_lift", "kz", "I", "--at", "S=0.55,800mm")
+    assert expected[0] == 0 and said("table", *arguments.split()) == expected
+
+
+def test_a_plots_columns_stand_behind_options_too(said, tmp_path):
+    file, drawn = str(tmp_path / "lift.svg"), []
+    for arguments in (("kz", "-o", file, "--count", "11"), ("-o", file, "--count", "11", "kz"), ("-o", file, "--count", "11")):
+        assert said("plot", "mower_lift", *arguments)[0] == 0
+        drawn.append(re.findall(r' d="([^"]*)"', (tmp_path / "lift.svg").read_text()))
+    before, behind, poses = drawn
+    assert before == behind != poses
+
+
 def test_csv_has_full_precision(said, tmp_path):
     _, out, _ = said("table", "three_point_hitch", "I", "--csv", "-", "--count", "3")
     header, *rows = csv.reader(io.StringIO(out, newline=""))
@@ -241,6 +259,10 @@ def test_a_curve_is_drawn_over_one_stroke_the_others_held(said, own):
         ("table mower_lift --count 0", "'0' is not a count"),
         ("table mower_lift --count many", "'many' is not a count"),
         ("table mower_lift --cuont 3", "unrecognized arguments: --cuont"),
+        ("table mower_lift kz --count 3 --cuont 3 Fi", "unrecognized arguments: --cuont 3 Fi"),
+        ("table mower_lift --count 3 kzz", "Did you mean kz?"),
+        ("show mower_lift --set OB=180mm kz", "unrecognized arguments: kz"),
+        ("save mower_lift --set OB=180mm lift.toml kz", "unrecognized arguments: kz"),
         ("table", "required: NAME"),
         ("table nothing.py", "nothing.py: No such file"),
         ("table lever.py:Levver", "Did you mean Lever?"),

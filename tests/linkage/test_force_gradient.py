@@ -15,11 +15,11 @@ from linkage import (
     Spring,
     Weight,
     distance,
+    drive_force,
     driving_force,
     pin_force,
     pin_forces,
     ratio,
-    thrust,
     y,
 )
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -87,7 +87,7 @@ def test_gradient_of_thrust_is_the_difference_of_designs(machine):
     own = loaded(machine)
     motion, differences = own().at(**mid(machine)), Differences(own, mid(machine))
     for drive in machine.plan.strokes:
-        found = motion.gradient(thrust(drive), differences.names)
+        found = motion.gradient(drive_force(drive), differences.names)
         differences.check(found, driving_force(differences.motion, drive=drive), drive)
 
 
@@ -96,7 +96,7 @@ def test_gradient_of_pin_forces_is_the_difference_of_designs(machine):
     own = loaded(machine)
     motion, differences = own().at(**mid(machine)), Differences(own, mid(machine))
     joints = [each for each in pin_forces(differences.motion).joints if each.has_force]
-    alone = [each for each in joints if sum(each.point == other.point for other in joints) == 1]
+    alone = [each for each in joints if sum((each.point, each.on) in ((o.point, o.on), (o.point, o.by)) for o in joints) == 1]
     for joint, component in ((alone[0], "x"), (alone[len(alone) // 2], "y"), (alone[-1], "size")):
         found = motion.gradient(pin_force(joint.point, joint.on, component), differences.names)
         differences.check(found, {"x": joint.force[0], "y": joint.force[1], "size": joint.size}[component], f"{joint}, {component}")
@@ -113,7 +113,7 @@ class Hitch(ThreePointHitch):
     arm = LinkMass("O B C", mass=25.0)
 
 
-ASKED = {"thrust": thrust(), "C": pin_force("C", "CD"), "E": pin_force("E", component="x"), "K": pin_force("K", component="y")}
+ASKED = {"thrust": drive_force(), "C": pin_force("C", "CD"), "E": pin_force("E", component="x"), "K": pin_force("K", component="y")}
 REQUESTS = pytest.mark.parametrize("asked", ASKED.values(), ids=ASKED)
 STROKE = np.linspace(0.01, 0.24, 9)
 
@@ -142,7 +142,7 @@ def test_forces_of_weights_do_not_change_with_the_scale(asked):
 
 def test_the_gradient_of_thrust_is_that_of_the_energys_ratio():
     motion, wrt = Hitch(**{"lower.mass": 0.0, "arm.mass": 0.0}).at(S=STROKE), ["M.x", "CD", "KFG"]
-    assert_allclose(motion.gradient(thrust(), wrt), 1200.0 * 9.80665 * motion.gradient(ratio(y("G")), wrt), rtol=1e-11)
+    assert_allclose(motion.gradient(drive_force(), wrt), 1200.0 * 9.80665 * motion.gradient(ratio(y("G")), wrt), rtol=1e-11)
 
 
 def test_a_stiffness_counts_in_proportion_and_a_free_length_by_it():
@@ -150,7 +150,7 @@ def test_a_stiffness_counts_in_proportion_and_a_free_length_by_it():
         relief = Spring("M", "F", stiffness=2e4, free_length=0.4)
 
     motion = Sprung().at(S=STROKE)
-    by_stiffness, by_length, by_bore = motion.gradient(thrust(loads="relief"), ["relief.stiffness", "relief.free_length", "lift.bore"])
+    by_stiffness, by_length, by_bore = motion.gradient(drive_force(loads="relief"), ["relief.stiffness", "relief.free_length", "lift.bore"])
     assert_allclose(2e4 * by_stiffness, driving_force(motion, "relief"), rtol=1e-12)
     assert_allclose(by_length, -2e4 * motion.ratio(distance("M", "F")), rtol=1e-10)
     assert_array_equal(by_bore, np.zeros(9))
@@ -173,7 +173,7 @@ def test_a_gradient_over_two_strokes_is_a_grid():
     machine = loaded(next(each for each in SHIPPED if each.__name__ == "FrontLoader"))
     first, second = machine.plan.strokes
     motion = machine().sweep(**{first: 3, second: 4})
-    found = motion.gradient(thrust(second), ["w0.mass", "pull.x"])
+    found = motion.gradient(drive_force(second), ["w0.mass", "pull.x"])
     assert found.shape == (2, 3, 4)
     assert_allclose(found[0], driving_force(motion, [Weight(machine.plan.moving[0], mass=1.0)], second), atol=1e-9)
 
@@ -181,7 +181,7 @@ def test_a_gradient_over_two_strokes_is_a_grid():
 def test_at_a_dead_point_it_is_refused_and_out_of_reach_it_is_nan():
     hitch = Hitch()
     dead = float(np.hypot(*(hitch["O"] - hitch["A"])) + hitch["OB"] - hitch["L0"])
-    for asked, what in ((thrust(), "thrust of S"), (pin_force("B", "AB"), "size of the force at B")):
+    for asked, what in ((drive_force(), "driving force of S"), (pin_force("B", "AB"), "size of the force at B")):
         with pytest.raises(SingularError, match=f"gradient of the {what}"):
             hitch.at(S=[0.1, dead]).gradient(asked, ["OB"])
         found = hitch.at(S=[0.1, dead, 0.6], unreachable="nan").gradient(asked, ["OB", "A.x"])

@@ -26,11 +26,11 @@ from linkage import (
     Stroke,
     Weight,
     deg,
+    drive_force,
     driving_force,
     pin_force,
     pin_forces,
     ratio,
-    thrust,
 )
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.laws.test_statics_laws import RANDOM, SHIPPED, moved, weights
@@ -67,7 +67,7 @@ def agree(found, wanted, room):
 def test_requests_are_the_forces_of_every_machine(machine):
     motion, loads = moved(machine, 9, 3), weights(machine)
     for drive in machine.plan.strokes:
-        (found,) = machine().evaluate([thrust(drive, loads)], unreachable="nan", **motion.strokes)
+        (found,) = machine().evaluate([drive_force(drive, loads)], unreachable="nan", **motion.strokes)
         agree(found, driving_force(motion, loads, drive), 1e-12)
     forces = pin_forces(motion, loads)
     size = max(np.nanmax(each.size) for each in forces.joints)
@@ -89,14 +89,14 @@ def test_every_back_end_has_the_same_forces(machine, backend):
     loads = [Weight(point, mass=40.0) for point in machine.plan.moving]
     motion = machine().at(**at)
     joint = next(each for each in pin_forces(motion, loads).joints if each.has_force and len(pin_forces(motion, loads).at(each.point)) == 1)
-    found = machine().evaluate([thrust(loads=loads), pin_force(joint.point, loads=loads)], backend=backend, **at)
+    found = machine().evaluate([drive_force(loads=loads), pin_force(joint.point, loads=loads)], backend=backend, **at)
     agree(found[0], driving_force(motion, loads), 1e-12)
     agree(found[1], joint.size, 1e-11)
 
 
 def test_requests_stand_beside_others_and_in_a_place_given():
     out = np.empty((4, 41))
-    G, force, pin = Hitch().evaluate([ratio("G"), thrust(), pin_force("C", "CD", "y")], S=STROKE, out=out)
+    G, force, pin = Hitch().evaluate([ratio("G"), drive_force(), pin_force("C", "CD", "y")], S=STROKE, out=out)
     motion = Hitch().at(S=STROKE)
     assert np.shares_memory(force, out)
     assert_allclose(G, motion.ratio("G"), rtol=1e-12)
@@ -107,14 +107,14 @@ def test_requests_stand_beside_others_and_in_a_place_given():
 def test_load_cases_and_chosen_loads_count():
     motion = Hitch().at(S=STROKE)
     for loads, case in ((None, "transport"), (["load"], None), (None, LoadCase(only=["lower"])), ([Force("K", (1e3, 2e3)), "load"], None)):
-        found = Hitch().evaluate([thrust(loads=loads, case=case), pin_force("E", component="y", loads=loads, case=case)], S=STROKE)
+        found = Hitch().evaluate([drive_force(loads=loads, case=case), pin_force("E", component="y", loads=loads, case=case)], S=STROKE)
         assert_allclose(found[0], driving_force(motion, loads, case=case), rtol=1e-12)
         assert_allclose(found[1], pin_forces(motion, loads, case=case).force("E")[1], rtol=1e-10)
 
 
 def test_without_loads_there_is_no_force_and_no_slope():
     motion = ThreePointHitch().at(S=STROKE)
-    for asked in (thrust(loads=[]), pin_force("C", "CD", "x", loads=[])):
+    for asked in (drive_force(loads=[]), pin_force("C", "CD", "x", loads=[])):
         assert_array_equal(ThreePointHitch().evaluate([asked], S=STROKE), np.zeros((1, 41)))
         assert_array_equal(motion.gradient(asked, ["OB"]), np.zeros((1, 41)))
 
@@ -122,17 +122,17 @@ def test_without_loads_there_is_no_force_and_no_slope():
 def test_friction_does_not_count_as_in_the_frictionless_thrust():
     loads = ["load", PinFriction("C", radius=0.03, coefficient=0.2)]
     motion = Hitch().at(S=STROKE)
-    assert_allclose(Hitch().evaluate([thrust(loads=loads)], S=STROKE)[0], driving_force(motion, loads), rtol=1e-12)
+    assert_allclose(Hitch().evaluate([drive_force(loads=loads)], S=STROKE)[0], driving_force(motion, loads), rtol=1e-12)
 
 
 def test_a_load_at_no_point_is_refused_as_such():
     with pytest.raises(DefinitionError, match=r"^Point 'Q' is unknown in Hitch"):
-        Hitch().evaluate([thrust(loads=[Weight("Q", mass=1)])], S=0.1)
+        Hitch().evaluate([drive_force(loads=[Weight("Q", mass=1)])], S=0.1)
 
 
 def test_batches_of_designs():
     hitch = Hitch(OB=np.linspace(0.28, 0.32, 3)[:, None], **{"load.mass": np.array([900.0, 1500.0])})
-    force, pin = hitch.evaluate([thrust(), pin_force("C", "CD")], S=STROKE)
+    force, pin = hitch.evaluate([drive_force(), pin_force("C", "CD")], S=STROKE)
     motion = hitch.at(S=STROKE)
     assert force.shape == pin.shape == (3, 2, 41)
     assert_allclose(force, driving_force(motion), rtol=1e-12)
@@ -141,7 +141,7 @@ def test_batches_of_designs():
 
 
 def test_a_function_of_floats():
-    force = Hitch(OB=0.31).function([thrust(), pin_force("C", "CD", "x")])
+    force = Hitch(OB=0.31).function([drive_force(), pin_force("C", "CD", "x")])
     motion = Hitch(OB=0.31).at(S=0.1)
     assert_allclose(force(0.1), [driving_force(motion), pin_forces(motion).force("C", on="CD")[0]], rtol=1e-12)
     with pytest.raises(AssemblyError):
@@ -156,7 +156,7 @@ def dead_point():
     return float(np.hypot(*(hitch["O"] - hitch["A"])) + hitch["OB"] - hitch["L0"])
 
 
-@pytest.mark.parametrize("asked", [thrust(), pin_force("B", "AB")])
+@pytest.mark.parametrize("asked", [drive_force(), pin_force("B", "AB")])
 def test_at_a_dead_point_and_out_of_reach(asked):
     hitch, stroke = Hitch(), [0.1, dead_point(), 0.6]
     with pytest.raises(SingularError, match=r"B = Dyad\(A, O\)"):
@@ -170,16 +170,16 @@ def test_at_a_dead_point_and_out_of_reach(asked):
 def test_a_thrust_that_does_not_feel_a_dead_point_has_a_value_there():
     """Only the loops that carry a load matter, as in driving_force."""
     loads = [Force("O", (1.0, 0.0))]
-    assert_array_equal(Hitch().evaluate([thrust(loads=loads)], S=[0.1, dead_point()]), [[0.0, 0.0]])
+    assert_array_equal(Hitch().evaluate([drive_force(loads=loads)], S=[0.1, dead_point()]), [[0.0, 0.0]])
 
 
 @pytest.mark.parametrize(
     ("asked", "words"),
     [
-        (thrust("T"), "T"),
-        (thrust(loads="lost"), "Load 'lost'"),
-        (thrust(case="sea"), "Load case 'sea'"),
-        (thrust(loads=[Weight("Q", mass=1.0)]), "Q"),
+        (drive_force("T"), "T"),
+        (drive_force(loads="lost"), "Load 'lost'"),
+        (drive_force(case="sea"), "Load case 'sea'"),
+        (drive_force(loads=[Weight("Q", mass=1.0)]), "Q"),
         (pin_force("G"), "Joint 'G'"),
         (pin_force("C", "EDF"), "Body 'EDF'"),
         (pin_force("C", component="z"), "Component 'z'"),
@@ -192,7 +192,7 @@ def test_what_there_is_not_is_told(asked, words):
 
 def test_several_strokes_ask_which_drives():
     with pytest.raises(DefinitionError, match="drive= one of S1, S2, S3"):
-        Platform().evaluate([thrust(loads=[])], S1=0.0, S2=0.0, S3=0.0)
+        Platform().evaluate([drive_force(loads=[])], S1=0.0, S2=0.0, S3=0.0)
 
 
 def test_a_mechanism_that_is_held_twice_is_refused_by_name():
@@ -207,7 +207,7 @@ def test_a_mechanism_that_is_held_twice_is_refused_by_name():
 
     with pytest.raises(DefinitionError, match=r"overconstrained.*link CB, link EM"):
         Rails().evaluate([pin_force("B")], phi=1.0)
-    assert_allclose(Rails().evaluate([thrust()], phi=[1.0])[0], driving_force(Rails().at(phi=[1.0])), atol=1e-12)
+    assert_allclose(Rails().evaluate([drive_force()], phi=[1.0])[0], driving_force(Rails().at(phi=[1.0])), atol=1e-12)
 
 
 def test_a_driven_cranks_pin_has_one_force_besides_the_drives_couple():

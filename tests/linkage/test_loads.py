@@ -1,6 +1,7 @@
 """Force elements: what they put on a mechanism, what they refuse, and how they are set."""
 
 from dataclasses import dataclass
+from functools import partial
 from math import cos, hypot, pi, sin
 from typing import ClassVar
 
@@ -32,12 +33,14 @@ from linkage import (
     Weight,
     angle,
     deg,
+    drive_force,
     driving_force,
+    pin_force,
     pin_forces,
     reaction,
     ref,
-    thrust,
 )  # fmt: skip
+from linkage.loads import couple
 from mechanisms.three_point_hitch import ThreePointHitch
 
 G0 = 9.80665
@@ -205,8 +208,103 @@ def test_a_slope_turns_gravity():
 
 
 def test_gravity_of_another_place():
-    moon = LoadCase("moon", gravity=1.62)
+    moon = LoadCase("moon", gravity=(0, -1.62))
     assert_allclose(driving_force(at(Cases), case=moon), driving_force(at(Cases)) * 1.62 / G0, rtol=1e-13)
+
+
+class Centrifuge(Lift):
+    """Every mass has a gravity of its own."""
+
+    load = Weight("G", mass=900, gravity=(3.0, -2.0))
+    own = LinkMass("O B", mass=25, at=(0.2, 0.03), gravity=(0.0, 5.0))
+    plain = LinkMass("O B", mass=40)
+    hill = LoadCase(slope=10 * deg)
+    there = LoadCase(gravity=(1.0, -4.0))
+    both = LoadCase(gravity=(1.0, -4.0), slope=-20 * deg, scale={"own": 2.0})
+
+
+STROKES = np.array([0.56, 0.65, 0.79])
+GRAVITIES = {
+    # case: gravity of load, own and plain [m/s2], worked out by hand: a slope turns clockwise
+    None: [(3.0, -2.0), (0.0, 5.0), (0.0, -G0)],
+    "hill": [(3 * cos(10 * deg) - 2 * sin(10 * deg), -2 * cos(10 * deg) - 3 * sin(10 * deg)),
+             (5 * sin(10 * deg), 5 * cos(10 * deg)), (-G0 * sin(10 * deg), -G0 * cos(10 * deg))],
+    "there": [(1.0, -4.0)] * 3,
+    "both": [(cos(20 * deg) + 4 * sin(20 * deg), -4 * cos(20 * deg) + sin(20 * deg))] * 3,
+}  # fmt: skip
+
+
+@dataclass
+class ByHand:
+    """The weights of Centrifuge as plain forces: at G, at own's centre, and half of plain at O and B."""
+
+    case: str | None
+
+    def loads(self, motion):
+        return weights_by_hand(motion, self.case)
+
+
+def weights_by_hand(motion, case):
+    """Return the weights of Centrifuge as forces."""
+    g = [np.array(each) for each in GRAVITIES[case]]
+    B, O = motion["B"], motion["O"]
+    along = (B - O) / np.hypot(*(B - O))
+    arm = 0.2 * along + 0.03 * np.array([-along[1], along[0]])
+    mass = 50 if case == "both" else 25
+    moment = mass * (arm[0] * g[1][1] - arm[1] * g[1][0])
+    weights = [Load("G", 900 * g[0]), Load("O", mass * g[1], ("O", "B")), *(Load(end, 20 * g[2], ("O", "B")) for end in "OB")]
+    return [*weights, *couple("O", "B", B - O, moment)]
+
+
+@pytest.mark.parametrize("case", GRAVITIES)
+def test_an_elements_own_gravity_acts_and_a_case_replaces_or_turns_it(case):
+    motion = at(Centrifuge, STROKES)
+    expected = driving_force(motion, [ByHand(case)])
+    assert_allclose(driving_force(motion, case=case), expected, rtol=1e-13)
+    assert_allclose(Centrifuge().evaluate([thrust(case=case)], S=STROKES)[0], expected, rtol=1e-12)
+    by_hand = pin_forces(motion, [ByHand(case)]).force("O", on="frame")
+    assert_allclose(pin_forces(motion, case=case).force("O", on="frame"), by_hand, rtol=1e-11)
+    along_x = Centrifuge().evaluate([pin_force("O", on="frame", component="x", case=case)], S=STROKES)[0]
+    assert_allclose(along_x, by_hand[0], rtol=1e-10)
+
+
+def test_an_own_gravity_keeps_batches_and_gradients():
+    masses = np.array([100.0, 900.0])
+    batch = Centrifuge(**{"load.mass": masses}).sweep(5)
+    for row, mass in enumerate(masses):
+        alone = driving_force(Centrifuge(**{"load.mass": mass}).sweep(5), case="both")
+        assert_allclose(driving_force(batch, case="both")[row], alone, rtol=1e-13)
+    slope = at(Centrifuge).gradient(thrust(case="both"), wrt=["load.mass"])[0]
+    less, more = (driving_force(at(Centrifuge, **{"load.mass": mass}), case="both") for mass in (899.0, 901.0))
+    assert_allclose(slope, (more - less) / 2.0, rtol=1e-9)
+
+
+def test_gravity_prints_as_it_is_written():
+    load, case = Centrifuge.plan.members["load"], Centrifuge.plan.members["both"]
+    assert str(load) == "Weight(G, mass=900, gravity=(3.0, -2.0))"
+    assert str(case) == f"LoadCase(scale={{'own': 2.0}}, slope={'-20 * deg'}, gravity=(1.0, -4.0))"
+    assert str(Weight("G", mass=1, gravity=np.array([0.0, -1.62]))) == "Weight(G, mass=1, gravity=(0.0, -1.62))"
+
+
+@pytest.mark.parametrize("make", [
+    partial(Weight, "G", mass=1), partial(LinkMass, "O B", mass=1), partial(LoadCase, "case"),
+])  # fmt: skip
+@pytest.mark.parametrize(("gravity", "words"), [
+    (1.62, r"gravity=1\.62 has no direction; write the vector gravity=\(0, -1\.62\)"),
+    (-9.81, r"write the vector gravity=\(0, -9\.81\)"),
+    ((0.0, np.nan), r"is not two finite numbers; write \(x, y\) in m/s2, such as \(0, -9\.81\)"),
+    (("0", -1), "is not two finite numbers"),
+    ((0, 0, -9.81), "is not a vector"),
+    ("down", "is not a vector|is not two"),
+])  # fmt: skip
+def test_gravity_that_is_no_vector(make, gravity, words):
+    with pytest.raises(DefinitionError, match=words):
+        make(gravity=gravity)
+
+
+def test_a_slope_in_degrees_is_asked_about():
+    with pytest.raises(DefinitionError, match=r"slope=8 rad is 458\.4 deg, steeper than a wall; write slope=8 \* deg"):
+        LoadCase(slope=8)
 
 
 def test_given_elements_can_be_scaled_by_their_own_words():
@@ -230,9 +328,9 @@ class Rubbing(ForceElement):
     def loads(self, motion):
         return []
 
-    def moving(self, motion, sense):
+    def moving(self, motion, rates):
         along = self.position(motion, "B") - self.position(motion, "A")
-        push = -sense * self.number(motion, "seal") * along / np.hypot(*along)
+        push = -np.sign(rates["S"]) * self.number(motion, "seal") * along / np.hypot(*along)
         return [Load(self.B, push), Load(self.A, -push)]
 
 
@@ -278,7 +376,7 @@ def test_an_element_may_rub():
         (lambda: Lift(**{"load.mass": -3.0}), "negative"),
         (lambda: driving_force(at(variant(load=Weight("G", mass=ref("m1"))), m1=-5.0)), "load: mass = m1 is negative, -5;"),
         (lambda: pin_forces(at(variant(load=Weight("G", mass=ref("m1"))), m1=[5.0, -5.0])), "load: mass = m1 is negative, -5;"),
-        (lambda: variant(load=Weight("G", mass=ref("m1")))(m1=-5.0).evaluate([thrust()], S=0.6), "load: mass = m1 is negative, -5;"),
+        (lambda: variant(load=Weight("G", mass=ref("m1")))(m1=-5.0).evaluate([drive_force()], S=0.6), "load: mass = m1 is negative, -5;"),
         (lambda: Lift(**{"load.weight": 3.0}), r"load\.mass"),
         (lambda: driving_force(at(Lift), ["lod"]), "Did you mean load"),
         (lambda: driving_force(at(Lift), case="full"), "Load case"),
@@ -294,8 +392,8 @@ def test_an_element_may_rub():
         (lambda: pin_forces(at(Lift), [PinFriction("G", 0.01, 0.1)], direction="extending"), "no pin joint"),
         (lambda: pin_forces(at(Lift), [GuideFriction("B", 0.1)], direction="extending"), "nothing that slides"),
         (lambda: reaction(at(Lift)), "0 supports"),
-        (lambda: reaction(at(Lift), support=Support("G", (0, 1)), thrust=[1.0, 2.0]), "fits the poses"),
-        (lambda: reaction(at(Lift), support=Support("G", (0, 1)), thrust="much"), "fits the poses"),
+        (lambda: reaction(at(Lift), support=Support("G", (0, 1)), drive_force=[1.0, 2.0]), "fits the poses"),
+        (lambda: reaction(at(Lift), support=Support("G", (0, 1)), drive_force="much"), "fits the poses"),
     ],
 )
 def test_bad_input_is_refused_in_words(make, word):
@@ -354,7 +452,7 @@ def test_points_of_different_bodies_are_no_body(element):
     with pytest.raises(DefinitionError, match="are not points of one body"):
         driving_force(motion, [element])
     with pytest.raises(DefinitionError, match="are not points of one body"):
-        motion.gradient(thrust(loads=[element]), wrt=["OB"])
+        motion.gradient(drive_force(loads=[element]), wrt=["OB"])
 
 
 def test_a_spring_from_a_point_to_itself_is_refused():

@@ -97,6 +97,65 @@ def test_a_wrong_word_to_a_design(ask, words):
         ask()
 
 
+class Lift(Mechanism):
+    S = Stroke(0.0, 0.25)
+    A, O = Ground(0.0, 0.0), Ground(0.7, 0.0)
+    B = Dyad(A, O, AB=0.6 + S, OB=0.3, side=LEFT)
+
+
+@pytest.mark.parametrize(
+    ("ask", "words"),
+    [
+        (lambda: FourBar().at(phi=45), "FourBar: phi = 45 is an angle in radians, 7.16 turns, and the stroke is 0 to 6.28319 rad; "
+         "write 45 * deg if these are degrees"),
+        (lambda: FourBar().at(phi=-30.0), "phi = -30 is an angle in radians, -4.77 turns"),
+        (lambda: FourBar().at(phi=[0.0, 22.5]), "write 22.5 * deg"),
+        (lambda: FourBar().at(phi=np.linspace(0.0, 359.99, 7)), "write 359.99 * deg"),
+        (lambda: FourBar().sweep(phi=45.0), "write 45 * deg"),
+        (lambda: FourBar().evaluate(["B"], phi=45.0), "write 45 * deg"),
+        (lambda: Lift().at(S=100), "Lift: S = 100 m, and the stroke is 0 to 0.25 m; write 100 * mm if these are millimetres"),
+        (lambda: Lift().at(S=[0.1, -12.5], unreachable="nan"), "write -12.5 * mm"),
+        (lambda: Lift().sweep(S=100.0), "write 100 * mm"),
+    ],
+)  # fmt: skip
+def test_degrees_and_millimetres_for_a_stroke(ask, words):
+    with pytest.raises(DefinitionError, match=re.escape(words)):
+        ask()
+
+
+def test_strokes_beyond_their_range_are_no_mistake_in_themselves():
+    assert FourBar().at(phi=[-4 * np.pi, 6 * np.pi, 15 * np.pi, 15.0]).reached.all()
+    assert Lift().at(S=0.3).reached.all()
+    assert not Lift().at(S=[0.1, 5.0], unreachable="nan").reached.all()
+    with pytest.raises(AssemblyError, match="B = Dyad"):
+        Lift().at(S=4.0)
+
+
+@pytest.mark.parametrize("word", ["left", "LEFT", "Left"])
+def test_a_side_may_be_said_as_a_word(word):
+    class Said(FourBar):
+        B = Dyad("A", "C", AB=3, CB=2.5, side=word)
+        P = linkage.OnLink("A", "B", AP=1.0, BP=2.5, side=word)
+        post = linkage.Guide((0, 0), angle=90 * deg)
+        D = linkage.SliderDyad("A", post, AD=3, side=word)
+        E = linkage.PinSlotDyad("O", "A", OE=0.5, offset=0.1, side=word)
+
+    assert {name for name, point in Said.plan.points.items() if "side=LEFT" in str(point)} == set("BPDE")
+    assert np.array_equal(Said().sweep(5)["B"], FourBar().sweep(5)["B"])
+
+
+@pytest.mark.parametrize("word", ["lefft", "", 1, True, "l"])
+def test_what_is_no_side(word):
+    steps = [
+        lambda: Dyad("A", "C", AB=3, CB=2.5, side=word),
+        lambda: linkage.SliderDyad("A", "post", AD=3, side=word),
+        lambda: linkage.PinSlotDyad("O", "A", OE=0.5, offset=0.1, side=word),
+    ]
+    for step in steps:
+        with pytest.raises(DefinitionError, match=re.escape(f"side={word!r}; say side=LEFT or side=RIGHT")):
+            step()
+
+
 def test_a_count_from_numpy_is_a_count():
     assert FourBar().sweep(np.int64(3)).shape == (3,)
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import DefinitionError, ForceElement, Load, driving_force, ratio, thrust
+from linkage import DefinitionError, ForceElement, Load, drive_force, driving_force, ratio
 from mechanisms.classics.stephenson_two import StephensonTwo
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.benchmarks.c_reference import POINTER, address, built, has_compiler
@@ -88,7 +88,7 @@ class Stop(ForceElement):
 @pytest.mark.skipif(shutil.which("node") is None, reason="no JavaScript")
 def test_a_thrust_is_nan_where_its_law_does_not_hold():
     hitch = ThreePointHitch()
-    text = hitch.source([thrust(loads=[Stop("G")])], language="javascript")
+    text = hitch.source([drive_force(loads=[Stop("G")])], language="javascript")
     calls = ", ".join(f"poses({arguments(text)}, [{S}])[0]" for S in (0.05, 0.25))
     said = subprocess.run(["node", "-e", f"{text}console.log({calls})"], check=True, capture_output=True, text=True).stdout.split()
     assert_allclose(float(said[0]), driving_force(hitch.at(S=0.05), [Stop("G")]), rtol=1e-12)

@@ -38,7 +38,7 @@ from linkage import (
     pin_forces,
     reaction,
 )
-from linkage.loads import ForceElement
+from linkage.loads import TwoPoint
 from linkage.statics import table_text
 from mechanisms.classics.four_bar import FourBar, Parallelogram
 from mechanisms.classics.front_loader import FrontLoader
@@ -75,7 +75,7 @@ class Crane(Mechanism):
 def test_the_hitchs_joints():
     found = pin_forces(Hitch().sweep(5))
     assert {(each.point, each.on, each.by) for each in found.joints} == {
-        ("A", "AB", "frame"), ("O", "OBC", "frame"), ("E", "EDF", "frame"), ("M", "MK", "frame"), ("B", "AB", "OBC"),
+        ("A", "lift", "frame"), ("O", "OBC", "frame"), ("E", "EDF", "frame"), ("M", "MK", "frame"), ("B", "lift", "OBC"),
         ("C", "OBC", "CD"), ("D", "EDF", "CD"), ("F", "FKG", "EDF"), ("K", "FKG", "MK"),
     }  # fmt: skip
     assert found.residual < 1e-14
@@ -143,7 +143,7 @@ def test_the_table_holds_the_largest_force_its_place_case_and_direction():
     assert rows["K"].case == "transport"
     assert rows["K"].strokes["S"] == motion.strokes["S"][results[1].at("K")[0].size.argmax()]
     assert rows["B"].angle == pytest.approx(np.pi, abs=1e-9)       # the arm pushes B back along B -> A
-    assert (rows["B"].axis, rows["B"].on) == ("AB", "AB")
+    assert (rows["B"].axis, rows["B"].on) == ("AB", "lift")
     text = table_text(max_table(results))
     assert "transport" in text and len(text.splitlines()) == 1 + len(results[0].joints)
 
@@ -258,14 +258,14 @@ def test_a_drive_that_moves_its_length_by_the_double():
 
 
 def test_primitives_need_their_links_and_take_a_cylinder_from_a_force_element():
-    class Ram(ForceElement):
-        places = ()
+    class Ram(TwoPoint):
+        A, B, holds = "A", "B", True
 
-        def loads(self, motion):
+        def push(self, motion, length, rate):
+            return np.zeros(())
+
+        def pushes(self, motion, rates=None):
             return []
-
-        def cylinders(self):
-            return (("A", "B"),)
 
     class Primitive(Mechanism):
         S = Stroke(0.55, 0.80)
@@ -371,7 +371,7 @@ def test_a_support_that_does_not_feel_the_drive_is_refused():
 
     with pytest.raises(SingularError, match="does not move along its direction"):
         reaction(Level().sweep(3))
-    assert_allclose(reaction(Level().sweep(3), support=Support("A", (-1, 0)), thrust=70.0), 70.0, rtol=1e-14)
+    assert_allclose(reaction(Level().sweep(3), support=Support("A", (-1, 0)), drive_force=70.0), 70.0, rtol=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -392,7 +392,7 @@ def test_what_is_not_there_is_named(make, word):
 def test_it_prints_forces_with_units_and_the_residual():
     text = str(pin_forces(Hitch().sweep(5)))
     assert "S: 36098.8 to 43054.8 N" in text
-    assert "A (pin) on AB from frame: 36.0988 to 43.0548 kN" in text
+    assert "A (pin) on lift from frame: 36.0988 to 43.0548 kN" in text
     assert "residual of equilibrium" in text and "against virtual work" in text
     assert "Nm" in str(pin_forces(FourBar().sweep(5), [Moment("C B", M=5.0)]))
 

@@ -122,7 +122,7 @@ def test_toggle_press():
     c, s = (A - C) / np.hypot(*(A - C))                      # the cylinder's direction
     expected = 2 * F * tangent / (c - s * tangent)
     assert_allclose(driving_force(motion, [Support("B", (0, 1), force=F)]), expected, rtol=1e-11)
-    assert_allclose(reaction(motion, support=Support("B", (0, 1)), thrust=expected), F, rtol=1e-11)
+    assert_allclose(reaction(motion, support=Support("B", (0, 1)), drive_force=expected), F, rtol=1e-11)
 
 
 class Table(Mechanism):
@@ -257,7 +257,7 @@ def test_a_shoes_reaction_with_a_plain_bearing(direction, sense):
         shoe = (weight * G1[0] - H * thrust + couple) / R[0]
         F = np.hypot(thrust * u[0], thrust * u[1] - weight + shoe)
         couple = turn * F * 0.07 * 0.15
-    assert_allclose(reaction(motion, thrust=thrust, direction=direction), shoe, rtol=1e-11)
+    assert_allclose(reaction(motion, drive_force=thrust, direction=direction), shoe, rtol=1e-11)
 
 
 def test_the_thrust_may_stand_as_a_load():
@@ -273,7 +273,7 @@ def test_the_thrust_may_stand_as_a_load():
     own = [Header.feeder, Header.pin]
     for direction in ("frictionless", "extending", "retracting"):
         by_load = reaction(motion, [*own, Gas()], Header.shoe, direction=direction)
-        assert_allclose(by_load, reaction(motion, own, Header.shoe, thrust=9e3, direction=direction), rtol=1e-10)
+        assert_allclose(by_load, reaction(motion, own, Header.shoe, drive_force=9e3, direction=direction), rtol=1e-10)
 
 
 def test_a_journal_that_turns_in_its_pin():

@@ -119,7 +119,16 @@ def test_the_command_writes_csv_and_a_figure(capsys, tmp_path):
 def test_the_command_charges_for_a_reaction_and_lists_settings(capsys):
     assert balance("header_balancer", "--header", "3", "--reaction", "300kgf", "--table") == 0
     shown = capsys.readouterr().out
-    assert "Charged to 48.56 kgf/cm2" in shown and "charge 3, kgf/cm2" in shown
+    table, _, verdicts = shown.partition("Header 3 alone. Charged to 48.56 kgf/cm2")
+    assert "charge 3, kgf/cm2" in table and "no hang-up" not in table
+    assert "2 no hang-up, slow" in verdicts and "charge 1, kgf/cm2" not in verdicts
+
+
+def test_the_table_of_all_headers_says_nothing_of_one(capsys):
+    assert balance("header_balancer", "--table") == 0
+    shown = capsys.readouterr().out
+    assert all(f"safe {number}" in shown for number in (1, 2, 3))
+    assert not any(word in shown for word in ("Charged to", "no hang-up", "FAIL", "ok "))
 
 
 @pytest.mark.parametrize(

@@ -188,7 +188,7 @@ def test_shoe_feels_the_bearings_friction(direction, s):
             return [cross(arms[0], push) + cross((arms[0] + arms[1]) / 3, weight) + arms[1][0] * u[0] - s * 0.01 * bearing]
 
         want.append(solved(moment, [700.0])[0])
-    assert_allclose(reaction(motion, thrust=2000, direction=direction), want, rtol=1e-10)
+    assert_allclose(reaction(motion, drive_force=2000, direction=direction), want, rtol=1e-10)
 
 
 def test_steep_ladder_that_rubs_too_much_locks():

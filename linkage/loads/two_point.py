@@ -1,0 +1,169 @@
+"""Straight elements between two points: springs, dampers, actuators, any law of length and rate; a cylinder is one as well.
+
+Each is a two-force member: its end forces act through its two pins, on the bodies that are there. One sign for all of them:
+thrust [N] is positive where it pushes the ends apart.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, ClassVar, final
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..quantities import Distance, Joint, Reference, name_of, pinned
+from .element import ForceElement, Poses, Rates
+from .load import Array, Load, Push
+
+AT_REST: Rates = MappingProxyType({})
+
+
+class TwoPoint(ForceElement):
+    """The base of straight elements from A to B. A subclass is a frozen dataclass with A and B, and says `push`."""
+
+    A: Reference
+    B: Reference
+    places: ClassVar[tuple[str, ...]] = ("A", "B")
+
+    @abstractmethod
+    def push(self, motion: Poses, length: Array, rate: Array) -> Array:
+        """Return the thrust [N] at a length [m] that grows at a rate [m/s], 0 at rest; positive where it pushes the ends apart."""
+
+    def joints(self) -> tuple[Joint, ...]:
+        return tuple(pinned(point) for point in self.ends)
+
+    @property
+    def ends(self) -> tuple[str, str]:
+        """The names of its two points."""
+        return name_of(self.A), name_of(self.B)
+
+    def speed(self, motion: Poses, rates: Rates) -> Array:
+        """Return how fast its length grows [m/s] while strokes move at rates [1/s]."""
+        parts = [motion.ratio(Distance(self.A, self.B), wrt=name) * rate for name, rate in rates.items()]
+        return np.asarray(sum(parts[1:], parts[0])) if parts else np.zeros(())
+
+    def area_in(self, motion: Poses, sense: Array) -> Array:
+        """Return, for what holds, its thrust at one unit of pressure [m2], where `sense` is 1 while it pushes and -1 while it pulls."""
+        return sense
+
+    @property
+    def works_both(self) -> bool:
+        """Whether, of what holds, another area works while it pulls than while it pushes."""
+        return False
+
+    def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
+        length = motion.distance(self.A, self.B)
+        thrust = self.push(motion, length, self.speed(motion, rates))
+        refuse_coincidence(self, length, thrust)
+        return [Push(self, thrust)]
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return self.moving(motion, AT_REST)
+
+    def moving(self, motion: Poses, rates: Rates) -> list[Load]:
+        return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
+
+
+def end_forces(push: Push, motion: Poses) -> list[Load]:
+    """Return the forces of a two-point member on the points at its ends [N]; DefinitionError where they coincide while it pushes."""
+    member = push.member
+    A, B = member.ends
+    arm, length = motion[B] - motion[A], motion.distance(A, B)
+    refuse_coincidence(member, length, push.thrust)
+    force = arm / np.where(length == 0.0, 1.0, length) * push.thrust
+    return [Load(A, -force), Load(B, force)]
+
+
+def refuse_coincidence(member: TwoPoint, length: Array, thrust: Array) -> None:
+    """Raise DefinitionError where the ends of a two-point member coincide while it pushes or pulls."""
+    if np.any((length == 0.0) & (thrust != 0.0)):
+        what = f"{member.name} = {member}" if member.name else str(member)
+        raise DefinitionError(f"{what}: its ends coincide at some poses and give no direction; move one of them.")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Spring(TwoPoint):
+    """A straight spring from A to B: `relief = Spring(A, B, stiffness=20e3, free_length=0.4)`; thrust -stiffness (AB - free_length) [N].
+
+    Stiffness in N/m. Instead of the free length [m] its `preload` may be given: its pull [N] at the sketch pose, which is where the
+    strokes start unless the class says `drawn(...)`; a negative one pushes.
+    """
+
+    A: Reference
+    B: Reference
+    stiffness: Any
+    free_length: Any = None
+    preload: Any = None
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"stiffness": "", "free_length": "mm", "preload": "N"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"stiffness", "free_length"})
+    optional: ClassVar[frozenset[str]] = frozenset({"free_length", "preload"})
+
+    def __post_init__(self) -> None:
+        if (self.free_length is None) == (self.preload is None):
+            given = "neither" if self.free_length is None else "both"
+            raise DefinitionError(f"{self._opening()}: give its free_length [m] or its preload [N]; {given} is given.")
+        super().__post_init__()
+
+    def push(self, motion: Poses, length: Array, rate: Array) -> Array:
+        stiffness = self.number(motion, "stiffness")
+        if self.preload is None:
+            return stiffness * (self.number(motion, "free_length") - length)
+        return stiffness * (motion.sketched(Distance(self.A, self.B)) - length) - self.number(motion, "preload")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Damper(TwoPoint):
+    """A viscous damper from A to B: thrust -coefficient d(AB)/dt [N], the coefficient in N s/m; nothing at rest."""
+
+    A: Reference
+    B: Reference
+    coefficient: Any
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"coefficient": ""})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"coefficient"})
+
+    def push(self, motion: Poses, length: Array, rate: Array) -> Array:
+        return -self.number(motion, "coefficient") * rate
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Actuator(TwoPoint):
+    """A thrust that is known, from A to B: `push = Actuator(A, B, force=12 * kN)` [N], positive where it pushes the ends apart."""
+
+    A: Reference
+    B: Reference
+    force: Any
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"force": "N"})
+
+    def push(self, motion: Poses, length: Array, rate: Array) -> Array:
+        return self.number(motion, "force")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Between(TwoPoint):
+    """A law of one's own from A to B: `strut = Between(A, B, law)`, `law(length, rate)` gives the thrust [N] from m and m/s.
+
+    A gas strut, a chain that only pulls, a bump stop: plain arithmetic on arrays, `np.where` and `np.maximum` where it has branches.
+    """
+
+    A: Reference
+    B: Reference
+    law: Callable[[Array, Array], Array]
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not callable(self.law):
+            raise DefinitionError(f"{self._opening()}: law={self.law!r} is no function; give one of length [m] and rate [m/s].")
+
+    def push(self, motion: Poses, length: Array, rate: Array) -> Array:
+        return self.law(length, rate)
+
+    def words(self) -> list[str]:
+        return [f"law={getattr(self.law, '__name__', 'law')}"]

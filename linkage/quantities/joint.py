@@ -1,0 +1,86 @@
+"""What a member holds: the joints that a step, a guide or a force element brings, beside the pins of bodies that share a point.
+
+Statics, mobility and drawing read these and know no kind of member by its name. Bodies that share a point are pinned to each
+other there without a word; a joint says what else is transmitted: across a guide, along a driven length, a drive's couple.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal, TypeAlias, final
+
+from ..vectors import Line
+from .member import Member
+from .quantity import Quantity
+from .where import Where
+
+Role: TypeAlias = Literal["body", "runner", "slider", "guide", "own"]
+
+
+@final
+@dataclass(frozen=True)
+class JointSide:
+    """One of the two bodies of a joint, by the points or the guide that belong to it.
+
+    "body": that of its points; of a single point the one that carries the pin, of none the frame. "runner": the one that runs on the
+    joint's track at the point. "slider": one of its own at the point, which moves without turning. "guide": the one that carries a
+    guide. "own": the member itself, such as a spring.
+    """
+
+    points: tuple[str, ...] = ()
+    role: Role = "body"
+
+
+FRAME_SIDE = JointSide()
+
+
+@final
+@dataclass(frozen=True)
+class Driven:
+    """A quantity that a joint drives: the force along `along` (a letter of what the joint holds) is conjugate to `sign` times it."""
+
+    quantity: Quantity
+    along: str
+    sign: float = 1.0
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Joint:
+    """What the body `on` gets from the body `by` at a point, in the directions that it `holds`.
+
+    `holds` are letters: x, y (a pin), n across the joint's line, t along it, c a couple. `line` gives the line in a reading; `track`
+    tells equal lines: a guide's name, or the two points of a slot's body, sorted. A joint with `drives` is there while one of them
+    follows a stroke; an `arm` then leaves the body it is measured on. `still` must not follow a stroke, in words.
+    """
+
+    kind: str
+    point: str
+    on: JointSide
+    by: JointSide
+    holds: str
+    line: Callable[[Where], Line] | None = None
+    track: tuple[str, ...] = ()
+    drives: tuple[Driven, ...] = ()
+    arm: bool = False
+    still: tuple[tuple[Quantity, str], ...] = ()
+
+
+class Holding(Member):
+    """A member that may hold others: a step, a guide, a force element."""
+
+    def joints(self) -> tuple[Joint, ...]:
+        """Return the joints it brings, beside the pins of bodies that share a point."""
+        return ()
+
+
+def pinned(point: str) -> Joint:
+    """Return the pin by which a member that is a body of its own hangs on a point."""
+    return Joint("pin", point, JointSide((point,), "own"), JointSide((point,)), "xy")
+
+
+def guided(point: str, guide: str) -> Joint:
+    """Return the joint of a point that slides on a guide."""
+    on, by = JointSide((point,), "runner"), JointSide((guide,), "guide")
+    return Joint("guide", point, on, by, "n", lambda where: where.line(guide), (guide,))

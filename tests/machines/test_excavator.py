@@ -320,7 +320,7 @@ def test_verdict_of_the_boom_over_its_stroke(count):
     most, _ = plane.peak(lambda q1: thrusts((q1, *POSES[1, 1:]))[0], *RANGE["boom"])
     lifting, oil, holding, _ = lift_verdicts(Excavator.boom_line, motion)
     reserve = 180e5 * plane.disc(0.080) * 0.92 / most
-    assert bool(lifting) is (reserve >= 1.0)
+    assert bool(lifting) == (reserve >= 1.0)
     assert_allclose(number("least reserve is", lifting), reserve, rtol=1e-3)
     assert_allclose(number("", oil), 0.400 * plane.disc(0.080) / litre, rtol=1e-2)
     assert_allclose(number("up to", holding), most / plane.disc(0.080) / bar, rtol=1e-3)
@@ -339,10 +339,10 @@ def test_cylinders_fit_and_do_not_buckle():
 
     most, _ = plane.peak(use, 0.0, 1.0, 60)
     verdicts = ByAngles.boom.checks(motion)
-    (buckling,) = [each for each in verdicts if each.name == "buckling"]
-    assert bool(buckling) is (most * 3.5 <= 1.0)
+    (buckling,) = [each for each in verdicts if each.rule == "buckling"]
+    assert bool(buckling) == (most * 3.5 <= 1.0)
     assert_allclose(number("safety", buckling), 1 / most, rtol=6e-3)
-    assert all(each for each in verdicts if each.name == "length")
+    assert all(each for each in verdicts if each.rule == "length")
 
 
 # -- what a user adds --------------------------------------------------------------------------------------

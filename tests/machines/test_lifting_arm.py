@@ -150,13 +150,13 @@ def test_verdicts_of_the_stroke_that_draws_in(count):
     motion = Pulled().at(S=np.linspace(start, end, count))
     most, _ = plane.peak(lambda psi: -moment(psi) / lever(psi, "A", "B"), low, high)
     lifting, oil, holding, lowering = lift_verdicts(Pulled.line, motion)
-    assert bool(lifting) is (160e5 * RING / (most / 0.92) >= 1.0)
+    assert bool(lifting) == (160e5 * RING / (most / 0.92) >= 1.0)
     assert_allclose(number("least reserve is", lifting), 160e5 * RING / (most / 0.92), rtol=1e-3)
     assert "drives" not in str(lifting)
     assert_allclose(number("", oil), (end - start) * RING / 1e-3, rtol=1e-2)
     assert_allclose(number("up to", holding), most / RING / bar, rtol=1e-3)
     assert lowering
-    assert all("never pushed" in str(each) for each in Pulled.lift.checks(motion) if each.name == "buckling")
+    assert all("never pushed" in str(each) for each in Pulled.lift.checks(motion) if each.rule == "buckling")
 
 
 def test_stroke_of_half_the_length():
@@ -173,7 +173,7 @@ def test_stroke_of_half_the_length():
     assert_allclose(pin_forces(motion).drives["S"], 2 * want, rtol=1e-11)
     assert_allclose(pin_forces(motion).thrusts["push"], want, rtol=1e-11)
     use, _ = plane.peak(lambda psi: moment(psi) / lever(psi, "K", "X") / plane.critical(ROD, long(psi, "K", "X")), ANGLES[0], ANGLES[-1])
-    (buckling,) = [each for each in Pushed.push.checks(motion) if each.name == "buckling"]
+    (buckling,) = [each for each in Pushed.push.checks(motion) if each.rule == "buckling"]
     assert_allclose(number("safety", buckling), 1 / use, rtol=6e-3)
 
 
@@ -212,7 +212,7 @@ def test_cylinder_beside_a_driven_length():
         assert_allclose(forces.force("X", on="O B")[:, k], push, rtol=1e-10)
         assert_allclose(forces.force("O", on="O B")[:, k], [0.0, MASS * plane.G] - push, rtol=1e-10)
     use, _ = plane.peak(lambda psi: moment(psi) / lever(psi, "K", "X") / plane.critical(ROD, long(psi, "K", "X")), ANGLES[0], ANGLES[-1])
-    (buckling,) = [each for each in SecondAlone.lift.checks(motion) if each.name == "buckling"]
+    (buckling,) = [each for each in SecondAlone.lift.checks(motion) if each.rule == "buckling"]
     assert_allclose(number("safety", buckling), 1 / use, rtol=6e-3)
 
 

@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from linkage.errors import DefinitionError
 from linkage.files import ElementEntry
-from linkage.files.amounts import Amount, FixedMetres, FixedNumber, LoadName, Metres, Pressure, Volume, Word
+from linkage.files.amounts import Amount, FixedMetres, FixedNumber, LoadName, LoadNames, Metres, Pressure, Volume, Word
 from linkage.files.design import Design
 from linkage.files.fields import TwoPoints
 from linkage.quantities import Member, name_of
@@ -50,15 +50,21 @@ class CircuitEntry(ElementEntry):
 
 
 class LiftCircuitEntry(CircuitEntry):
-    """`circuit = { LiftCircuit = "lift", pressure = "180 bar", flow = "60 l / min", mechanical_efficiency = 0.85 }`"""
+    """`circuit = { LiftCircuit = "lift", pressure = "180 bar", flow = "60 l / min" }`; of several cylinders `["lift", "aux"]`"""
 
     describes: ClassVar[type[Member]] = LiftCircuit
-    parents: LoadName = Field(alias="LiftCircuit")
+    parents: LoadNames = Field(alias="LiftCircuit")
     pressure: Pressure
     flow: Amount = None
     mechanical_efficiency: Amount = None
     hydraulic_efficiency: Amount = None
     back_pressure: Pressure = None
+    relief: Pressure = None
+
+    @classmethod
+    def written_parents(cls, member: Any) -> Any:
+        names = [name_of(each) for each in member.references]
+        return names[0] if len(names) == 1 else names
 
 
 class Vessel(BaseModel):

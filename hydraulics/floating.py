@@ -23,9 +23,9 @@ from linkage.quantities import Reference, label, name_of
 from linkage.statics import Case, Loads, stroke_followed
 
 from .accumulator import AccumulatorBlock
-from .inputs import Array, finite, is_traced
+from .inputs import Array, finite, in_pascals, is_traced
 from .member import Circuit, Cylinder, found_in, is_named, the_cylinder
-from .settings import number_set
+from .settings import follows, number_set
 
 Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
 
@@ -55,6 +55,9 @@ class FloatCircuit(Circuit):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        for name in ("charge_pressure", "seal_friction"):
+            if not follows(getattr(self, name)):
+                in_pascals(getattr(self, name), name.replace("_", " ").capitalize())
         if not (isinstance(self.block, AccumulatorBlock) or callable(self.block)):
             raise DefinitionError(f"{self}: block={self.block!r} is no AccumulatorBlock; write AccumulatorBlock([Accumulator(...)]).")
 
@@ -101,7 +104,8 @@ class FloatCircuit(Circuit):
 
     def pressure(self, motion: Poses) -> Array:
         """Return the block's pressure [Pa gauge], shape (...); 0 where the line is empty."""
-        charge, left = finite(self.number(motion, "charge_pressure"), "Charge pressure"), self.withdrawn(motion)
+        charge = in_pascals(finite(self.number(motion, "charge_pressure"), "Charge pressure"), "Charge pressure")
+        left = self.withdrawn(motion)
         block, exponent = self.accumulators(motion), number_set(self, motion, "exponent")
         if not is_traced(exponent) and np.all(exponent == 1.0):
             return block.pressure(charge, left)

@@ -39,7 +39,7 @@ def lift_verdicts(
         raise DefinitionError(f"{motion.plan.title}: no pose of this motion can be assembled, so that there is nothing to judge.")
     judged = [Judged(circuit, ram, motion, loads, case, unit) for ram in circuit.rams(motion)]
     nothing = idle(judged)
-    if nothing:
+    if nothing is not None:
         return [nothing, filling(circuit, motion)]
     several = len(judged) > 1
     return [

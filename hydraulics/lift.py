@@ -26,8 +26,9 @@ from linkage.quantities import Reference, label, name_of
 from linkage.statics import Case, Loads, elements_of
 
 from .cylinder import CylinderSize
-from .inputs import Array, finite, positive
+from .inputs import Array, finite, in_cubic_metres, in_pascals, positive
 from .member import Circuit, Cylinder, found_in, is_named, the_cylinder
+from .settings import follows
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
 
@@ -55,6 +56,14 @@ class LiftCircuit(Circuit):
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"flow", "back_pressure"})
     optional: ClassVar[frozenset[str]] = frozenset({"relief"})
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name in ("pressure", "relief", "back_pressure"):
+            if name in self.numbers and not follows(getattr(self, name)):
+                in_pascals(getattr(self, name), f"{name.replace('_', ' ').capitalize()} of the circuit")
+        if not follows(self.flow):
+            in_cubic_metres(self.flow, "Flow of the pump")
 
     @property
     def references(self) -> tuple[Reference, ...]:
@@ -109,13 +118,15 @@ class LiftCircuit(Circuit):
 
     def supply(self, motion: Poses) -> Array:
         """Return the pump's highest pressure [Pa]; DefinitionError unless it is above zero."""
-        return positive(self.number(motion, "pressure"), f"{self.name or 'LiftCircuit'}.pressure")
+        what = f"{self.name or 'LiftCircuit'}.pressure"
+        return in_pascals(positive(self.number(motion, "pressure"), what), what)
 
     def held(self, motion: Poses) -> Array:
         """Return the pressure at which the relief valve opens [Pa], the pump's where none is given."""
         if self.relief is None:
             return self.supply(motion)
-        return positive(self.number(motion, "relief"), f"{self.name or 'LiftCircuit'}.relief")
+        what = f"{self.name or 'LiftCircuit'}.relief"
+        return in_pascals(positive(self.number(motion, "relief"), what), what)
 
     def efficiency(self, motion: Poses, kind: str) -> Array:
         """Return the "mechanical" or "hydraulic" efficiency; DefinitionError unless it is above 0 and not above 1."""
@@ -127,7 +138,7 @@ class LiftCircuit(Circuit):
 
     def back(self, motion: Poses) -> Array:
         """Return the pressure of the returning oil [Pa]; DefinitionError where it is negative."""
-        value = finite(self.number(motion, "back_pressure"), "Back pressure")
+        value = in_pascals(finite(self.number(motion, "back_pressure"), "Back pressure"), "Back pressure")
         if np.any(value < 0.0):
             raise DefinitionError(f"Back pressure = {np.min(value):.6g} Pa is below zero; give zero or more.")
         return value
@@ -268,6 +279,7 @@ class LiftCircuit(Circuit):
     def time(self, motion: Motion) -> Array:
         """Return the time [s] that the pump's flow takes for it, one value a design; DefinitionError without a flow."""
         flow = positive(self.number(motion, "flow"), "Flow of the pump", "give it in m3/s, such as flow=60 * litre / minute")
+        in_cubic_metres(flow, "Flow of the pump")
         return np.asarray(self.oil(motion) / for_designs(motion, flow))[()]
 
     # -- holding and lowering ------------------------------------------------------------------------------

@@ -27,7 +27,7 @@ from linkage.units import mm
 
 from .buckling import Buckling
 from .cylinder import CylinderSize
-from .inputs import Array, positive
+from .inputs import Array, positive, stroke_in_metres
 from .settings import follows, number_set
 from .sizes import BORES_MM, RODS_MM, standard_rods
 from .verdict import Verdict
@@ -65,7 +65,7 @@ class Cylinder(TwoPoint):
         Buckling(1.0, self.mounting, self.safety)
         for value, what in ((self.stroke, "Stroke of the cylinder"), (self.closed, "Closed length of the cylinder")):
             if value is not None:
-                positive(value, what)
+                positive(stroke_in_metres(value, what, None if self._follows else self.bore), what)
 
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:
         """Return nothing: it has no law of its own."""

@@ -70,6 +70,13 @@ def load_of(given: Any, info: ValidationInfo) -> str:
     return names_of(info).checked(given, "load")
 
 
+def loads_of(given: Any, info: ValidationInfo) -> Any:
+    """Return the name of a load, or a list of such."""
+    if isinstance(given, str) or not isinstance(given, Sequence):
+        return load_of(given, info)
+    return [load_of(each, info) for each in given]
+
+
 def word_of(given: Any) -> str:
     """Return a word that stands for itself."""
     if not isinstance(given, str) or not given.isprintable():
@@ -102,4 +109,5 @@ Gravity: TypeAlias = Annotated[tuple[float, float], PlainValidator(gravity_of)]
 ForceVector: TypeAlias = Annotated[tuple[Any, Any], PlainValidator(force_of)]
 BodyName: TypeAlias = Annotated[str, PlainValidator(body_of)]
 LoadName: TypeAlias = Annotated[str, PlainValidator(load_of)]
+LoadNames: TypeAlias = Annotated[Any, PlainValidator(loads_of)]
 Word: TypeAlias = Annotated[str, PlainValidator(word_of)]

@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 
 from pydantic import Field
 
-from ..loads import Force, GuideFriction, LinkMass, LoadCase, Moment, PinFriction, Spring, Support, Weight
+from ..loads import Actuator, Damper, Force, GuideFriction, LinkMass, LoadCase, Moment, PinFriction, Spring, Support, Weight
 from ..quantities import Member, name_of
 from .amounts import (
     Amount,
@@ -83,12 +83,29 @@ class GuideFrictionEntry(ElementEntry):
 
 
 class SpringEntry(ElementEntry):
-    """`relief = { Spring = ["A", "B"], stiffness = 20e3, free_length = "400 mm" }`"""
+    """`relief = { Spring = ["A", "B"], stiffness = 20e3, free_length = "400 mm" }`, or with `preload = "2 kN"` for its free length"""
 
     describes: ClassVar[type[Member]] = Spring
     parents: TwoPoints = Field(alias="Spring")
     stiffness: Amount
-    free_length: Metres
+    free_length: Metres = None
+    preload: Newtons = None
+
+
+class DamperEntry(ElementEntry):
+    """`strut = { Damper = ["A", "B"], coefficient = 2000 }`"""
+
+    describes: ClassVar[type[Member]] = Damper
+    parents: TwoPoints = Field(alias="Damper")
+    coefficient: Amount
+
+
+class ActuatorEntry(ElementEntry):
+    """`push = { Actuator = ["A", "B"], force = "12 kN" }`"""
+
+    describes: ClassVar[type[Member]] = Actuator
+    parents: TwoPoints = Field(alias="Actuator")
+    force: Newtons
 
 
 class BodyEntry(ElementEntry):

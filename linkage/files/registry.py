@@ -12,7 +12,9 @@ from ..errors import DefinitionError, unknown
 from ..quantities import Member
 from .entry import Entry
 from .loads import (
+    ActuatorEntry,
     CaseEntry,
+    DamperEntry,
     ForceEntry,
     GuideFrictionEntry,
     LinkMassEntry,
@@ -47,7 +49,8 @@ OWN: tuple[type[Entry], ...] = (
     StrokeEntry, DimensionEntry, DrawnEntry, GroundEntry, GuideEntry,
     DyadEntry, OnLinkEntry, CrankEntry, OffsetEntry, SliderDyadEntry, PinSlotDyadEntry, GuideCrossEntry, YokeDyadEntry, OnGuideEntry,
     VectorEntry, LinkEntry, PinEntry, SlideEntry, GroupEntry, OutputEntry,
-    WeightEntry, ForceEntry, MomentEntry, LinkMassEntry, SpringEntry, SupportEntry, PinFrictionEntry, GuideFrictionEntry, CaseEntry,
+    WeightEntry, ForceEntry, MomentEntry, LinkMassEntry, SpringEntry, DamperEntry, ActuatorEntry, SupportEntry,
+    PinFrictionEntry, GuideFrictionEntry, CaseEntry,
 )  # fmt: skip
 
 

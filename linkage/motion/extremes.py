@@ -15,6 +15,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from .between import Between, Function
+from .boxes import Box, highest_in, moving
 from .motion import Motion
 from .peaks import highest
 from .reach import place_read, stroke_unit
@@ -67,11 +68,15 @@ def extremum(motion: Motion, f: Function, sense: float) -> Extremum:
     """Return the greatest (sense 1.0) or the lowest (-1.0) value of f over all that a motion covers."""
     if not motion.strokes:
         raise DefinitionError(f"{motion.plan.title} has no stroke, so there is nothing between its poses.")
+    units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
+    if len(motion.stroke_shape) > 1 and len(moving(motion)) > 1:
+        box = Box(motion, f, sense)
+        top, shape = highest_in(box), (*box.front, *motion.design_shape)
+        strokes = {name: given(value, shape) for name, value in box.strokes(top.unit).items()}
+        return Extremum(given(sense * top.value, shape), strokes, given(top.unbounded, shape), units)
     between = Between(motion, f, sense)
-    found = highest(between.look, between.route.counts)
-    shape = (*between.front, *motion.design_shape)
+    found, shape = highest(between.look, between.route.counts), (*between.front, *motion.design_shape)
     strokes = {name: given(value, shape) for name, value in between.route.strokes(found.leg, found.t).items()}
-    units = {name: stroke_unit(motion.plan, name) for name in strokes}
     return Extremum(given(sense * found.value, shape), strokes, given(found.unbounded, shape), units)
 
 

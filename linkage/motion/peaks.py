@@ -5,9 +5,9 @@ A line is made of legs, a place on it is a leg and a share t of it, 0 to 1. Noth
 * Samples stand 1/4096 of the range apart. A bump with a base of 1/2000, a triangle or a parabola, has a sample within a quarter of its
   base from its top, which sees at least half of its height (of a parabola three quarters). That sample is higher than its neighbours
   unless the ground beside the bump rises half as fast as the bump itself.
-* About every such sample a bracket is looked at in 33 places. What may still come out highest, by what it rises above the places next
-  to it, is narrowed 16-fold a round until the bracket is 1e-13 of the leg, or flat to rounding. A kink is found like a smooth top, and
-  so is a jump from its larger side.
+* About every such sample a bracket is looked at in 33 places (in 9 where there are more than 64 brackets). What may still come out
+  highest, by what it rises above the places next to it, is narrowed 16-fold (4-fold) a round until the bracket is 1e-13 of the leg, or
+  flat to rounding. A kink is found like a smooth top, and so is a jump from its larger side.
 * Every border of the places that have a value is bisected to 1e-13 of the leg, and looked at in steps that halve towards it.
 * A value that grows with a power of the distance up to a border, or as far as numbers go, is unbounded there; see `grows`.
 """
@@ -30,10 +30,11 @@ Look: TypeAlias = Callable[[Index, FloatArray], tuple[FloatArray, Mask]]
 and whether each pose (D, n) is reached."""
 
 SAMPLES = 4096  # over the range
-FINE, NARROWER = 33, 16.0  # places in a bracket; the next one is two of its intervals wide
+MANY, FEW, FINE, COARSE = 1024, 64, 33, 9  # brackets at most; places in a bracket, up to how many brackets and beyond
+PATIENCE, LAST = 8, 8  # for so many rounds all brackets go on that may win, then the best
 CLOSE = 1e-13  # of a leg: how narrow a bracket gets
-FIRST, LAST, BORDERS = 64, 8, 32  # of each function and design: brackets at first, brackets to the end, borders
-NOISE = 1e-10  # of the range of the values: a sample that rises less above its neighbours hides nothing
+BORDERS = 32  # of each function and design, at most
+NOISE, ROUNDED = 1e-10, 1e-12  # of the range of the values, and of their size: a sample that rises less above its neighbours hides nothing
 EPS, LOWEST = float(np.finfo(float).eps), float(np.finfo(float).min)
 HALVINGS = 48
 SEEN, REFUSED = 1e-9, 1e-5  # of a leg: how near a value must keep growing, to a border and to a refused pose
@@ -60,9 +61,12 @@ class Tops:
     bound: FloatArray
 
     def best(self, most: int) -> Tops:
-        """Return those that may come out highest, in every row as many as the fullest row needs, at most so many."""
-        hopeful = self.bound >= self.value.max(axis=-1, keepdims=True)
-        order = np.argsort(-self.bound, axis=-1, kind="stable")[..., : min(most, int(hopeful.sum(axis=-1).max()))]
+        """Return the highest and those that may still be higher, in every row as many as the fullest row needs, at most so many."""
+        highest = self.value.max(axis=-1, keepdims=True)
+        rank = np.where(self.bound > highest + 16.0 * EPS * np.abs(highest), self.bound, -np.inf)
+        np.put_along_axis(rank, np.argmax(self.value, axis=-1)[..., None], np.inf, axis=-1)
+        count = int((rank > -np.inf).sum(axis=-1).max())
+        order = np.argsort(-rank, axis=-1, kind="stable")[..., : min(most, count)]
         return Tops(*(np.take_along_axis(getattr(self, name), order, axis=-1) for name in self.__dataclass_fields__))
 
     def where(self, mask: Mask) -> Tops:
@@ -88,10 +92,11 @@ def highest(look: Look, counts: Sequence[int]) -> Highest:
     values = level(seen)
     tops = zoomed(look, peaks(values, leg, t, counts))
     edges = borders(look, np.isnan(seen), values, leg, t)
-    ends = tops if edges is None else tops.joined(towards(look, edges))
-    tops = ends.best(LAST)
+    tops = tops if edges is None else tops.joined(towards(look, edges))
+    rounds = 1
     while tops.half.max() > CLOSE:
-        tops = zoomed(look, tops)
+        tops = zoomed(look, tops.best(MANY if rounds < PATIENCE else LAST))
+        rounds += 1
     ends = tops if edges is None else tops.joined(edges)
     return chosen(ends, grows(look, ends), np.asarray(np.isnan(seen).all(axis=-1)))
 
@@ -138,23 +143,25 @@ def peaks(values: FloatArray, leg: Index, t: FloatArray, counts: Sequence[int], 
         rise = np.fmax(rise, finite - beside(finite, by, np.nan))
     size = np.nanmax(np.abs(finite), axis=-1, initial=0.0, keepdims=True)
     span = np.nanmax(finite, axis=-1, initial=-np.inf, keepdims=True) - np.nanmin(finite, axis=-1, initial=np.inf, keepdims=True)
-    hopeful = are_peaks(values, leg) & (rise > NOISE * span + 16.0 * EPS * size)
+    hopeful = are_peaks(values, leg) & (rise > NOISE * span + ROUNDED * size)
     rank = np.where(hopeful, values + rise, -np.inf)
     if among is None:
         np.put_along_axis(rank, np.argmax(values, axis=-1)[..., None], np.inf, axis=-1)
     else:
         rank = np.where(among, rank, -np.inf)
     count = int((rank > -np.inf).sum(axis=-1).max())
-    place = np.argsort(-rank, axis=-1, kind="stable")[..., : min(count, FIRST)]
+    place = np.argsort(-rank, axis=-1, kind="stable")[..., : min(count, MANY)]
     value = np.take_along_axis(values, place, axis=-1)
     return Tops(leg[place], t[place], value, 1.0 / np.asarray(counts)[leg[place]], value + np.take_along_axis(rise, place, axis=-1))
 
 
 def zoomed(look: Look, tops: Tops) -> Tops:
-    """Return the best places in the brackets, with brackets 16 times narrower about them; of no width where they are flat to rounding."""
-    t = np.clip(tops.t[..., None] + tops.half[..., None] * np.linspace(-1.0, 1.0, FINE), 0.0, 1.0)
+    """Return the best places in the brackets, with brackets of two intervals about them; of no width where they are flat to rounding."""
+    places = FINE if tops.t.shape[-1] <= FEW else COARSE
+    low, high = np.maximum(tops.t - tops.half, 0.0)[..., None], np.minimum(tops.t + tops.half, 1.0)[..., None]
+    t = low + (high - low) * np.linspace(0.0, 1.0, places)
     seen, _ = own(look, tops.leg, t)
-    return settled(tops, t, seen, np.broadcast_to(tops.half[..., None] / NARROWER, t.shape))
+    return settled(tops, t, seen, np.broadcast_to(tops.half[..., None] * 2.0 / (places - 1), t.shape))
 
 
 def settled(tops: Tops, t: FloatArray, seen: FloatArray, half: FloatArray) -> Tops:
@@ -221,39 +228,36 @@ def towards(look: Look, edges: Tops) -> Tops:
 
 
 def grows(look: Look, tops: Tops) -> Mask:
-    """Return at which places (K, D, c) a value grows beyond bounds.
-
-    Looked at from 2^-1 to 2^-48 of the leg before a place, a value c / (x0 + d)^q gains most by halving d where d is about x0. It is
-    unbounded where its gains grew all the way to there, over six halvings at least 2.5-fold (q = 1/2: 4-fold; a finite value's gains
-    shrink), and x0 is nothing but the end of numbers: below 1e-9, or, up to a refused pose, 1e-5 or the width of what is refused.
-    """
+    """Return at which places (K, D, c) a value grows beyond bounds: looked at from 2^-1 to 2^-48 of the leg before and behind a place."""
     far = np.ldexp(1.0, -np.arange(1, HALVINGS + 1))
     t = tops.t[..., None, None] + np.array([-1.0, 1.0])[:, None] * far
     on = (t >= 0.0) & (t <= 1.0)
     K, D, c = tops.t.shape
     seen, reached = own(look, tops.leg, np.clip(t, 0.0, 1.0).reshape(K, D, c, -1))
     seen, reached = np.where(on, seen.reshape(t.shape), np.nan), reached.reshape(t.shape) & on
-    return np.asarray(np.isposinf(tops.value) | (growing(tops.value, seen, far) <= beyond(seen, reached, far)).any(axis=-1))
+    return np.asarray(np.isposinf(tops.value) | is_pole(tops.value, seen, reached, far).any(axis=-1))
 
 
-def growing(value: FloatArray, seen: FloatArray, far: FloatArray) -> FloatArray:
-    """Return how near (K, D, c, 2) to a place values seen (K, D, c, 2, n) at distances (n,) grow up to it; infinite where they do not."""
+def is_pole(value: FloatArray, seen: FloatArray, reached: Mask, far: FloatArray, border: float = 1e-12, near: float = SEEN) -> Mask:
+    """Return from which sides (..., 2) a value (...) grows beyond bounds, by what is seen (..., 2, n) at distances (n,) on either side.
+
+    A value c / (x0 + d)^q gains most by halving d where d is about x0. It is taken for a pole where its gains grew all the way there,
+    over six halvings at least 2.5-fold (for q = 1/2 it is 4-fold; the gains of a finite value shrink), and where x0 is as near as numbers
+    go (`near`); or where the poses beyond the place are refused, from `border` on, and x0 is as near as poses are refused for their
+    condition: below 1e-5, or about half the width of what is refused.
+    """
     gains = np.diff(seen, axis=-1)
     most = np.argmax(level(gains), axis=-1)[..., None]
     before = np.stack([np.take_along_axis(gains, np.maximum(most - by, 0), axis=-1)[..., 0] for by in range(7)])
     start = np.take_along_axis(seen, np.maximum(most - 6, 0), axis=-1)[..., 0]
     steady = (before > 0.0).all(axis=0) & (before[0] > 2.5 * before[6]) & (before[2] > before[6]) & (most[..., 0] >= 6)
     much = value[..., None] - start >= 0.01 * np.abs(value[..., None])
-    return np.where(steady & much, far[most[..., 0] + 1], np.inf)
-
-
-def beyond(seen: FloatArray, reached: Mask, far: FloatArray) -> FloatArray:
-    """Return how near (K, D, c, 2) to a place values must grow to be unbounded: as wide as what is refused on its other side."""
-    gone = np.isnan(seen[..., ::-1, :])
-    least = int(np.searchsorted(-far, -1e-12))
-    refused = (gone & reached[..., ::-1, :])[..., least]
-    width = np.where(np.logical_and.accumulate(gone[..., least::-1], axis=-1), far[least::-1], 0.0).max(axis=-1)
-    return np.where(refused, np.maximum(REFUSED, 2.0 * width), SEEN)
+    x0 = far[most[..., 0] + 1]
+    least = int(np.searchsorted(-far, -border))
+    gone = np.isnan(seen[..., ::-1, :])[..., least::-1]
+    refused = gone[..., 0] & reached[..., ::-1, least]
+    width = np.where(np.logical_and.accumulate(gone, axis=-1), far[least::-1], 0.0).max(axis=-1)
+    return np.asarray(steady & much & ((x0 <= near) | (refused & ((x0 <= REFUSED) | ((x0 <= 2.0 * width) & (x0 >= width / 8.0))))))
 
 
 def chosen(tops: Tops, unbounded: Mask, missing: Mask) -> Highest:

@@ -26,12 +26,13 @@ class Route:
     def of(cls, strokes: Mapping[str, FloatArray]) -> Route:
         """Return the way that poses cover, whatever their number.
 
-        A single stroke goes from its least to its greatest value. Several strokes in arrays of one axis go from pose to pose, where poses
-        on a straight line are no corners. On no leg does a stroke move more than 1/4096 of its range from one sample to the next.
+        A single stroke, and a grid in which a single one moves, goes from its least to its greatest value. Several strokes in arrays
+        of one axis go from pose to pose, where poses on a straight line are no corners. From one sample to the next no stroke moves
+        more than 1/4096 of its range.
         """
         values = np.array([np.ravel(value) for value in strokes.values()])
-        if len(values) == 1:
-            values = np.array([[values.min(), values.max()]])
+        if len(values) == 1 or next(iter(strokes.values())).ndim > 1:
+            values = np.stack([values.min(axis=1), values.max(axis=1)], axis=1)
         ranges = np.ptp(values, axis=1, keepdims=True)
         scaled = values / np.where(ranges > 0.0, ranges, 1.0)
         places = corners(scaled)

@@ -9,11 +9,11 @@ import numpy as np
 
 from ..program import FloatArray
 from .limits import Extreme, Interval
+from .peaks import SAMPLES, Index, Mask, highest, samples
 
 if TYPE_CHECKING:
     from .motion import Motion
 
-COUNT, FINE, TIMES = 721, 17, 5
 STILL = 1e-9
 """A transmission angle that changes by less [rad] does not follow the stroke."""
 
@@ -21,12 +21,26 @@ STILL = 1e-9
 def transmission(motion: Motion, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> tuple[Extreme, ...]:
     """Return the least transmission angle of every dyad that moves with a stroke, over its declared and reachable part."""
     ends = sorted((motion.plan.strokes[name].start, motion.plan.strokes[name].end))
-    parts = [(max(each.low, ends[0]), min(each.high, ends[1])) for each in found]
-    at = np.concatenate([np.empty(0), *(np.linspace(low, high, COUNT) for low, high in parts if low < high)])
-    if not at.size:
+    parts = np.array([(max(each.low, ends[0]), min(each.high, ends[1])) for each in found if each.low < ends[1] and each.high > ends[0]])
+    if not parts.size:
         return ()
-    wide = motion.moved({**held, name: at})
-    return tuple(least(motion, name, held, joint, wide) for joint in wide.joints if changes(wide.transmission_angle(joint)))
+    low, high, long = parts[:, 0], parts[:, 1], np.ptp(parts, axis=1)
+    counts = [max(int(np.ceil(SAMPLES * each)), 2) for each in long / (ends[1] - ends[0])]
+
+    def stroke(leg: Index, t: FloatArray) -> FloatArray:
+        return np.where(t == 1.0, high[leg], low[leg] + long[leg] * t)
+
+    def look(leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
+        wide = motion.moved({**held, name: stroke(leg, t).ravel()})
+        return -np.array([[folded(wide, joint)] for joint in moving]), wide.reached[None]
+
+    wide = motion.moved({**held, name: stroke(*samples(counts))})
+    moving = [joint for joint in wide.joints if changes(wide.transmission_angle(joint))]
+    if not moving:
+        return ()
+    least = highest(look, counts)
+    strokes = stroke(least.leg, least.t)
+    return tuple(Extreme(joint, -float(least.value[row, 0]), float(strokes[row, 0])) for row, joint in enumerate(moving))
 
 
 def changes(angle: FloatArray) -> bool:
@@ -34,18 +48,7 @@ def changes(angle: FloatArray) -> bool:
     return bool(np.nanmax(angle) - np.nanmin(angle) > STILL)
 
 
-def least(motion: Motion, name: str, held: Mapping[str, float], joint: str, wide: Motion) -> Extreme:
-    """Return a joint's least transmission angle near the least one of a motion."""
-    at, angle = wide.strokes[name], folded(wide, joint)
-    for _ in range(TIMES):
-        place = int(np.argmin(angle))
-        at = np.linspace(at[max(place - 1, 0)], at[min(place + 1, len(at) - 1)], FINE)
-        angle = folded(motion.moved({**held, name: at}), joint)
-    place = int(np.argmin(angle))
-    return Extreme(joint, float(angle[place]), float(at[place]))
-
-
 def folded(motion: Motion, joint: str) -> FloatArray:
-    """Return a joint's transmission angle folded to 0 ... pi/2 [rad]; infinite where it is not reached."""
+    """Return a joint's transmission angle folded to 0 ... pi/2 [rad]; NaN where it is not reached."""
     angle = motion.transmission_angle(joint)
-    return np.where(np.isnan(angle), np.inf, np.minimum(angle, np.pi - angle))
+    return np.minimum(angle, np.pi - angle)

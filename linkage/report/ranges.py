@@ -16,8 +16,13 @@ Spare: TypeAlias = Callable[[Motion], FloatArray]
 
 
 def reached_span(motion: Motion) -> Range:
-    """Return the least and the largest stroke reached [SI] over the range of a motion, whatever its number of poses."""
+    """Return the least and the largest stroke reached [SI] over the range of a motion, whatever its number of poses.
+
+    Raises AssemblyError where none is.
+    """
     found = below_zero(motion, lambda each: -np.ones(each.shape))
+    if not found:
+        raise motion.refusal()
     return found[0][0], found[-1][1]
 
 

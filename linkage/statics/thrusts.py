@@ -37,10 +37,11 @@ def member_thrust(
     """Return what a two-point member carries, shape (...) [N], positive where it pushes its ends apart.
 
     Of one that holds, by virtual work on the strokes that the cylinders have taken over; with friction by equilibrium. Of one with a
-    law of its own, that. `direction` is the member's own: "extending" while it grows, whatever that makes of the strokes. Raises
-    DefinitionError for one that neither holds nor has a law here, SingularError where its length stands still against its drive.
+    law of its own, that. One that is not of the class stands in the place of the class's cylinder between the same points.
+    `direction` is the member's own: "extending" while it grows, whatever that makes of the strokes. Raises DefinitionError for one
+    that neither holds nor has a law here, SingularError where its length stands still against its drive.
     """
-    plan = motion.plan
+    plan, member = motion.plan, standing_for(motion, member)
     elements = [each.element for each in chosen(plan, loads, None)]
     holding = holding_of(plan, [*elements, member])
     line = holding.line_of(member)
@@ -62,6 +63,14 @@ def member_thrust(
         strut = next(each for each in solved.system.structure.struts if each.line is not None and each.name == title)
         return poses.full(solved.value(solved.system.thrust(strut)))
     return poses.full(by_lines(poses, loaded, holding.lines, member))
+
+
+def standing_for(motion: Motion, member: TwoPoint) -> TwoPoint:
+    """Return the machine's own holding element in whose place another one is tried, between the same points; else the same."""
+    own = motion.plan.of_kind(TwoPoint).values()
+    if any(same(member, each) for each in own):
+        return member
+    return next((each for each in own if each.holds and set(each.ends) == set(member.ends)), member)
 
 
 def own_movement(motion: Motion, member: TwoPoint, direction: str, rates: Mapping[str, Any] | None, line: Line | None) -> Movement:

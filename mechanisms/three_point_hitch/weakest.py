@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
 
 from hydraulics import Verdict
-from linkage import Motion, angle
-from linkage.program import FloatArray
+from linkage import Motion, SingularWarning, angle
+from linkage.motion import greatest, lowest
 from linkage.report import closely
 from linkage.units import deg, g0, kN, mm
 
@@ -48,26 +48,18 @@ class Weakest:
         )
 
 
-def least(motion: Motion, value: Callable[[Motion], FloatArray]) -> float:
-    """Return the stroke [m] where a value over one design's motion is least, to rounding of the value."""
-    fine = closely(motion)
-    for _ in range(6):
-        (at,) = fine.strokes.values()
-        place = int(np.nanargmin(value(fine)))
-        fine = closely(motion, np.linspace(at[max(place - 1, 0)], at[min(place + 1, len(at) - 1)], 65))
-    (at,) = fine.strokes.values()
-    return float(at[int(np.nanargmin(value(fine)))])
-
-
 def weakest(motion: Motion) -> Weakest | None:
     """Return the weakest point over a motion of one design; None where the cylinder limits nothing."""
     burden = stroke_per_newton(closely(motion))
     if not np.any(burden > 0.0):
         return None
-    S = least(motion, lambda each: -stroke_per_newton(each))
+    S = greatest(motion, stroke_per_newton).strokes["S"]
     there = closely(motion, np.array([S]))
-    best = closely(motion, np.array([least(motion, lambda each: np.abs(stroke_per_newton(each)))]))
-    return Weakest(S, float(there.y("F")[0]), float(capacity(there)[0]), float(there.ratio("G")[1][0]), stage(there, best), remedy(motion))
+    best = closely(motion, np.array([lowest(motion, lambda each: np.abs(stroke_per_newton(each))).strokes["S"]]))
+    with warnings.catch_warnings():  # at the end of the reach it stands next to a dead point: the sentence keeps few digits
+        warnings.simplefilter("ignore", SingularWarning)
+        ratio, force = float(there.ratio("G")[1][0]), float(capacity(there)[0])
+        return Weakest(S, float(there.y("F")[0]), force, ratio, stage(there, best), remedy(motion))
 
 
 def stages(motion: Motion) -> dict[str, tuple[float, str]]:

@@ -62,22 +62,22 @@ def test_the_rod_side_fills_as_the_cylinder_comes_out():
 def test_seals_take_their_pressure_against_the_motion():
     for machine in (Carried, Pulled):
         motion, size = machine().sweep(5), machine.ram.size
-        free, up, down = (machine.line.thrust(motion, sense) for sense in (0, 1, -1))
+        free, up, down = (machine.line.thrust(motion, rates) for rates in ({}, {"S": 1.0}, {"S": -1.0}))
         assert_allclose(free - up, 3 * bar * size.area)
         assert_allclose(down - free, 3 * bar * size.area)
 
 
 def test_as_a_load_it_stands_for_the_drive():
     motion = Carried().sweep(11)
-    for direction, sense in (("frictionless", 0), ("extending", 1), ("retracting", -1)):
+    for direction, rates in (("frictionless", {}), ("extending", {"S": 1.0}), ("retracting", {"S": -1.0})):
         left = driving_force(motion, direction=direction)
-        assert_allclose(left + Carried.line.thrust(motion, sense), driving_force(motion, ["load"]), rtol=1e-9)
+        assert_allclose(left + Carried.line.thrust(motion, rates), driving_force(motion, ["load"]), rtol=1e-9)
 
 
 def test_work_round_a_cycle_is_what_the_seals_take():
     motion = Carried().sweep(201)
     S, size = motion.strokes["S"], Carried.ram.size
-    up, down = (Carried.line.thrust(motion, sense) for sense in (1, -1))
+    up, down = (Carried.line.thrust(motion, {"S": sense}) for sense in (1.0, -1.0))
     lost = np.sum(0.5 * ((down - up)[1:] + (down - up)[:-1]) * np.diff(S))
     assert_allclose(lost, 2 * 3 * bar * size.area * 0.25, rtol=1e-9)
 
@@ -98,7 +98,7 @@ def test_a_cylinder_that_no_step_declares():
     length = motion.distance("A", "P")
     charged = Turned().at(phi=30 * deg).distance("A", "P")
     assert_allclose(Turned.line.pressure(motion), BLOCK.pressure(60 * bar, (length - charged) * Turned.ram.size.area))
-    friction = (Turned.line.thrust(motion, 0) - Turned.line.thrust(motion, 1)) / (3 * bar * Turned.ram.size.area)
+    friction = (Turned.line.thrust(motion) - Turned.line.thrust(motion, {"phi": 1.0})) / (3 * bar * Turned.ram.size.area)
     assert_allclose(friction[:4], 1.0)
     assert_allclose(friction[5:], -1.0)
 

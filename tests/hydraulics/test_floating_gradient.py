@@ -99,16 +99,16 @@ class Alone(HeaderBalancer):
 def test_an_absent_vessel_is_not_there_in_traced_laws_either(charge, n):
     names = ["charge", "V_II", "P_II", "atmosphere", "L_OB", "lift.bore"]
     both, alone = HeaderBalancer(V_I=0.0, P_I=charge, n=n, atmosphere=0.0), Alone(n=n, atmosphere=0.0)
-    assert_allclose(both.evaluate([thrust()], h=STROKE), alone.evaluate([thrust()], h=STROKE), rtol=1e-14)
-    assert_allclose(both.evaluate([thrust()], h=STROKE)[0], driving_force(both.at(h=STROKE)), rtol=1e-12)
-    expected = alone.at(h=STROKE[2:6]).gradient(thrust(), names)
-    assert_allclose(both.at(h=STROKE[2:6]).gradient(thrust(), names), expected, rtol=1e-12)
+    assert_allclose(both.evaluate([drive_force()], h=STROKE), alone.evaluate([drive_force()], h=STROKE), rtol=1e-14)
+    assert_allclose(both.evaluate([drive_force()], h=STROKE)[0], driving_force(both.at(h=STROKE)), rtol=1e-12)
+    expected = alone.at(h=STROKE[2:6]).gradient(drive_force(), names)
+    assert_allclose(both.at(h=STROKE[2:6]).gradient(drive_force(), names), expected, rtol=1e-12)
 
 
 @pytest.mark.parametrize("charge", [15 * kgf_cm2, 30 * kgf_cm2, 80 * kgf_cm2])
 def test_what_a_vessel_would_add_is_the_slope_at_zero(charge):
     """By differences to one side; a charge below the line's, above it, and one that never joins."""
     stroke, step = STROKE[[0, 2, 4]], 1e-3 * litre
-    found = HeaderBalancer(V_I=0.0, P_I=charge).at(h=stroke).gradient(thrust(loads=ALONE), ["V_I"])[0]
+    found = HeaderBalancer(V_I=0.0, P_I=charge).at(h=stroke).gradient(drive_force(loads=ALONE), ["V_I"])[0]
     none, one, two = (driving_force(HeaderBalancer(V_I=k * step, P_I=charge).at(h=stroke), ALONE) for k in range(3))
     assert_allclose(found, (4 * one - two - 3 * none) / (2 * step), rtol=1e-5, atol=1e-6 * np.abs(none).max() / litre)

@@ -5,8 +5,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import Cylinder, LiftCircuit, lift_verdicts
-from linkage import RIGHT, DefinitionError, Dyad, Ground, Mechanism, OnLink, Stroke
-from linkage.loads import Weight
+from linkage import RIGHT, Actuator, DefinitionError, Dyad, Ground, Mechanism, OnLink, Stroke
+from linkage.loads import PinFriction, Weight
 from linkage.statics import driving_force
 from linkage.units import bar, cm2, deg, g0, kN, litre, minute, mm
 
@@ -35,51 +35,82 @@ class Hoist(Lift):
 circuit, LIFT = Lift.circuit, Lift()
 
 
+def pushing(thrust):
+    """Return the load under which the cylinder carries a thrust [N]: another one between its pins, the other way."""
+    return [Actuator("A", "B", force=-np.asarray(thrust, float))]
+
+
 def test_the_capacity_takes_all_of_the_pump():
     motion = LIFT.sweep(11)
-    own = driving_force(motion, ["arm"])
-    capacity = circuit.capacity(motion, "G", own)
+    capacity = circuit.capacity(motion, "G", ["arm"])
     for index in range(11):
         pose = LIFT.replaced(**{"load.mass": capacity[index] / g0}).at(S=motion.strokes["S"][index])
-        assert_allclose(circuit.pressure_for(pose, driving_force(pose)), 180 * bar, rtol=1e-9)
-        assert_allclose(circuit.reserve(pose, driving_force(pose)), 1.0, rtol=1e-9)
+        assert_allclose(circuit.pressure_for(pose), 180 * bar, rtol=1e-9)
+        assert_allclose(circuit.reserve(pose), 1.0, rtol=1e-9)
+
+
+def test_the_capacity_counts_the_loads_declared_unless_others_are_given():
+    motion = LIFT.sweep(5)
+    spare = circuit.capacity(motion, "G", [])
+    assert_allclose(circuit.capacity(motion, "G"), spare - 3000 * g0 - driving_force(motion, ["arm"]) / motion.ratio("G")[1], rtol=1e-12)
+
+
+def test_capacity_with_declared_friction_is_what_the_pump_just_moves():
+    class Rubbing(Lift):
+        pins = PinFriction("O", radius=40 * mm, coefficient=0.2)
+        end = PinFriction("B", radius=30 * mm, coefficient=0.15)
+
+    motion = Rubbing().sweep(5)
+    capacity = circuit.capacity(motion, "G", ["arm", "pins", "end"])
+    assert (capacity < 0.99 * circuit.capacity(motion, "G", ["arm"])).all()
+    for S, mass in zip(motion.strokes["S"], capacity / g0, strict=True):
+        pose = Rubbing(**{"load.mass": mass}).at(S=S)
+        up = driving_force(pose, direction="extending")
+        assert_allclose(up, 180 * bar * Lift.lift.size.area * 0.95 * 0.9, rtol=1e-9)
+        assert_allclose(circuit.pressure_for(pose), 180 * bar, rtol=1e-9)
 
 
 def test_capacity_is_the_papers_formula():
     motion = LIFT.sweep(11)
     area = Lift.lift.size.area
-    assert_allclose(circuit.capacity(motion, "G"), 180 * bar * area * 0.9 * 0.95 / motion.ratio("G")[1])
-    assert_allclose(circuit.capacity(motion, "G", share=0.9), 0.9 * circuit.capacity(motion, "G"))
+    assert_allclose(circuit.capacity(motion, "G", []), 180 * bar * area * 0.9 * 0.95 / motion.ratio("G")[1])
+    assert_allclose(circuit.capacity(motion, "G", [], share=0.9), 0.9 * circuit.capacity(motion, "G", []))
 
 
 def test_where_the_load_drives_it_is_not_limited():
     motion = LIFT.sweep(11)
-    assert np.isnan(circuit.capacity(motion, "G", direction=(0.0, -1.0))).all()
-    thrust = -driving_force(motion)
-    assert np.isnan(circuit.reserve(motion, thrust)).all()
-    assert_allclose(circuit.pressure_for(motion, thrust), 0.0)
+    assert np.isnan(circuit.capacity(motion, "G", along=(0.0, -1.0))).all()
+    drives = pushing(-driving_force(motion))
+    assert np.isnan(circuit.reserve(motion, drives)).all()
+    assert_allclose(circuit.pressure_for(motion, drives), 0.0)
 
 
 def test_a_machine_too_heavy_for_itself_lifts_nothing():
     motion = LIFT.sweep(5)
-    assert_allclose(circuit.capacity(motion, "G", own=1e7), 0.0)
+    assert_allclose(circuit.capacity(motion, "G", pushing(1e7)), 0.0)
 
 
 def test_efficiencies_act_with_and_against_the_load():
     motion = LIFT.sweep(3)
     area = Lift.lift.size.area
-    assert_allclose(circuit.rod_force(motion, np.array([10.0, -10.0, 0.0])), [10 / 0.9, -9.0, 0.0])
-    assert_allclose(circuit.pressure_for(motion, 10 * kN), 10 * kN / 0.9 / 0.95 / area)
+    assert_allclose(circuit.rod_force(motion, pushing([10.0, -10.0, 0.0])), [10 / 0.9, -9.0, 0.0])
+    assert_allclose(circuit.pressure_for(motion, pushing(10 * kN)), 10 * kN / 0.9 / 0.95 / area)
     assert_allclose(circuit.largest(motion), 180 * bar * area * 0.95)
+
+
+def test_going_back_the_load_makes_the_pressure_without_the_pump():
+    motion, area = LIFT.sweep(3), Lift.lift.size.area
+    assert_allclose(circuit.pressure_for(motion, pushing(10 * kN), direction="retracting"), 10 * kN * 0.9 / area)
+    assert_allclose(Lift.lift.pressure(motion, pushing(10 * kN)), 10 * kN / 0.9 / 0.95 / area)
 
 
 def test_the_rod_side_pulls():
     motion, hoist = Hoist().sweep(11), Hoist.circuit
-    thrust = driving_force(motion, ["load"])
+    thrust = Hoist.lift.thrust(motion, ["load"])
     assert np.all(thrust < 0.0)
     area = np.pi / 4 * (0.110**2 - 0.063**2)
-    assert_allclose(hoist.pressure_for(motion, thrust), -thrust / 0.9 / 0.95 / area)
-    assert_allclose(hoist.capacity(motion, "G") * hoist.pressure_for(motion, thrust), 3000 * g0 * 180 * bar, rtol=1e-9)
+    assert_allclose(hoist.pressure_for(motion, ["load"]), -thrust / 0.9 / 0.95 / area)
+    assert_allclose(hoist.capacity(motion, "G", []) * hoist.pressure_for(motion, ["load"]), 3000 * g0 * 180 * bar, rtol=1e-9)
     assert_allclose(hoist.oil(motion), area * 0.25)
 
 
@@ -96,8 +127,8 @@ def test_oil_and_time():
 def test_back_pressure_is_paid_for():
     motion = LIFT.sweep(3)
     free, held = (LiftCircuit("lift", pressure=180 * bar, back_pressure=back * bar) for back in (0, 10))
-    size = Lift.lift.size
-    assert_allclose(held.pressure_for(motion, 50 * kN) - free.pressure_for(motion, 50 * kN), 10 * bar * size.back_area / size.area)
+    size, load = Lift.lift.size, pushing(50 * kN)
+    assert_allclose(held.pressure_for(motion, load) - free.pressure_for(motion, load), 10 * bar * size.back_area / size.area)
     assert_allclose(free.largest(motion) - held.largest(motion), 10 * bar * size.back_area)
     with pytest.raises(DefinitionError, match="eats up the pump's"):
         LiftCircuit("lift", pressure=10 * bar, back_pressure=100 * bar).largest(motion)
@@ -105,7 +136,7 @@ def test_back_pressure_is_paid_for():
 
 def test_holding_uses_the_side_the_load_presses_on():
     motion, size = LIFT.sweep(2), Lift.lift.size
-    held = circuit.holding(motion, np.array([30 * kN, -30 * kN]))
+    held = circuit.holding(motion, pushing([30 * kN, -30 * kN]))
     assert_allclose(held.working, [30 * kN / size.area, 0.0])
     assert_allclose(held.other, [0.0, 30 * kN / size.back_area])
 
@@ -113,38 +144,53 @@ def test_holding_uses_the_side_the_load_presses_on():
 def test_it_sinks_by_itself_where_the_load_beats_friction_and_the_return_line():
     motion, size = LIFT.sweep(3), Lift.lift.size
     limit = 5 * bar * size.area / 0.9
-    sinks = circuit.lowering(motion, np.array([1.001 * limit, 0.999 * limit, -10 * kN]), 5 * bar)
+    sinks = circuit.lowering(motion, pushing([1.001 * limit, 0.999 * limit, -10 * kN]), resistance=5 * bar)
     assert sinks.by_itself.tolist() == [True, False, False]
     assert sinks.push[0] == 0.0
     assert_allclose(sinks.push[2] * size.back_area, 10 * kN / 0.9 + 5 * bar * size.area)
     assert_allclose(sinks.working[0], 5 * bar * 1.001)
 
 
-def test_verdicts_with_their_remedy():
-    def thrust(motion):
-        return driving_force(motion, ["load"])
-
+@pytest.mark.parametrize("count", [2, 5, 50, 500])
+def test_verdicts_with_their_remedy(count):
     strong, weak = Lift(), Lift(**{"load.mass": 40e3})
-    good = {verdict.rule: verdict for verdict in lift_verdicts(circuit, strong.sweep(5), thrust, resistance=0.1 * bar)}
+    good = {verdict.rule: verdict for verdict in lift_verdicts(circuit, strong.sweep(count), ["load"], resistance=0.1 * bar)}
     assert all(good.values())
     assert "4.8 s at 60 l/min" in good["oil"].sentence
-    bad = {verdict.rule: verdict for verdict in lift_verdicts(circuit, weak.sweep(5), thrust, resistance=60 * bar)}
+    bad = {verdict.rule: verdict for verdict in lift_verdicts(circuit, weak.sweep(count), ["load"], resistance=60 * bar)}
     assert not bad["lifting"] and not bad["lowering"] and not bad["holding"]
-    motion, size = weak.sweep(513), Lift.lift.size
-    needed = circuit.pressure_for(motion, thrust(motion)).max() / bar
+    motion, size = weak.sweep(5001), Lift.lift.size
+    needed = driving_force(motion, ["load"]).max() / size.area / 0.9 / 0.95 / bar
     gained = 180 / needed * (250 / 110) ** 2
     assert f"It needs {needed:.4g} bar, or a bore of 250 mm, with a reserve of {gained:.2f}" in bad["lifting"].sentence
     start = float(bad["lifting"].sentence.split("from S = ")[1].split()[0])
-    assert_allclose(thrust(weak.at(S=start)) / 0.9, 180 * bar * size.area * 0.95, rtol=2e-3)
+    assert_allclose(driving_force(weak.at(S=start), ["load"]) / 0.9, 180 * bar * size.area * 0.95, rtol=2e-3)
     stuck = float(bad["lowering"].sentence.split("to ")[1].split()[0])
-    assert_allclose(thrust(weak.at(S=stuck)) * 0.9, 60 * bar * size.area, rtol=2e-3)
+    assert_allclose(driving_force(weak.at(S=stuck), ["load"]) * 0.9, 60 * bar * size.area, rtol=2e-3)
 
 
 def test_a_load_that_drives_is_said_so():
-    said = lift_verdicts(circuit, LIFT.sweep(5), lambda motion: -driving_force(motion, ["load"]))
-    assert "not limited by this cylinder" in said[0].sentence
+    said = lift_verdicts(circuit, LIFT.sweep(5), [Weight("G", mass=3000, gravity=(0.0, g0))])
+    assert "not limited by this cylinder" in said[0].sentence and 'works="both"' in said[0].sentence
     with pytest.raises(DefinitionError, match="one design"):
-        lift_verdicts(circuit, Lift(OB=np.array([0.30, 0.31])).sweep(5), lambda motion: driving_force(motion))
+        lift_verdicts(circuit, Lift(OB=np.array([0.30, 0.31])).sweep(5))
+
+
+@pytest.mark.parametrize(("machine", "word"), [(Lift(**{"load.mass": 0.0, "arm.mass": 0.0}), "masses zero"), (LIFT, "no load is declared")])
+def test_a_lift_without_a_load_is_not_called_good(machine, word):
+    said = lift_verdicts(circuit, machine.sweep(5), [] if machine is LIFT else None)
+    assert not said[0] and "nothing to lift" in said[0].sentence and word in said[0].sentence
+
+
+def test_holding_is_judged_against_the_relief_valve_and_lifting_against_the_pump():
+    weak = Lift(**{"load.mass": 8000.0})
+    most = float(weak.plan.members["lift"].thrust(weak.sweep(2001)).max()) / Lift.lift.size.area
+    low, high = (LiftCircuit("lift", pressure=0.8 * most, relief=share * most) for share in (0.9, 1.1))
+    for each, holds in ((low, False), (high, True)):
+        said = {verdict.rule: verdict for verdict in lift_verdicts(each, weak.sweep(5))}
+        assert not said["lifting"] and bool(said["holding"]) is holds and "relief valve" in said["holding"].sentence
+    alone = {verdict.rule: verdict for verdict in lift_verdicts(LiftCircuit("lift", pressure=1.1 * most), weak.sweep(5))}
+    assert alone["holding"] and "no relief= is given" in alone["holding"].sentence
 
 
 @pytest.mark.parametrize(
@@ -158,7 +204,7 @@ def test_a_load_that_drives_is_said_so():
 def test_bad_numbers_are_refused_in_words(given, words):
     motion = Lift(**{f"circuit.{name}": value for name, value in given.items()}).sweep(3)
     with pytest.raises(DefinitionError, match=words):
-        circuit.reserve(motion, 10 * kN)
+        circuit.reserve(motion, pushing(10 * kN))
 
 
 @pytest.mark.parametrize("given", [{"flow": -1.0}, {"back_pressure": -1.0}, {"pressure": float("nan")}], ids=str)
@@ -173,7 +219,7 @@ def test_a_circuit_needs_a_cylinder():
     with pytest.raises(DefinitionError, match="share"):
         circuit.capacity(LIFT.sweep(3), "G", share=1.5)
     with pytest.raises(DefinitionError, match="no length"):
-        circuit.capacity(LIFT.sweep(3), "G", direction=(0.0, 0.0))
+        circuit.capacity(LIFT.sweep(3), "G", along=(0.0, 0.0))
 
 
 def test_a_replaced_cylinder_is_the_one_that_counts():

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import Cylinder
-from linkage import RIGHT, DefinitionError, Dimension, Dyad, Ground, Mechanism, Stroke
+from hydraulics import Buckling, Cylinder
+from linkage import RIGHT, Actuator, DefinitionError, Dimension, Dyad, Ground, LoadCase, Mechanism, PinFriction, Stroke, Weight
 from linkage.statics import driving_force
 from linkage.units import bar, kN, mm
 
@@ -30,10 +30,10 @@ class Following(Arm):
 
 def test_outside_a_class_it_is_its_size():
     ram = Cylinder("A", "B", bore=63 * mm, rod=40 * mm, count=2)
-    assert_allclose(ram.thrust(100 * bar), 2 * np.pi / 4 * 0.063**2 * 1e7)
-    assert_allclose(ram.pressure_for(ram.thrust(123 * bar)), 123 * bar)
+    assert_allclose(ram.size.thrust(100 * bar), 2 * np.pi / 4 * 0.063**2 * 1e7)
+    assert_allclose(ram.size.pressure_for(ram.size.thrust(123 * bar)), 123 * bar)
     pulling = Cylinder("A", "B", bore=63 * mm, rod=40 * mm, works="rod")
-    assert_allclose(pulling.thrust(100 * bar), -np.pi / 4 * (0.063**2 - 0.040**2) * 1e7)
+    assert_allclose(pulling.size.thrust(100 * bar), -np.pi / 4 * (0.063**2 - 0.040**2) * 1e7)
 
 
 def test_bore_and_rod_are_design_variables():
@@ -99,17 +99,33 @@ def test_offers_give_the_thrust_and_do_not_buckle():
 
 
 def test_buckling_is_of_one_of_the_cylinders_at_its_worst_pose():
-    motion = Arm().sweep(11)
-    verdict = Arm.lift.buckling(motion, np.linspace(50, 100, 11) * kN)
-    assert verdict and "50 kN on a 63 mm rod 750 mm long" in verdict.sentence
-    assert not Cylinder("A", "B", bore=0.1, rod=0.016).buckling(motion, 100 * kN)
-    assert [bool(each) for each in Arm.lift.checks(motion, 100 * kN)] == [True, True, True]
+    motion, load = Arm().sweep(11), [Actuator("A", "B", force=-100 * kN)]
+    (verdict,) = Arm.lift.buckling(motion, load)
+    assert verdict and "50 kN on a 63 mm rod 750 mm long" in verdict.sentence and "at S = 0.2500 m" in verdict.sentence
+    assert not Cylinder("A", "B", bore=0.1, rod=0.016).buckling(motion, load)[0]
+    assert [bool(each) for each in Arm.lift.checks(motion, load)] == [True, True, True]
+
+
+@pytest.mark.parametrize("count", [2, 5, 50])
+def test_buckling_looks_at_every_load_case_and_direction(count):
+    class Loaded(Arm):
+        load = Weight("B", mass=9000.0)
+        pin = PinFriction("O", radius=0.05, coefficient=0.2)
+        shock = LoadCase(scale={"load": 1.8})
+
+    motion = Loaded().sweep(count)
+    (verdict,) = Loaded.lift.buckling(motion)
+    fine = Loaded().sweep(2001)
+    use = [Loaded.lift.thrust(fine, case="shock", direction=way) / 2 for way in ("extending", "retracting", "frictionless")]
+    rod = Buckling(rod=0.063)
+    worst = max(float(np.max(each / rod.critical(fine.distance("A", "B")))) for each in use)
+    assert float(verdict.sentence.split("safety ")[1].split(",")[0]) == pytest.approx(1.0 / worst, rel=2e-3)
 
 
 @pytest.mark.parametrize(
     "given",
     [
-        {"bore": -0.1}, {"bore": 0.05, "rod": 0.05}, {"rod": 0.0}, {"bore": float("nan")}, {"count": 0}, {"works": "both"},
+        {"bore": -0.1}, {"bore": 0.05, "rod": 0.05}, {"rod": 0.0}, {"bore": float("nan")}, {"count": 0}, {"works": "all"},
         {"stroke": -0.1}, {"closed": 0.0}, {"mounting": "loose"}, {"safety": 0.5},
     ],
     ids=str,

@@ -38,7 +38,7 @@ from linkage import (
     y,
 )  # fmt: skip
 from linkage.files import to_dict
-from linkage.loads import Force, GuideFriction, LinkMass, LoadCase, Moment, PinFriction, Spring, Support, Weight
+from linkage.loads import Actuator, Damper, Force, GuideFriction, LinkMass, LoadCase, Moment, PinFriction, Spring, Support, Weight
 
 
 class Hitch(Mechanism):
@@ -167,6 +167,9 @@ class Loaded(Hitch):
     own = LinkMass("E D F", mass=30, at=(0.45, 0))
     bar = LinkMass(arm, mass=12.5)
     relief = Spring("A", "C", stiffness=20e3, free_length=400 * mm)
+    taut = Spring("A", "B", stiffness=5e3, preload=800)
+    strut = Damper("E", "C", coefficient=2000)
+    ram = Actuator("E", "D", force=-1500)
     shoe = Support("F", (0, 2), force=-100.0)
     pin_E = PinFriction("E", radius=20 * mm, coefficient=0.15)
     slide = GuideFriction(P, coefficient=0.1, guide=rail)

@@ -261,7 +261,7 @@ def test_an_elements_own_gravity_acts_and_a_case_replaces_or_turns_it(case):
     motion = at(Centrifuge, STROKES)
     expected = driving_force(motion, [ByHand(case)])
     assert_allclose(driving_force(motion, case=case), expected, rtol=1e-13)
-    assert_allclose(Centrifuge().evaluate([thrust(case=case)], S=STROKES)[0], expected, rtol=1e-12)
+    assert_allclose(Centrifuge().evaluate([drive_force(case=case)], S=STROKES)[0], expected, rtol=1e-12)
     by_hand = pin_forces(motion, [ByHand(case)]).force("O", on="frame")
     assert_allclose(pin_forces(motion, case=case).force("O", on="frame"), by_hand, rtol=1e-11)
     along_x = Centrifuge().evaluate([pin_force("O", on="frame", component="x", case=case)], S=STROKES)[0]
@@ -274,7 +274,7 @@ def test_an_own_gravity_keeps_batches_and_gradients():
     for row, mass in enumerate(masses):
         alone = driving_force(Centrifuge(**{"load.mass": mass}).sweep(5), case="both")
         assert_allclose(driving_force(batch, case="both")[row], alone, rtol=1e-13)
-    slope = at(Centrifuge).gradient(thrust(case="both"), wrt=["load.mass"])[0]
+    slope = at(Centrifuge).gradient(drive_force(case="both"), wrt=["load.mass"])[0]
     less, more = (driving_force(at(Centrifuge, **{"load.mass": mass}), case="both") for mass in (899.0, 901.0))
     assert_allclose(slope, (more - less) / 2.0, rtol=1e-9)
 

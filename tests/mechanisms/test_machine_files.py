@@ -37,7 +37,7 @@ def forces(design):
     found = [driving_force(motion, direction=direction) for direction in ("frictionless", "extending", "retracting")]
     found += [part for each in pin_forces(motion, direction="extending").joints for part in (each.force, each.couple)]
     found += [each.pressure(motion) for each in design.plan.of_kind(FloatCircuit).values()]
-    found += [each.pressure_for(motion, found[0]) for each in design.plan.of_kind(LiftCircuit).values()]
+    found += [each.pressure_for(motion) for each in design.plan.of_kind(LiftCircuit).values()]
     return found
 
 

@@ -244,7 +244,8 @@ def test_verdict_where_poses_are_out_of_reach():
     lift = MowerLift()
     text = lift.verdicts(lift.at(S=[0.3, 0.6, 0.7], unreachable="nan"))
     assert text[-1] == "The poses out of reach are left out of this."
-    assert "from S = 0.6000 to 0.7000 m" in text[0]
+    assert "kz is below 1 from S = 0.4829 to" in text[0]  # from the dead point at AO - OB, between the poses asked for
+    assert "Lifting from S = 0.4829 to 0.7000 m" in text[2]
     assert lift.verdicts(lift.at(S=[0.1, 0.2], unreachable="nan")) == ["No pose of this motion can be assembled; there is nothing to lift."]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from linkage import AssemblyError, DefinitionError, LinkMass, deg, driving_force, kN, mm, pin_forces
+from linkage import AssemblyError, DefinitionError, LinkMass, SingularWarning, deg, driving_force, kN, mm, pin_forces
 from linkage.cli import main
 from linkage.units import g0
 from mechanisms.three_point_hitch import (
@@ -178,7 +178,9 @@ def test_what_limits_first():
 
 def test_unreached_poses_are_told():
     hitch = ThreePointHitch()
-    text = hitch.verdicts(hitch.at(S=[0.0, 0.1, 0.45], unreachable="nan"))
+    with pytest.warns(SingularWarning, match=r"S = 0\.4083 m: B is near a dead point"):
+        text = hitch.verdicts(hitch.at(S=[0.0, 0.1, 0.45], unreachable="nan"))
+    assert "least at S = 0.4083 m" in "\n".join(text)  # up to the dead point, though no pose was asked for there
     assert text[-1].startswith("FAIL reach: poses out of reach are left out of this. B = Dyad(A, O)")
     nowhere = hitch.at(S=[0.5, 0.6], unreachable="nan")
     assert hitch.verdicts(nowhere) == ["No pose of this motion can be assembled; there is nothing to lift."]

@@ -312,7 +312,7 @@ def test_capacity_at_the_nose_is_what_the_boom_lifts():
 # -- verdicts ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("count", [2, 5, 50])
+@pytest.mark.parametrize("count", [2, 50])
 def test_verdict_of_the_boom_over_its_stroke(count):
     """Arm and bucket held; the least reserve lies between the poses."""
     held = strokes()
@@ -414,7 +414,7 @@ def test_arm_that_works_with_one_side_is_told_of_both():
     """Its thrust changes sign along the path: the verdict names the remedy."""
     single = type("Single", (ByAngles,), {"arm": Cylinder("E", "F", bore=70 * mm, rod=40 * mm)})
     t = np.linspace(0.0, 1.0, 7)[:, None]
-    path = np.array([0.3, -0.6, -1.0]) + t * np.array([0.0, -1.9, 0.0])
+    path = POSES[0] + t * (POSES[1] - POSES[0])
     pushes = [thrusts(q)[1] for q in path]
     assert min(pushes) < 0 < max(pushes)
     told = " ".join(map(str, lift_verdicts(single.arm_line, single().at(**angles(path)))))

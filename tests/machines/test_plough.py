@@ -4,7 +4,6 @@ Seen along the furrow: the beam turns about O, the cylinder hangs between A abov
 90 degrees and comes out again beyond. All figures are illustrative, of a four-furrow plough.
 """
 
-import re
 from math import pi
 
 import numpy as np
@@ -114,16 +113,25 @@ def test_pins():
         assert_allclose(forces.force("A", on="turn")[:, k], thrust(phi) * plane.toward(p["A"], p["B"]), atol=1e-11 * size)
 
 
-def test_dead_centre_is_refused_and_the_moment_is_not():
-    """At 90 degrees the beam's moment is a plain number; no thrust of this cylinder balances it."""
-    motion = Plough().at(phi=pi / 2)
-    assert_allclose(driving_force(motion), -MASS * plane.G * OG * np.sin(BOG), rtol=1e-12)
-    for ask in (Plough.turn.thrust, Plough.turn.pressure, Plough.line.pressure_for, Plough.line.reserve, pin_forces):
-        with pytest.raises(SingularError, match=r"turn|A B|AB"):
-            ask(motion)
-    with pytest.raises(SingularError):
-        Plough.line.capacity(motion, "G", along=(0, 1))
-    assert re.search(r"90(\.0+)? ?(deg|°)|1\.570[78]", str(Plough().sweep(7).limits()))
+@pytest.mark.parametrize("ask", [Plough.turn.thrust, Plough.turn.pressure, Plough.line.pressure_for, Plough.line.reserve, pin_forces])
+def test_dead_centre_is_refused(ask):
+    """No thrust of this cylinder balances the beam at 90 degrees."""
+    with pytest.raises(SingularError, match=r"turn|A B|AB"):
+        ask(Plough().at(phi=pi / 2))
+
+
+def test_capacity_at_the_dead_centre_is_refused():
+    with pytest.raises(SingularError, match="turn"):
+        Plough.line.capacity(Plough().at(phi=pi / 2), "G", along=(0, 1))
+
+
+def test_moment_at_the_dead_centre_is_a_number():
+    assert_allclose(driving_force(Plough().at(phi=pi / 2)), -MASS * plane.G * OG * np.sin(BOG), rtol=1e-12)
+
+
+def test_limits_name_the_dead_centre():
+    told = str(Plough().sweep(7).limits())
+    assert "turn" in told and "90 deg" in told, told
 
 
 def test_closely_beside_the_dead_centre_it_is_still_right():
@@ -143,7 +151,7 @@ def test_pressures_of_both_sides():
     assert_allclose(Plough.line.reserve(motion), (170e5 * works - 5e5 * other) / abs(push), rtol=1e-10)
 
 
-@pytest.mark.parametrize("count", [2, 5, 50])
+@pytest.mark.parametrize("count", [2, 50])
 def test_verdicts_short_of_the_dead_centre(count):
     """Up to 60 degrees it draws in; the greatest pull lies at the start."""
     motion = Plough().at(phi=np.linspace(0.0, 60 * deg, count))
@@ -153,14 +161,14 @@ def test_verdicts_short_of_the_dead_centre(count):
     assert lifting
     assert_allclose(number("least reserve is", lifting), (170e5 * ring - 5e5 * disc) / most, rtol=1e-3)
     assert holding
-    assert_allclose(number("up to", holding), most / ring / bar, rtol=1e-3)
+    assert_allclose(number("side, up to", holding), most / ring / bar, rtol=1e-3)
 
 
-def test_verdict_over_the_dead_centre_is_no():
-    """Whether a pose meets it or not: no pump turns the beam through it."""
-    for motion in (Plough().sweep(3), Plough().sweep(4), Plough().sweep(50)):
-        lifting, *_ = lift_verdicts(Plough.line, motion)
-        assert not lifting, str(lifting)
+@pytest.mark.parametrize("count", [2, 3, 50])
+def test_verdict_over_the_dead_centre_is_no(count):
+    """Whether a pose meets it, as that of three does, or not: no pump turns the beam through it."""
+    lifting, *_ = lift_verdicts(Plough.line, Plough().sweep(count))
+    assert not lifting, str(lifting)
 
 
 @pytest.mark.parametrize("count", [2, 3, 50])
@@ -241,4 +249,4 @@ def test_what_a_user_adds_counts():
     assert_allclose(Loaded.turn.thrust(motion), want, rtol=1e-11)
     holding = Loaded.line.holding(motion)
     ring, disc = plane.annulus(0.080, 0.040), plane.disc(0.080)
-    assert_allclose(holding.working, np.where(want > 0, want / disc, -want / ring), rtol=1e-10)
+    assert_allclose(holding.working + holding.other, np.where(want > 0, want / disc, -want / ring), rtol=1e-10)

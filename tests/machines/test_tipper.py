@@ -303,7 +303,7 @@ def test_cylinders_on_one_line_share_their_pressure(machine, at):
 # -- verdicts ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("count", [2, 5, 50, 500])
+@pytest.mark.parametrize("count", [2, 50])
 def test_verdicts_do_not_hang_on_the_poses(count):
     motion = ByAngle().sweep(count)
     most, _ = plane.peak(thrust, 0.0, 50 * deg, 100)

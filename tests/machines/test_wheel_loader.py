@@ -187,13 +187,13 @@ def test_breakout_at_the_edge():
         assert_allclose(found[k], spare / rise if rise > 0 else np.nan, rtol=1e-10)
 
 
-@pytest.mark.parametrize("count", [2, 5, 50])
+@pytest.mark.parametrize("count", [2, 50])
 def test_verdicts_while_the_arm_lifts(count):
     """The tilt cylinder locked; the lever's angle follows the arm by the length TU."""
     motion = WheelLoader().sweep(S1=count, S2=0.200)
 
-    def pushes(out):
-        return thrusts(at_lengths(CD + out, TU))[0]
+    def pushes(out, case=None):
+        return thrusts(at_lengths(CD + out, TU), CASES[case])[0]
 
     most, _ = plane.peak(pushes, 0.0, 1.100, 60)
     least, _ = plane.peak(lambda out: -pushes(out), 0.0, 1.100, 60)
@@ -208,9 +208,9 @@ def test_verdicts_while_the_arm_lifts(count):
     seconds = 1.100 * 2 * plane.disc(0.090) / (120e-3 / 60)
     assert_allclose(number("end to end,", oil), seconds, rtol=2e-2)
 
-    def use(out):
+    def use(out):  # in the worst case, which is not the one judged above
         p = places(at_lengths(CD + out, TU))
-        return pushes(out) / 2 / plane.critical(0.050, plane.length(p["C"], p["D"]))
+        return max(pushes(out, case) for case in CASES) / 2 / plane.critical(0.050, plane.length(p["C"], p["D"]))
 
     worst, _ = plane.peak(use, 0.0, 1.100, 60)
     (buckling,) = [each for each in WheelLoader.lift.checks(motion) if each.rule == "buckling"]

@@ -15,8 +15,8 @@ from typing import Any, ClassVar, TypeAlias, final
 import numpy as np
 
 from linkage.errors import DefinitionError
-from linkage.loads import ForceElement, Load, Poses, Push, Rates
-from linkage.loads.two_point import AT_REST, end_forces
+from linkage.loads import AT_REST, ForceElement, Load, Poses, Push, Rates
+from linkage.loads.two_point import end_forces
 from linkage.motion import Motion
 from linkage.plan import ArrayReading
 from linkage.quantities import Reference, label, name_of
@@ -112,7 +112,7 @@ class FloatCircuit(Circuit):
         fast = block.settled(number_set(self, motion, "charge_pressure"), exponent).pressure(charge, left)
         return np.where(exponent == 1.0, block.pressure(charge, left), fast) if is_traced(exponent) or np.any(exponent == 1.0) else fast
 
-    def thrust(self, motion: Poses, rates: Rates = AT_REST) -> Array:
+    def thrust(self, motion: Poses, rates: Mapping[str, Any] = AT_REST) -> Array:
         """Return the thrust [N], shape (...): frictionless at rest, or while strokes move at rates, with the seals' friction. (37), (39)"""
         ram = self.ram(motion)
         size = ram.sized(motion)
@@ -120,7 +120,7 @@ class FloatCircuit(Circuit):
         if not rates:
             return np.asarray(free)
         friction = finite(self.number(motion, "seal_friction"), "Seal friction") * size.area
-        return np.asarray(free - np.sign(ram.speed(motion, rates)) * friction)
+        return np.asarray(free - np.sign(ram.growth(motion, rates)) * friction)
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
         return [Push(self.ram(motion), self.thrust(motion, rates))]

@@ -285,7 +285,13 @@ class LiftCircuit(Circuit):
     # -- holding and lowering ------------------------------------------------------------------------------
 
     def holding(self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None) -> Holding:
-        """Return the pressures that hold the thrust with the pump off; neither friction nor an efficiency is counted on."""
+        """Return the pressures that hold the thrust with the pump off; neither friction nor an efficiency is counted on.
+
+        Of a line of several cylinders the greatest, unless one is named.
+        """
+        if cylinder is None and len(self.references) > 1:
+            each = [self.holding(motion, loads, cylinder=ram, case=case) for ram in self.rams(motion)]
+            return Holding(np.max([one.working for one in each], axis=0), np.max([one.other for one in each], axis=0))
         ram = self.one(motion, cylinder)
         size, thrust = ram.sized(motion), ram.thrust(motion, loads, case=case)
         force = size.sense * thrust
@@ -296,8 +302,13 @@ class LiftCircuit(Circuit):
     ) -> Lowering:
         """Return how it goes back against its working direction, the oil flowing out against a `resistance` [Pa].
 
-        Friction acts against the lowering: the load brings T k_m where it drives and takes T / k_m where it resists.
+        Friction acts against the lowering: the load brings T k_m where it drives and takes T / k_m where it resists. Of a line of several
+        cylinders it is the one that goes back hardest, unless one is named.
         """
+        if cylinder is None and len(self.references) > 1:
+            each = [self.lowering(motion, loads, resistance=resistance, cylinder=ram, case=case) for ram in self.rams(motion)]
+            push, free = np.max([one.push for one in each], axis=0), np.all([one.by_itself for one in each], axis=0)
+            return Lowering(np.min([one.working for one in each], axis=0), push, free)
         against = positive(np.asarray(resistance) + 1.0, "Return resistance + 1 Pa") - 1.0
         ram, k_m = self.one(motion, cylinder), self.efficiency(motion, "mechanical")
         size = ram.sized(motion)

@@ -18,7 +18,7 @@ from typing import Any, ClassVar, Literal, final
 import numpy as np
 
 from linkage.errors import DefinitionError, unknown
-from linkage.loads import ForceElement, LoadCase, Poses, Push, Rates, TwoPoint
+from linkage.loads import AT_REST, ForceElement, LoadCase, Poses, Push, Rates, TwoPoint
 from linkage.motion import Motion, greatest, lowest
 from linkage.quantities import Reference, label, name_of
 from linkage.statics import Case, Loads, elements_of, member_thrust
@@ -71,7 +71,7 @@ class Cylinder(TwoPoint):
         """Return nothing: it has no law of its own."""
         return np.zeros(())
 
-    def pushes(self, motion: Poses, rates: Rates = MappingProxyType({})) -> list[Push]:
+    def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
         return []
 
     @property

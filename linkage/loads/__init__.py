@@ -8,6 +8,7 @@
 from .body import LinkMass as LinkMass
 from .body import Moment as Moment
 from .case import LoadCase as LoadCase
+from .element import AT_REST as AT_REST
 from .element import ForceElement as ForceElement
 from .element import Friction as Friction
 from .element import Poses as Poses

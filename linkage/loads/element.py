@@ -6,7 +6,7 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, Protocol, Self, TypeAlias
+from typing import Any, ClassVar, Protocol, Self
 
 import numpy as np
 
@@ -51,8 +51,18 @@ class Poses(Protocol):
         """Return the derivative of a point or a quantity by a stroke."""
 
 
-Rates: TypeAlias = Mapping[str, Any]
-"""How fast strokes move, by name [1/s]; empty at rest. Where only the direction is known, speeds of no size but of that sense."""
+class Rates(dict[str, Any]):
+    """How strokes move, by name [1/s], a number or an array over the poses each; empty at rest.
+
+    `is_timed`: whether these are speeds that were given; where only a direction is known, their senses alone mean something.
+    """
+
+    def __init__(self, rates: Mapping[str, Any] = MappingProxyType({}), is_timed: bool = False) -> None:
+        super().__init__(rates)
+        self.is_timed = is_timed
+
+
+AT_REST = Rates()
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,10 +16,8 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..quantities import Distance, Joint, Reference, name_of, pinned
-from .element import ForceElement, Poses, Rates
+from .element import AT_REST, ForceElement, Poses, Rates
 from .load import Array, Load, Push
-
-AT_REST: Rates = MappingProxyType({})
 
 
 class TwoPoint(ForceElement):
@@ -41,10 +39,14 @@ class TwoPoint(ForceElement):
         """The names of its two points."""
         return name_of(self.A), name_of(self.B)
 
-    def speed(self, motion: Poses, rates: Rates) -> Array:
-        """Return how fast its length grows [m/s] while strokes move at rates [1/s]."""
-        parts = [motion.ratio(Distance(self.A, self.B), wrt=name) * rate for name, rate in rates.items()]
-        return np.asarray(sum(parts[1:], parts[0])) if parts else np.zeros(())
+    def growth(self, motion: Poses, rates: Mapping[str, Any]) -> Array:
+        """Return how fast its length grows [m/s] while strokes move at rates [1/s]; of no rates 0."""
+        if not rates:
+            return np.zeros(())
+        A, B = self.ends
+        parts = [(motion.ratio(B, wrt=name) - motion.ratio(A, wrt=name)) * rate for name, rate in rates.items()]
+        arm, moved = motion[B] - motion[A], sum(parts[1:], parts[0])
+        return np.asarray((arm[0] * moved[0] + arm[1] * moved[1]) / motion.distance(A, B))
 
     def area_in(self, motion: Poses, sense: Array) -> Array:
         """Return, for what holds, its thrust at one unit of pressure [m2], where `sense` is 1 while it pushes and -1 while it pulls."""
@@ -57,7 +59,7 @@ class TwoPoint(ForceElement):
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
         length = motion.distance(self.A, self.B)
-        thrust = self.push(motion, length, self.speed(motion, rates))
+        thrust = self.push(motion, length, self.growth(motion, rates if rates.is_timed else AT_REST))
         refuse_coincidence(self, length, thrust)
         return [Push(self, thrust)]
 

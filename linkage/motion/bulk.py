@@ -187,10 +187,10 @@ class Bulk:
                 values[...] = np.where(np.isnan(values), np.nan, continued)
 
 
-def pieces(m: int, n: int) -> Iterator[tuple[slice, slice]]:
-    """Yield parts of a grid of at most some hundred thousand poses."""
-    width = min(n, PIECE)
-    height = max(1, PIECE // max(width, 1))
+def pieces(m: int, n: int, most: int = PIECE) -> Iterator[tuple[slice, slice]]:
+    """Yield parts of a grid of at most so many poses."""
+    width = min(n, most)
+    height = max(1, most // max(width, 1))
     for top in range(0, m, height):
         for left in range(0, n, width):
             yield slice(top, min(top + height, m)), slice(left, min(left + width, n))

@@ -70,7 +70,7 @@ class Motion(Outputs):
         """Return what a quantity is at the sketch pose of each design [SI], shaped to broadcast against results."""
         strokes = {name: np.asarray(value) for name, value in self.plan.sketch_strokes.items()}
         found = Motion(self.plan, self.designs, strokes, "nan").value(quantity)
-        return found.reshape(*self.design_shape, *(1,) * len(self.stroke_shape))
+        return found.reshape((*self.design_shape, *(1,) * len(self.stroke_shape)))
 
     # -- ratios ----------------------------------------------------------------------------------------
 

@@ -5,10 +5,10 @@ from .asked_pin import pin_force as pin_force
 from .driving import driving_force as driving_force
 from .forces import pin_forces as pin_forces
 from .holding import stroke_followed as stroke_followed
+from .joint_force import JointForce as JointForce
 from .loaded import Case as Case
 from .loaded import Loads as Loads
 from .loaded import elements_of as elements_of
-from .result import JointForce as JointForce
 from .result import PinForces as PinForces
 from .supports import reaction as reaction
 from .table import PinLoad as PinLoad

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
@@ -10,27 +9,23 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularWarning, unknown
+from ..errors import unknown
 from ..motion import Asked, Motion
 from ..plan import Plan
-from ..program import FloatArray, Node, eliminated
+from ..program import Node
 from .asked import ForceOf
-from .balance import Equations
 from .contacts import Contact
+from .elimination import eliminated_system, held
 from .forces import pin_forces
 from .law import Law
-from .loaded import Case, Loaded, Loads
-from .poses import Poses
+from .loaded import Case, Loads
 from .result import met
 from .solved import Solved
 from .structure import Structure
 from .system import System
-from .traced import TracedMotion
 
 #: What can be asked of a force, from its parts.
 COMPONENTS: Mapping[str, Callable[[Any, Any], Any]] = MappingProxyType({"x": lambda x, y: x, "y": lambda x, y: y, "size": np.hypot})
-SAMPLE = 5
-"""Poses over the strokes at which it is tried whether the joints can be solved for."""
 
 
 @final
@@ -83,7 +78,7 @@ class PinForceOf(ForceOf):
         law = self.laws(plan)
         structure, motion = Structure(plan, law.loaded.elements, law.loaded.pushing), law.motion
         system = System(structure, law.poses, law.loaded.acting, length=self.length)
-        u = unknowns(system, motion)
+        u = eliminated_system(system, motion)
         none = np.zeros((1, 0))
         joint, sign = joint_of(structure, self.asked.point, self.asked.on)
         force, _ = Solved(system, u, none, np.zeros(1, bool), []).transmitted(joint.contact)
@@ -126,27 +121,3 @@ def joint_of(structure: Structure, point: str, on: str) -> tuple[Met, float]:
     """Return the joint that is meant, and the sign of its force on the body."""
     joints = [Met(each, structure.name(each.on), structure.name(each.by)) for each in structure.contacts]
     return met(joints, point, on, structure.plan.title)
-
-
-def unknowns(system: System, motion: TracedMotion) -> FloatArray:
-    """Return the joint forces of a traced system, eliminated symbolically, shape (1, columns)."""
-    equations = Equations(system, bound=tuple(system.known()))
-    A, right = equations.A[0], equations.right[0, :, 0]
-    return motion.array([eliminated([[motion.node(each) for each in row] for row in A], [motion.node(each) for each in right])])
-
-
-def held(plan: Plan, loaded: Loaded) -> float:
-    """Return a length of the mechanism [m]; DefinitionError where a body hangs loose or a link is redundant."""
-    along = np.linspace(0.0, 1.0, SAMPLE)
-    ranges = {name: each.start + along * (each.end - each.start) for name, each in plan.strokes.items()}
-    strokes = {name: np.append(plan.sketch_strokes[name], values) for name, values in ranges.items()}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", SingularWarning)
-        poses = Poses(Motion(plan, plan.defaults, strokes, "nan"), "The joint forces")
-    still = tuple(replace(each, thrust=np.zeros(poses.motion.shape)) for each in loaded.pushing)
-    system = System(Structure(plan, loaded.elements, still), poses, ())
-    if not poses.count:
-        raise DefinitionError(f"{plan.title}: the declared design cannot be assembled at any of {SAMPLE} poses; declare one that can.")
-    equations = Equations(system, bound=tuple(system.known()))
-    equations.check(*equations.A.shape[1:])
-    return system.scale

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ..errors import DefinitionError
-from ..quantities import Distance, Quantity
+from ..program import FloatArray
+from ..quantities import Distance, Quantity, name_of
+from .poses import Poses
 from .structure import Structure
 from .system import Form, System
 from .turns import follows_points
@@ -19,8 +21,15 @@ def cut(system: System, drive: str) -> Form:
             f"{system.structure.plan.title}: the joints know no drive of {drive}; "
             f"declare it by Dyad(..., AB=... + {drive}), Crank, OnGuide or OnLink."
         )
-    forms = [force.times(system.poses.ratio(quantity, drive)) for quantity, force in found]
+    forms = [force.times(ratio_of(system.poses, quantity, drive)) for quantity, force in found]
     return sum(forms[1:], forms[0])
+
+
+def ratio_of(poses: Poses, quantity: Quantity, drive: str) -> FloatArray:
+    """Return how a driven quantity follows a stroke, shape (n,); of a distance it is told by its points."""
+    if isinstance(quantity, Distance):
+        return poses.growth(name_of(quantity.P), name_of(quantity.Q), drive)
+    return poses.ratio(quantity, drive)
 
 
 def follows(structure: Structure, quantity: Quantity, drive: str) -> bool:

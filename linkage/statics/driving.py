@@ -11,12 +11,10 @@ from ..errors import DefinitionError
 from ..motion import Motion
 from ..program import FloatArray
 from ..quantities import is_number
-from .drives import cut
-from .forces import locked_words
+from .forces import equilibrium, locked_words
 from .loaded import Case, Loads, gathered
 from .movement import drive_of, movement_of
 from .poses import Poses
-from .solved import solve
 from .work import by_work, rubbed
 
 
@@ -46,10 +44,10 @@ def driving_force(
     poses = Poses(motion, f"The driving force of {stroke}", None if loaded.frictions else names)
     force = by_work(poses, loaded, stroke)
     if loaded.frictions:
-        solved = solve(poses, loaded)
-        locked_words(solved, direction)
+        found = equilibrium(poses, loaded, loads, case)
+        locked_words(found, direction)
         alone = tuple(movement.rates) == (stroke,) and not movement.is_timed
-        force = force + movement.sense * rubbed(solved.rubbing, solved.q) if alone else solved.value(cut(solved.system, stroke))
+        force = force + movement.sense * rubbed(found.rubbing, found.q) if alone else poses.flat(found.drives[stroke])
     return poses.full(with_losses(force, efficiency, movement.sense))
 
 

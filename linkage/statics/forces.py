@@ -11,12 +11,14 @@ from ..errors import SingularError
 from ..motion import Motion
 from ..motion.reach import where_words
 from ..program import FloatArray
-from .drives import cut
+from .force_program import by_program
+from .holding import holding_of
+from .levers import with_levers
 from .loaded import Case, Loaded, Loads, gathered
 from .movement import drive_of, movement_of
 from .poses import Poses
 from .result import PinForces
-from .solved import Solved, joint_forces, solve
+from .solved import Equilibrium, Rubbed, by_equations
 from .work import by_work
 
 
@@ -42,27 +44,36 @@ def pin_forces(
     if drive is not None:
         drive_of(motion.plan, drive)
     loaded = gathered(motion, loads, case, movement)
-    poses = Poses(motion, "The joint forces")
-    solved = solve(poses, loaded, split)
-    remarks = locked_words(solved, direction)
-    drives = {name: poses.full(solved.value(cut(solved.system, name))) for name in motion.strokes}
-    thrusts = {each.name: poses.full(solved.value(solved.system.thrust(each))) for each in solved.system.structure.struts}
-    remarks += [*held_words(poses, loaded, drives), *rest_words(loaded)]
-    structure = solved.system.structure
-    on = tuple((structure.name(body), each) for body, each, _ in solved.system.loads)
-    locked = poses.full(solved.locked.astype(float)) == 1.0
+    found = equilibrium(held_poses(motion, loaded, "The joint forces"), loaded, loads, case, split)
+    poses, structure = found.poses, found.structure
+    remarks = [*locked_words(found, direction), *held_words(poses, loaded, found.drives), *rest_words(loaded)]
+    on = tuple((structure.name(structure.bearer(each.load)), each) for each in loaded.acting)
+    locked = poses.full(found.locked.astype(float)) == 1.0
     return PinForces(
-        motion, joint_forces(solved), drives, thrusts, loaded.case, direction, locked, tuple(remarks), poses, loaded, on, structure
+        motion, found.joints, found.drives, found.thrusts, loaded.case, direction, locked, tuple(remarks), poses, loaded, on, structure
     )  # fmt: skip
 
 
-def locked_words(solved: Solved, direction: str) -> list[str]:
+def equilibrium(poses: Poses, loaded: Loaded, loads: Loads, case: Case, split: str = "refuse") -> Equilibrium:
+    """Return all forces at some poses: by the program where there are many, else by the equations on arrays."""
+    found = by_program(poses, loaded, loads, case) if split == "refuse" else None
+    return by_equations(poses, loaded, split) if found is None else found
+
+
+def held_poses(motion: Motion, loaded: Loaded, what: str) -> Poses:
+    """Return the poses at which a motion's forces can be worked out: not singular, and held by the cylinders that hold."""
+    poses = Poses(motion, what)
+    lines = holding_of(motion.plan, loaded.elements).lines
+    return poses if not lines else with_levers(poses, lines, what)[0]
+
+
+def locked_words(found: Rubbed, direction: str) -> list[str]:
     """Return the words for poses that friction locks; raise them where NaN was not asked for."""
-    if not solved.locked.any():
+    if not found.locked.any():
         return []
-    poses = solved.system.poses
-    motion, mask = poses.motion, poses.full(solved.locked.astype(float)) == 1.0
-    points = ", ".join(dict.fromkeys(rub.column.contact.point for rub in solved.rubbing))
+    poses = found.poses
+    motion, mask = poses.motion, poses.full(found.locked.astype(float)) == 1.0
+    points = ", ".join(dict.fromkeys(rub.column.contact.point for rub in found.rubbing))
     text = (
         f"{motion.plan.title} locks itself while {direction} {where_words(motion.plan, mask, motion.strokes)}: "
         f"with the friction at {points} no bounded drive force moves it. Lower the friction, or make the transmission angles larger."

@@ -18,7 +18,6 @@ from ..loads import ForceElement, TwoPoint
 from ..motion import Motion
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import Distance
 
 SAMPLE = 7
 """Poses over the strokes at which it is looked how lengths follow them."""
@@ -142,7 +141,7 @@ def share(motion: Motion, cylinder: TwoPoint, stroke: str) -> float:
         return 0.0
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", SingularWarning)
-        rate = np.abs(motion.ratio(Distance(A, B), wrt=stroke))
+        rate = np.abs(cylinder.growth(motion, {stroke: 1.0}))
         way = np.hypot(*motion.ratio(A, wrt=stroke)) + np.hypot(*motion.ratio(B, wrt=stroke))
     moved = np.nan_to_num(np.where(rate > STILL * way, rate, 0.0))
     return float(moved.max(initial=0.0)) * abs(span.end - span.start)

@@ -77,11 +77,11 @@ def traced_element(motion: TracedMotion, element: Chosen, movement: Movement) ->
     """Return the loads and the thrusts of one element as they act."""
     motion.notes.owner, motion.notes.tests = element.name, 0
     try:
-        pushes = element.in_case.pushes(motion, movement.rates)
+        pushes = element.in_case.pushes(motion, movement.known)
         pushing = [
             Pushing(member_name(push.member, element.name), push.member, traced_thrust(motion, push) * element.factor) for push in pushes
         ]
-        found = [] if pushes else called(element.in_case, motion, movement.rates, element.name)
+        found = [] if pushes else called(element.in_case, motion, movement.known, element.name)
         acting = [Acting(load, traced_force(motion, load) * element.factor, element.name) for load in found]
     except Exception as error:
         raise DefinitionError(

@@ -102,12 +102,12 @@ def gathered(motion: Motion, loads: Loads, case: Case, movement: Movement, witho
     acting: list[Acting] = []
     pushing: list[Pushing] = []
     for each in kept:
-        pushes = each.in_case.pushes(motion, movement.rates)
+        pushes = each.in_case.pushes(motion, movement.known)
         pushing += [
             Pushing(member_name(push.member, each.name), push.member, over_poses(push.thrust, motion, each.name, "thrust") * each.factor)
             for push in pushes
         ]
-        found = [] if pushes else called(each.in_case, motion, movement.rates, each.name)
+        found = [] if pushes else called(each.in_case, motion, movement.known, each.name)
         acting += [Acting(load, fitted(load, motion, each.name) * each.factor, each.name) for load in found]
     frictions = tuple(friction for each in kept for friction in each.element.frictions(motion)) if movement.rubs else ()
     still = tuple(each.name for each in kept if isinstance(each.element, Damper) and not movement.is_timed)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import DefinitionError, unknown
+from ..loads import Rates
 from ..motion import Motion, rates_of
 from ..plan import Plan
 from ..program import FloatArray
@@ -36,9 +37,10 @@ class Movement:
         """1 or -1 for a direction of motion, 0 where none is named."""
         return SENSES[self.direction]
 
-    def is_single(self) -> bool:
-        """Return whether one stroke alone moves."""
-        return len(self.rates) == 1
+    @property
+    def known(self) -> Rates:
+        """The rates as force elements ask for them."""
+        return Rates(self.rates, self.is_timed)
 
 
 AT_REST = Movement()

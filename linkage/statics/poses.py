@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
+from copy import copy
 from typing import Any, Protocol
 
 import numpy as np
@@ -64,6 +65,15 @@ class Poses:
         self._at: dict[str, FloatArray] = {}
         self._rates: dict[tuple[str, str], FloatArray] = {}
 
+    def without(self, lost: Mask) -> Poses:
+        """Return the poses that a mask (n,) leaves."""
+        left = copy(self)
+        left.good = self.good.copy()
+        left.good[self.good] = ~lost
+        left.count = int(left.good.sum())
+        left._at, left._rates = {}, {}
+        return left
+
     def _refused(self, what: str, names: set[str]) -> Mask:
         motion = self.motion
         if not motion.is_near_singular:
@@ -74,6 +84,11 @@ class Poses:
             raise singular.refusal(self.plan, found, mask, motion.strokes, what, motion)
         singular.warn(self.plan, found, motion.strokes, what)
         return mask
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether these are all poses of the motion, of which there are some."""
+        return self.count == self.good.size > 0
 
     @property
     def reading(self) -> Any:
@@ -88,10 +103,13 @@ class Poses:
         """Return values over the motion, shape (..., *shape) or broadcast to it, as (..., n)."""
         array = self.motion.array(values)
         lead = array.shape[: max(0, array.ndim - len(self.motion.shape))]
-        return np.asarray(np.broadcast_to(array, (*lead, *self.motion.shape))[..., self.good])
+        whole = np.broadcast_to(array, (*lead, *self.motion.shape))
+        return whole.reshape(*lead, self.count) if self.is_whole else np.asarray(whole[..., self.good])
 
     def full(self, values: FloatArray) -> FloatArray:
         """Return values (..., n) in the motion's shape, NaN at the other poses."""
+        if self.is_whole:
+            return np.broadcast_to(values, (*values.shape[:-1], self.count)).reshape(*values.shape[:-1], *self.motion.shape)
         result = np.full((*values.shape[:-1], *self.motion.shape), np.nan)
         result[..., self.good] = values
         return result
@@ -99,7 +117,7 @@ class Poses:
     def at(self, point: str) -> FloatArray:
         """Return a point's position, shape (2, n) [m]."""
         if point not in self._at:
-            self._at[point] = self.motion[point][:, self.good]
+            self._at[point] = self.flat(self.motion[point])
         return self._at[point]
 
     def rate(self, point: str, drive: str) -> FloatArray:
@@ -120,7 +138,7 @@ class Poses:
         """Return the ratio of a point (2, n) or a quantity (n,); what is near singular has been told already."""
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", SingularWarning)
-            return np.asarray(self.motion.ratio(target, wrt=drive)[..., self.good])
+            return self.flat(self.motion.ratio(target, wrt=drive))
 
     def line(self, guide: str) -> tuple[FloatArray, FloatArray]:
         """Return a guide's origin [m] and direction, shape (2, n) both."""

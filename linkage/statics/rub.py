@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -21,11 +22,15 @@ STILL = 1e-10  # relative turning below this part of the largest in the mechanis
 
 @dataclass(frozen=True)
 class Rub:
-    """A joint that rubs: the unit wrench of its friction, its coefficient (n,), its rate by the stroke (n,), >= 0."""
+    """A joint that rubs: the wrench of a friction of 1 N, its coefficient (n,), its rate by the stroke (n,), >= 0.
+
+    `lever` is the couple [m] on a pin's body, or the force along the guide [1], of that friction, signed (n,).
+    """
 
     column: Column
     coefficient: FloatArray
     rate: FloatArray
+    lever: FloatArray
 
 
 class Rates:
@@ -35,6 +40,7 @@ class Rates:
         self.structure, self.poses = structure, poses
         self.rates = {name: poses.flat(rate) for name, rate in movement.rates.items()}
         self._points: dict[str, FloatArray] = {}
+        self._spins: dict[int, FloatArray] = {}
 
     def rate(self, point: str) -> FloatArray:
         """Return a point's velocity, shape (2, n) [m/s, or per unit of what moves]."""
@@ -53,7 +59,17 @@ class Rates:
         return part.axis
 
     def spin(self, body: int) -> FloatArray:
-        """Return a body's turning, shape (n,) [rad per unit of the stroke]."""
+        """Return a body's turning, shape (n,) [rad/s, or per unit of what moves]."""
+        if body not in self._spins:
+            self._spins[body] = self._spin(body)
+        return self._spins[body]
+
+    @cached_property
+    def fastest(self) -> float:
+        """The largest turning of any body at any pose."""
+        return max(float(np.max(np.abs(self.spin(body)), initial=0.0)) for body in range(FRAME, len(self.structure.parts)))
+
+    def _spin(self, body: int) -> FloatArray:
         axis = self.axis(body)
         if axis is None:
             return np.zeros(self.poses.count)
@@ -98,11 +114,10 @@ def turning(contact: Contact, friction: Friction, rates: Rates) -> Rub:
     """Return the friction of a pin: a couple against the turning of its bodies."""
     poses = rates.poses
     rate = rates.spin(contact.on) - rates.spin(contact.by)
-    largest = max(float(np.max(np.abs(rates.spin(body)), initial=0.0)) for body in range(FRAME, len(rates.structure.parts)))
-    sign = np.where(np.abs(rate) > STILL * largest, np.sign(rate), 0.0)
+    sign = np.where(np.abs(rate) > STILL * rates.fastest, np.sign(rate), 0.0)
     radius = poses.flat(friction.radius)
     wrench = Wrench(poses.at(contact.point), np.zeros((2, poses.count)), -sign * radius)
-    return Rub(Column(contact, wrench), poses.flat(friction.coefficient), radius * np.abs(rate))
+    return Rub(Column(contact, wrench), poses.flat(friction.coefficient), radius * np.abs(rate), wrench.couple)
 
 
 def sliding(contact: Contact, friction: Friction, rates: Rates) -> Rub:
@@ -115,4 +130,13 @@ def sliding(contact: Contact, friction: Friction, rates: Rates) -> Rub:
     rate = ((point - by) * t).sum(axis=0)
     size = np.abs(point).max(axis=0) + np.abs(by).max(axis=0)
     sign = np.where(np.abs(rate) > STILL * size, np.sign(rate), 0.0)
-    return Rub(Column(contact, Wrench(place, -t * sign, np.zeros(poses.count))), poses.flat(friction.coefficient), np.abs(rate))
+    wrench = Wrench(place, -t * sign, np.zeros(poses.count))
+    return Rub(Column(contact, wrench), poses.flat(friction.coefficient), np.abs(rate), -sign)
+
+
+def unit_friction(contact: Contact, poses: Poses) -> Column:
+    """Return a couple of 1 Nm at a pin, or a force of 1 N along a guide: the friction of a joint, of either sign."""
+    none = np.zeros(poses.count)
+    if contact.kind == "pin":
+        return Column(contact, Wrench(poses.at(contact.point), np.zeros((2, poses.count)), none + 1.0))
+    return Column(contact, Wrench(poses.at(contact.point), direction(contact, poses), none))

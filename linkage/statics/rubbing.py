@@ -1,43 +1,108 @@
 """Friction solved to consistency: the joint forces make it, and it makes the joint forces.
 
-Every rubbing joint has a friction q = coefficient * |F|, with F = F0 + G q the force it comes from. The coefficients grow
-from zero to their value, and Newton's method follows the solution. Where the Jacobian's determinant comes to zero
-on the way the forces grow beyond all bounds: the mechanism jams, or locks itself.
+Every rubbing joint has a friction q = coefficient * |F|, with F = F0 + G q the force it comes from. Where the coefficients times the
+sizes of G add up to less than 1 in every row, that is a contraction: it has one solution, and plain iteration comes to it. Elsewhere
+the coefficients grow from zero to their value, and Newton's method follows the solution. Where the Jacobian's determinant comes to
+zero on the way the forces grow beyond all bounds: the mechanism jams, or locks itself.
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..motion.reach import Mask
 from ..program import FloatArray
-from .balance import Balance
-from .rub import Rub
-from .system import System
 
 STEPS = 16
 ROUNDS = 40
+CONTRACTS = 0.7
+"""The row sum up to which plain iteration is quick: some 80 rounds to the last digit at the most, mostly 10."""
+BLOCK = 1024
 
 
-def presses(system: System, balance: Balance, rub: Rub) -> tuple[FloatArray, FloatArray]:
-    """Return the force that makes a friction: at none (n, parts), and by unit frictions (n, parts, frictions)."""
-    start = system.first[rub.column.contact]
-    parts = 2 if rub.column.contact.kind == "pin" else 1
-    return balance.start[:, start : start + parts], balance.spread[:, start : start + parts]
+@dataclass(frozen=True)
+class Pressed:
+    """The forces that make the frictions: without any (rows, n), and by each friction of one unit (rows, frictions, n).
+
+    A pin has two rows, a guide one: `parts` says how many each; `lever` (frictions, n) how many units a friction of 1 N is, signed.
+    """
+
+    parts: tuple[int, ...]
+    free: FloatArray
+    by_unit: FloatArray
+    lever: FloatArray
+
+    def at(self, places: Mask | slice) -> Pressed:
+        """Return the same at some poses."""
+        return Pressed(self.parts, self.free[:, places], self.by_unit[:, :, places], self.lever[:, places])
+
+    @property
+    def first(self) -> FloatArray:
+        """The first row of each friction."""
+        return np.cumsum([0, *self.parts[:-1]])
+
+    @property
+    def last(self) -> FloatArray:
+        """The last row of each friction: the first where it has one."""
+        return self.first + np.asarray(self.parts) - 1
+
+    @property
+    def share(self) -> FloatArray:
+        """What the hypotenuse of first and last row counts (frictions, 1): of a single row, counted twice, the half of its square."""
+        return np.asarray(np.where(np.asarray(self.parts) == 2, 1.0, np.sqrt(0.5))[:, None])
 
 
-def settled(system: System, balance: Balance, rubbing: list[Rub]) -> tuple[FloatArray, Mask]:
-    """Return the frictions (n, frictions) [N] and the poses where they have no bounded solution (n,)."""
-    n, count = system.poses.count, len(rubbing)
-    q, alive = np.zeros((n, count)), np.ones(n, bool)
-    if not count or not n:
-        return q, ~alive
-    pressed = [presses(system, balance, rub) for rub in rubbing]
-    final = np.stack([rub.coefficient for rub in rubbing], axis=1)
+def settled(pressed: Pressed, coefficient: FloatArray) -> tuple[FloatArray, Mask]:
+    """Return the frictions (frictions, n) [N] for coefficients (frictions, n), and where they have no bounded solution (n,)."""
+    count, n = coefficient.shape
+    q, locked = np.zeros((count, n)), np.zeros(n, bool)
+    for start in range(0, n, BLOCK):
+        part = slice(start, min(start + BLOCK, n))
+        q[:, part], locked[part] = settled_block(pressed.at(part), coefficient[:, part])
+    return q, locked
+
+
+def settled_block(pressed: Pressed, coefficient: FloatArray) -> tuple[FloatArray, Mask]:
+    """Return the frictions and the locked poses of one block of poses."""
+    size = np.hypot(pressed.by_unit[pressed.first], pressed.by_unit[pressed.last]) * pressed.share[:, :, None]
+    rows = coefficient * np.einsum("rjn,jn->rn", size, np.abs(pressed.lever))
+    contracts = np.max(rows, axis=0, initial=0.0) < CONTRACTS
+    q = iterated(pressed, coefficient) if contracts.any() else np.zeros(coefficient.shape)
+    hard = ~contracts
+    locked = np.zeros(len(hard), bool)
+    if hard.any():
+        q[:, hard], locked[hard] = followed(pressed.at(hard), coefficient[:, hard])
+    return q, locked
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def iterated(pressed: Pressed, coefficient: FloatArray) -> FloatArray:
+    """Return the frictions (frictions, n) to which plain iteration comes, where it contracts."""
+    first, last, share = pressed.first, pressed.last, pressed.share * coefficient
+    force, q = pressed.free, np.zeros(coefficient.shape)
+    for _ in range(100):
+        new = np.hypot(force[first], force[last]) * share
+        change, largest = np.abs(new - q), np.max(new, axis=0, initial=0.0)
+        q = new
+        if not np.any(change > 1e-15 * largest):
+            break
+        force = np.einsum("rjn,jn->rn", pressed.by_unit, q * pressed.lever) + pressed.free
+    return q
+
+
+def followed(pressed: Pressed, coefficient: FloatArray) -> tuple[FloatArray, Mask]:
+    """Return the frictions (frictions, n) that grow from none with the coefficients, NaN where they jam on the way, and where (n,)."""
+    free, by_unit = pressed.free.T, np.moveaxis(pressed.by_unit * pressed.lever, -1, 0)
+    rows = [slice(first, last + 1) for first, last in zip(pressed.first, pressed.last, strict=True)]
+    forces = [(free[:, each], by_unit[:, each]) for each in rows]
+    final = coefficient.T
+    q, alive = np.zeros(final.shape), np.ones(len(final), bool)
     for share in np.linspace(0.0, 1.0, STEPS + 1)[1:]:
-        q[alive], good = newton(q[alive], share * final[alive], [(F[alive], G[alive]) for F, G in pressed])
+        q[alive], good = newton(q[alive], share * final[alive], [(F[alive], G[alive]) for F, G in forces])
         alive[alive] = good
-    return np.where(alive[:, None], q, np.nan), ~alive
+    return np.where(alive[:, None], q, np.nan).T, ~alive
 
 
 def newton(q: FloatArray, coefficient: FloatArray, pressed: list[tuple[FloatArray, FloatArray]]) -> tuple[FloatArray, Mask]:
@@ -45,7 +110,7 @@ def newton(q: FloatArray, coefficient: FloatArray, pressed: list[tuple[FloatArra
     count = q.shape[1]
     good: Mask = np.ones(len(q), bool)
     for _ in range(ROUNDS):
-        size, slope = sizes(q, pressed)
+        size, slope = sloped(q, pressed)
         miss = q - coefficient * size
         J = np.eye(count) - coefficient[:, :, None] * slope
         good = np.linalg.det(J) > 0.0
@@ -53,12 +118,12 @@ def newton(q: FloatArray, coefficient: FloatArray, pressed: list[tuple[FloatArra
         q = q + np.where(good[:, None], step, 0.0)
         if np.all(np.abs(step[good]) <= 1e-13 * (1.0 + np.abs(q[good]).max(axis=1, keepdims=True))):
             break
-    size, slope = sizes(q, pressed)
+    size, slope = sloped(q, pressed)
     close = np.abs(q - coefficient * size).max(axis=1) <= 1e-10 * (size.max(axis=1) + np.finfo(float).tiny)
     return q, good & close & (np.linalg.det(np.eye(count) - coefficient[:, :, None] * slope) > 0.0)
 
 
-def sizes(q: FloatArray, pressed: list[tuple[FloatArray, FloatArray]]) -> tuple[FloatArray, FloatArray]:
+def sloped(q: FloatArray, pressed: list[tuple[FloatArray, FloatArray]]) -> tuple[FloatArray, FloatArray]:
     """Return the sizes of the pressing forces (n, frictions) and their derivatives by the frictions (n, frictions, frictions)."""
     forces = [F + (G * q[:, None]).sum(axis=2) for F, G in pressed]
     size = np.stack([np.sqrt((F * F).sum(axis=1)) for F in forces], axis=1)

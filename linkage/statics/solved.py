@@ -2,21 +2,37 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from ..motion.reach import Mask
 from ..program import FloatArray
-from .balance import Equations
+from .balance import Balance, Equations
 from .contacts import Contact
+from .drives import cut
+from .joint_force import JointForce
 from .loaded import Loaded
 from .poses import Poses
-from .result import JointForce
 from .rub import Rub, rubs
-from .rubbing import settled
+from .rubbing import Pressed, settled
 from .structure import Structure
 from .system import Form, System
+
+
+class Rubbed(Protocol):
+    """Forces with friction: where they are, what rubs, and where that leaves no bounded ones (n,)."""
+
+    @property
+    def poses(self) -> Poses: ...
+
+    @property
+    def rubbing(self) -> list[Rub]: ...
+
+    @property
+    def locked(self) -> Mask: ...
 
 
 @dataclass(frozen=True)
@@ -28,6 +44,11 @@ class Solved:
     q: FloatArray
     locked: Mask
     rubbing: list[Rub]
+
+    @property
+    def poses(self) -> Poses:
+        """The poses they are at."""
+        return self.system.poses
 
     def value(self, form: Form) -> FloatArray:
         """Return a linear form of the forces, shape (n,)."""
@@ -81,18 +102,56 @@ def prepared(poses: Poses, loaded: Loaded) -> tuple[System, list[Rub]]:
 
 def consistent(equations: Equations) -> Solved:
     """Return the forces at which friction and joint forces agree."""
-    system, balance = equations.system, equations.solve()
-    q, locked = settled(system, balance, equations.rubbing)
-    return Solved(system, balance.start + (balance.spread * q[:, None]).sum(axis=2), q, locked, equations.rubbing)
+    system, balance, rubbing = equations.system, equations.solve(), equations.rubbing
+    if not rubbing:
+        return Solved(system, balance.start, np.zeros((system.poses.count, 0)), np.zeros(system.poses.count, bool), [])
+    found, locked = settled(pressing(system, balance, rubbing), np.stack([rub.coefficient for rub in rubbing]))
+    q = found.T
+    return Solved(system, balance.start + (balance.spread * q[:, None]).sum(axis=2), q, locked, rubbing)
 
 
-def joint_forces(solved: Solved) -> tuple[JointForce, ...]:
-    """Return every joint's force in the motion's shape."""
-    structure, full = solved.system.structure, solved.system.poses.full
-    found = []
-    for contact in structure.contacts:
-        force, couple = solved.transmitted(contact)
-        axis = structure.parts[contact.on].axis if 0 <= contact.on < len(structure.parts) else None
-        on, by = structure.name(contact.on), structure.name(contact.by)
-        found.append(JointForce(contact.point, on, by, contact.kind, full(force), full(couple), axis))
-    return tuple(found)
+def pressing(system: System, balance: Balance, rubbing: list[Rub]) -> Pressed:
+    """Return the forces that make the frictions, by the solution of the equations."""
+    parts = tuple(2 if rub.column.contact.kind == "pin" else 1 for rub in rubbing)
+    starts = [system.first[rub.column.contact] for rub in rubbing]
+    rows = [start + k for start, many in zip(starts, parts, strict=True) for k in range(many)]
+    by_unit = np.moveaxis(balance.spread[:, rows], 0, -1)
+    return Pressed(parts, balance.start[:, rows].T, by_unit, np.ones((len(rubbing), system.poses.count)))
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """All forces of a motion: each contact's force (2, ...) and couple (...), the drives' and the members' thrusts (...).
+
+    `q` are the frictions (frictions, n) [N] of the rubbing joints, `locked` where friction leaves no bounded ones (n,).
+    """
+
+    structure: Structure
+    poses: Poses
+    loaded: Loaded
+    rubbing: list[Rub]
+    q: FloatArray
+    locked: Mask
+    forces: list[tuple[FloatArray, FloatArray]]
+    drives: Mapping[str, FloatArray]
+    thrusts: Mapping[str, FloatArray]
+
+    @property
+    def joints(self) -> tuple[JointForce, ...]:
+        """Every joint's force in the motion's shape."""
+        structure, found = self.structure, []
+        for contact, (force, couple) in zip(structure.contacts, self.forces, strict=True):
+            axis = structure.parts[contact.on].axis if 0 <= contact.on < len(structure.parts) else None
+            on, by = structure.name(contact.on), structure.name(contact.by)
+            found.append(JointForce(contact.point, on, by, contact.kind, force, couple, axis))
+        return tuple(found)
+
+
+def by_equations(poses: Poses, loaded: Loaded, split: str) -> Equilibrium:
+    """Return the forces by the equations solved on arrays."""
+    solved = solve(poses, loaded, split)
+    structure, full = solved.system.structure, poses.full
+    forces = [tuple(map(full, solved.transmitted(contact))) for contact in structure.contacts]
+    drives = {name: full(solved.value(cut(solved.system, name))) for name in poses.motion.strokes}
+    thrusts = {each.name: full(solved.value(solved.system.thrust(each))) for each in structure.struts}
+    return Equilibrium(structure, poses, loaded, solved.rubbing, solved.q.T, solved.locked, forces, drives, thrusts)  # type: ignore[arg-type]

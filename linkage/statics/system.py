@@ -12,7 +12,6 @@ from functools import cached_property
 import numpy as np
 
 from ..program import FloatArray
-from ..quantities import Distance
 from .bodies import FRAME, Strut
 from .contacts import Contact, Wrench, wrenches
 from .holding import Line
@@ -196,6 +195,8 @@ def areas(line: Line, poses: Poses, way: int) -> list[FloatArray]:
     """
     if len(line.cylinders) == 1:
         return [np.ones(poses.count)]
-    growth = [poses.ratio(Distance(*each.ends), line.stroke) for each in line.cylinders]
+    if not any(each.works_both for each in line.cylinders):
+        return [poses.flat(each.area_in(poses.motion, np.ones(()))) for each in line.cylinders]
+    growth = [poses.growth(*each.ends, line.stroke) for each in line.cylinders]
     senses = [poses.full(np.sign(rate * growth[0]) * way) for rate in growth]
     return [poses.flat(each.area_in(poses.motion, sense)) for each, sense in zip(line.cylinders, senses, strict=True)]

@@ -10,7 +10,8 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..units import deg, kN
-from .result import JointForce, PinForces
+from .joint_force import JointForce
+from .result import PinForces
 
 
 @dataclass(frozen=True)

@@ -30,7 +30,7 @@ def works(poses: Poses, loaded: Loaded, drive: str) -> Iterator[FloatArray]:
 
 def rubbed(rubbing: list[Rub], q: FloatArray) -> FloatArray:
     """Return the work that friction takes on a unit of the stroke [N or Nm], shape (n,), never negative."""
-    return np.asarray(sum((q[:, k] * rub.rate for k, rub in enumerate(rubbing)), np.zeros(len(q))))
+    return np.asarray(sum((each * rub.rate for each, rub in zip(q, rubbing, strict=True)), np.zeros(q.shape[1])))
 
 
 def gap(poses: Poses, loaded: Loaded, drives: Mapping[str, FloatArray]) -> float:

@@ -1,0 +1,96 @@
+"""How the lengths of the cylinders that hold follow the strokes they have taken over, and where that holds nothing.
+
+Where a cylinder's length stands still against its drive, or those of several follow the strokes alike, no thrust balances the loads:
+such poses are refused like any other singular one, by the condition of the levers beside the speed at which the cylinders' ends part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..loads import TwoPoint
+from ..motion.singular import condition
+from ..program import FloatArray
+from .holding import Line, same
+from .poses import Poses
+from .quotients import refused_where
+from .system import areas
+
+
+@dataclass(frozen=True)
+class Levers:
+    """The work of each line's first cylinder, with what the others of its line add, on a unit of each stroke taken: (n, lines, strokes).
+
+    `shares` are the thrusts of each line's cylinders over that of its first, (n,) each.
+    """
+
+    matrix: FloatArray
+    sizes: FloatArray
+    shares: tuple[tuple[FloatArray, ...], ...]
+
+    def share(self, line: Line, member: TwoPoint, place: int) -> FloatArray:
+        """Return the thrust of a cylinder of a line over that of its first."""
+        return next(part for each, part in zip(line.cylinders, self.shares[place], strict=True) if same(each, member))
+
+    def solved(self, need: FloatArray) -> FloatArray:
+        """Return the thrusts of the lines' first cylinders (n, lines) that give the strokes what they need (n, strokes)."""
+        if self.matrix.shape[1] == 1:
+            return need / self.matrix[:, 0]
+        return np.asarray(np.linalg.solve(np.swapaxes(self.matrix, 1, 2), need[:, :, None])[:, :, 0])
+
+    @property
+    def condition(self) -> FloatArray:
+        """How near the levers are to a singular pose, relative to their sizes (n,); infinite where they are at one."""
+        columns = self.sizes.max(axis=1, keepdims=True)
+        columns = np.where(columns > 0.0, columns, 1.0)
+        rows = (self.sizes / columns).max(axis=2, keepdims=True)
+        scaled = self.matrix / columns / np.where(rows > 0.0, rows, 1.0)
+        if self.matrix.shape[1] == 1:
+            return condition(scaled[:, 0, 0])
+        least = np.linalg.svd(scaled, compute_uv=False)[:, -1]
+        with np.errstate(divide="ignore"):
+            return np.asarray(1.0 / least)
+
+
+def with_levers(poses: Poses, lines: Sequence[Line], what: str) -> tuple[Poses, tuple[Levers, ...]]:
+    """Return the poses at which the cylinders hold, and their levers there: a second time where first cylinders pull.
+
+    SingularError at the others unless NaN was asked for; `what` opens the sentence.
+    """
+    both = any(len(line.cylinders) > 1 and any(each.works_both for each in line.cylinders) for line in lines)
+    found = [levers_of(poses, lines, way) for way in ((1, -1) if both else (1,))]
+    whose = "its length stands" if sum(len(line.cylinders) for line in lines) == 1 else "the lengths of the cylinders stand"
+    cond = np.max([each.condition for each in found], axis=0)
+    lost = np.isnan(refused_where(poses, np.zeros(poses.count), cond, f"{what} is refused", f"{whose} still against the drive there"))
+    if not lost.any():
+        return poses, tuple(found)
+    left = poses.without(lost)
+    return left, tuple(levers_of(left, lines, way) for way in ((1, -1) if both else (1,)))
+
+
+def levers_of(poses: Poses, lines: Sequence[Line], way: int) -> Levers:
+    """Return the levers of lines whose first cylinders push (`way` 1) or pull (-1)."""
+    n, count = poses.count, len(lines)
+    matrix, sizes, shares = np.zeros((n, count, count)), np.zeros((n, count, count)), []
+    for i, line in enumerate(lines):
+        weights = areas(line, poses, way)
+        shares.append(tuple(weight / weights[0] for weight in weights))
+        for cylinder, part in zip(line.cylinders, shares[-1], strict=True):
+            for j, other in enumerate(lines):
+                lever, size = lever_of(poses, cylinder, other.stroke)
+                matrix[:, i, j] += part * lever
+                sizes[:, i, j] += np.abs(part) * size
+    return Levers(matrix, sizes, tuple(shares))
+
+
+def lever_of(poses: Poses, cylinder: TwoPoint, stroke: str) -> tuple[FloatArray, FloatArray]:
+    """Return how a cylinder's length grows with a stroke, and how fast its ends part at the most, both (n,)."""
+    P, Q = cylinder.ends
+    known = poses.plan.table.lengths.get(frozenset((P, Q)))
+    if known is not None:
+        lever = np.broadcast_to(poses.ratio(known, stroke), (poses.count,))
+        return lever, np.full(poses.count, float(np.max(np.abs(lever), initial=0.0)))
+    return poses.growth(P, Q, stroke), np.hypot(*(poses.rate(Q, stroke) - poses.rate(P, stroke)))

@@ -62,9 +62,10 @@ def with_levers(poses: Poses, lines: Sequence[Line], what: str) -> tuple[Poses, 
     """
     both = any(len(line.cylinders) > 1 and any(each.works_both for each in line.cylinders) for line in lines)
     found = [levers_of(poses, lines, way) for way in ((1, -1) if both else (1,))]
-    whose = "its length stands" if sum(len(line.cylinders) for line in lines) == 1 else "the lengths of the cylinders stand"
+    names = [each.name or str(each) for line in lines for each in line.cylinders]
+    whose = f"the length of {names[0]} stands" if len(names) == 1 else f"the lengths of {', '.join(names)} stand"
     cond = np.max([each.condition for each in found], axis=0)
-    lost = np.isnan(refused_where(poses, np.zeros(poses.count), cond, f"{what} is refused", f"{whose} still against the drive there"))
+    lost = np.isnan(refused_where(poses, np.zeros(poses.count), cond, what, f"{whose} still against the drive there"))
     if not lost.any():
         return poses, tuple(found)
     left = poses.without(lost)

@@ -104,12 +104,12 @@ class Poses:
         array = self.motion.array(values)
         lead = array.shape[: max(0, array.ndim - len(self.motion.shape))]
         whole = np.broadcast_to(array, (*lead, *self.motion.shape))
-        return whole.reshape(*lead, self.count) if self.is_whole else np.asarray(whole[..., self.good])
+        return whole.reshape((*lead, self.count)) if self.is_whole else np.asarray(whole[..., self.good])
 
     def full(self, values: FloatArray) -> FloatArray:
         """Return values (..., n) in the motion's shape, NaN at the other poses."""
         if self.is_whole:
-            return np.broadcast_to(values, (*values.shape[:-1], self.count)).reshape(*values.shape[:-1], *self.motion.shape)
+            return np.broadcast_to(values, (*values.shape[:-1], self.count)).reshape((*values.shape[:-1], *self.motion.shape))
         result = np.full((*values.shape[:-1], *self.motion.shape), np.nan)
         result[..., self.good] = values
         return result

@@ -34,13 +34,14 @@ def refused_where(poses: Poses, values: FloatArray, cond: FloatArray, what: str,
             where = where_words(motion.plan, mask, motion.strokes)
             worst = float(np.max(np.nan_to_num(cond[lost], nan=np.inf)))
             size = "infinite" if np.isinf(worst) else f"{worst:.1e}"
-            text = f"{what} {where}: {reason} (condition {size}, refused above {REFUSE:.0e})."
+            text = f"{what}: refused {where}: {reason} (condition {size}, refused above {REFUSE:.0e})."
             raise SingularError(text, mask=mask, motion=motion)
     near = (cond > WARN) & ~lost
     if near.any():
         worst = float(cond[near].max())
         where = where_words(motion.plan, poses.full(near.astype(float)) == 1.0, motion.strokes)
         # one division by a difference that is lost: the error goes with the condition, not its square
-        text = f"{what} nearly {where} (condition {worst:.1e}); expect a relative error of about {np.finfo(float).eps * worst:.0e}."
+        error = f"expect a relative error of about {np.finfo(float).eps * worst:.0e}"
+        text = f"{what} {where}: nearly {reason} (condition {worst:.1e}); {error}."
         warnings.warn(text, SingularWarning, stacklevel=5)
     return np.where(lost, np.nan, values)

@@ -41,12 +41,12 @@ class Pressed:
     @property
     def first(self) -> FloatArray:
         """The first row of each friction."""
-        return np.cumsum([0, *self.parts[:-1]])
+        return np.asarray(np.cumsum([0, *self.parts[:-1]]))
 
     @property
     def last(self) -> FloatArray:
         """The last row of each friction: the first where it has one."""
-        return self.first + np.asarray(self.parts) - 1
+        return np.asarray(self.first + np.asarray(self.parts) - 1)
 
     @property
     def share(self) -> FloatArray:

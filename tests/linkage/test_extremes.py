@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, RIGHT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, Pin, Stroke, angle
-from linkage.motion import below_zero, greatest, lowest, reached
+from linkage.motion import below_zero, evaluate, greatest, lowest, ratio, reached
+from linkage.program import QUICKEST
 
 WIDTH = 1.0 / 2000.0
 
@@ -200,6 +201,21 @@ def test_an_extreme_at_the_edge_of_the_reach():
         assert found.strokes["S"] == pytest.approx(S, abs=1e-6) and not found.unbounded
 
 
+@pytest.mark.parametrize("seed", range(20))
+def test_a_narrow_top_cut_off_by_an_edge(seed):
+    """Next to the edge of what has a value, on ground that falls towards it, higher than the ground by a fifth."""
+    rng = np.random.default_rng(seed)
+    place = (rng.integers(500, 3500) + rng.choice([0.99, rng.uniform()])) / 4096.0  # 0.99: nearly a step from the last sample
+    rest = rng.uniform(0.0, 0.01) / 4096.0
+
+    def f(u):
+        ground = np.where(u > place - 0.004, 200.0 * (place - u), 0.0)
+        return np.where(u > place + rest, np.nan, ground + np.maximum(0.0, 1.0 - np.abs(u - place) / (0.5 * WIDTH)))
+
+    found = greatest(Lift().sweep(2), of_stroke(f))
+    assert found.value == pytest.approx(1.0, abs=1e-6) and share(found) == pytest.approx(place, abs=1e-9)
+
+
 def test_a_ratio_grows_beyond_bounds_up_to_a_dead_point():
     for S, sense in (([0.3, 0.6], -1.0), ([0.6, 0.9], 1.0)):
         found = greatest(Lift().at(S=S, unreachable="nan"), lambda each: np.abs(each.ratio("psi")))
@@ -288,6 +304,17 @@ def test_several_quantities_at_once():
         alone = greatest(batch, lambda motion, row=row: all_three(motion)[row])
         assert_allclose(together.value[row], alone.value, rtol=1e-13)
         assert_allclose(together.strokes["S"][row], alone.strokes["S"], atol=1e-7)
+
+
+def test_requests_are_asked_in_bulk():
+    def in_bulk(motion):
+        return evaluate(motion, [ratio("psi")], None, QUICKEST)[0]
+
+    for S in ([0.5, 0.75], [0.3, 0.9]):
+        batch = Lift(OB=[0.19, 0.20, 0.21]).at(S=S, unreachable="nan")
+        found, other = (lowest(batch, f) for f in (in_bulk, lambda motion: motion.ratio("psi")))
+        assert_allclose(found.value, other.value, rtol=1e-13)
+        assert_allclose(found.strokes["S"], other.strokes["S"], atol=1e-7)
 
 
 class Triad(Mechanism):

@@ -70,9 +70,9 @@ def work(places, q, loads, k=0):
 
 def balance(places, q, loads, cylinders):
     """Return the thrusts of as many cylinders (P, Q) as there are coordinates, by virtual work."""
-    n = len(q)
-    levers = np.array([[stretch(places, q, P, Q, k) for P, Q in cylinders] for k in range(n)])
-    return np.linalg.solve(levers, [-work(places, q, loads, k) for k in range(n)])
+    at, moved = places(np.asarray(q, float)), [rate(places, q, k) for k in range(len(q))]
+    levers = [[toward(at[P], at[Q]) @ (each[Q] - each[P]) for P, Q in cylinders] for each in moved]
+    return np.linalg.solve(levers, [-sum(np.dot(force, each[name]) for name, force in loads) for each in moved])
 
 
 def rubbed(cut, pins, guides=()):
@@ -123,13 +123,13 @@ def gas_of(vessels, pressure, atmosphere=101325.0):
     return sum(volume * min(1.0, (charge + atmosphere) / (pressure + atmosphere)) for volume, charge in vessels)
 
 
-def peak(function, low, high, count=200):
+def peak(function, low, high, count=60):
     """Return the greatest value of a function of one number and where it is: a scan, then the golden section."""
     at = np.linspace(low, high, count + 1)
     values = [function(x) for x in at]
     k = int(np.argmax(values))
     a, b, golden = at[max(k - 1, 0)], at[min(k + 1, count)], (np.sqrt(5) - 1) / 2
-    for _ in range(60):
+    for _ in range(40):
         c, d = b - golden * (b - a), a + golden * (b - a)
         a, b = (a, d) if function(c) > function(d) else (c, b)
     best = max([(values[k], at[k]), (function((a + b) / 2), (a + b) / 2)])

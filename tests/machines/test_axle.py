@@ -307,11 +307,10 @@ def test_absent_vessel():
 # -- verdicts ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("count", [2, 50])
-def test_rod_under_the_gas(count):
+def test_rod_under_the_gas():
     """The seals of a rod that goes in add to the gas."""
-    motion = Axle().sweep(count)
-    use, _ = plane.peak(lambda psi: (line_pressure(psi) + SEALS) * AREA / plane.critical(ROD, long(psi)), -14 * deg, 14 * deg, 60)
+    motion = Axle().sweep(3)
+    use, _ = plane.peak(lambda psi: (line_pressure(psi) + SEALS) * AREA / plane.critical(ROD, long(psi)), -14 * deg, 14 * deg)
     checks = {each.rule: each for each in Axle.strut.checks(motion)}
     assert bool(checks["buckling"]) == (use * 3.5 <= 1.0)
     assert_allclose(number("safety", checks["buckling"]), 1 / use, rtol=6e-3)

@@ -234,11 +234,10 @@ def test_rollers_rub(machine, at, direction, sense):
 # -- verdicts ----------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("count", [2, 50])
-def test_verdicts(count):
-    motion = Table().sweep(count)
+def test_verdicts():
+    motion = Table().sweep(3)
     area, ring = 2 * plane.disc(0.100), 2 * plane.annulus(0.100, 0.063)
-    most, _ = plane.peak(thrust, 1.15, 1.95, 80)
+    most, _ = plane.peak(thrust, 1.15, 1.95)
     lifting, oil, holding, _ = lift_verdicts(Table.line, motion)
     reserve = (160e5 * area - 3e5 * ring) / most
     assert bool(lifting) == (reserve >= 1.0)
@@ -247,7 +246,7 @@ def test_verdicts(count):
     assert bool(holding) == (most / area <= 175e5)
     low, high = long(1.95), long(1.15)
     assert_allclose(number("", oil), (high - low) * area / 1e-3, rtol=1e-2)
-    use, _ = plane.peak(lambda s: thrust(s) / 2 / plane.critical(0.063, long(s)), 1.15, 1.95, 80)
+    use, _ = plane.peak(lambda s: thrust(s) / 2 / plane.critical(0.063, long(s)), 1.15, 1.95)
     checks = {each.rule: each for each in Table.lift.checks(motion)}
     assert bool(checks["buckling"]) == (use * 3.5 <= 1.0)
     assert_allclose(number("safety", checks["buckling"]), 1 / use, rtol=6e-3)

@@ -306,8 +306,8 @@ def test_cylinders_on_one_line_share_their_pressure(machine, at):
 @pytest.mark.parametrize("count", [2, 50])
 def test_verdicts_do_not_hang_on_the_poses(count):
     motion = ByAngle().sweep(count)
-    most, _ = plane.peak(thrust, 0.0, 50 * deg, 100)
-    least = -plane.peak(lambda tip: -thrust(tip), 0.0, 50 * deg, 100)[0]
+    most, _ = plane.peak(thrust, 0.0, 50 * deg)
+    least = -plane.peak(lambda tip: -thrust(tip), 0.0, 50 * deg)[0]
     lifting, oil, holding, lowering = lift_verdicts(ByAngle.line, motion, resistance=5 * bar)
     area = plane.disc(0.140)
     reserve = 0.96 * 160e5 * area * 0.9 / most
@@ -319,7 +319,7 @@ def test_verdicts_do_not_hang_on_the_poses(count):
     assert_allclose(number("at least", lowering), least * 0.9 / area / bar, rtol=1e-3)
     assert lowering
     assert_allclose(number("end to end,", oil), (opened(50 * deg) - opened(0.0)) * area / 1e-3, rtol=2e-2)
-    use, _ = plane.peak(lambda tip: thrust(tip) / plane.critical(0.080, opened(tip)), 0.0, 50 * deg, 100)
+    use, _ = plane.peak(lambda tip: thrust(tip) / plane.critical(0.080, opened(tip)), 0.0, 50 * deg)
     checks = {each.rule: each for each in ByAngle.lift.checks(motion)}
     assert bool(checks["buckling"]) == (use * 3.5 <= 1.0)
     assert_allclose(number("safety", checks["buckling"]), 1 / use, rtol=6e-3)

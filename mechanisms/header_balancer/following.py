@@ -122,8 +122,8 @@ class Balance:
 
     def thrust_without_line(self, direction: str = "frictionless", pressed: float = 0.0) -> FloatArray:
         """Return the cylinders' thrust [N] that all loads but the line's ask for, the shoes `pressed` with a force [N]."""
-        loads = [*own_loads(self.motion, LINE, SHOE), Support("R", (0, 1), force=pressed)]
-        return driving_force(self.motion, loads, direction=direction) / self.cylinder.speed(self.motion, {"h": 1.0})
+        loads: list[Any] = [*own_loads(self.motion, LINE, SHOE), Support("R", (0, 1), force=pressed)]
+        return driving_force(self.motion, loads, direction=direction) / self.cylinder.growth(self.motion, {"h": 1.0})
 
     def reaction(self, direction: str, bearing: float | None = None) -> FloatArray:
         """Return the shoes' reaction [N], all shoes: "extending" (up), "retracting" (down) or "frictionless". (38)-(41)

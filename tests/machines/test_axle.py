@@ -192,6 +192,12 @@ def test_seals_widen_the_wheel_load(direction, seals):
     assert np.all((want - [held(psi) for psi in ANGLES]) * seals > 0)
 
 
+def test_damper_and_seals_of_a_moving_axle():
+    """With the rates the damper acts, with the direction the seals."""
+    found = reaction(Axle().at(psi=ANGLES), support="ground", direction="extending", rates={"psi": SPEED})
+    assert_allclose(found, [held(psi, speed=SPEED, seals=1) for psi in ANGLES], rtol=1e-10)
+
+
 def test_hinge_with_and_without_the_ground():
     """The wishbone's own drive carries what no ground takes; with the ground's reaction it has nothing to do."""
     for psi in ANGLES:

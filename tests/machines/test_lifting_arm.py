@@ -26,6 +26,7 @@ from linkage import (
     Weight,
     deg,
     driving_force,
+    max_table,
     pin_forces,
 )
 from linkage.units import bar, mm
@@ -326,6 +327,29 @@ def test_spring_for_its_force():
         assert_allclose(first.force(name, on=body), second.force(name, on=body), rtol=1e-12)
     want = (moment(psi[0]) - push * lever(psi[0], "A", "G")) / lever(psi[0], "A", "B")
     assert_allclose(first.thrusts["lift"], want, rtol=1e-11)
+
+
+@pytest.mark.parametrize("count", [2, 5, 50])
+def test_largest_force_lies_between_the_poses(count):
+    """The bearing carries most in the middle of the stroke, the cylinder at neither end."""
+    table = {(each.point, each.on): each for each in max_table(pin_forces(Pulled().sweep(count)))}
+
+    def bearing(psi):
+        p = places([psi])
+        pull = moment(psi) / lever(psi, "A", "B") * plane.toward(p["A"], p["B"])
+        return np.hypot(*(-pull - LOADS[0][1]))
+
+    ends = [angle_at(1.00), angle_at(0.64)]
+    for name, on, force in (("O", "OBG", bearing), ("A", "lift", lambda psi: -moment(psi) / lever(psi, "A", "B"))):
+        most, where = plane.peak(force, *ends)
+        assert_allclose(table[name, on].force, most, rtol=1e-6)
+        assert_allclose(table[name, on].strokes["S"], 1.00 - long(where, "A", "B"), atol=1e-4 * 0.36)
+
+
+def angle_at(AB):
+    """Return the arm's angle where AB has a length: the cosine rule at O."""
+    far = np.hypot(*PLACE_A)
+    return np.arctan2(PLACE_A[1], PLACE_A[0]) - np.arccos((far**2 + OB**2 - AB**2) / (2 * far * OB))
 
 
 class Heavier(Pulled):

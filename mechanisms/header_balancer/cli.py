@@ -18,9 +18,10 @@ from .charge import charge_for
 from .criteria import criteria
 from .figures import NUMBERS, figure
 from .following import kgf_cm2_text, over_following, reaction_columns
-from .headers import HEADERS, setting_table
+from .headers import HEADERS
 from .machine import HeaderBalancer
 from .measured import Deviation, deviations, read_measured
+from .settings import setting_table
 
 WANTED = tuple(step * 100.0 * kgf for step in range(9))
 

@@ -16,9 +16,10 @@ from linkage.program import FloatArray
 from linkage.units import kgf, kgf_cm2, mm
 
 from .following import PLAIN, Balance, over_following
-from .headers import HEADERS, with_header
+from .headers import HEADERS
 from .machine import HeaderBalancer
 from .measured import Deviation
+from .settings import with_header
 
 NUMBERS = (2, 3, 4, 5, 6)
 SIZE = (7.6, 4.8)

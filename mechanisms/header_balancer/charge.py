@@ -17,6 +17,7 @@ from linkage.units import kgf_cm2, mm, show
 
 from .following import Balance, at_horizon, over_following
 
+
 @final
 @dataclass(frozen=True)
 class Way:

@@ -104,8 +104,9 @@ def matching(balance: Balance) -> Verdict:
         return Verdict("4 matching", True, f"{says}: matched; {even}.")
     return Verdict(
         "4 matching", False,
-        f"{says}: not matched, they part. An arm from {wanted[0] / mm:.0f} to {wanted[-1] / mm:.0f} mm would keep it at {_kgf(constant)} kgf: "
-        "place A and B so that the arm grows while the header rises; larger accumulators help less, their pressure still falls.",
+        f"{says}: not matched, they part. An arm from {wanted[0] / mm:.0f} to {wanted[-1] / mm:.0f} mm would keep it at "
+        f"{_kgf(constant)} kgf: place A and B so that the arm grows while the header rises; larger accumulators help less, "
+        "their pressure still falls.",
     )  # fmt: skip
 
 
@@ -153,7 +154,8 @@ def vessels(balance: Balance) -> Verdict:
         return np.asarray(block.pressure(charge, balance.circuit.withdrawn(at)))
 
     line, height = slow(motion), balance.height
-    says, softer = [], f"{abs(float((line[-1] - line[0]) / (height[-1] - height[0]))) * 10 * mm / kgf_cm2:.2f} kgf/cm2 for 10 mm of the shoe"
+    says, slope = [], abs(float((line[-1] - line[0]) / (height[-1] - height[0])))
+    softer = f"{slope * 10 * mm / kgf_cm2:.2f} kgf/cm2 for 10 mm of the shoe"
     for each in block.accumulators:
         gas, volume = float(np.max(each.charge)), float(np.max(each.volume))
         if volume <= 0.0:
@@ -183,7 +185,8 @@ def exchange(motion: Motion) -> Verdict:
         else:
             ok = ok and charge <= float(motion.inputs["pump"])
             says.append(f"header {number} ({header['m2']:.0f} kg) {kgf_cm2_text(charge)}")
-    rest = "a header is changed by the pressure alone, without touching the linkage" if ok else "not every header can be balanced on this line"
+    alone = "a header is changed by the pressure alone, without touching the linkage"
+    rest = alone if ok else "not every header can be balanced on this line"
     return Verdict("change of header", ok, f"at the most, slow: {', '.join(says)}; {rest}.")
 
 

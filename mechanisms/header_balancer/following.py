@@ -124,7 +124,7 @@ class Balance:
 
     def thrust_without_line(self, direction: str = "frictionless", pressed: float = 0.0) -> FloatArray:
         """Return the cylinders' thrust [N] that all loads but the line's ask for, the shoes `pressed` with a force [N]."""
-        loads = [*own_loads(self.motion, LINE, SHOE), Support("R", (0, 1), force=pressed)]
+        loads: list[ForceElement | str] = [*own_loads(self.motion, LINE, SHOE), Support("R", (0, 1), force=pressed)]
         return driving_force(self.motion, loads, direction=direction) / self.motion.ratio(AB, wrt="h")
 
     def reaction(self, direction: str, bearing: float | None = None) -> FloatArray:

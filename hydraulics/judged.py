@@ -60,15 +60,14 @@ def idle(judged: Sequence[Judged]) -> Verdict | None:
     """Return the verdict on a lift that has nothing to carry; None where it has."""
     first = judged[0]
     elements = elements_of(first.motion.plan, first.loads)
-    if any(np.nanmax(np.abs(each.thrust(each.motion)), initial=0.0) > 0.0 for each in judged):
-        return None
     if any(greatest(each.motion, lambda at, each=each: np.abs(each.thrust(at))).value > 0.0 for each in judged):  # type: ignore[misc]
         return None
     acting = [name for name, each in elements if not each.holds and not each.joined(first.motion.plan.members)]
-    why = "no load is declared, such as Weight(G, mass=...)"
+    why = "no load is declared, such as Weight(G, mass=...)."
     if acting:
-        why = f"the loads {', '.join(acting)} ask nothing of it; are their masses zero?"
-    return Verdict("lifting", False, f"there is nothing to lift: {why}.")
+        many = f"the loads {', '.join(acting)} ask" if len(acting) > 1 else f"{acting[0]} asks"
+        why = f"{many} nothing of it; is a mass zero?"
+    return Verdict("lifting", False, f"there is nothing to lift: {why}")
 
 
 @final

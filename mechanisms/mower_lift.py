@@ -143,8 +143,8 @@ def lift_words(circuit: LiftCircuit, motion: Motion, found: Lifting) -> list[str
     if found.least >= 1.0:
         return [f"The section can be lifted {all_of(motion)} at {limit}: {least}."]
     below = f"and kz is below 1 {' and '.join(map(str, found.short))}"
-    cannot = f"The section cannot be lifted {out_of(motion, found.short)} at {limit}: {least}, {below}."
-    return [cannot, remedy_words(circuit, motion, found)]
+    says = f"The section cannot be lifted {out_of(motion, found.short)} at {limit}: {least}, {below}."
+    return [says, remedy_words(circuit, motion, found)]
 
 
 def all_of(motion: Motion) -> str:

@@ -13,9 +13,11 @@ from linkage import Column, DefinitionError, ForceElement, Motion
 from linkage.loads import PinFriction, Support
 from linkage.motion import greatest
 from linkage.program import FloatArray
-from linkage.quantities import Coordinate
+from linkage.quantities import Coordinate, Distance
 from linkage.statics import driving_force, reaction
 from linkage.units import kgf_cm2, mm
+
+AB = Distance("A", "B")  # one for all, so that its ratio is worked out once
 
 LINE, SHOE, BEARING = "floating", "shoe", "pin_O"
 """The members with a part of their own: the charged line, the support under the shoe, the friction at O. Every other load counts alike."""
@@ -122,8 +124,8 @@ class Balance:
 
     def thrust_without_line(self, direction: str = "frictionless", pressed: float = 0.0) -> FloatArray:
         """Return the cylinders' thrust [N] that all loads but the line's ask for, the shoes `pressed` with a force [N]."""
-        loads: list[Any] = [*own_loads(self.motion, LINE, SHOE), Support("R", (0, 1), force=pressed)]
-        return driving_force(self.motion, loads, direction=direction) / self.cylinder.growth(self.motion, {"h": 1.0})
+        loads: list[ForceElement | str] = [*own_loads(self.motion, LINE, SHOE), Support("R", (0, 1), force=pressed)]
+        return driving_force(self.motion, loads, direction=direction) / self.motion.ratio(AB, wrt="h")
 
     def reaction(self, direction: str, bearing: float | None = None) -> FloatArray:
         """Return the shoes' reaction [N], all shoes: "extending" (up), "retracting" (down) or "frictionless". (38)-(41)

@@ -123,7 +123,7 @@ class FloatCircuit(Circuit):
         return np.asarray(free - np.sign(ram.growth(motion, rates)) * friction)
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
-        return [Push(self.ram(motion), self.thrust(motion, rates))]
+        return [Push(self.ram(motion), self.thrust(motion, rates if rates.rubs else AT_REST))]
 
     def loads(self, motion: Poses) -> list[Load]:
         return self.moving(motion, AT_REST)

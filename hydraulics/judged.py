@@ -7,7 +7,8 @@ cylinder is judged with all drives locked, by its own thrust; friction takes its
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, final
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from linkage.units import litre, mm, show
 
 from .cylinder import CylinderSize
 from .inputs import Array
-from .lift import LiftCircuit
+from .lift import LiftCircuit, Work
 from .member import Cylinder, one_design, one_size
 from .sizes import standard_bores
 from .verdict import Verdict
@@ -59,21 +60,45 @@ def idle(judged: Sequence[Judged]) -> Verdict | None:
     """Return the verdict on a lift that has nothing to carry; None where it has."""
     first = judged[0]
     elements = elements_of(first.motion.plan, first.loads)
-    if any(np.nanmax(np.abs(each.thrust(each.motion)), initial=0.0) > 0.0 for each in judged):
-        return None
     if any(greatest(each.motion, lambda at, each=each: np.abs(each.thrust(at))).value > 0.0 for each in judged):  # type: ignore[misc]
         return None
     acting = [name for name, each in elements if not each.holds and not each.joined(first.motion.plan.members)]
-    why = "no load is declared, such as Weight(G, mass=...)"
+    why = "no load is declared, such as Weight(G, mass=...)."
     if acting:
-        why = f"the loads {', '.join(acting)} ask nothing of it; are their masses zero?"
-    return Verdict("lifting", False, f"there is nothing to lift: {why}.")
+        many = f"the loads {', '.join(acting)} ask" if len(acting) > 1 else f"{acting[0]} asks"
+        why = f"{many} nothing of it; is a mass zero?"
+    return Verdict("lifting", False, f"there is nothing to lift: {why}")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Lifting:
+    """How one cylinder lifts over a motion: its `least` reserve and where, the parts on which it is too weak, or the load drives.
+
+    Infinite where the load drives all the way, 0 where the force needed grows without bounds. Where it is too weak, `needed` is the
+    pump's pressure that lifts [Pa gauge], `bore` the smallest standard one that does [m] with the least reserve `gained`, NaN for none.
+    """
+
+    least: float
+    where: str
+    short: tuple[Span, ...]
+    driven: tuple[Span, ...]
+    needed: float = np.nan
+    bore: float = np.nan
+    gained: float = np.nan
+
+    @property
+    def is_free(self) -> bool:
+        """Whether the load drives all the way."""
+        return self.least == np.inf
 
 
 class Judged:
     """One cylinder of a circuit over a motion."""
 
-    def __init__(self, circuit: LiftCircuit, ram: Cylinder, motion: Motion, loads: Loads, case: Case, unit: str) -> None:
+    def __init__(
+        self, circuit: LiftCircuit, ram: Cylinder, motion: Motion, loads: Loads = None, case: Case = None, unit: str = "bar"
+    ) -> None:
         self.circuit, self.ram, self.motion, self.loads, self.case, self.unit = circuit, ram, motion, loads, case, unit
 
     @property
@@ -102,53 +127,71 @@ class Judged:
 
     def lifting(self) -> Verdict:
         """Return whether the pump lifts over the whole motion; where not, the pressure needed and the standard bore that would do."""
-        motion, pump = self.motion, self.show(self.circuit.supply(self.motion))
-        worst = greatest(motion, lambda at: self.use(at))
+        found, pump = self.lifted(), self.show(self.circuit.supply(self.motion))
+        if found.is_free:
+            return Verdict("lifting", True, f"the load drives all the way: it is not limited by this cylinder{self.other_side()}.")
+        if found.least == 0.0:
+            text = f"at {pump} the force needed grows without bounds {found.where}: no cylinder lifts there; keep away from that pose."
+            return Verdict("lifting", False, text)
+        aside = f"there it is not limited by this cylinder{self.other_side()}"
+        free = f"; the load drives {spans(found.driven)}, {aside}" if found.driven else ""
+        says = f"at {pump} the least reserve is {found.least:.3f}, {found.where}"
+        if found.least >= 1.0:
+            return Verdict("lifting", True, f"{says}{free}.")
+        return Verdict("lifting", False, f"{says}; too weak {spans(found.short)}{free}. {self.remedy(found)}")
+
+    def lifted(self) -> Lifting:
+        """Return how the cylinder lifts, in numbers."""
+        motion, worst = self.motion, greatest(self.motion, self.use)
         driven = below_zero(motion, self.force)
         if np.isnan(worst.value) or worst.value <= 0.0:
-            return Verdict("lifting", True, f"the load drives all the way: it is not limited by this cylinder{self.other_side()}.")
-        if worst.unbounded:
-            text = f"at {pump} the force needed grows without bounds {worst.where}: no cylinder lifts there; keep away from that pose."
-            return Verdict("lifting", False, text)
-        least = 1.0 / float(worst.value)
-        free = f"; the load drives {spans(driven)}, there it is not limited by this cylinder{self.other_side()}" if driven else ""
-        says = f"at {pump} the least reserve is {least:.3f}, {worst.where}"
+            return Lifting(np.inf, "", (), driven)
+        least = 0.0 if worst.unbounded else 1.0 / float(worst.value)
         if least >= 1.0:
-            return Verdict("lifting", True, f"{says}{free}.")
+            return Lifting(least, worst.where, (), driven)
         short = below_zero(motion, self.spare)
-        return Verdict("lifting", False, f"{says}; too weak {spans(short)}{free}. {self.remedy(least)}")
+        if worst.unbounded:
+            return Lifting(least, worst.where, short, driven)
+        needed = greatest(motion, lambda at: self.circuit.pressure_for(at, self.loads, **self.choice)).value
+        return Lifting(least, worst.where, short, driven, float(needed), *self.larger())
 
     def use(self, motion: Motion) -> Array:
         """Return the needed rod force over the greatest one, 0 where the load drives."""
-        work = self.circuit.work(motion, self.loads, **self.choice)
+        return self.use_of(motion, self.circuit.work(motion, self.loads, **self.choice))
+
+    def use_of(self, motion: Motion, work: Work) -> Array:
+        """Return the needed rod force over the greatest one of some work, 0 where the load drives."""
         return np.where(work.force > 0.0, work.force / self.circuit.most(motion, work), 0.0) + 0.0 * work.force
+
+    def larger(self) -> tuple[float, float]:
+        """Return the smallest standard bore (ISO 3320) that lifts [m], with its least reserve; NaN where none does, or on a shared line."""
+        size = one_size(self.ram.sized(self.motion))
+        bores = np.array([bore for bore in standard_bores() if bore > max(size.bore, size.rod) * (1.0 + 1e-9)])
+        if not bores.size or len(self.circuit.rams(self.motion)) > 1:
+            return np.nan, np.nan
+
+        def uses(motion: Motion) -> Array:
+            """Return it for every bore at once: what the rod carries is the same."""
+            each = CylinderSize(bores.reshape(-1, *(1,) * len(motion.shape)), size.rod, self.ram.count, self.ram.works)
+            return self.use_of(motion, replace(self.circuit.work(motion, self.loads, **self.choice), size=each))
+
+        gained = 1.0 / greatest(self.motion, uses).value
+        enough = gained >= 1.0
+        first = int(np.argmax(enough))
+        return (float(bores[first]), float(gained[first])) if enough.any() else (np.nan, np.nan)
 
     def other_side(self) -> str:
         """Return the remedy where the thrust changes its sign and one side alone is declared."""
         return '; works="both" judges the other side as well' if self.ram.works != "both" else ""
 
-    def remedy(self, least: float) -> str:
-        """Return what makes up for a reserve below 1: a pressure, or the next standard bore (ISO 3320) that does, with its reserve."""
-        circuit, motion, size = self.circuit, self.motion, one_size(self.ram.sized(self.motion))
-        needed = self.show(greatest(motion, lambda at: circuit.pressure_for(at, self.loads, **self.choice)).value)
-        if len(circuit.rams(motion)) > 1:
+    def remedy(self, found: Lifting) -> str:
+        """Return what makes up for a reserve below 1: a pressure, or a standard bore with its reserve."""
+        needed = self.show(found.needed)
+        if len(self.circuit.rams(self.motion)) > 1:
             return f"It needs {needed}, or larger bores on this line."
-        for bore in standard_bores():
-            if bore > max(size.bore, size.rod) * (1.0 + 1e-9):
-                gained = self.gained(CylinderSize(bore, size.rod, self.ram.count, self.ram.works))
-                if gained >= 1.0:
-                    return f"It needs {needed}, or a bore of {bore / mm:.0f} mm, with a reserve of {gained:.2f}."
-        return f"It needs {needed}; no standard bore is large enough."
-
-    def gained(self, larger: CylinderSize) -> float:
-        """Return the least reserve with another size."""
-
-        def use(motion: Motion) -> Array:
-            work = self.circuit.work(motion, self.loads, **self.choice)
-            other = type(work)(work.thrust, work.sense, larger, work.k_m, work.lifts)
-            return np.where(other.force > 0.0, other.force / self.circuit.most(motion, other), 0.0) + 0.0 * other.force
-
-        return 1.0 / float(greatest(self.motion, use).value)
+        if np.isnan(found.bore):
+            return f"It needs {needed}; no standard bore is large enough."
+        return f"It needs {needed}, or a bore of {found.bore / mm:.0f} mm, with a reserve of {found.gained:.2f}."
 
     # -- holding and lowering ------------------------------------------------------------------------------
 
@@ -159,6 +202,10 @@ class Judged:
             greatest(motion, lambda at, side=side: getattr(circuit.holding(at, self.loads, **self.choice), side))  # type: ignore[misc]
             for side in ("working", "other")
         )
+        endless = next((each for each in (working, other) if each.unbounded), None)
+        if endless is not None:
+            text = f"the pressure grows without bounds {endless.where}: nothing holds there; keep away from that pose."
+            return Verdict("holding", False, text)
         ok = bool(working.value <= limit and other.value <= limit)
         sides = "piston" if self.ram.works != "rod" else "rod", "rod" if self.ram.works != "rod" else "piston"
         where = f", {working.where}" if working.value > 0.0 else ""
@@ -168,7 +215,7 @@ class Judged:
         rest = f", held against {valve}, {self.show(limit)}" if ok else f"; that is above {valve}, {self.show(limit)}: take a larger bore"
         return Verdict("holding", ok, f"{says}{rest}.")
 
-    def lowering(self, resistance: float) -> Verdict:
+    def lowering(self, resistance: float = 0.0) -> Verdict:
         """Return whether it sinks by itself against the resistance of the returning oil; where not, what the other side must give."""
         circuit, motion, against = self.circuit, self.motion, f"against {self.show(resistance)} in the return line"
 
@@ -178,12 +225,18 @@ class Judged:
         stuck = below_zero(motion, lambda at: np.where(sinks(at).by_itself, 1.0, -1.0) + 0.0 * sinks(at).working)
         if not stuck:
             least = lowest(motion, lambda at: sinks(at).working)
+            if least.value <= 1e-9 * float(circuit.supply(motion)):
+                return Verdict("lowering", True, f"it sinks by itself {against}, but the load asks for nothing {least.where}.")
             text = f"it sinks by itself {against}: the load makes at least {self.show(least.value)} in the working side, {least.where}."
             return Verdict("lowering", True, text)
         whole = reached(motion)
         everywhere = len(stuck) == len(whole) and all(str(a) == str(b) for a, b in zip(stuck, whole, strict=True))
         where = "anywhere" if everywhere else spans(stuck)
-        push = self.show(greatest(motion, lambda at: sinks(at).push).value)
+        most = greatest(motion, lambda at: sinks(at).push)
+        if most.unbounded:
+            text = f"it does not sink by itself {where} {against}, and no push moves it {most.where}: keep away from that pose."
+            return Verdict("lowering", False, text)
+        push = self.show(most.value)
         return Verdict("lowering", False, f"it does not sink by itself {where} {against}: the other side must push with up to {push}.")
 
 

@@ -28,7 +28,7 @@ from linkage.statics import Case, Loads, elements_of
 from .cylinder import CylinderSize
 from .inputs import Array, finite, in_cubic_metres, in_pascals, positive
 from .member import Circuit, Cylinder, found_in, is_named, the_cylinder
-from .settings import follows
+from .settings import follows, number_set
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
 
@@ -115,6 +115,10 @@ class LiftCircuit(Circuit):
         if not named:
             raise DefinitionError(f"{self.name or 'The circuit'} has the cylinders {names}; say cylinder= one of them.")
         return named[0]
+
+    def number(self, motion: Poses, name: str) -> Array:
+        """Return a parameter as a motion's designs have it [SI], the same at all poses; DefinitionError for one that follows a stroke."""
+        return number_set(self, motion, name) if follows(getattr(self, name)) else super().number(motion, name)
 
     def supply(self, motion: Poses) -> Array:
         """Return the pump's highest pressure [Pa]; DefinitionError unless it is above zero."""

@@ -10,6 +10,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -17,9 +18,9 @@ from typing import Any, ClassVar, Literal, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, unknown
-from linkage.loads import AT_REST, ForceElement, LoadCase, Poses, Push, Rates, TwoPoint
-from linkage.motion import Motion, greatest, lowest
+from linkage.errors import DefinitionError, SingularWarning, unknown
+from linkage.loads import AT_REST, DrawnAs, ForceElement, LoadCase, Poses, Push, Rates, TwoPoint
+from linkage.motion import Column, Motion, Tabled, greatest, lowest
 from linkage.quantities import Reference, label, name_of
 from linkage.statics import Case, Loads, elements_of, member_thrust
 from linkage.statics.holding import same
@@ -37,7 +38,7 @@ DIRECTIONS = ("frictionless", "extending", "retracting")
 
 @final
 @dataclass(frozen=True, eq=False)
-class Cylinder(TwoPoint):
+class Cylinder(TwoPoint, Tabled):
     """`count` equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
 
     In a class bore and rod [m] are the design variables `lift.bore` and `lift.rod`. `works` is the side the pressure acts
@@ -56,6 +57,7 @@ class Cylinder(TwoPoint):
     closed: float | None = None
     mounting: str = "pin-pin"
     safety: float = 3.5
+    drawn_as: ClassVar[DrawnAs] = "cylinder"
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm"})
 
     def __post_init__(self) -> None:
@@ -142,6 +144,12 @@ class Cylinder(TwoPoint):
         """
         return pressure_of(self, motion, loads, case, direction)
 
+    def columns(self, motion: Motion) -> list[Column]:
+        """Return its thrust without friction and, unless several circuits have it, its pressure, for the table of results."""
+        pressed = len(circuits_of(self, motion)) <= 1
+        thrust = Column("thrust", self.thrust(motion), "kN")
+        return [thrust, Column("pressure", self.pressure(motion), "bar", 2)] if pressed else [thrust]
+
     # -- checks --------------------------------------------------------------------------------------------
 
     def checks(self, motion: Motion, loads: Loads = None, *, case: Case = None) -> list[Verdict]:
@@ -203,7 +211,9 @@ class Cylinder(TwoPoint):
                 if np.isnan(found.value) or (worst is not None and found.value <= worst[0]):
                     continue
                 place = motion.moved(found.strokes)
-                force = float(self.thrust(place, loads, case=each, direction=direction)) / self.count
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore", SingularWarning)  # the verdict itself says what comes of it
+                    force = float(self.thrust(place, loads, case=each, direction=direction)) / self.count
                 worst = float(found.value), float(place.distance(self.A, self.B)), force, found.where
         if worst is None:
             return [Verdict("buckling", True, "the rod is never pushed.")]
@@ -221,9 +231,10 @@ class Cylinder(TwoPoint):
 
 def pressure_of(cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
     """Return a cylinder's pressure by the circuit that has it; without one, of a pump without losses."""
-    members = motion.plan.members
-    circuits = [each for each in members.values() if isinstance(each, Circuit)]
-    mine = [each for each in circuits if any(same(cylinder, one) for one in each.members(members))]
+    members, mine = motion.plan.members, circuits_of(cylinder, motion)
+    feeding = [each for each in mine if any(same(cylinder, one) for one in each.feeds(members))]
+    if feeding:
+        return feeding[0].pressure_in(cylinder, motion, loads, case, direction)
     if len(mine) > 1:
         names = ", ".join(each.name for each in mine)
         remedy = f"name one: {mine[0].name}.pressure_for(motion)"
@@ -232,6 +243,12 @@ def pressure_of(cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, di
         return mine[0].pressure_in(cylinder, motion, loads, case, direction)
     thrust = cylinder.thrust(motion, loads, case=case, direction=direction or "frictionless")
     return np.maximum(cylinder.sized(motion).pressure_for(thrust), 0.0)
+
+
+def circuits_of(cylinder: Cylinder, motion: Motion) -> list[Circuit]:
+    """Return the circuits of a class that have a cylinder."""
+    members = motion.plan.members
+    return [each for each in motion.plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(members))]
 
 
 class Circuit(ForceElement):

@@ -6,13 +6,15 @@ Source: worksheet "Mathematical modelling of the lift of the left section of the
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import atan2, hypot, pi
 from typing import Any
 
 import numpy as np
 
-from hydraulics.inputs import positive
-from hydraulics.sizes import standard_bores
+from hydraulics import Cylinder, CylinderSize, LiftCircuit, next_bore
+from hydraulics.inputs import in_pascals, positive
+from hydraulics.judged import Judged, Lifting
 from linkage import (
     RIGHT,
     Column,
@@ -28,11 +30,10 @@ from linkage import (
     Weight,
     angle,
     distance,
-    driving_force,
 )  # fmt: skip
-from linkage.program import FloatArray
-from linkage.report import below_zero, closely, reached_span, spans_in_words
-from linkage.units import cm, deg, g0, kgf, kgf_cm2, litre, mm
+from linkage.motion import Span, lowest, reached
+from linkage.report import reached_span
+from linkage.units import cm, deg, g0, kgf, kgf_cm2, litre, minute, mm
 
 G_FROM_O = (1.07, -0.37)                    # centre of gravity from O at S = 0.55 m, as the input says, m
 BELOW = atan2(G_FROM_O[1], G_FROM_O[0])     # its direction from O, rad
@@ -48,6 +49,8 @@ class MowerLift(Mechanism):
     friction and P I / k_m while it lifts (k_m: mechanical efficiency). The worksheet's F = P I / (k_m k_g) is a
     *reduced* load: it gives the supply pressure pd = F / area, the rod never carries it. The largest rod force,
     F_max = k_g p_max area, compares with P I / k_m, never with F: that would count the hydraulic efficiency k_g twice.
+    With other loads beside the section's weight (a subclass with `ballast = Weight(G, mass=500)`) all of them count, in
+    the place of P I stands what the rod carries. The rod's diameter is not printed, 45 mm is illustrative.
 
     The source contradicts itself about G at S = 0.55 m: the input says (1.07, -0.37) m from O; a remark says that the
     x axis passes through G (G_y = 0); the printed table says G = (1.739, 0.013) m, which is (1.087, -0.317) m from O.
@@ -77,169 +80,126 @@ class MowerLift(Mechanism):
     k_g = Dimension(0.95)                                       # hydraulic efficiency
 
     load = Weight(G, mass=weight / g0)
+    lift = Cylinder(A, B, bore=bore, rod=45 * mm)               # of the rods that ISO 3320 has for this bore
+    circuit = LiftCircuit(lift, pressure=p_max, mechanical_efficiency=k_m, hydraulic_efficiency=k_g)
 
     def __init__(self, **dimensions: Any) -> None:
         """Set the design [SI]; DefinitionError also for a load, pressure or bore not above zero, an efficiency not in (0, 1]."""
         super().__init__(**dimensions)
         for name in ("weight", "p_max", "bore", "k_m", "k_g"):
             positive(self[name], name)
+        in_pascals(self["p_max"], "p_max")
+        CylinderSize(self["bore"], self["lift.rod"])
         for name in ("k_m", "k_g"):
             if np.any(np.asarray(self[name]) > 1.0):
                 raise DefinitionError(f"{name} = {np.max(self[name]):.6g} is above 1; an efficiency lies between 0 and 1.")
 
     def columns(self, motion: Motion) -> list[Column]:
         """Return the worksheet's table, and the rod's forces."""
+        circuit, size = self.circuit, self.lift.sized(motion)
+        supplied = circuit.pressure_for(motion)
         return [
             Column("S", motion.strokes["S"], "m"),
             *(Column(name, motion[name], "deg", 3) for name in ("FIS", "FI3", "FI", "FIS1")),
             *(Column(f"{point}_{axis}", getattr(motion, axis)(point), "m", 3) for point in "BG" for axis in "xy"),
             Column("DFI3", motion.ratio("FI3"), "rad/m", 3),
-            Column("I", transfer_ratio(motion), "", 3),
-            Column("PI", rod_force(motion), "kgf", 0),
-            Column("PI/k_m", lifting_force(motion), "kgf", 0),
-            Column("F", reduced_force(motion), "kgf", 0),
-            Column("pd", pressure(motion), "kgf/cm2", 3),
-            Column("kz", reserve(motion), "", 3),
+            Column("I", motion.ratio("G")[1], "", 3),
+            Column("PI", self.lift.thrust(motion), "kgf", 0),
+            Column("PI/k_m", circuit.rod_force(motion), "kgf", 0),
+            Column("F", supplied * size.area, "kgf", 0),
+            Column("pd", supplied, "kgf/cm2", 3),
+            Column("kz", circuit.reserve(motion), "", 3),
         ]
 
     def verdicts(self, motion: Motion) -> list[str]:
-        """Return whether the section can be lifted, where not, the remedy, and the oil it takes."""
+        """Return whether the section can be lifted, where not, the remedy, and the oil it takes; looked for between the poses too.
+
+        Beside these whatever else fails: holding, lowering, or the rod, which buckles.
+        """
         if motion.design_shape:
-            return [batch_verdict(motion)]
+            return [batch_verdict(self.circuit, motion)]
         if not motion.reached.any():
             return ["No pose of this motion can be assembled; there is nothing to lift."]
+        judged = Judged(self.circuit, self.lift, motion, unit="kgf/cm2")
+        found = judged.lifted()
+        beside = [judged.holding(), judged.lowering(), *self.lift.buckling(motion)] if found.least > 0.0 else []
         apart = [] if motion.reached.all() else ["The poses out of reach are left out of this."]
-        return [*lift_verdict(motion), *driven_verdict(motion), *oil_verdict(motion), *apart]
-
-
-# -- forces and pressures, over designs and poses; weight resists where I > 0 ------------------------------
-
-
-def transfer_ratio(motion: Motion) -> FloatArray:
-    """Return I = dG_y/dS, shape (...), dimensionless."""
-    return np.asarray(motion.ratio("G")[1])
-
-
-def rod_force(motion: Motion) -> FloatArray:
-    """Return the thrust without friction, P I [N]: the statics' driving force under the section's weight."""
-    return driving_force(motion, "load")
-
-
-def lifting_force(motion: Motion) -> FloatArray:
-    """Return the rod's thrust while it extends [N]: P I / k_m where the weight resists, P I k_m where it drives."""
-    force, k_m = rod_force(motion), motion.inputs["k_m"]
-    return np.asarray(np.where(force > 0.0, force / k_m, force * k_m))
-
-
-def piston_area(motion: Motion) -> FloatArray:
-    """Return SS = pi D^2 / 4 [m2], one value for each design."""
-    return np.asarray(pi / 4.0 * motion.inputs["bore"] ** 2)
-
-
-def largest_force(motion: Motion) -> FloatArray:
-    """Return F_max = k_g p_max SS [N], what the rod gets at the pressure limit; compares with `lifting_force`."""
-    return np.asarray(motion.inputs["k_g"] * motion.inputs["p_max"] * piston_area(motion))
-
-
-def reduced_force(motion: Motion) -> FloatArray:
-    """Return F = P I / (k_m k_g) [N], pressure times area on the pump's side; zero where the weight drives."""
-    return np.asarray(np.maximum(lifting_force(motion), 0.0) / motion.inputs["k_g"])
-
-
-def pressure(motion: Motion) -> FloatArray:
-    """Return the supply pressure pd = F / SS [Pa gauge]."""
-    return reduced_force(motion) / piston_area(motion)
-
-
-def reserve(motion: Motion) -> FloatArray:
-    """Return the reserve factor kz = p_max / pd; NaN where the weight drives and this cylinder does not limit."""
-    needed = pressure(motion)
-    return np.asarray(motion.inputs["p_max"] / np.where(needed > 0.0, needed, np.nan))
-
-
-def oil(motion: Motion) -> float:
-    """Return the oil [m3] that the cylinder takes in over the reached part of the motion, one design."""
-    low, high = reached_span(motion)
-    return float(piston_area(motion).flat[0]) * (high - low)
-
-
-def short_ranges(motion: Motion) -> list[tuple[float, float]]:
-    """Return the stroke ranges [m] where kz < 1, one design; their ends are roots, exact to 1e-12 m."""
-    return below_zero(motion, lambda each: largest_force(each) - lifting_force(each))
+        return [
+            *lift_words(self.circuit, motion, found), *driven_words(found), *oil_words(self.circuit, motion),
+            *(str(each) for each in beside if not each), *apart,
+        ]  # fmt: skip
 
 
 # -- verdicts ----------------------------------------------------------------------------------------------
 
 
-def lift_verdict(motion: Motion) -> list[str]:
+def lift_words(circuit: LiftCircuit, motion: Motion, found: Lifting) -> list[str]:
     """Return whether one design lifts; where not, from where to where, and the remedy."""
-    fine = closely(motion)
-    kz, limit = reserve(fine), f"{float(motion.inputs['p_max']) / kgf_cm2:.4g} kgf/cm2"
-    if np.isnan(kz).all():
+    if found.is_free:
         return []
-    worst = int(np.nanargmin(kz))
-    least, where = float(kz[worst]), f"S = {fine.strokes['S'][worst]:.4f} m"
-    short = short_ranges(motion)
-    if not short:
-        return [f"The section can be lifted {all_of(motion)} at {limit}: the least reserve kz is {least:.3f}, at {where}."]
-    return [
-        f"The section cannot be lifted {out_of(motion, short)} at {limit}: the least reserve kz is {least:.3f}, at {where}, "
-        f"and kz is below 1 {spans_in_words(short, 'S')}.",
-        remedy(motion, least),
-    ]
+    limit = f"{float(circuit.supply(motion)) / kgf_cm2:.4g} kgf/cm2"
+    grows = f"the force needed grows without bounds {found.where}"
+    least = f"the least reserve kz is {found.least:.3f}, {found.where}" if found.least > 0.0 else grows
+    if found.least >= 1.0:
+        return [f"The section can be lifted {all_of(motion)} at {limit}: {least}."]
+    below = f"and kz is below 1 {' and '.join(map(str, found.short))}"
+    says = f"The section cannot be lifted {out_of(motion, found.short)} at {limit}: {least}, {below}."
+    return [says, remedy_words(circuit, motion, found)]
 
 
 def all_of(motion: Motion) -> str:
     """Return the motion's range in words."""
     low, high = reached_span(motion)
     stroke = motion.plan.strokes["S"]
-    return "over the whole stroke" if (low, high) == (stroke.start, stroke.end) else spans_in_words([(low, high)], "S")
+    return "over the whole stroke" if (low, high) == (stroke.start, stroke.end) else " and ".join(map(str, reached(motion)))
 
 
-def out_of(motion: Motion, short: list[tuple[float, float]]) -> str:
+def out_of(motion: Motion, short: Sequence[Span]) -> str:
     """Return which positions the section does not leave, in words."""
-    (low, high), (first, last) = reached_span(motion), short[0]
+    (low, high), first, last = reached_span(motion), short[0].start["S"], short[0].end["S"]
     if (first, last) == (low, high):
         return "anywhere on this stroke" if low < high else "here"
     if first > low:
         return f"beyond S = {first:.4f} m"
-    lowest = motion.plan.strokes["S"].start
-    return "from its lowest position" if low == lowest else f"from S = {low:.4f} m"
+    return "from its lowest position" if low == motion.plan.strokes["S"].start else f"from S = {low:.4f} m"
 
 
-def remedy(motion: Motion, least: float) -> str:
+def remedy_words(circuit: LiftCircuit, motion: Motion, found: Lifting) -> str:
     """Return what makes up for a least reserve below 1: a pressure, or the smallest standard bore (ISO 3320)."""
-    bore, p_max = float(motion.inputs["bore"]), float(motion.inputs["p_max"])
-    larger = [each for each in standard_bores() if each > bore * (1.0 + 1e-9)]
-    enough = [each for each in larger if least * (each / bore) ** 2 >= 1.0]
-    needs = f"It needs {p_max / least / kgf_cm2:.1f} kgf/cm2"
-    if not enough:
+    if found.least == 0.0:
+        return "No pressure and no bore lifts there: keep away from that pose."
+    needs = f"It needs {found.needed / kgf_cm2:.1f} kgf/cm2"
+    if np.isnan(found.bore):
         return f"{needs}; no standard bore is large enough."
-    which = "the next standard bore" if enough[0] == larger[0] else "a larger standard bore"
-    return f"{needs}, or {which}: {enough[0] / mm:.0f} mm gives kz = {least * (enough[0] / bore) ** 2:.2f}."
+    bore = float(circuit.ram(motion).sized(motion).bore)
+    which = "the next standard bore" if found.bore == next_bore(bore) else "a larger standard bore"
+    return f"{needs}, or {which}: {found.bore / mm:.0f} mm gives kz = {found.gained:.2f}."
 
 
-def driven_verdict(motion: Motion) -> list[str]:
-    """Return where the weight drives the lift, if it does."""
-    driven = below_zero(motion, transfer_ratio)
-    return [f"The weight drives the lift {spans_in_words(driven, 'S')}: there it is not limited by this cylinder."] if driven else []
+def driven_words(found: Lifting) -> list[str]:
+    """Return where the load drives the lift, if it does."""
+    where = " and ".join(map(str, found.driven))
+    return [f"The load drives the lift {where}: there it is not limited by this cylinder."] if where else []
 
 
-def oil_verdict(motion: Motion) -> list[str]:
+def oil_words(circuit: LiftCircuit, motion: Motion) -> list[str]:
     """Return how much oil the motion takes, if it moves."""
     low, high = reached_span(motion)
     if low == high:
         return []
-    return [f"Lifting from S = {low:.4f} to {high:.4f} m takes {oil(motion) / litre:.2f} l of oil; time and flow follow from the pump."]
+    oil, flow = float(circuit.oil(motion)) / litre, float(circuit.number(motion, "flow"))
+    timed = "; time and flow follow from the pump"
+    if flow > 0.0:
+        timed = f", {float(circuit.time(motion)):.1f} s at {flow * minute / litre:.4g} l/min"
+    return [f"Lifting from S = {low:.4f} to {high:.4f} m takes {oil:.2f} l of oil{timed}."]
 
 
-def batch_verdict(motion: Motion) -> str:
+def batch_verdict(circuit: LiftCircuit, motion: Motion) -> str:
     """Return how many designs of a batch fall short, and the extremes."""
-    kz = reserve(motion)
-    poses = tuple(range(len(motion.design_shape), kz.ndim))
-    least = np.where(np.isnan(kz), np.inf, kz).min(axis=poses)
+    kz = lowest(motion, circuit.reserve).value
+    least = np.where(np.isnan(kz), np.inf, kz)
     count = int((least < 1.0).sum())
     return (
-        f"{count} of {least.size} designs fall short of kz = 1 at these poses; the least reserve is {least.min():.3f} in the worst "
+        f"{count} of {least.size} designs fall short of kz = 1 over this motion; the least reserve is {least.min():.3f} in the worst "
         f"design and {least.max():.3f} in the best. Take one design for its stroke range and the remedy."
     )

@@ -38,6 +38,7 @@ class CylinderPart(Part):
         P, Q = at[self.ram.P], at[self.ram.Q]
         length = float(np.hypot(*(Q - P)))
         along = (Q - P) / (length or 1.0)
+        P = P + self.ram.aside * np.array([-along[1], along[0]])
         for name, (start, end) in lengthwise(self.ram, length, self.size).items():
             self.pieces[name].set_xy(box(P, along, start, end, WIDTH[name] * self.size))
 

@@ -14,6 +14,7 @@ from ..program import FloatArray
 from . import room, style
 from .bodies import BodyPart
 from .cylinders import CylinderPart
+from .elements import StraightPart
 from .grounds import ground
 from .labels import labels, offsets
 from .part import Part
@@ -63,8 +64,9 @@ def bodies(ax: Axes, scene: Scene, look: Look) -> list[Part]:
 
 
 def cylinders(ax: Axes, scene: Scene, look: Look) -> list[Part]:
-    """Return the cylinders."""
-    return [CylinderPart(ax, ram, scene.size, look) for ram in scene.rams]
+    """Return the cylinders, and the straight elements in front of them."""
+    rams = [CylinderPart(ax, ram, scene.size, look) for ram in scene.rams]
+    return [*rams, *(StraightPart(ax, each, look) for each in scene.straights)]
 
 
 def points(ax: Axes, scene: Scene, look: Look) -> list[Part]:

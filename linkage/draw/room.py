@@ -23,7 +23,7 @@ SYMBOL = [(u, v) for u in (1.2, 1.8, 2.4, 3.0, 3.6, 4.2) for v in ACROSS if u > 
 def cloud(scene: Scene, at: Places) -> FloatArray:
     """Return points that cover what is drawn at a pose, shape (m, 2) [m]: where no label should stand."""
     pairs = [(P, Q, 1.0) for points in scene.hulls for P, Q in zip(points, (*points[1:], points[0]), strict=True)]
-    pairs += [*((ram.P, ram.Q, 1.4) for ram in scene.rams), *((P, X, 0.0) for P, X in scene.stays)]
+    pairs += [*((each.P, each.Q, each.half) for each in scene.hung), *((P, X, 0.0) for P, X in scene.stays)]
     pairs += [(*track.ends, 1.2) for track in scene.tracks]
     lines = [(segment(at[P], at[Q], 0.8 * scene.size), half) for P, Q, half in pairs if np.isfinite([at[P], at[Q]]).all()]
     wide = [line + offset * half * scene.size * _normal(line) for line, half in lines for offset in (-1.0, 0.0, 1.0)]

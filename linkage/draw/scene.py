@@ -11,9 +11,11 @@ from typing import TypeAlias
 import numpy as np
 
 from ..errors import DefinitionError
+from ..loads import TwoPoint
 from ..motion import Motion
 from ..program import FloatArray
-from ..steps import Bar, Offset
+from ..steps import Offset
+from .outlines import APART, HALF, OUTLINES, Outline, yokes
 from .shapes import hull
 from .tracks import Track, tracks
 
@@ -22,11 +24,36 @@ Box: TypeAlias = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True)
-class Ram:
-    """A cylinder from P to Q as it is drawn [m]: its barrel from bottom to mouth, its piston between least and most."""
+class Hung:
+    """A two-force member from P to Q: what it is drawn as, and how far to the left of P -> Q, in sizes, where others share its points."""
 
     P: str
     Q: str
+    drawn_as: str
+    aside: float = 0.0
+
+    @property
+    def half(self) -> float:
+        """Half the width of what it covers about P -> Q, in sizes."""
+        return HALF[self.drawn_as] + abs(self.aside)
+
+
+@dataclass(frozen=True, eq=False)
+class Straight:
+    """Lines from P to Q that stretch with the distance."""
+
+    P: str
+    Q: str
+    lines: tuple[Outline, ...]
+
+
+@dataclass(frozen=True)
+class Ram:
+    """A cylinder from P to Q as it is drawn [m]: its barrel from bottom to mouth, its piston between least and most, moved aside."""
+
+    P: str
+    Q: str
+    aside: float = 0.0
     bottom: float = 0.0
     mouth: float = 0.0
     rod: float = 0.0
@@ -105,20 +132,56 @@ class Scene:
         return tuple(tuple(points[i] for i in hull(np.array([shown[0][name] for name in points]))) for points in self.bodies)
 
     @cached_property
+    def hung(self) -> tuple[Hung, ...]:
+        """The driven lengths and the straight elements; those on the same two points stand side by side.
+
+        The cylinder that is declared on a driven length is that length.
+        """
+        plan = self.motion.plan
+        by_pair = {frozenset((bar.P, bar.Q)): [Hung(bar.P, bar.Q, "cylinder")] for bar in plan.cylinders}
+        driven = set(by_pair)
+        for element in plan.of_kind(TwoPoint).values():
+            pair = frozenset(element.ends)
+            if element.holds and pair in driven:
+                driven.discard(pair)
+            else:
+                by_pair.setdefault(pair, []).append(Hung(*element.ends, element.drawn_as))
+        return tuple(each for members in by_pair.values() for each in beside(members))
+
+    @cached_property
     def rams(self) -> tuple[Ram, ...]:
         """The cylinders."""
-        return tuple(self._ram(bar) for bar in self.motion.plan.cylinders)
+        return tuple(self._ram(each) for each in self.hung if each.drawn_as == "cylinder")
 
-    def _ram(self, bar: Bar) -> Ram:
+    def _ram(self, hung: Hung) -> Ram:
         """Return a cylinder whose piston stays in its barrel over the stroke, as far as its lengths allow."""
-        lengths = np.concatenate([self.motion.value(bar.length).ravel(), self._ends.value(bar.length).ravel()])
-        short, long = np.nanmin(lengths, initial=np.inf), np.nanmax(lengths, initial=0.0)
+        aside, (short, long) = hung.aside * self.size, self._lengths(hung)
         if not long:
-            return Ram(bar.P, bar.Q)
+            return Ram(hung.P, hung.Q, aside)
         size = min(self.size, 0.12 * short)
         bottom, least = 1.4 * size, 2.0 * size
         mouth = float(np.clip(least + long - short + 1.5 * size, 0.68 * short, max(0.68 * short, short - 1.2 * size)))
-        return Ram(bar.P, bar.Q, bottom, mouth, float(short) - least, least, mouth - 0.9 * size)
+        return Ram(hung.P, hung.Q, aside, bottom, mouth, short - least, least, mouth - 0.9 * size)
+
+    @cached_property
+    def straights(self) -> tuple[Straight, ...]:
+        """Springs, dampers and struts as lines, and the yokes of all that stands beside its pins."""
+        found = []
+        for hung in self.hung:
+            short, long = self._lengths(hung)
+            shape = OUTLINES.get(hung.drawn_as)
+            aside = hung.aside * self.size
+            lines = [line.moved(aside) for line in shape(short, long, self.size)] if shape and long else []
+            lines += yokes(aside, self.size) if aside else ()
+            if lines:
+                found.append(Straight(hung.P, hung.Q, tuple(lines)))
+        return tuple(found)
+
+    def _lengths(self, hung: Hung) -> tuple[float, float]:
+        """Return the least and the greatest distance of two points over the motions and the declared strokes' ends [m]; inf, 0 for none."""
+        seen = [motion for motion in (self.motion, self.over, self._ends) if motion is not None]
+        lengths = np.concatenate([np.hypot(*(motion[hung.Q] - motion[hung.P])).ravel() for motion in seen])
+        return float(np.nanmin(lengths, initial=np.inf)), float(np.nanmax(lengths, initial=0.0))
 
     @cached_property
     def _ends(self) -> Motion:
@@ -147,15 +210,15 @@ class Scene:
     @cached_property
     def stays(self) -> tuple[tuple[str, str], ...]:
         """Pairs that a construction joins and no body does: drawn as thin lines."""
-        bodies = [set(body.points) for body in self.motion.plan.links] + [{ram.P, ram.Q} for ram in self.rams]
+        bodies = [set(body.points) for body in self.motion.plan.links] + [{each.P, each.Q} for each in self.hung]
         pairs = [(step.P if isinstance(step.P, str) else step.P.name, name) for name, step in self.motion.plan.of_kind(Offset).items()]
         return tuple((P, X) for P, X in pairs if not any({P, X} <= body for body in bodies))
 
     @cached_property
     def _uses(self) -> Counter[str]:
-        """How many bodies and cylinders each point belongs to."""
+        """How many bodies, cylinders and straight elements each point belongs to."""
         uses = Counter(point for points in self.bodies for point in points)
-        uses.update(end for bar in self.motion.plan.cylinders for end in (bar.P, bar.Q))
+        uses.update(end for each in self.hung for end in (each.P, each.Q))
         uses.update(rider for track in self.tracks for rider in track.riders)
         return uses
 
@@ -168,7 +231,7 @@ class Scene:
 
     @cached_property
     def pins(self) -> tuple[str, ...]:
-        """The joints: points that two or more bodies or cylinders share, or the frame holds."""
+        """The joints: points that two or more bodies, cylinders or straight elements share, or the frame holds."""
         return tuple(name for name in self.places if self._uses[name] > 1 or name in self.grounds)
 
     @cached_property
@@ -210,3 +273,13 @@ class Scene:
         ends = ends[:, np.isfinite(ends).all(axis=0)]
         (x0, y0), (x1, y1) = np.min(ends - near, axis=1, initial=np.inf), np.max(ends + near, axis=1, initial=-np.inf)
         return min(left - pad, float(x0)), max(right + pad, float(x1)), min(bottom - pad, float(y0)), max(top + pad, float(y1))
+
+
+def beside(members: list[Hung]) -> list[Hung]:
+    """Return members on the same two points side by side about the line between these; a single one stays on it."""
+    middle = 0.5 * (len(members) - 1)
+    placed = []
+    for place, each in enumerate(members):
+        sense = 1.0 if each.P == members[0].P else -1.0
+        placed.append(Hung(each.P, each.Q, each.drawn_as, sense * APART * (middle - place)))
+    return placed

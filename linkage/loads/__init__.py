@@ -24,5 +24,6 @@ from .point import Weight as Weight
 from .two_point import Actuator as Actuator
 from .two_point import Between as Between
 from .two_point import Damper as Damper
+from .two_point import DrawnAs as DrawnAs
 from .two_point import Spring as Spring
 from .two_point import TwoPoint as TwoPoint

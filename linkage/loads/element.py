@@ -55,11 +55,12 @@ class Rates(dict[str, Any]):
     """How strokes move, by name [1/s], a number or an array over the poses each; empty at rest.
 
     `is_timed`: whether these are speeds that were given; where only a direction is known, their senses alone mean something.
+    `rubs`: whether friction acts, against their senses.
     """
 
-    def __init__(self, rates: Mapping[str, Any] = MappingProxyType({}), is_timed: bool = False) -> None:
+    def __init__(self, rates: Mapping[str, Any] = MappingProxyType({}), is_timed: bool = False, rubs: bool = True) -> None:
         super().__init__(rates)
-        self.is_timed = is_timed
+        self.is_timed, self.rubs = is_timed, rubs
 
 
 AT_REST = Rates()

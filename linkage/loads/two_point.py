@@ -10,7 +10,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, final
+from typing import Any, ClassVar, Literal, TypeAlias, final, get_args
 
 import numpy as np
 
@@ -19,13 +19,24 @@ from ..quantities import Distance, Joint, Reference, name_of, pinned
 from .element import AT_REST, ForceElement, Poses, Rates
 from .load import Array, Load, Push
 
+DrawnAs: TypeAlias = Literal["strut", "spring", "damper", "cylinder"]
+
 
 class TwoPoint(ForceElement):
-    """The base of straight elements from A to B. A subclass is a frozen dataclass with A and B, and says `push`."""
+    """The base of straight elements from A to B. A subclass is a frozen dataclass with A and B, and says `push`.
+
+    `drawn_as` is what pictures show: a plain thin strut unless it says otherwise.
+    """
 
     A: Reference
     B: Reference
     places: ClassVar[tuple[str, ...]] = ("A", "B")
+    drawn_as: ClassVar[DrawnAs] = "strut"
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        if cls.drawn_as not in get_args(DrawnAs):
+            raise DefinitionError(f"{cls.__name__}: drawn_as={cls.drawn_as!r} is none of {', '.join(get_args(DrawnAs))}.")
 
     @abstractmethod
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:
@@ -101,6 +112,7 @@ class Spring(TwoPoint):
     stiffness: Any
     free_length: Any = None
     preload: Any = None
+    drawn_as: ClassVar[DrawnAs] = "spring"
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"stiffness": "", "free_length": "mm", "preload": "N"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"stiffness", "free_length"})
     optional: ClassVar[frozenset[str]] = frozenset({"free_length", "preload"})
@@ -126,6 +138,7 @@ class Damper(TwoPoint):
     A: Reference
     B: Reference
     coefficient: Any
+    drawn_as: ClassVar[DrawnAs] = "damper"
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"coefficient": ""})
     not_negative: ClassVar[frozenset[str]] = frozenset({"coefficient"})
 

@@ -25,5 +25,6 @@ from .strokes import as_given as as_given
 from .strokes import at_values as at_values
 from .strokes import sweep_values as sweep_values
 from .table import columns_of as columns_of
+from .tabled import Tabled as Tabled
 from .wanted import Asked as Asked
 from .wanted import Wanted as Wanted

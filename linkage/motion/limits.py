@@ -102,6 +102,8 @@ class StrokeLimits:
     transmission: tuple[Extreme, ...] = ()
     held: tuple[Held, ...] = ()
     open_turn: Open | None = None
+    cylinder_dead_points: tuple[tuple[float, str], ...] = ()
+    """Where the length of a cylinder that hangs beside the drive stands still, so that its thrust moves nothing: (stroke, cylinder)."""
 
     @property
     def dead_points(self) -> tuple[tuple[float, str], ...]:
@@ -115,6 +117,10 @@ class StrokeLimits:
         for each in self.intervals:
             lines += self._reach(each)
         lines += [f"  change point at {as_read(value, self.unit)}: the branches of {step} cross" for value, step in self.change_points]
+        lines += [
+            f"  dead point of {name} at {self.stroke} = {as_read(value, self.unit)}: its length stands still"
+            for value, name in self.cylinder_dead_points
+        ]
         lines += [
             f"  least transmission angle at {each.joint}: {each.angle / deg:.4g} deg at {as_read(each.stroke, self.unit, 6)}"
             for each in self.transmission

@@ -15,6 +15,7 @@ from .limits import TOUCH as TOUCH
 from .limits import Held, Scanned, StrokeLimits, deepest, intervals, search
 from .limits import Limits as Limits
 from .reach import called, failures, stroke_unit, where_words
+from .still import dead_points
 from .transmission import transmission
 from .turns import open_turn
 
@@ -49,7 +50,8 @@ def stroke_limits(motion: Motion, name: str, held: Mapping[str, float]) -> Strok
     others = tuple(Held(each, value, stroke_unit(motion.plan, each)) for each, value in held.items() if each != name)
     least = transmission(motion, name, held, found)
     turns = open_turn(motion, name, held, found) if unit == "rad" else None
-    return StrokeLimits(name, unit, stroke.start, stroke.end, tuple(found), crossings, least, others, turns)
+    still = dead_points(motion, name, held, [(each.low, each.high) for each in found])
+    return StrokeLimits(name, unit, stroke.start, stroke.end, tuple(found), crossings, least, others, turns, tuple(still))
 
 
 def scanner(moved: Moved, name: str, held: Mapping[str, float]) -> Callable[[FloatArray], Scanned]:

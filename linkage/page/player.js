@@ -31,10 +31,10 @@ function body({ points, fill, edge }) {
   return (at) => { const text = pairs(points.map((i) => at[i])); set(outer, { points: text }); set(inner, { points: text }); };
 }
 
-function ram({ P, Q, bottom, mouth, rod, least, most }) {
+function ram({ P, Q, aside, bottom, mouth, rod, least, most }) {
   const group = draw(sheet, "g", { stroke: css("ink"), "stroke-width": 0.8 * EDGE, "stroke-linejoin": "round" });
   const box = (name, fill) => {
-    const half = scene.widths[name] * size, rect = draw(group, "rect", { fill: css(fill), y: -half, height: 2 * half });
+    const half = scene.widths[name] * size, rect = draw(group, "rect", { fill: css(fill), y: -aside - half, height: 2 * half });
     return (from, to) => set(rect, { x: from, width: Math.max(to - from, 0) });
   };
   const eye = box("eye", "piston"), tube = box("barrel", "barrel"), shaft = box("rod", "rod");
@@ -45,6 +45,20 @@ function ram({ P, Q, bottom, mouth, rod, least, most }) {
     const dx = at[Q][0] - at[P][0], dy = at[Q][1] - at[P][1], length = Math.hypot(dx, dy);
     const place = Math.min(Math.max(length - rod, least), most);
     shaft(place, length); piston(place - disc, place + disc);
+    set(group, { transform: `translate(${at[P][0]} ${at[P][1]}) rotate(${(Math.atan2(dy, dx) * 180) / Math.PI})` });
+  };
+}
+
+/* A spring, a damper, a strut: lines that stretch, each place a share of the length and a way along and across. */
+function straight({ P, Q, lines }) {
+  const group = draw(sheet, "g", { stroke: css("ink"), "stroke-linejoin": "round", "stroke-linecap": "round" });
+  const drawn = lines.map(({ rows, fill, closed, bold }) => {
+    const line = draw(group, closed ? "polygon" : "polyline", { fill: fill ? css(fill) : "none", "stroke-width": (bold ? 1.5 : 0.8) * EDGE });
+    return (length) => set(line, { points: pairs(rows.map(([share, along, across]) => [share * length + along, across])) });
+  });
+  return (at) => {
+    const dx = at[Q][0] - at[P][0], dy = at[Q][1] - at[P][1], length = Math.hypot(dx, dy);
+    for (const line of drawn) line(length);
     set(group, { transform: `translate(${at[P][0]} ${at[P][1]}) rotate(${(Math.atan2(dy, dx) * 180) / Math.PI})` });
   };
 }
@@ -100,7 +114,7 @@ for (const lines of scene.rails) {
 const plates = scene.bodies.filter((each) => each.points.length > 2), bars = scene.bodies.filter((each) => each.points.length <= 2);
 const parts = [
   ...plates.map(body), ...scene.blocks.filter((each) => !each.inside).map(block), ...bars.map(body),
-  ...scene.slots.map(slot), ...scene.blocks.filter((each) => each.inside).map(block), ...scene.stays.map(stay), ...scene.rams.map(ram),
+  ...scene.slots.map(slot), ...scene.blocks.filter((each) => each.inside).map(block), ...scene.stays.map(stay), ...scene.rams.map(ram), ...scene.straights.map(straight),
   ...scene.pins.map((i) => circle(i, 0.5 * size, css("paper"), css("ink"), 1.3 * EDGE)),
   ...scene.dots.map((i) => circle(i, 0.48 * size, css("ink"), css("paper"), 1)),
   ...scene.names.map((_, i) => name(i)),

@@ -12,6 +12,7 @@ from ..draw import room, style
 from ..draw.cylinders import THICK, WIDTH
 from ..draw.grounds import support
 from ..draw.labels import offsets
+from ..draw.outlines import Outline
 from ..draw.scene import Places, Scene
 from ..draw.sliders import LONG, SLOT, hatched, width
 from ..program import FloatArray
@@ -19,7 +20,7 @@ from ..program import FloatArray
 ACROSS = 760.0
 LEAST, MOST = 380.0, 760.0
 FONT = 15.0
-RAM = ("bottom", "mouth", "rod", "least", "most")
+RAM = ("aside", "bottom", "mouth", "rod", "least", "most")
 
 
 class Pixels:
@@ -60,6 +61,9 @@ def scenery(scene: Scene, paths: Sequence[str]) -> dict[str, Any]:
         "rams": [
             {"P": index[ram.P], "Q": index[ram.Q]} | {name: pixels.length(getattr(ram, name)) for name in RAM} for ram in scene.rams
         ],
+        "straights": [
+            {"P": index[each.P], "Q": index[each.Q], "lines": [stretched(line, pixels) for line in each.lines]} for each in scene.straights
+        ],
         **sliding(scene, pixels, index),
         "widths": WIDTH,
         "thick": THICK,
@@ -70,6 +74,12 @@ def scenery(scene: Scene, paths: Sequence[str]) -> dict[str, Any]:
         "labels": labels(scene, pixels),
         "paths": [pixels.of(scene.places[name].T) for name in paths],
     }
+
+
+def stretched(line: Outline, pixels: Pixels) -> dict[str, Any]:
+    """Return a line of a straight element: its rows with the ways along and across in pixels, these to the right as y points down."""
+    rows = [[round(share, 4), pixels.length(along), -pixels.length(across)] for share, along, across in line.rows.tolist()]
+    return {"rows": rows, "fill": line.fill.lower(), "closed": line.closed, "bold": line.bold}
 
 
 def sliding(scene: Scene, pixels: Pixels, index: Mapping[str, int]) -> dict[str, Any]:

@@ -101,7 +101,7 @@ def triangle_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) 
     gap = float(missing[worst])
     return (
         f"{' + '.join(labels[index] for index in others)} = {values[others, worst].sum():.4g} m is {gap / mm:.3g} mm short of "
-        f"{labels[longest]} = {values[longest, worst]:.4g} m. {remedy(plan, name, labels, longest, values[:, worst])}",
+        f"{labels[longest]} = {values[longest, worst]:.4g} m. {remedy(plan, name, labels, longest, values[:, worst], reading)}",
         gap,
     )
 
@@ -115,7 +115,7 @@ def shortage_words(plan: Members, member: Member, reading: ArrayReading) -> tupl
     return f"{words}{missing}. {start} a dimension.", gap
 
 
-def remedy(plan: Members, name: str, labels: Sequence[str], longest: int, values: FloatArray) -> str:
+def remedy(plan: Members, name: str, labels: Sequence[str], longest: int, values: FloatArray, reading: ArrayReading) -> str:
     """Return what to change: the stroke where a side follows it, and a dimension that closes the gap; the unit where it looks mistaken."""
     others = [index for index in range(len(labels)) if index != longest]
     if values[longest] > MISTAKEN * values[others].max():
@@ -125,6 +125,22 @@ def remedy(plan: Members, name: str, labels: Sequence[str], longest: int, values
     change = f"lengthen {free[-1]}" if free else other
     if not plan.moves(plan.members[name]):
         return f"{change[0].upper()}{change[1:]}."
-    following = [index for index, label in enumerate(labels) if label in plan.table.following]
-    start = "Shorten the stroke" if longest in following or not following else "Start the stroke later"
+    growth = [(1.0 if index == longest else -1.0) * growth_of(plan, label, reading) for index, label in enumerate(labels)]
+    start = "Start the stroke later" if sum(growth) < 0.0 else "Shorten the stroke"
     return f"{start} or {change}."
+
+
+def growth_of(plan: Members, label: str, reading: ArrayReading) -> float:
+    """Return how the length of a label that follows a stroke grows with it; 0 for one that follows none."""
+    named = [each for ends, each in plan.table.lengths.items() if label in ("".join(sorted(ends)), "".join(sorted(ends)[::-1]))]
+    if not named:
+        return 0.0
+    (length, *_) = named
+    reached = plan.reaches(length)
+    strokes = [name for name in plan.strokes if name == length.name or name in reached]
+    total = 0.0
+    for name in strokes:
+        step = 1e-6 * (abs(plan.strokes[name].end - plan.strokes[name].start) or 1.0)
+        there = ArrayReading(plan.members, plan.table.lengths, {**reading.inputs, name: np.asarray(reading.inputs[name]) + step})
+        total += float(np.sum(np.asarray(there.value(length)) - np.asarray(reading.value(length))) / step)
+    return total

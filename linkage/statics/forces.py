@@ -49,8 +49,13 @@ def pin_forces(
     remarks = [*locked_words(found, direction), *held_words(poses, loaded, found.drives), *rest_words(loaded)]
     on = tuple((structure.name(structure.bearer(each.load)), each) for each in loaded.acting)
     locked = poses.full(found.locked.astype(float)) == 1.0
+
+    def again(other: Motion) -> PinForces:
+        return pin_forces(other, loads, case=case, direction=direction, drive=drive, rates=rates, split=split)
+
     return PinForces(
-        motion, found.joints, found.drives, found.thrusts, loaded.case, direction, locked, tuple(remarks), poses, loaded, on, structure
+        motion, found.joints, found.drives, found.thrusts, loaded.case, direction, locked, tuple(remarks), poses, loaded, on, structure,
+        again,
     )  # fmt: skip
 
 
@@ -101,7 +106,9 @@ def held_words(poses: Poses, loaded: Loaded, drives: Mapping[str, FloatArray]) -
 
 
 def rest_words(loaded: Loaded) -> list[str]:
-    """Return the words for dampers that give nothing, because no rates are given."""
+    """Return the words for what gives nothing: no loads at all, dampers without rates."""
+    if not loaded.acting and not loaded.pushing:
+        return ["no load acts, so that all forces are zero; declare one in the class, such as load = Weight(G, mass=1200)."]
     if not loaded.at_rest:
         return []
     return [f"{', '.join(loaded.at_rest)}: at rest a damper gives nothing; give the speeds, rates=dict(S=0.05)."]

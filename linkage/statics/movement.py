@@ -40,7 +40,7 @@ class Movement:
     @property
     def known(self) -> Rates:
         """The rates as force elements ask for them."""
-        return Rates(self.rates, self.is_timed)
+        return Rates(self.rates, self.is_timed, self.rubs)
 
 
 AT_REST = Movement()

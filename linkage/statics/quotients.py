@@ -42,6 +42,6 @@ def refused_where(poses: Poses, values: FloatArray, cond: FloatArray, what: str,
         where = where_words(motion.plan, poses.full(near.astype(float)) == 1.0, motion.strokes)
         # one division by a difference that is lost: the error goes with the condition, not its square
         error = f"expect a relative error of about {np.finfo(float).eps * worst:.0e}"
-        text = f"{what} {where}: nearly {reason} (condition {worst:.1e}); {error}."
+        text = f"{what} {where}: nearly refused, for {reason} close by (condition {worst:.1e}); {error}."
         warnings.warn(text, SingularWarning, stacklevel=5)
     return np.where(lost, np.nan, values)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol, TypeVar
@@ -43,6 +43,11 @@ class PinForces:
     _loaded: Loaded
     _loads: tuple[tuple[str, Acting], ...]
     _structure: Structure
+    _again: Callable[[Motion], PinForces]
+
+    def again(self, motion: Motion) -> PinForces:
+        """Return the same of another motion of the machine: the same loads, case, direction and rates; NaN where they are refused."""
+        return self._again(motion)
 
     def at(self, point: str) -> tuple[JointForce, ...]:
         """Return the joints at a point."""

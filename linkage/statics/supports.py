@@ -84,8 +84,10 @@ def felt(poses: Poses, support: Support, drive: str, name: str) -> FloatArray:
     point = name_of(support.point)
     rate = poses.rate(point, drive)
     along = (rate * support.unit[:, None]).sum(axis=0)
-    what = f"{name}: its point {point} does not move along its direction with {drive}"
-    return quotient(poses, along, np.hypot(rate[0], rate[1]), f"The reaction of {what}", "no reaction balances the drive there")
+    carrying = [each for each in poses.plan.moving if each in poses.plan.reaches(point)]
+    size = np.max([np.hypot(*poses.rate(each, drive)) for each in carrying], axis=0, initial=0.0)  # of the fastest point on the way to it
+    why = f"its point {point} does not move along its direction with {drive}, so that no reaction balances the drive"
+    return quotient(poses, along, size, f"The reaction of {name}", why)
 
 
 def rubbing_reaction(poses: Poses, loaded: Loaded, support: Support, drive: str, known: FloatArray, direction: str) -> FloatArray:

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import pi
+from typing import Any
 
 import numpy as np
 
 from ..errors import DefinitionError
+from ..motion import greatest
 from ..units import deg, kN
 from .joint_force import JointForce
 from .result import PinForces
@@ -45,21 +47,53 @@ HEADINGS = ("pin", "kind", "on", "from", "force, kN", "angle, deg", "from axis",
 
 
 def max_table(results: PinForces | Iterable[PinForces]) -> tuple[PinLoad, ...]:
-    """Return, for every joint, its largest force among the results of `pin_forces`, in the order of the joints."""
+    """Return, for every joint, its largest force over all that the results of `pin_forces` cover, in the order of the joints.
+
+    It is looked for between their poses, whatever the number of these, and up to the poses that are refused: a force that grows
+    without bounds towards one of them is infinite. Loads that are given as arrays over the poses are known at these alone.
+    """
     each_of = [results] if isinstance(results, PinForces) else list(results)
     best: dict[tuple[str, str, str, str], PinLoad] = {}
     for one in each_of:
-        for joint in (each for each in one.joints if each.has_force):
-            row = largest(one, joint)
-            key = (joint.point, joint.on, joint.by, joint.kind)
-            if row is not None and (key not in best or row.force > best[key].force):
+        for row in largest(one):
+            key = (row.point, row.on, row.by, row.kind)
+            if key not in best or row.force > best[key].force:
                 best[key] = row
     if not best:
         raise DefinitionError("There are no joint forces to tabulate: no pose is reached.")
     return tuple(best.values())
 
 
-def largest(result: PinForces, joint: JointForce) -> PinLoad | None:
+def largest(result: PinForces) -> list[PinLoad]:
+    """Return the largest force of each joint of a result."""
+    joints = [joint for joint in result.joints if joint.has_force]
+    if not joints:
+        return []
+    try:
+        found = greatest(result.motion, lambda at: np.stack([joint.size for joint in result.again(at).joints if joint.has_force]))
+    except DefinitionError:  # arrays over the poses
+        return [row for row in (at_poses(result, joint) for joint in joints) if row is not None]
+    rows = []
+    for place, joint in enumerate(joints):
+        value = np.asarray(found.value)[place]
+        if not np.isnan(value).all():
+            design = np.unravel_index(int(np.nanargmax(value)), value.shape)
+            strokes = {name: float(np.asarray(each)[place][design]) for name, each in found.strokes.items()}
+            rows.append(at_place(result, joint, float(value[design]), tuple(int(each) for each in design), strokes))
+    return rows
+
+
+def at_place(result: PinForces, joint: JointForce, force: float, design: tuple[int, ...], strokes: Mapping[str, float]) -> PinLoad:
+    """Return a joint's row for its largest force, found at some strokes of one design."""
+    there = result.again(result.motion.moved(strokes))
+    same = next(each for each in there.joints if (each.point, each.on, each.by, each.kind) == (joint.point, joint.on, joint.by, joint.kind))
+    x, y = (float(same.force[k][design]) for k in (0, 1))
+    angle = turned(float(np.arctan2(y, x)) - body_angle(there, same, design))
+    axis = "".join(joint.axis or ("x",))
+    return PinLoad(joint.point, joint.on, joint.by, joint.kind, force, angle, axis, strokes, design, result.case, result.direction)
+
+
+def at_poses(result: PinForces, joint: JointForce) -> PinLoad | None:
     """Return a joint's largest force over the poses of a result; None where it has none."""
     size = joint.size
     if not np.isfinite(size).any():
@@ -81,7 +115,7 @@ def turned(angle: float) -> float:
     return within + 2.0 * pi if within < -pi + 1e-9 else within
 
 
-def body_angle(result: PinForces, joint: JointForce, place: tuple[np.intp, ...]) -> float:
+def body_angle(result: PinForces, joint: JointForce, place: tuple[Any, ...]) -> float:
     """Return the direction of a body's own x axis at a pose [rad]."""
     if joint.axis is None:
         return 0.0

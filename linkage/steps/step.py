@@ -125,6 +125,7 @@ class Step(Point):
             setattr(bound, letter, name_of(parent))
         bound.check_points()
         for attribute, (slot, spelling, sign, value) in match(self.labels, bound.slots(), bound.sentence()).items():
+            bound.check_sense(slot, spelling, sign, value)
             claimed = claims.claim(slot, spelling, value, bound.sentence())
             setattr(bound, attribute, claimed if sign > 0 else -claimed)
         bound.check()
@@ -138,6 +139,16 @@ class Step(Point):
         names = [getattr(self, letter) for letter in self.parent_letters]
         if len({self.X, *names}) < len(names) + 1:
             raise DefinitionError(f"{self.sentence()}: the points {', '.join([self.X, *names])} must be different.")
+
+    def check_sense(self, slot: Slot, spelling: str, sign: int, value: Any) -> None:
+        """Raise DefinitionError for an angle whose own sense would be turned once more by the side."""
+        if slot.kind != "angle" or self.side is None:
+            return
+        given, forward = quantity(value), "".join(slot.points)
+        if sign < 0 or (isinstance(given, Number) and given.number < 0.0):
+            why = f"{spelling} is counted from the other ray, which is -{forward}" if sign < 0 else f"{spelling} is negative"
+            remedy = f"write {forward}= with a positive angle, or leave the side out"
+            raise DefinitionError(f"{self.sentence()}: {why}, but side={self.side} gives the sense; {remedy}.")
 
     def missing(self, slot: Slot) -> DefinitionError:
         """Return the error for a label that must be given."""

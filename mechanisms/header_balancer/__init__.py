@@ -13,8 +13,9 @@ from .figures import figure as figure
 from .following import over_following as over_following
 from .following import relief as relief
 from .headers import HEADERS as HEADERS
-from .headers import setting_table as setting_table
-from .headers import with_header as with_header
 from .machine import HeaderBalancer as HeaderBalancer
+from .matched import ImprovedBalancer as ImprovedBalancer
 from .measured import deviations as deviations
 from .measured import read_measured as read_measured
+from .settings import setting_table as setting_table
+from .settings import with_header as with_header

@@ -11,14 +11,11 @@ import numpy as np
 from hydraulics import AccumulatorBlock, adiabatic, isothermal
 from hydraulics.gas import Gas
 from linkage import DefinitionError, Motion
-from linkage.loads import Support
+from linkage.motion import lowest
 from linkage.program import FloatArray
-from linkage.statics import driving_force
 from linkage.units import kgf_cm2, mm, show
 
 from .following import Balance, at_horizon, over_following
-
-FINE = 201
 
 
 @final
@@ -49,11 +46,11 @@ def charge_for(motion: Motion, wanted: float) -> float:
 
     DefinitionError where it is below zero: so much reaction the weights do not give.
     """
-    pose = at_horizon(motion)
-    thrust = driving_force(pose, ["feeder", "header", Support("R", (0, 1), force=wanted)])
-    pressure = float(Balance(pose).cylinder.sized(pose).pressure_for(thrust)[0])
+    balance = Balance(at_horizon(motion))
+    pressure = float(balance.cylinder.sized(balance.motion).pressure_for(balance.thrust_without_line(pressed=wanted))[0])
     if pressure < 0.0:
-        most = float(driving_force(pose, ["feeder", "header"])[0] / driving_force(pose, [Support("R", (0, -1), force=1.0)])[0])
+        alone, for_one = (float(balance.thrust_without_line(pressed=force)[0]) for force in (0.0, 1.0))
+        most = alone / (alone - for_one)
         raise DefinitionError(f"A reaction of {show(wanted, 'kgf', 4)} is above the weights', {show(most, 'kgf', 4)}; ask for less.")
     return pressure
 
@@ -63,11 +60,7 @@ def largest_charge(motion: Motion, way: Way = SLOW) -> float:
 
     DefinitionError where none will do: the header is lighter than the accumulators hold at their own gas charge.
     """
-    coarse = over_following(motion, FINE)
-    limits = charge_limits(coarse, way)
-    worst, h = int(np.argmin(limits)), coarse.strokes["h"]
-    near = motion.moved({"h": np.linspace(h[max(worst - 1, 0)], h[min(worst + 1, FINE - 1)], FINE)})
-    return float(min(limits.min(), charge_limits(near, way).min()))
+    return float(lowest(over_following(motion, 2), lambda at: charge_limits(at, way)).value)
 
 
 def charge_limits(motion: Motion, way: Way) -> FloatArray:

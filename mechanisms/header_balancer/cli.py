@@ -18,10 +18,13 @@ from .charge import charge_for
 from .criteria import criteria
 from .figures import NUMBERS, figure
 from .following import kgf_cm2_text, over_following, reaction_columns
-from .headers import HEADERS, setting_table
+from .headers import HEADERS
 from .machine import HeaderBalancer
 from .measured import Deviation, deviations, read_measured
+from .settings import setting_table
 
+REACTION = {1: "2", 2: "4", 3: "5"}
+"""The figure that shows the reaction of each header; without one it is drawn like header 2's."""
 WANTED = tuple(step * 100.0 * kgf for step in range(9))
 
 
@@ -41,7 +44,7 @@ class Balance(Command):
         csv_argument(parser)
         parser.add_argument("--measured", metavar="FILE", help='compare with measured values: columns "R_y, mm", "F_R up, kgf"')
         picture_argument(parser, "the figure")
-        parser.add_argument("--figure", type=int, choices=NUMBERS, help="which figure: 2-4 reaction, 5 bearing at O, 6 pressures")
+        parser.add_argument("--figure", choices=NUMBERS, help="which figure of the paper, such as 2a, or 2 for both its halves")
 
     def run(self, options: Namespace) -> int:
         machine = chosen(options)
@@ -116,5 +119,7 @@ def value(text: str, kind: str, option: str) -> float:
 def draw(machine: HeaderBalancer, options: Namespace, path: Path | None, compared: list[Deviation]) -> None:
     """Draw the figure that is wanted."""
     if path is not None:
-        figure(options.figure or 2, machine, compared).savefig(path)
+        number = options.figure or ("7" if compared else REACTION.get(options.header, "4"))
+        improved = number[0] == "6" and type(machine) is HeaderBalancer and machine.dimensions == HeaderBalancer().dimensions
+        figure(number, None if improved else machine, compared).savefig(path)
         print(path)

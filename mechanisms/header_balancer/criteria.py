@@ -1,4 +1,4 @@
-"""The paper's five criteria, and the relief valve, as verdicts over the following range of one design."""
+"""The paper's five criteria, the relief valve, and its conclusions, as verdicts over the following range of one design."""
 
 from __future__ import annotations
 
@@ -7,11 +7,13 @@ import numpy as np
 from hydraulics import CylinderSize, Verdict, standard_bores
 from hydraulics.member import one_size
 from linkage import DefinitionError, Motion
+from linkage.motion import below_zero
 from linkage.program import FloatArray
-from linkage.units import kgf, kgf_cm2, mm
+from linkage.units import kgf, kgf_cm2, litre, mm
 
 from .charge import FAST, NORMAL, PAPER, SLOW, Way, largest_charge
 from .following import PLAIN, Balance, kgf_cm2_text, over_following, relief
+from .headers import HEADERS
 
 ON_LIMIT = 0.02 * kgf_cm2
 """A setting this near to its limit is on it: the published ones are."""
@@ -24,10 +26,11 @@ LEAST_RESERVE = 0.1
 
 
 def criteria(motion: Motion) -> list[Verdict]:
-    """Return the verdicts on the five criteria and on the relief valve; the motion says which design."""
+    """Return the verdicts on the five criteria and on the relief valve, and the paper's conclusions; the motion says which design."""
     fine = over_following(motion)
     balance = Balance(fine)
-    return [rises(balance), *hangs_up(fine), hysteresis(balance), matching(balance), reserve(balance), valve(motion)]
+    judged = [rises(balance), *hangs_up(fine), hysteresis(balance), matching(balance), reserve(balance), valve(motion)]
+    return [*judged, vessels(balance), exchange(motion)]
 
 
 def rises(balance: Balance) -> Verdict:
@@ -66,28 +69,45 @@ def hang_up(motion: Motion, way: Way) -> Verdict:
 
 def hysteresis(balance: Balance) -> Verdict:
     """Return criterion 3: what the hysteresis is and who makes it; a plain bearing at O beside the machine's own."""
-    whole, seals = balance.hysteresis, balance.of_seals
-    plain = balance.reaction("extending", PLAIN) - balance.reaction("retracting", PLAIN)
-    share = float(np.max((whole - seals) / whole))
+    whole, seals, pin = balance.hysteresis, balance.of_seals, balance.of_pin
+    plain, rolling = balance.of_bearing(PLAIN), balance.of_bearing(0.0)
+    share = float(np.max(pin / whole))
     ok = share <= PIN_SHARE
+    added = f", {' and '.join(balance.others)} {_span(balance.of_others)}" if balance.others else ""
     says = (
-        f"{_span(whole)} kgf, of it seals {_span(seals)}, pin O {_span(whole - seals)} kgf; a plain bearing at O "
-        f"(mu = {PLAIN:g}) gives {_span(plain)} kgf, {np.min(plain / seals):.2f} to {np.max(plain / seals):.2f} times a rolling one's"
+        f"{_span(whole)} kgf, of it seals {_span(seals)}, pin O {_span(pin)}{added} kgf; a plain bearing at O (mu = {PLAIN:g}) "
+        f"gives {_span(plain)} kgf, x{np.min(plain / rolling):.2f} to x{np.max(plain / rolling):.2f} of a rolling one's"
     )
     remedy = f"; the pin makes up to {100 * share:.0f} % of it: take a rolling bearing at O"
     return Verdict("3 hysteresis", ok, f"{says}{'' if ok else remedy}.")
 
 
 def matching(balance: Balance) -> Verdict:
-    """Return criterion 4: from the lowest place to the highest the required pressure falls with the accumulators' (the arm H grows)."""
-    arm, needed, line = balance.arm, balance.required, balance.pressure
+    """Return criterion 4: from the lowest place to the highest the required pressure falls with the accumulators' (the arm H grows).
+
+    What would match them: the arm with which this line keeps the reaction as it is at the horizon.
+    """
+    arm, needed, line, free = balance.arm, balance.required, balance.pressure, balance.free
     ok = bool(needed[-1] < needed[0])
     says = (
         f"moving up the block's pressure goes from {line[0] / kgf_cm2:.1f} to {line[-1] / kgf_cm2:.1f}, the required one from "
-        f"{needed[0] / kgf_cm2:.1f} to {needed[-1] / kgf_cm2:.1f} kgf/cm2, the arm H from {arm[0] / mm:.0f} to {arm[-1] / mm:.0f} mm"
+        f"{needed[0] / kgf_cm2:.1f} to {needed[-1] / kgf_cm2:.1f} kgf/cm2, the arm H from {arm[0] / mm:.0f} to {arm[-1] / mm:.0f} mm; "
+        f"without friction the reaction goes from {_kgf(free[0])} to {_kgf(free[-1])} kgf"
     )
-    remedy = "; they part: place A and B so that the arm grows while the header rises, or take larger accumulators"
-    return Verdict("4 matching", ok, f"{says}{'' if ok else remedy}.")
+    constant = float(np.interp(0.0, balance.height, free))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        wanted = arm * balance.thrust_without_line(pressed=constant) / balance.cylinder.sized(balance.motion).thrust(line)
+    if not np.all(np.isfinite(wanted)):
+        return Verdict("4 matching", ok, f"{says}; the line is empty at some heights, no arm matches it there: charge it higher.")
+    if ok:
+        even = f"with this line an arm from {wanted[0] / mm:.0f} to {wanted[-1] / mm:.0f} mm would keep it at {_kgf(constant)} kgf"
+        return Verdict("4 matching", True, f"{says}: matched; {even}.")
+    return Verdict(
+        "4 matching", False,
+        f"{says}: not matched, they part. An arm from {wanted[0] / mm:.0f} to {wanted[-1] / mm:.0f} mm would keep it at "
+        f"{_kgf(constant)} kgf: place A and B so that the arm grows while the header rises; larger accumulators help less, "
+        "their pressure still falls.",
+    )  # fmt: skip
 
 
 def reserve(balance: Balance) -> Verdict:
@@ -123,6 +143,51 @@ def valve(motion: Motion) -> Verdict:
     apart = kgf_cm2_text(abs(found.margin), 1)
     margin = f"margin {apart}" if ok else f"{apart} too low; set it higher or take a larger bore"
     return Verdict("relief valve", ok, f"{says} {kgf_cm2_text(float(motion.inputs['valve']), 1)}: {margin}.")
+
+
+def vessels(balance: Balance) -> Verdict:
+    """Return which accumulators are at work over which heights, which are off, and where a pair joins, in a slow movement."""
+    motion = balance.motion
+    block, charge = balance.circuit.accumulators(motion), float(np.max(balance.circuit.number(motion, "charge_pressure")))
+
+    def slow(at: Motion) -> FloatArray:
+        return np.asarray(block.pressure(charge, balance.circuit.withdrawn(at)))
+
+    line, height = slow(motion), balance.height
+    says, slope = [], abs(float((line[-1] - line[0]) / (height[-1] - height[0])))
+    softer = f"{slope * 10 * mm / kgf_cm2:.2f} kgf/cm2 for 10 mm of the shoe"
+    for each in block.accumulators:
+        gas, volume = float(np.max(each.charge)), float(np.max(each.volume))
+        if volume <= 0.0:
+            continue
+        name = f"the {gas / kgf_cm2:.4g} kgf/cm2 pair ({volume / litre:.4g} l)"
+        works = below_zero(motion, lambda at, gas=gas: gas - slow(at))  # type: ignore[misc]
+        if not works:
+            says.append(f"{name} is off over the whole range, which makes the line softer, {softer}")
+        elif works[0].start["h"] <= motion.strokes["h"][0] and works[-1].end["h"] >= motion.strokes["h"][-1]:
+            says.append(f"{name} is at work over the whole range")
+        else:
+            at = motion.moved({"h": np.array([works[-1].end["h"]])}).y("R")[0] / mm
+            says.append(f"{name} is at work below R_y = {at:+.0f} mm and off above: where it joins the curves have a kink")
+    return Verdict("accumulators", True, f"at {kgf_cm2_text(charge)} {'; '.join(says)}.")
+
+
+def exchange(motion: Motion) -> Verdict:
+    """Return to what the line is charged at the most for each published header on this linkage: it is changed by the pressure alone."""
+    says, ok = [], True
+    for number, header in HEADERS.items():
+        own = Motion(motion.plan, {**motion.designs, **header}, motion.strokes, motion.unreachable)
+        try:
+            charge = largest_charge(own)
+        except DefinitionError:
+            ok = False
+            says.append(f"header {number} ({header['m2']:.0f} kg) none")
+        else:
+            ok = ok and charge <= float(motion.inputs["pump"])
+            says.append(f"header {number} ({header['m2']:.0f} kg) {kgf_cm2_text(charge)}")
+    alone = "a header is changed by the pressure alone, without touching the linkage"
+    rest = alone if ok else "not every header can be balanced on this line"
+    return Verdict("change of header", ok, f"at the most, slow: {', '.join(says)}; {rest}.")
 
 
 def _kgf(force: float) -> str:

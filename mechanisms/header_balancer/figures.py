@@ -1,104 +1,267 @@
-"""The paper's figures 2 to 6, one call each: `figure(2)`. Matplotlib and the house's style are loaded when one is drawn.
+"""The paper's figures by its numbers, one call each: `figure("2a")`, both halves side by side `figure(2)`. Reactions are of one shoe.
 
-Figures 2, 3, 4: the reaction of headers 1, 2, 3 over the following range, up, down and without friction.
-Figure 5: the hysteresis with a rolling and a plain bearing at O. Figure 6: block pressure and required pressure.
+| figure | header | shows |
+|---|---|---|
+| 2 a, 2 b | 1 | the reaction with the cylinders' seals only; what plain bearings at O add, as a force at the shoe |
+| 3 a, 3 b | 1 | pressure in the accumulators while following; pressure needed to lift, over the whole stroke |
+| 4 a, 4 b | 2 | reaction; given and needed pressure, below the charge of one pair |
+| 5 a, 5 b | 3 | reaction; given and needed pressure, with the kink where the second pair joins |
+| 6 a, 6 b | 1 | the improved mechanism: reaction, given and needed pressure |
+| 7 | 1 | reaction calculated and measured |
+
+Matplotlib and the house's style are loaded when one is drawn.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from linkage import DefinitionError, Motion
+from linkage.motion import below_zero
 from linkage.program import FloatArray
-from linkage.units import kgf, kgf_cm2, mm
+from linkage.statics import reaction
+from linkage.units import kgf, kgf_cm2, litre, mm
 
-from .following import PLAIN, Balance, over_following
-from .headers import HEADERS, with_header
+from .following import BEARING, PLAIN, SHOE, Balance, over_following, own_loads, rubbing
+from .headers import HEADERS
 from .machine import HeaderBalancer
-from .measured import Deviation
+from .matched import ImprovedBalancer
+from .measured import ALLOWED, Deviation
+from .settings import with_header
 
-NUMBERS = (2, 3, 4, 5, 6)
-SIZE = (7.6, 4.8)
+SIZE, PAIR = (7.6, 5.0), (14.6, 5.2)
+WAYS: Mapping[str, str] = MappingProxyType({"moving up": "extending", "without friction": "frictionless", "moving down": "retracting"})
+CURVES: Mapping[str, str] = MappingProxyType({"F_R up": "moving up", "F_R down": "moving down"})
+SHOWN: Mapping[str, Callable[[], HeaderBalancer]] = MappingProxyType(
+    {
+        "2": lambda: with_header(1), "3": lambda: with_header(1), "4": lambda: with_header(2), "5": lambda: with_header(3),
+        "6": ImprovedBalancer, "7": lambda: with_header(1),
+    }
+)  # fmt: skip
+TITLES: Mapping[str, str] = MappingProxyType(
+    {
+        "2a": "Reaction of a shoe, hysteresis from the cylinders' seals only",
+        "2b": "What plain bearings at O add, as a force at a shoe",
+        "3a": "Pressure in the accumulators while following",
+        "3b": "Pressure needed to lift, over the whole stroke",
+        "4a": "Reaction of a shoe",
+        "4b": "Given and needed pressure",
+        "5a": "Reaction of a shoe",
+        "5b": "Given and needed pressure",
+        "6a": "Reaction of a shoe, improved mechanism",
+        "6b": "Given and needed pressure, improved mechanism",
+        "7": "Reaction of a shoe, calculated and measured",
+    }
+)
+NUMBERS = ("2", "2a", "2b", "3", "3a", "3b", "4", "4a", "4b", "5", "5a", "5b", "6", "6a", "6b", "7")
 
 
-def figure(number: int, machine: HeaderBalancer | None = None, measured: Sequence[Deviation] = ()) -> Any:
-    """Return a figure of the paper (2 to 6) as a matplotlib figure.
+def figure(number: int | str, machine: HeaderBalancer | None = None, measured: Sequence[Deviation] = ()) -> Any:
+    """Return a figure of the paper as a matplotlib figure: a half of it, "2a", or both side by side, 2.
 
-    2, 3, 4 show headers 1, 2, 3; 5 and 6 header 1; or the `machine` given. `measured` curves are laid over the reactions.
+    It shows the header of the paper's figure, or the `machine` given. `measured` curves are laid over the reactions.
     """
-    if number not in NUMBERS:
-        raise DefinitionError(f"Figure {number} is unknown; there are {', '.join(map(str, NUMBERS))}.")
-    shown = machine if machine is not None else with_header(number - 1 if number <= 4 else 1)
+    key = str(number).replace(" ", "").lower()
+    if key not in NUMBERS:
+        raise DefinitionError(f"Figure {number} is unknown; there are {', '.join(NUMBERS)}.")
+    parts = [part for part in TITLES if part.startswith(key)]
+    shown = machine if machine is not None else SHOWN[key[0]]()
     motion = over_following(shown.at(h=shown.strokes["h"].start))
-    if number <= 4:
-        return reactions(motion, _name(shown), measured)
-    return bearings(motion, _name(shown)) if number == 5 else pressures(motion, _name(shown))
+    sheet, cells = _sheet(parts, _name(shown))
+    for part, ax in zip(parts, cells, strict=True):
+        DRAWN[part](ax, motion, measured)
+        if key[0] == "6" and machine is None:
+            _as_it_stands(ax, part)
+        if part in REACTIONS:
+            _hanging(ax)
+        _finished(ax)
+    return sheet
 
 
-def reactions(motion: Motion, name: str, measured: Sequence[Deviation] = ()) -> Any:
-    """Return the reaction of all shoes over their height: up, down, without friction; the paper's way dashed."""
+# -- reactions ---------------------------------------------------------------------------------------------
+
+
+def seals_alone(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+    """Draw figure 2 a: the reaction with no friction in any pin."""
+    reactions(ax, motion, measured, rubbing(motion))
+
+
+def reactions(ax: Any, motion: Motion, measured: Sequence[Deviation] = (), without: Sequence[str] = ()) -> None:
+    """Draw the reaction of a shoe over its height: up, down, without friction; the paper's gas law thin beside; measured values dashed."""
     from linkage.draw import style
 
-    sheet, ax = _sheet(f"Reaction of {name}", "reaction of all shoes, kgf")
-    balance, paper = Balance(motion), Balance(_paper(motion))
-    colours = {"moving up": style.CURVE, "without friction": style.MUTED, "moving down": style.ACCENT}
-    curves = {"moving up": balance.up, "without friction": balance.free, "moving down": balance.down}
-    printed = {"moving up": paper.up, "without friction": paper.free, "moving down": paper.down}
-    for label, values in curves.items():
-        _curve(ax, balance.height, values / kgf, colours[label], label)
+    curves, printed, height = _reactions(motion, without), _reactions(_paper(motion), without), Balance(motion).height
+    _ways(ax, height, curves)
     if motion.inputs["atmosphere"]:
-        apart = max(float(np.max(np.abs(values - printed[label]))) for label, values in curves.items()) / kgf
+        apart = max(float(np.max(np.abs(values - printed[label]))) for label, values in curves.items())
         text = f"the paper's gas law, on gauge pressures: at most {apart:.1f} kgf apart"
         for values in printed.values():
-            ax.plot(paper.height / mm, values / kgf, color=style.INK, linewidth=0.9, linestyle=(0, (5, 6)), zorder=6.0, label=text)
+            ax.plot(height / mm, values, color=style.INK, linewidth=0.9, linestyle=(0, (5, 6)), zorder=6.0, label=text)
             text = "_"
+    _measured(ax, motion, measured)
+
+
+def compared(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+    """Draw figure 7: calculated solid, with the band of the paper's 7 %, measured dashed."""
+    from linkage.draw import style
+
+    height, curves, text = Balance(motion).height, _reactions(motion), f"{ALLOWED:g} % about the calculated ones"
+    moving = {label: curves[label] for label in CURVES.values()}
+    for label, values in moving.items():
+        share = ALLOWED / 100.0 * np.abs(values)
+        ax.fill_between(height / mm, values - share, values + share, color=_colours()[label], alpha=0.14, linewidth=0, label=text)
+        text = "_"
+    _ways(ax, height, moving)
+    _measured(ax, motion, measured)
+    if not measured:
+        where = {"xycoords": "axes fraction", "ha": "right"}
+        ax.annotate("no measured values given", (0.98, 0.10), **where, fontsize=style.SMALL, color=style.MUTED)
+
+
+def _ways(ax: Any, height: FloatArray, curves: Mapping[str, FloatArray]) -> None:
+    """Draw curves by the way of moving [kgf]."""
+    for label, values in curves.items():
+        _curve(ax, height, values, _colours()[label], label)
+    ax.set_ylabel("reaction of a shoe, kgf")
+
+
+def _measured(ax: Any, motion: Motion, measured: Sequence[Deviation]) -> None:
+    """Lay measured reactions over the calculated ones, with their largest deviation."""
+    from linkage.draw import style
+
     for each in measured:
-        if each.curve in MEASURED:
-            _dots(ax, each, MEASURED[each.curve], colours[MEASURED[each.curve]], style)
-    _hanging(ax, style)
-    return _finished(sheet, ax)
+        if each.curve in CURVES:
+            text = f"measured {CURVES[each.curve]}: up to {np.abs(each.percent).max():.1f} % apart"
+            height, values = each.height / mm, each.measured / kgf / float(motion.inputs["shoes"])
+            look = {"color": _colours()[CURVES[each.curve]], "markersize": 5.5, "markeredgecolor": style.PAPER}
+            ax.plot(height, values, "--o", label=text, zorder=7.0, **look)
 
 
-MEASURED: Mapping[str, str] = {"F_R up": "moving up", "F_R down": "moving down"}
-
-
-def _dots(ax: Any, deviation: Deviation, way: str, colour: str, style: Any) -> None:
-    """Draw measured values with their largest deviation."""
-    text = f"measured {way}: up to {np.abs(deviation.percent).max():.1f} %"
-    height, values = deviation.height / mm, deviation.measured / kgf
-    ax.plot(height, values, "o", color=colour, markersize=5.5, markeredgecolor=style.PAPER, label=text, zorder=7.0)
-
-
-def bearings(motion: Motion, name: str) -> Any:
-    """Return the hysteresis over the shoes' height with a rolling and a plain bearing at O."""
+def bearings(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+    """Draw figure 2 b: what plain bearings at O add to the reaction, up and down, as a force at a shoe."""
     from linkage.draw import style
 
-    sheet, ax = _sheet(f"Hysteresis of {name}", "hysteresis of the reaction, kgf")
+    balance, shoes = Balance(motion), float(motion.inputs["shoes"])
+    radius = float(motion.inputs[f"{BEARING}.radius"])
+    for label in ("moving up", "moving down"):
+        added = (balance.reaction(WAYS[label], PLAIN) - balance.reaction(WAYS[label], 0.0)) / kgf / shoes
+        _curve(ax, balance.height, added, _colours()[label], label)
+    ratio = balance.of_bearing(PLAIN) / balance.of_bearing(0.0)
+    ax.axhline(0.0, color=style.MUTED, linewidth=0.8, zorder=2.0)
+    says = f"r = {radius / mm:.0f} mm, mu = {PLAIN:g}: hysteresis x{ratio.min():.2f} to x{ratio.max():.2f} of rolling bearings'"
+    ax.annotate(
+        says, (0.5, 0.5), xycoords="axes fraction", xytext=(0, 8), textcoords="offset points", ha="center",
+        fontsize=style.SMALL, color=style.MUTED,
+    )  # fmt: skip
+    ax.set_ylabel("added at a shoe, kgf")
+
+
+# -- pressures ---------------------------------------------------------------------------------------------
+
+
+def given(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+    """Draw the pressure in the accumulators over the shoe's height, and the charges of the pairs about there."""
+    from linkage.draw import style
+
     balance = Balance(motion)
-    plain = balance.reaction("extending", PLAIN) - balance.reaction("retracting", PLAIN)
-    radius = float(motion.inputs["pin_O.radius"])
-    ax.fill_between(balance.height / mm, balance.of_seals / kgf, plain / kgf, color=style.ACCENT, alpha=0.10, linewidth=0)
-    _curve(ax, balance.height, plain / kgf, style.ACCENT, f"plain bearing at O, r = {radius / mm:.0f} mm, mu = {PLAIN:g}")
-    _curve(ax, balance.height, balance.of_seals / kgf, style.CURVE, "rolling bearing at O: the seals alone")
-    ax.set_ylim(bottom=0.0, top=1.25 * float(plain.max()) / kgf)
-    return _finished(sheet, ax)
+    _curve(ax, balance.height, balance.pressure / kgf_cm2, style.CURVE, "in the accumulators")
+    ax.set_ylabel("pressure, kgf/cm²")
+    _charges(ax, balance)
 
 
-def pressures(motion: Motion, name: str) -> Any:
-    """Return the block's pressure and the required one over the shoes' height, the latter with the seals' friction as a band."""
+def needed(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+    """Draw figure 3 b: the pressure at which the shoes carry nothing, up and down, from the shoe's lowest place to the stroke's end."""
     from linkage.draw import style
 
-    sheet, ax = _sheet(f"Pressures of {name}", "pressure, kgf/cm²")
+    lowest, end = motion.strokes["h"][0], motion.plan.strokes["h"].end
+    balance = Balance(motion.moved({"h": np.linspace(lowest, end, 101)}))
+    for label in ("moving up", "moving down"):
+        _curve(ax, balance.height, balance.required_while(WAYS[label]) / kgf_cm2, _colours()[label], label)
+    follows = float(motion.inputs["follows"]) / mm
+    ax.axvspan(-follows, follows, color=style.CURVE, alpha=0.08, linewidth=0, label="following range")
+    for name, pressure in (("pump", motion.inputs["pump"]), ("relief valve", motion.inputs["valve"])):
+        _level(ax, float(pressure) / kgf_cm2, f"{name}, {float(pressure) / kgf_cm2:.4g}")
+    ax.set_ylabel("pressure, kgf/cm²")
+
+
+def matched(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+    """Draw given and needed pressure over the shoe's height, the latter with friction as a band."""
+    from linkage.draw import style
+
     balance = Balance(motion)
     up, down = (balance.required_while(way) / kgf_cm2 for way in ("extending", "retracting"))
     text = "with friction: moving up at the upper edge, moving down at the lower"
     ax.fill_between(balance.height / mm, down, up, color=style.ACCENT, alpha=0.12, linewidth=0, label=text)
-    _curve(ax, balance.height, balance.required / kgf_cm2, style.ACCENT, "required: the shoe carries nothing")
-    _curve(ax, balance.height, balance.pressure / kgf_cm2, style.CURVE, "in the accumulator block")
-    return _finished(sheet, ax)
+    _curve(ax, balance.height, balance.required / kgf_cm2, style.ACCENT, "needed: the shoes carry nothing")
+    given(ax, motion)
+
+
+DRAWN: Mapping[str, Callable[[Any, Motion, Sequence[Deviation]], None]] = MappingProxyType(
+    {
+        "2a": seals_alone, "2b": bearings, "3a": given, "3b": needed, "4a": reactions, "4b": matched, "5a": reactions, "5b": matched,
+        "6a": reactions, "6b": matched, "7": compared,
+    }
+)  # fmt: skip
+
+REACTIONS = ("2a", "4a", "5a", "6a", "7")
+
+
+def _as_it_stands(ax: Any, part: str) -> None:
+    """Lay header 1 on the machine as it stands beside the improved one, thin."""
+    from linkage.draw import style
+
+    motion = over_following(with_header(1).at(h=0.0))
+    balance = Balance(motion)
+    if part == "6a":
+        found = _reactions(motion)
+        for label in ("moving up", "moving down"):
+            text = f"as it stands, {label}"
+            ax.plot(balance.height / mm, found[label], color=_colours()[label], linewidth=1.1, linestyle=":", label=text, zorder=4.0)
+    else:
+        for values, colour, text in (
+            (balance.required, style.ACCENT, "needed, as it stands"),
+            (balance.pressure, style.CURVE, "in the accumulators, as it stands"),
+        ):
+            ax.plot(balance.height / mm, values / kgf_cm2, color=colour, linewidth=1.1, linestyle=":", label=text, zorder=4.0)
+
+
+def _charges(ax: Any, balance: Balance) -> None:
+    """Mark the gas charges near the curves: below its own a pair is off; where it joins there is a kink."""
+    motion = balance.motion
+    shown = np.concatenate([np.asarray(line.get_ydata(), float) for line in ax.get_lines()])
+    low, high = float(shown.min()), float(shown.max())
+    for each in balance.circuit.accumulators(motion).accumulators:
+        gas, volume = float(np.max(each.charge)), float(np.max(each.volume))
+        if volume <= 0.0 or not low - 0.2 * (high - low) <= gas / kgf_cm2 <= high + 0.2 * (high - low):
+            continue
+        _level(ax, gas / kgf_cm2, f"gas charge of a pair ({volume / litre:.4g} l), {gas / kgf_cm2:.4g}: off below")
+        works = below_zero(motion, lambda at, gas=gas: gas - Balance(at).pressure)  # type: ignore[misc]
+        if works and works[-1].end["h"] < motion.strokes["h"][-1]:
+            height = float(motion.moved({"h": np.array([works[-1].end["h"]])}).y("R")[0]) / mm
+            _kink(ax, height, gas / kgf_cm2)
+
+
+def _kink(ax: Any, height: float, pressure: float) -> None:
+    from linkage.draw import style
+
+    ax.plot(height, pressure, "o", color=style.CURVE, markersize=7, markeredgecolor=style.PAPER, zorder=8.0)
+    ax.annotate(
+        "the pair joins: a kink", (height, pressure), xytext=(-10, -22), textcoords="offset points", ha="right",
+        fontsize=style.SMALL, color=style.CURVE, arrowprops={"arrowstyle": "-", "color": style.CURVE, "linewidth": 0.8},
+    )  # fmt: skip
+
+
+# -- the sheet ---------------------------------------------------------------------------------------------
+
+
+def _reactions(motion: Motion, without: Sequence[str] = ()) -> dict[str, FloatArray]:
+    """Return the reaction of one shoe [kgf] in each way, without some loads."""
+    loads, shoes = own_loads(motion, *without), motion.inputs["shoes"]
+    return {label: reaction(motion, loads, SHOE, direction=way) / kgf / shoes for label, way in WAYS.items()}
 
 
 def _paper(motion: Motion) -> Motion:
@@ -106,40 +269,65 @@ def _paper(motion: Motion) -> Motion:
     return Motion(motion.plan, {**motion.designs, "atmosphere": 0.0}, motion.strokes, motion.unreachable)
 
 
+def _colours() -> dict[str, str]:
+    from linkage.draw import style
+
+    return {"moving up": style.CURVE, "without friction": style.MUTED, "moving down": style.ACCENT}
+
+
 def _name(machine: HeaderBalancer) -> str:
     """Return the header's number where it is one of the published ones, with the charge."""
-    found = [number for number, values in HEADERS.items() if all(machine[key] == value for key, value in values.items() if key != "charge")]
+    own = ("m2", "L_OR", "BOR", "OG2", "BOG2")
+    found = [number for number, values in HEADERS.items() if all(machine[key] == values[key] for key in own)]
     what = f"header {found[0]}" if found else "a header of its own"
     return f"{what}, {machine['m2']:.0f} kg, charged to {machine['charge'] / kgf_cm2:.4g} kgf/cm²"
 
 
-def _sheet(name: str, quantity: str) -> tuple[Any, Any]:
+def _sheet(parts: Sequence[str], name: str) -> tuple[Any, list[Any]]:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     from linkage.draw import style
     from linkage.draw.sheet import quiet
 
-    sheet = Figure(figsize=SIZE, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
+    sheet = Figure(figsize=SIZE if len(parts) == 1 else PAIR, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
     FigureCanvasAgg(sheet)
-    ax = sheet.add_subplot()
-    quiet(ax)
-    ax.set_title(name, loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=10)
-    ax.set_xlabel("height of the shoe above the horizon, mm", fontsize=style.TEXT, color=style.MUTED)
-    ax.set_ylabel(quantity, fontsize=style.TEXT, color=style.MUTED)
-    return sheet, ax
+    cells = [sheet.add_subplot(1, len(parts), place + 1) for place in range(len(parts))]
+    for part, ax in zip(parts, cells, strict=True):
+        quiet(ax)
+        number = f"{part[0]} {part[1:]}".strip()
+        ax.set_title(f"{number}   {TITLES[part]}", loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=26)
+        ax.annotate(
+            name, (0.0, 1.0), xycoords="axes fraction", xytext=(0, 8), textcoords="offset points", fontsize=style.TEXT, color=style.MUTED
+        )  # fmt: skip
+        ax.set_xlabel("height of the shoe above the horizon, mm", fontsize=style.TEXT, color=style.MUTED)
+        ax.yaxis.label.set(fontsize=style.TEXT, color=style.MUTED)
+    return sheet, cells
 
 
 def _curve(ax: Any, height: FloatArray, values: FloatArray, colour: str, label: str) -> None:
     ax.plot(height / mm, values, color=colour, linewidth=2.0, label=label, zorder=5.0)
 
 
-def _hanging(ax: Any, style: Any) -> None:
+def _level(ax: Any, value: float, text: str) -> None:
+    """Draw a pressure that matters as a line across, with its name."""
+    from linkage.draw import style
+
+    ax.axhline(value, color=style.MUTED, linewidth=1.0, linestyle=(0, (4, 3)), zorder=2.0)
+    ax.annotate(
+        text, (1.0, value), xycoords=("axes fraction", "data"), xytext=(-4, 3), textcoords="offset points", ha="right", va="bottom",
+        fontsize=style.SMALL, color=style.MUTED,
+    )  # fmt: skip
+
+
+def _hanging(ax: Any) -> None:
     """Shade where the shoe hangs: a reaction below zero."""
+    from linkage.draw import style
+
     low, high = ax.get_ylim()
     low = min(low, -0.05 * high)
-    ax.set_ylim(low, high)
     ax.axhspan(low, 0.0, color=style.ACCENT, alpha=0.10, linewidth=0, zorder=1.0)
+    ax.set_ylim(low, high)
     ax.axhline(0.0, color=style.ACCENT, linewidth=1.0, zorder=2.0)
     ax.annotate(
         "the shoe hangs", (1.0, 0.0), xycoords=("axes fraction", "data"), xytext=(-4, -3), textcoords="offset points",
@@ -147,11 +335,9 @@ def _hanging(ax: Any, style: Any) -> None:
     )  # fmt: skip
 
 
-def _finished(sheet: Any, ax: Any) -> Any:
+def _finished(ax: Any) -> None:
     from linkage.draw import style
 
-    lines = ax.get_lines()
-    along = np.concatenate([np.asarray(line.get_xdata(), float) for line in lines if len(line.get_xdata()) > 2])
+    along = np.concatenate([np.asarray(line.get_xdata(), float) for line in ax.get_lines() if len(line.get_xdata()) > 2])
     ax.set_xlim(float(along.min()), float(along.max()))
-    ax.legend(loc="best", fontsize=style.SMALL, frameon=False, labelcolor=style.INK)
-    return sheet
+    ax.legend(loc="best", fontsize=style.SMALL, facecolor=style.PAPER, edgecolor="none", framealpha=0.85, labelcolor=style.INK)

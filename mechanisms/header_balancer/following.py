@@ -9,14 +9,19 @@ from typing import Any
 import numpy as np
 
 from hydraulics import Cylinder, FloatCircuit
-from linkage import Column, DefinitionError, Motion
-from linkage.loads import PinFriction
+from linkage import Column, DefinitionError, ForceElement, Motion
+from linkage.loads import PinFriction, Support
+from linkage.motion import greatest
 from linkage.program import FloatArray
-from linkage.quantities import Coordinate
+from linkage.quantities import Coordinate, Distance
 from linkage.statics import driving_force, reaction
 from linkage.units import kgf_cm2, mm
 
-LOADS = ("feeder", "header", "floating")
+AB = Distance("A", "B")  # one for all, so that its ratio is worked out once
+
+LINE, SHOE, BEARING = "floating", "shoe", "pin_O"
+"""The members with a part of their own: the charged line, the support under the shoe, the friction at O. Every other load counts alike."""
+
 PLAIN = 0.15
 """Friction coefficient of the plain bearing at O that the paper looks at; a rolling bearing has none worth counting."""
 
@@ -63,6 +68,16 @@ def at_horizon(motion: Motion) -> Motion:
     return motion.moved({"h": np.array([stroke_of(motion, 0.0)])})
 
 
+def own_loads(motion: Motion, *but: str) -> list[str]:
+    """Return the names of all loads that the machine declares, a user's additions too, but those named."""
+    return [name for name in motion.plan.of_kind(ForceElement) if name not in but]
+
+
+def rubbing(motion: Motion) -> list[str]:
+    """Return the names of the loads that are dry friction of pins and guides."""
+    return [name for name, each in motion.plan.of_kind(ForceElement).items() if each.frictions(motion)]
+
+
 @dataclass(frozen=True)
 class Balance:
     """What a motion's poses have: arm, pressures, reactions; every array of the motion's shape, kept once found."""
@@ -104,18 +119,33 @@ class Balance:
     def required_while(self, direction: str) -> FloatArray:
         """Return the block's pressure [Pa gauge] at which the shoe carries nothing, in a direction of motion, friction included."""
         sense = {"extending": 1.0, "retracting": -1.0, "frictionless": 0.0}[direction]
-        thrust = driving_force(self.motion, ["feeder", "header", "pin_O"], direction=direction)
         size = self.cylinder.sized(self.motion)
-        return np.asarray(size.pressure_for(thrust) + sense * size.sense * self.motion.inputs["seals"])
+        return np.asarray(size.pressure_for(self.thrust_without_line(direction)) + sense * size.sense * self.motion.inputs["seals"])
+
+    def thrust_without_line(self, direction: str = "frictionless", pressed: float = 0.0) -> FloatArray:
+        """Return the cylinders' thrust [N] that all loads but the line's ask for, the shoes `pressed` with a force [N]."""
+        loads: list[ForceElement | str] = [*own_loads(self.motion, LINE, SHOE), Support("R", (0, 1), force=pressed)]
+        return driving_force(self.motion, loads, direction=direction) / self.motion.ratio(AB, wrt="h")
 
     def reaction(self, direction: str, bearing: float | None = None) -> FloatArray:
         """Return the shoes' reaction [N], all shoes: "extending" (up), "retracting" (down) or "frictionless". (38)-(41)
 
-        `bearing` is a friction coefficient at O instead of the machine's own.
+        All loads that the machine declares count; `bearing` is a friction coefficient at O instead of the machine's own.
         """
-        radius = self.motion.inputs["pin_O.radius"]
-        pin = "pin_O" if bearing is None else PinFriction("O", radius, bearing)
-        return reaction(self.motion, [*LOADS, pin], "shoe", direction=direction)
+        if bearing is None:
+            return reaction(self.motion, None, SHOE, direction=direction)
+        pin = PinFriction("O", self.motion.inputs["pin_O.radius"], bearing)
+        return reaction(self.motion, [*own_loads(self.motion, BEARING), pin], SHOE, direction=direction)
+
+    def hysteresis_without(self, *names: str) -> FloatArray:
+        """Return reaction up less reaction down [N] of all loads but those named."""
+        loads = own_loads(self.motion, *names)
+        up, down = (reaction(self.motion, loads, SHOE, direction=way) for way in ("extending", "retracting"))
+        return np.asarray(up - down)
+
+    def of_bearing(self, coefficient: float = PLAIN) -> FloatArray:
+        """Return the hysteresis [N] with a friction coefficient at O instead of the machine's own."""
+        return self.reaction("extending", coefficient) - self.reaction("retracting", coefficient)
 
     @cached_property
     def up(self) -> FloatArray:
@@ -139,8 +169,23 @@ class Balance:
 
     @cached_property
     def of_seals(self) -> FloatArray:
-        """The share of the hysteresis that the seals make alone [N]."""
-        return self.reaction("extending", 0.0) - self.reaction("retracting", 0.0)
+        """The share of the hysteresis that the cylinders' seals make alone, without friction in any pin [N]."""
+        return self.hysteresis_without(*rubbing(self.motion))
+
+    @cached_property
+    def of_pin(self) -> FloatArray:
+        """The share of the pin at O in the hysteresis [N]."""
+        return self.hysteresis - (self.hysteresis_without(BEARING) if self.others else self.of_seals)
+
+    @cached_property
+    def of_others(self) -> FloatArray:
+        """The share of all other friction, of pins that were added, in the hysteresis [N]."""
+        return np.asarray(self.hysteresis - self.of_seals - self.of_pin)
+
+    @cached_property
+    def others(self) -> list[str]:
+        """The names of the friction that was added, beside that of the pin at O."""
+        return [name for name in rubbing(self.motion) if name != BEARING]
 
 
 def reaction_columns(motion: Motion) -> list[Column]:
@@ -158,7 +203,8 @@ def reaction_columns(motion: Motion) -> list[Column]:
         *(Column(f"per shoe {way}", value / shoes, "kgf", 1) for way, value in force.items()),
         Column("hysteresis", balance.hysteresis, "kgf", 1),
         Column("of seals", balance.of_seals, "kgf", 1),
-        Column("of pin O", balance.hysteresis - balance.of_seals, "kgf", 1),
+        Column("of pin O", balance.of_pin, "kgf", 1),
+        *([Column("of other pins", balance.of_others, "kgf", 1)] if balance.others else []),
     ]
 
 
@@ -173,10 +219,9 @@ class Relief:
 
 def relief(motion: Motion) -> Relief:
     """Return how far the pressure stays below the relief valve from the horizon to the end of the stroke, one design."""
-    lifted = motion.moved({"h": np.linspace(stroke_of(motion, 0.0), motion.plan.strokes["h"].end, 201)})
-    needed = Balance(lifted).required_while("extending")
-    worst = int(np.nanargmax(needed))
-    return Relief(float(needed[worst]), float(lifted.strokes["h"][worst]), float(motion.inputs["valve"]) - float(needed[worst]))
+    lifted = motion.moved({"h": np.array([stroke_of(motion, 0.0), motion.plan.strokes["h"].end])})
+    most = greatest(lifted, lambda at: Balance(at).required_while("extending"))
+    return Relief(float(most.value), float(most.strokes["h"]), float(motion.inputs["valve"]) - float(most.value))
 
 
 def kgf_cm2_text(pressure: float, digits: int = 2) -> str:

@@ -8,7 +8,7 @@ import numpy as np
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
 from hydraulics.inputs import in_pascals, positive
-from linkage import RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, Motion, OnLink, Stroke, angle, distance, y
+from linkage import LEFT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, Motion, OnLink, Stroke, Vector, angle, distance, y
 from linkage.loads import PinFriction, Support, Weight
 from linkage.units import deg, kg, kgf_cm2, litre, mm
 
@@ -36,10 +36,11 @@ class HeaderBalancer(Mechanism):
     O = Ground(0.0, 1.05)
     A = Ground(-0.05, 0.30)
 
-    B = Dyad(A, O, AB=L_min + h, OB=L_OB, side=RIGHT)
+    B = Dyad(O, A, OB=L_OB, AB=L_min + h, side=LEFT)            # from O: AOB = Tcos(|OA|, L_OB, L_AB), as the paper has it
     R = OnLink(O, B, OR=L_OR, BOR=BOR)                          # the shoe
     G1 = OnLink(O, B, OG1=0.488774, BOG1=5.491118 * deg)        # the feeder's centre of gravity
     G2 = OnLink(O, B, OG2=1.436851, BOG2=18.840343 * deg)       # the header's
+    AB = Vector(A, B)
 
     h_horizon = stroke_at(0.0, y(O), distance(O, A), angle(O, A), L_OB, L_OR, BOR, L_min)
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from hydraulics import Cylinder
 from linkage import (
     LEFT,
     RIGHT,
@@ -14,14 +15,19 @@ from linkage import (
     DefinitionError,
     Dyad,
     Ground,
+    Guide,
     Link,
     Mechanism,
     OnLink,
     Pin,
     SingularError,
     SingularWarning,
+    SliderDyad,
+    Spring,
     Stroke,
     angle,
+    deg,
+    distance,
 )
 
 
@@ -164,11 +170,11 @@ def test_a_flat_parallelogram_is_refused_by_name(count):
 
 def test_the_ratios_beside_a_change_point_are_those_of_its_branches():
     machine = FourBar(CB=2.0)
-    for distance, warned in ((1e-2, False), (1e-3, False), (1e-4, True), (1e-5, True)):
+    for away, warned in ((1e-2, False), (1e-3, False), (1e-4, True), (1e-5, True)):
         for sign, branch in ((-1, 0.689898), (1, -0.289898)):
-            pose = machine.at(phi=np.pi + sign * distance)
+            pose = machine.at(phi=np.pi + sign * away)
             with pytest.warns(SingularWarning, match="relative error of about") if warned else nullcontext():
-                assert_allclose(pose.ratio("rocker"), branch, atol=distance**2 * 10 + 2e-6)
+                assert_allclose(pose.ratio("rocker"), branch, atol=away**2 * 10 + 2e-6)
 
 
 @pytest.mark.parametrize("distance", [10.0**-power for power in range(8, 16)] + [0.0])
@@ -219,3 +225,120 @@ def test_limits_and_modes_are_of_one_design():
         batch.sweep(3).limits()
     with pytest.raises(DefinitionError, match="one design"):
         batch.assemblies()
+
+
+# -- dead points of cylinders --------------------------------------------------------------------------------
+
+
+class Boom(Mechanism):
+    """A boom on its cylinder, given by its angle."""
+
+    phi = Stroke(-40 * deg, 60 * deg)
+    O, A = Ground(0.0, 1.0), Ground(0.5, 0.2)
+    B = Crank(O, OB=0.8, angle=phi)
+    lift = Cylinder(A, B, bore=0.08, rod=0.045)
+
+
+class Digger(Boom):
+    """An arm on the boom, its angle measured from the boom's; a third cylinder hangs on two points of the boom's and moves nothing."""
+
+    psi = Stroke(-150 * deg, -30 * deg)
+    C = OnLink("O", "B", OC=3.0)
+    D = OnLink("O", "B", OD=2.0, BOD=15 * deg)
+    T = Crank(C, CT=2.0, angle=Boom.phi + psi)
+    E = OnLink(C, T, CE=0.5, TCE=160 * deg)
+    arm = Cylinder(D, E, bore=0.08, rod=0.045)
+
+
+def in_line(O, A):
+    """Return the two directions of OB in which O, A and B are in line [rad], from 0 to a turn."""
+    away = np.arctan2(A[1] - O[1], A[0] - O[0])
+    return np.sort(np.array([away, away + np.pi]) % (2.0 * np.pi))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_cylinder_beside_a_crank_has_its_dead_points_where_three_pins_are_in_line(seed):
+    rng = np.random.default_rng(seed)
+    O, A = rng.uniform(-1.0, 1.0, (2, 2))
+    boom = Boom(O=O, A=A, OB=rng.uniform(0.2, 2.0))
+    limits = boom.at(phi=0.0).limits()["phi"]
+    (interval,) = limits.intervals
+    assert not (interval.low_stop or interval.high_stop)  # reach is whole
+    values, names = zip(*limits.cylinder_dead_points, strict=True)
+    assert names == ("lift", "lift")
+    assert_allclose(np.sort(np.array(values) % (2.0 * np.pi)), in_line(O, A), atol=1e-9)
+    motion = boom.at(phi=list(values))
+    assert_allclose(motion.ratio(distance("A", "B")), 0.0, atol=1e-9)
+    lines = str(limits).splitlines()
+    assert lines[1].startswith("  reachable all the way")
+    assert lines[2:4] == [f"  dead point of lift at phi = {value / deg:.9g} deg: its length stands still" for value in values]
+
+
+@pytest.mark.parametrize(("start", "end"), [(0.0, 2.0), (0.0, 1.0), (-1.0, 1.0), (-0.25, 1.75)])
+def test_a_dead_point_at_an_end_of_the_range_is_listed_once(start, end):
+    cls = type("Level", (Boom,), {"phi": Stroke(start * np.pi, end * np.pi), "A": Ground(2.0, 1.0)})
+    found = np.array([value for value, _ in cls().at(phi=0.5).limits()["phi"].cylinder_dead_points])
+    assert_allclose(np.sort(found / np.pi % 2.0 % (2.0 - 1e-9)), [0.0, 1.0], atol=1e-9)
+
+
+def test_along_several_strokes_each_cylinder_has_its_own():
+    limits = Digger().at(phi=0.3, psi=-1.2).limits()
+    assert {name for _, name in limits["phi"].cylinder_dead_points} == {"lift"}
+    assert {name for _, name in limits["psi"].cylinder_dead_points} == {"arm"}
+    motion = Digger().at(phi=0.3, psi=-1.2)
+    for value, _ in limits["psi"].cylinder_dead_points:
+        at = Digger().at(phi=0.3, psi=value)
+        (cx, cy), (dx, dy), (ex, ey) = (at[name] for name in "CDE")
+        assert abs((dx - cx) * (ey - cy) - (dy - cy) * (ex - cx)) < 1e-9
+    assert len(limits["psi"].cylinder_dead_points) == 2
+    assert np.isfinite(motion.ratio(distance("D", "E"), wrt="phi"))
+
+
+def test_a_slider_that_turns_back_is_a_dead_point_of_its_cylinder():
+    class Press(Mechanism):
+        phi = Stroke(0.0, 2 * np.pi)
+        O, K = Ground(0.0, 0.0), Ground(-0.5, 0.0)
+        rail = Guide((0.0, 0.0), angle=0.0)
+        A = Crank(O, OA=0.1, angle=phi)
+        B = SliderDyad(A, rail, AB=0.4, side=RIGHT)
+        lift = Cylinder(K, B, bore=0.08, rod=0.045)
+
+    found = [value for value, _ in Press().at(phi=0.5).limits()["phi"].cylinder_dead_points]
+    assert_allclose(found, [0.0, np.pi], atol=1e-9)
+
+
+def test_driven_lengths_have_none_and_springs_neither():
+    class Driven(Lift):
+        ram = Cylinder("A", "B", bore=0.08, rod=0.045)
+
+    class Sprung(Boom):
+        lift = Spring("A", "B", stiffness=1e3, free_length=0.5)
+
+    assert Driven().sweep(3).limits()["S"].cylinder_dead_points == ()
+    assert Sprung().sweep(3).limits()["phi"].cylinder_dead_points == ()
+
+
+def test_a_cylinder_beside_the_driven_one_may_stand_still():
+    class Beside(Lift):
+        G = OnLink("O", "B", OG=1.2, BOG=70 * deg)
+        ram = Cylinder("A", "G", bore=0.08, rod=0.045)
+
+    class Never(Lift):
+        G = OnLink("O", "B", OG=1.2)
+        ram = Cylinder("A", "G", bore=0.08, rod=0.045)
+
+    assert Never().sweep(3).limits()["S"].cylinder_dead_points == ()  # O, A and G are in line where the driven one ends
+    ((value, name),) = Beside().sweep(3).limits()["S"].cylinder_dead_points
+    at = Beside().at(S=value)
+    (ax, ay), (ox, oy), (gx, gy) = (at[point] for point in "AOG")
+    assert name == "ram" and abs((ax - ox) * (gy - oy) - (ay - oy) * (gx - ox)) < 1e-9
+
+
+def test_where_nothing_is_reached_there_is_no_dead_point():
+    class Far(Lift):
+        phi = Stroke(0.0, 1.0)
+        C = Crank("A", AC=0.5, angle=phi)
+        ram = Cylinder("O", "C", bore=0.08, rod=0.045)
+
+    limits = Far().at(S=5.0, phi=0.5, unreachable="nan").limits()
+    assert limits["phi"].intervals == () and limits["phi"].cylinder_dead_points == ()

@@ -98,11 +98,11 @@ def test_an_animation_runs_where_it_is_asked_to():
 
 def test_a_machine_with_loads_shows_what_its_drives_must_do():
     motion = Lever().sweep(5)
-    *others, thrust = results(Lever(), motion)
+    *others, force = results(Lever(), motion)
     assert [column.name for column in others] == [column.name for column in Lever().columns(motion)]
-    assert (thrust.heading, thrust.values.shape) == ("thrust, kN", (5,))
+    assert (force.heading, force.values.shape) == ("drive force, kN", (5,))
     lever = 0.6 * 0.2 * np.sin(motion.angle("O", "B") - pi) / motion.strokes["S"]
-    assert_allclose(thrust.values * lever, 100 * 9.80665 * (motion.x("G") - 0.6), rtol=1e-12)
+    assert_allclose(force.values * lever, 100 * 9.80665 * (motion.x("G") - 0.6), rtol=1e-12)
 
 
 def test_a_crank_shows_its_torque_and_several_drives_their_names():
@@ -111,15 +111,15 @@ def test_a_crank_shows_its_torque_and_several_drives_their_names():
     assert torque.heading == "torque, Nm"
     assert_allclose(torque.values, 98.0665 * 0.5 * np.cos(motion.strokes["phi"]), atol=1e-12)
     grid = TwoCranks().sweep(phi=3, psi=4)
-    assert [column.name for column in results(TwoCranks(), grid)[-2:]] == ["torque_phi", "torque_psi"]
+    assert [column.name for column in results(TwoCranks(), grid)[-2:]] == ["torque phi", "torque psi"]
     assert_allclose(results(TwoCranks(), grid)[-1].values, driving_force(grid, drive="psi"))
 
 
-def test_a_dead_point_leaves_a_gap_in_the_thrust_and_not_in_the_table():
+def test_a_dead_point_leaves_a_gap_in_the_force_and_not_in_the_table():
     reach = 0.8 - 1e-15
     motion = Lever().at(S=[0.6, reach])
-    thrust = results(Lever(), motion)[-1]
-    assert np.isfinite(thrust.values[0]) and np.isnan(thrust.values[1])
+    force = results(Lever(), motion)[-1]
+    assert np.isfinite(force.values[0]) and np.isnan(force.values[1])
 
 
 def test_a_machine_without_loads_or_with_a_table_of_its_own_keeps_it():

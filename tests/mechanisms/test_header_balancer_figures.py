@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 from linkage import DefinitionError, FileError
 from linkage.cli import main
 from linkage.units import bar, kgf, kgf_cm2, mm
-from mechanisms.header_balancer import deviations, figure, over_following, read_measured, with_header
+from mechanisms.header_balancer import ImprovedBalancer, deviations, figure, over_following, read_measured, with_header
 from mechanisms.header_balancer.figures import NUMBERS
 from mechanisms.header_balancer.following import Balance
 
@@ -25,28 +25,71 @@ def lines(shown):
     return {line.get_label(): line.get_xydata().T for line in ax.get_lines()}
 
 
-@pytest.mark.parametrize("number", NUMBERS)
-def test_each_figure_shows_the_balance_in_its_units(number):
-    shown, header = lines(figure(number)), number - 1 if number <= 4 else 1
-    found = Balance(over_following(with_header(header).at(h=0.0)))
+HALVES = [number for number in NUMBERS if len(number) == 2 or number == "7"]
+
+
+@pytest.mark.parametrize("number", HALVES)
+def test_each_figure_shows_what_the_paper_shows_under_its_number(number):
+    shown = lines(figure(number))
+    machine = ImprovedBalancer() if number[0] == "6" else with_header({"4": 2, "5": 3}.get(number[0], 1))
+    found = Balance(over_following(machine.at(h=0.0)))
+    plain = [found.reaction(way, 0.15) - found.reaction(way, 0.0) for way in ("extending", "retracting")]
     expected = {
-        2: ("moving up", found.up / kgf), 3: ("moving down", found.down / kgf), 4: ("without friction", found.free / kgf),
-        5: ("rolling bearing at O: the seals alone", found.of_seals / kgf), 6: ("in the accumulator block", found.pressure / kgf_cm2),
-    }[number]  # fmt: skip
-    height, values = shown[expected[0]]
-    assert_allclose(height, found.height / mm)
-    assert_allclose(values, expected[1])
+        "2a": {"moving up": found.up / 2, "without friction": found.free / 2, "moving down": found.down / 2},
+        "2b": {"moving up": plain[0] / 2, "moving down": plain[1] / 2},
+        "3a": {"in the accumulators": found.pressure},
+        "4b": {"in the accumulators": found.pressure, "needed: the shoes carry nothing": found.required},
+        "7": {"moving up": found.up / 2, "moving down": found.down / 2},
+    }  # fmt: skip
+    expected |= {each: expected["2a"] for each in ("4a", "5a", "6a")} | {each: expected["4b"] for each in ("5b", "6b")}
+    if number == "3b":
+        whole = Balance(found.motion.moved({"h": np.linspace(found.motion.strokes["h"][0], 0.45, 101)}))
+        found, expected["3b"] = whole, {"moving up": whole.required_while("extending"), "moving down": whole.required_while("retracting")}
+    for label, values in expected[number].items():
+        assert_allclose(shown[label][0], found.height / mm)
+        assert_allclose(shown[label][1], values / (kgf_cm2 if ("b" in number and number != "2b") or number == "3a" else kgf))
+
+
+def test_a_number_alone_is_both_halves_side_by_side():
+    sheet = figure(5)
+    assert [ax.get_title(loc="left").split("   ")[0] for ax in sheet.axes] == ["5 a", "5 b"]
+    for ax, half in zip(sheet.axes, ("5a", "5b"), strict=True):
+        alone = lines(figure(half))
+        for line in ax.get_lines():
+            if not line.get_label().startswith("_"):
+                assert_allclose(line.get_xydata().T, alone[line.get_label()])
+
+
+def test_the_seals_alone_leave_out_every_pin():
+    shown, plain = lines(figure("2a", with_header(1, **{"pin_O.coefficient": 0.15}))), lines(figure("2a"))
+    for label in ("moving up", "moving down"):
+        assert_allclose(shown[label], plain[label], rtol=1e-9)
+
+
+def test_the_kink_is_marked_where_the_pair_joins():
+    (ax,) = figure("5b").axes
+    (mark,) = [line for line in ax.get_lines() if line.get_marker() == "o"]
+    height, pressure = mark.get_xydata()[0]
+    assert (height, pressure) == pytest.approx((0.0, 50.0), abs=1e-6)  # charged to 50 at the horizon
+    assert not [line for line in figure("4b").axes[0].get_lines() if line.get_marker() == "o"]
+
+
+def test_the_improved_mechanism_stands_beside_the_present_one():
+    shown, present = lines(figure("6a")), Balance(over_following(with_header(1).at(h=0.0)))
+    assert_allclose(shown["as it stands, moving up"][1], present.up / kgf / 2)
+    assert "as it stands, moving up" not in lines(figure("6a", with_header(1)))
 
 
 def test_the_papers_way_is_laid_over_the_reaction():
-    apart = [label for label in lines(figure(2)) if label.startswith("the paper's gas law")]
+    apart = [label for label in lines(figure("2a")) if label.startswith("the paper's gas law")]
     assert len(apart) == 1
-    assert not [label for label in lines(figure(2, with_header(1, atmosphere=0.0))) if label.startswith("the paper's")]
+    assert not [label for label in lines(figure("2a", with_header(1, atmosphere=0.0))) if label.startswith("the paper's")]
 
 
-def test_unknown_figure():
-    with pytest.raises(DefinitionError, match="2, 3, 4, 5, 6"):
-        figure(1)
+@pytest.mark.parametrize("number", [1, "2c", "8", "7a"])
+def test_unknown_figure(number):
+    with pytest.raises(DefinitionError, match="2, 2a, 2b, 3, 3a, 3b, 4, 4a, 4b, 5, 5a, 5b, 6, 6a, 6b, 7"):
+        figure(number)
 
 
 def written(path, rows, delimiter=","):
@@ -77,8 +120,10 @@ def test_too_large_a_deviation_fails_and_is_drawn(tmp_path):
     assert len(found.percent) == 3
     assert not found.verdict and "above the paper's 7 %" in found.verdict.sentence
     assert abs(found.percent[0]) < 1.0  # next to hang-up percent are of a tenth of the curve's largest
-    label = next(label for label in lines(figure(3, machine, [found])) if label.startswith("measured"))
-    assert_allclose(lines(figure(3, machine, [found]))[label], [height / mm, 1.10 * down / kgf], rtol=1e-4, atol=1e-3)
+    for number in (7, "4a"):
+        shown = lines(figure(number, machine, [found]))
+        label = next(label for label in shown if label.startswith("measured"))
+        assert_allclose(shown[label], [height / mm, 1.10 * down / kgf / 2], rtol=1e-4, atol=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -107,7 +152,7 @@ def test_the_command_prints_table_and_verdicts(capsys):
 
 def test_the_command_writes_csv_and_a_figure(capsys, tmp_path):
     table, drawn = tmp_path / "t.csv", tmp_path / "f.png"
-    assert balance("header_balancer", "--header", "1", "--csv", str(table), "--figure", "6", "-o", str(drawn)) == 0
+    assert balance("header_balancer", "--header", "1", "--csv", str(table), "--figure", "3b", "-o", str(drawn)) == 0
     with open(table, newline="", encoding="utf-8") as stream:
         rows = list(csv.reader(stream))
     heading, first = rows[0], rows[1]
@@ -141,6 +186,7 @@ def test_the_table_of_all_headers_says_nothing_of_one(capsys):
         (("header_balancer", "--pressure", "20kgf_cm2"), "rigid"),
         (("header_balancer", "--pressure", "40bar", "--reaction", "300kgf"), "give one of them"),
         (("header_balancer", "--header", "7"), "invalid choice"),
+        (("header_balancer", "--figure", "1"), "invalid choice"),
         (("header_balancer", "--set", "follows=2m"), "cannot be -2000 mm"),
         (("header_balancer", "-o", "picture.doc"), "ends in one of"),
         (("header_balancer", "--measured", "nowhere.csv"), "No such file"),

@@ -6,32 +6,28 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from hydraulics import LiftCircuit
+from hydraulics.judged import Judged
 from linkage import (
+    RIGHT,
     CosineAngle,
     DefinitionError,
     Dimension,
+    Dyad,
     Link,
     Offset,
+    PinFriction,
+    Spring,
     Turn,
     Vector,
+    Weight,
     kgf,
     kgf_cm2,
     mm,
+    pin_forces,
 )
-from mechanisms.mower_lift import (
-    BELOW,
-    DELFI_OF_INPUT,
-    MowerLift,
-    largest_force,
-    lifting_force,
-    oil,
-    piston_area,
-    pressure,
-    reduced_force,
-    reserve,
-    rod_force,
-    short_ranges,
-)
+from linkage.units import litre, minute
+from mechanisms.mower_lift import BELOW, DELFI_OF_INPUT, MowerLift
 
 # Source: worksheet "Mathematical modelling of the lift of the left section of the KPR-6", as printed
 PRINTED = {
@@ -72,6 +68,36 @@ class MowerLiftPrimitives(MowerLift):
 SPELLINGS = pytest.mark.parametrize("spelling", [MowerLift, MowerLiftPrimitives])
 
 
+def area(motion):
+    """Return SS [m2]."""
+    return motion.plan.members["lift"].sized(motion).area
+
+
+def rod_force(motion):
+    """Return what the rod carries without friction, P I [N]."""
+    return motion.plan.members["lift"].thrust(motion)
+
+
+def lifting_force(motion):
+    """Return P I / k_m [N]."""
+    return motion.plan.members["circuit"].rod_force(motion)
+
+
+def largest_force(motion):
+    """Return F_max [N]."""
+    return motion.plan.members["circuit"].largest(motion)
+
+
+def pressure(motion):
+    """Return pd [Pa]."""
+    return motion.plan.members["circuit"].pressure_for(motion)
+
+
+def reserve(motion):
+    """Return kz."""
+    return motion.plan.members["circuit"].reserve(motion)
+
+
 def table(lift, motion):
     return {column.name: column for column in lift.columns(motion)}
 
@@ -93,7 +119,7 @@ def test_printed_constants():
     assert f"{motion.distance('A', 'O'):.3f} {lift['OG']:.3f}" == "0.658 1.132"
     assert f"{np.degrees(motion['FI0']):.3f}" == "7.687"
     assert f"{np.degrees(lift['BOG']):.3f}" == "110.425"
-    assert f"{piston_area(motion) * 1e4:.3f}" == "50.265"
+    assert f"{area(motion) * 1e4:.3f}" == "50.265"
     assert f"{largest_force(motion) / kgf:.3e}" == "7.402e+03"
 
 
@@ -139,7 +165,7 @@ def test_spellings_are_one_mechanism():
 def test_hydraulic_efficiency_counts_once():
     motion = MowerLift(k_g=0.8).sweep(11)
     assert_allclose(reserve(motion), largest_force(motion) / lifting_force(motion), rtol=1e-12)
-    assert_allclose(pressure(motion) * piston_area(motion), reduced_force(motion), rtol=1e-12)
+    assert_allclose(pressure(motion) * area(motion), lifting_force(motion) / 0.8, rtol=1e-12)
     assert_allclose(rod_force(motion), rod_force(MowerLift(k_g=0.95).sweep(11)), rtol=0)
 
 
@@ -168,11 +194,12 @@ def test_verdict_of_the_other_reading():
 
 
 @pytest.mark.parametrize(("dimensions", "printed"), [({}, "0.5660"), ({"BOG": OTHER_READING}, "0.5604")])
-@pytest.mark.parametrize("count", [2, 7, 101])
+@pytest.mark.parametrize("count", [2, 5, 50, 500])
 def test_end_of_the_short_range_is_a_root(dimensions, printed, count):
     """Not the grid of the table: where the range ends, kz = 1, whatever the number of poses."""
     lift = MowerLift(**dimensions)
-    ((start, end),) = short_ranges(lift.sweep(count))
+    (short,) = Judged(lift.circuit, lift.lift, lift.sweep(count)).lifted().short
+    start, end = short.start["S"], short.end["S"]
     assert (start, f"{end:.4f}") == (0.55, printed)
     below, at, above = reserve(lift.at(S=[end - 1e-9, end, end + 1e-9]))
     assert below < 1.0 < above
@@ -218,7 +245,7 @@ def test_verdict_where_the_lift_stops_on_its_way():
 
 def test_verdict_where_the_weight_drives():
     text = verdict(BOG=3.5)
-    (start,) = re.findall(r"weight drives the lift from S = ([0-9.]+) to 0.8000 m: there it is not limited by this cylinder", text)
+    (start,) = re.findall(r"load drives the lift from S = ([0-9.]+) to 0.8000 m: there it is not limited by this cylinder", text)
     lift = MowerLift(BOG=3.5)
     motion = lift.at(S=[float(start) - 1e-4, float(start) + 1e-4])
     resists, drives = motion.ratio("G")[1]
@@ -230,7 +257,7 @@ def test_verdict_where_the_weight_drives():
 
 def test_verdict_where_the_weight_drives_everywhere():
     text = verdict(BOG=4.5)
-    assert text.startswith("The weight drives the lift from S = 0.5500 to 0.8000 m")
+    assert text.startswith("The load drives the lift from S = 0.5500 to 0.8000 m")
 
 
 def test_verdict_of_a_batch_counts_designs():
@@ -245,13 +272,108 @@ def test_verdict_where_poses_are_out_of_reach():
     text = lift.verdicts(lift.at(S=[0.3, 0.6, 0.7], unreachable="nan"))
     assert text[-1] == "The poses out of reach are left out of this."
     assert "kz is below 1 from S = 0.4829 to" in text[0]  # from the dead point at AO - OB, between the poses asked for
+    assert "grows without bounds at S = 0.4829 m" in text[0] and "keep away from that pose" in text[1]
     assert "Lifting from S = 0.4829 to 0.7000 m" in text[2]
     assert lift.verdicts(lift.at(S=[0.1, 0.2], unreachable="nan")) == ["No pose of this motion can be assembled; there is nothing to lift."]
 
 
 def test_oil_is_area_times_travel():
     motion = MowerLift().sweep(3)
-    assert oil(motion) == pytest.approx(np.pi / 4 * 0.08**2 * 0.25, rel=1e-12)
+    assert MowerLift.circuit.oil(motion) == pytest.approx(np.pi / 4 * 0.08**2 * 0.25, rel=1e-12)
+
+
+@pytest.mark.parametrize("dimensions", [{}, {"BOG": 0.6}, {"BOG": 3.5}, {"p_max": 50 * kgf_cm2}, {"weight": 500 * kgf}], ids=str)
+def test_verdict_is_the_same_from_however_many_poses(dimensions):
+    said = {verdict(count, **dimensions) for count in (2, 5, 50, 500)}
+    assert len(said) == 1
+
+
+def test_verdict_of_a_batch_is_the_same_from_however_many_poses():
+    lift = MowerLift(BOG=np.linspace(0.5, 2.5, 9))
+    assert len({lift.verdicts(lift.sweep(count))[0] for count in (2, 5, 50)}) == 1
+
+
+# -- what a user adds --------------------------------------------------------------------------------------
+
+
+class WithBallast(MowerLift):
+    """500 kg more on the section."""
+
+    ballast = Weight(MowerLift.G, mass=500)
+
+
+class WithSpring(MowerLift):
+    """A spring between frame and lever that helps to lift."""
+
+    relief = Spring(MowerLift.A, MowerLift.B, stiffness=40e3, free_length=0.9)
+
+
+class WithFriction(MowerLift):
+    """Plain bearings at all three pins."""
+
+    pin_A = PinFriction(MowerLift.A, radius=20 * mm, coefficient=0.15)
+    pin_B = PinFriction(MowerLift.B, radius=20 * mm, coefficient=0.15)
+    pin_O = PinFriction(MowerLift.O, radius=20 * mm, coefficient=0.15)
+
+
+def test_added_weight_counts_like_a_heavier_section():
+    """500 kg of ballast at G are 500 kgf more of weight: table, verdict and pins say the same."""
+    added, heavier = WithBallast(), MowerLift(weight=1400 * kgf)
+    for one, other in zip(added.columns(added.sweep(7)), heavier.columns(heavier.sweep(7)), strict=True):
+        assert_allclose(one.values, other.values, rtol=1e-12, err_msg=one.name)
+    assert added.verdicts(added.sweep(7)) == heavier.verdicts(heavier.sweep(7))
+    assert "kz is 0.619" in added.verdicts(added.sweep(7))[0]
+    assert any(each.startswith("FAIL holding") for each in added.verdicts(added.sweep(7)))
+
+
+def test_added_spring_takes_its_push_off_the_rod():
+    lift = WithSpring()
+    motion = lift.sweep(7)
+    push = 40e3 * (0.9 - motion.distance("A", "B"))
+    assert_allclose(rod_force(motion), rod_force(MowerLift().sweep(7)) - push, rtol=1e-12)
+    shown = {column.name: column.shown for column in lift.columns(motion)}
+    assert_allclose(shown["PI"] * kgf, rod_force(motion))
+    assert "can be lifted over the whole stroke" in lift.verdicts(motion)[0]
+
+
+def test_added_friction_costs_lifting_force():
+    """The pins' couples by hand: at A and B the cylinder's own, r mu T against the turning; at O that of the lever."""
+    motion, plain = WithFriction().sweep(5), MowerLift().sweep(5)
+    gain = lifting_force(motion) * 0.85 - rod_force(plain)
+    assert np.all(gain > 0.0)
+    forces = pin_forces(motion, direction="extending")
+    turn_lever, turn_rod = motion.ratio("FI3"), -motion.ratio("FIS1")
+    # by power: what is rubbed away at each pin, couple times relative turning, a unit of stroke
+    rubbed = sum(
+        20 * mm * 0.15 * np.hypot(*joint.force) * np.abs(turning)
+        for pin, turning in (("A", turn_rod), ("B", turn_lever - turn_rod), ("O", turn_lever))
+        for joint in forces.at(pin)
+    )
+    assert_allclose(gain, rubbed, rtol=1e-3)
+    assert_allclose(reserve(motion), largest_force(motion) / lifting_force(motion), rtol=1e-12)
+
+
+def test_the_machine_is_like_any_users():
+    """Its pins, with the cylinder as a body of its own; the numbers of its circuit are its design variables."""
+    motion = MowerLift().at(S=[0.55])
+    forces = pin_forces(motion)
+    assert_allclose(forces.thrusts["lift"], 7.261737 * 900 * kgf, rtol=1e-6)
+    assert_allclose(np.hypot(*forces.force("B", on="lift")), forces.thrusts["lift"], rtol=1e-12)
+    assert isinstance(MowerLift.circuit, LiftCircuit)
+    timed = MowerLift(**{"circuit.flow": 10 * litre / minute})
+    assert "takes 1.26 l of oil, 7.5 s at 10 l/min." in " ".join(timed.verdicts(timed.sweep(2)))
+    assert timed.circuit.time(timed.sweep(2)) == pytest.approx(np.pi / 4 * 0.08**2 * 0.25 / (10 * litre / minute), rel=1e-12)
+
+
+def test_geometry_that_a_subclass_changes_is_judged_by_what_the_rod_carries():
+    """The stroke as half the cylinder's travel: twice the driving force, the same thrust, pressures and reserve."""
+
+    class Doubled(MowerLift):
+        B = Dyad("A", "O", AB=0.55 + 2.0 * (MowerLift.S - 0.55), OB=0.175, side=RIGHT)
+
+    motion, same = Doubled().at(S=[0.55, 0.60, 0.65]), MowerLift().at(S=[0.55, 0.65, 0.75])
+    assert_allclose(reserve(motion), reserve(same), rtol=1e-12)
+    assert_allclose(Doubled.circuit.oil(motion), MowerLift.circuit.oil(same), rtol=1e-9)
 
 
 def test_batch_of_designs_broadcasts():
@@ -270,6 +392,9 @@ def test_batch_of_designs_broadcasts():
         ({"bore": -0.08}, "bore = -0.08 is not above zero"),
         ({"weight": 0.0}, "weight = 0 is not above zero"),
         ({"p_max": -1.0}, "p_max = -1 is not above zero"),
+        ({"p_max": 155.0}, "p_max = 155 Pa is next to nothing; write 155 * bar if these are bar, or 155 * kgf_cm2"),
+        ({"bore": 80.0}, "Bore = 80 m is more than any cylinder has; write 80 * mm"),
+        ({"bore": 40 * mm}, "Rod 45 mm is not smaller than bore 40 mm"),
         ({"diameter": 1.0}, "unknown"),
     ],
 )

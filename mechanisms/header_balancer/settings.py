@@ -1,0 +1,63 @@
+"""The machine with a header at its published setting, and the table of settings for all headers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from linkage import Column, DefinitionError
+
+from .charge import SLOW, Way, charge_for, largest_charge
+from .following import Balance, over_following
+from .headers import HEADERS
+from .machine import HeaderBalancer
+
+
+def with_header(number: int, **changes: Any) -> HeaderBalancer:
+    """Return the machine with header 1, 2 or 3 at its published setting, other design variables [SI] changed as said."""
+    if number not in HEADERS:
+        raise DefinitionError(f"Header {number!r} is unknown; the paper has {', '.join(map(str, HEADERS))}.")
+    return HeaderBalancer(**{**HEADERS[number], **changes})
+
+
+def setting_table(wanted: Sequence[float], changes: Mapping[str, Any] | None = None) -> list[Column]:
+    """Return the charge pressure at the horizon for each header and each wanted reaction of all shoes [N]. (35)
+
+    Beside it stand the reaction that is left, at the least, moving down over the following range, and whether the
+    setting keeps the largest charge without hang-up (1 yes, 0 no): slow, or fast where `changes` say n=1.4. NaN where
+    the weights do not give so much reaction, or the line would be charged below every gas charge and be rigid.
+    `changes` are design variables [SI] of all headers.
+    """
+    forces, changed = np.asarray(wanted, float), dict(changes or {})
+    design = HeaderBalancer(**changed)
+    shoes, way = float(design["shoes"]), SLOW if design["n"] == 1.0 else Way(f"n = {design['n']:g}", exponent=float(design["n"]))
+    columns = [Column("F_R", forces, "kgf", 0), Column("per shoe", forces / shoes, "kgf", 0)]
+    for number in HEADERS:
+        machine = with_header(number, **changed)
+        motion = machine.at(h=0.0)
+        limit = largest_charge(motion, way)
+        charges = np.array([_charge(motion, force) for force in forces])
+        least = np.array([np.nan if np.isnan(charge) else _least(machine, charge) for charge in charges])
+        columns += [
+            Column(f"charge {number}", charges, "kgf/cm2", 2),
+            Column(f"least {number}", least, "kgf", 0),
+            Column(f"safe {number}", np.where(np.isnan(least), np.nan, charges <= limit), "", 0),
+        ]
+    return columns
+
+
+def _charge(motion: Any, force: float) -> float:
+    try:
+        return charge_for(motion, force)
+    except DefinitionError:
+        return float("nan")
+
+
+def _least(machine: HeaderBalancer, charge: float) -> float:
+    """Return the least reaction moving down [N] at a charge [Pa]; NaN where the block is rigid at it or the pump too weak."""
+    try:
+        return float(np.min(Balance(over_following(machine.replaced(charge=charge).at(h=0.0))).down))
+    except DefinitionError:
+        return float("nan")

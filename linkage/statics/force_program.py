@@ -1,15 +1,16 @@
 """The equilibrium as a program: all joint forces of many poses from one kernel, friction included.
 
 The equations of equilibrium are written on the nodes of a program and eliminated once, as for a single pin force. Friction enters as
-one input a rubbing joint: its couple or its force along the guide. The joint forces are linear in these, so that a first kernel gives
-the forces that press the rubbing joints, with their derivatives by the frictions; the frictions settle on arrays; a second kernel
-gives everything. What the program cannot say (a law that asks for a number, arrays over the poses) is None: the equations are then
+one input a rubbing joint: its couple or its force along the guide. The joint forces are linear in these. A kernel of a few outputs adds
+up how much the frictions make each other grow: where that is a contraction, a second one, of the forces that press the rubbing joints,
+is asked until they stay; elsewhere a third gives their derivatives, and the frictions settle on arrays. A last one gives everything.
+What the program cannot say (a law that asks for a number, arrays over the poses) is None: the equations are then
 solved on arrays.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -30,7 +31,7 @@ from .loaded import Case, Loaded, Loads
 from .movement import Movement
 from .poses import Poses
 from .rub import Rub, rubs, unit_friction
-from .rubbing import Pressed, settled
+from .rubbing import CONTRACTS, SETTLED, Pressed, settled
 from .solved import Equilibrium, Solved
 from .structure import Structure
 from .system import System
@@ -50,11 +51,20 @@ class Row:
 
 
 @dataclass(frozen=True)
+class Rubbing:
+    """The kernels of the forces that press rubbing joints: `growth` of the sums by all frictions, `forces`, `by_each` friction."""
+
+    growth: Kernel
+    forces: Kernel
+    by_each: Kernel
+
+
+@dataclass(frozen=True)
 class ForceProgram:
-    """The kernels of all joint forces: of what presses the rubbing joints, and of everything."""
+    """The kernels of all joint forces: of how frictions grow, of what presses the rubbing joints, that by each friction; of everything."""
 
     rubbed: tuple[int, ...]
-    pressing: Kernel | None
+    rubbing: Rubbing | None
     whole: Kernel
     rows: tuple[Row, ...]
     drives: tuple[str, ...]
@@ -117,14 +127,19 @@ def made(plan: Plan, loads: Loads, case: Case, movement: Movement, rubbed: tuple
     nodes += [motion.node(solved.value(cut(system, name))[0]) for name in plan.strokes]
     nodes += [motion.node(solved.value(system.thrust(strut))[0]) for strut in structure.struts]
     guards = list(motion.notes.assumed)
-    pressing = Kernel(pressing_nodes(system, u, contacts, friction, law), guards) if rubbed else None
+    rubs_by = rubbing_kernels(system, u, contacts, friction, law, guards) if rubbed else None
     names = tuple(strut.name for strut in structure.struts)
-    return ForceProgram(rubbed, pressing, Kernel(nodes, guards), tuple(rows), tuple(plan.strokes), names)
+    return ForceProgram(rubbed, rubs_by, Kernel(nodes, guards), tuple(rows), tuple(plan.strokes), names)
 
 
 def friction_name(place: int) -> str:
     """Return the name of a friction's input; no dimension can be called so."""
     return f"|friction {place}"
+
+
+def lever_name(place: int) -> str:
+    """Return the name of the size of a friction's lever as an input."""
+    return f"|lever {place}"
 
 
 def add(nodes: list[Node], solved: Solved, contact: Contact, law: Law) -> Row:
@@ -140,17 +155,25 @@ def add(nodes: list[Node], solved: Solved, contact: Contact, law: Law) -> Row:
     return row
 
 
-def pressing_nodes(system: System, u: Any, contacts: Sequence[Contact], friction: Sequence[Node], law: Law) -> list[Node]:
-    """Return, for each rubbing joint, the forces that press it and their derivatives by each friction."""
+def rubbing_kernels(
+    system: System, u: Any, contacts: Sequence[Contact], friction: Sequence[Node], law: Law, guards: list[Node]
+) -> Rubbing:
+    """Return the kernels of the forces that press the rubbing joints."""
     graph = law.motion.reading.graph
     tangents = [Tangent(graph, {each: 1.0}) for each in friction]
-    found: list[Node] = []
+    levers = [graph.input(lever_name(place), Level.POSE) for place in range(len(friction))]
+    forces: list[Node] = []
+    by_each: list[Node] = []
+    growth: list[Node] = []
     for contact in contacts:
         start = system.first[contact]
-        forces = [law.motion.node(u[0, start + k]) for k in range(parts(contact))]
-        found += forces
-        found += [tangent.of(force) for force in forces for tangent in tangents]
-    return found
+        own = [law.motion.node(u[0, start + k]) for k in range(parts(contact))]
+        slopes = [[tangent.of(force) for tangent in tangents] for force in own]
+        forces += own
+        by_each += [each for row in slopes for each in row]
+        sizes = [abs(each[0]) if len(each) == 1 else np.sqrt(each[0] * each[0] + each[1] * each[1]) for each in zip(*slopes, strict=True)]
+        growth.append(sum((size * lever for size, lever in zip(sizes[1:], levers[1:], strict=True)), sizes[0] * levers[0]))
+    return Rubbing(Kernel(growth, guards), Kernel(forces, guards), Kernel([*forces, *by_each], guards))
 
 
 def parts(contact: Contact) -> int:
@@ -164,7 +187,7 @@ def run(program: ForceProgram, structure: Structure, poses: Poses, loaded: Loade
     assert isinstance(motion, Motion)
     inputs, size = dict(motion.flat), motion.size
     q, locked = np.zeros((0, n)), np.zeros(n, bool)
-    if program.pressing is not None:
+    if program.rubbing is not None:
         found = frictions(program, structure, poses, rubbing)
         if found is None:
             return None
@@ -193,27 +216,81 @@ def frictions(program: ForceProgram, structure: Structure, poses: Poses, rubbing
 
     Some thousand poses are looked at at a time: what presses the joints, with its derivatives, is much for each.
     """
-    motion, count = poses.motion, len(rubbing)
-    assert program.pressing is not None and isinstance(motion, Motion)
-    none = {friction_name(place): 0.0 for place in range(count)}
+    motion, kernels = poses.motion, program.rubbing
+    assert kernels is not None and isinstance(motion, Motion)
     many = tuple(parts(structure.contacts[index]) for index in program.rubbed)
-    free = [row + k for row, each in zip(np.cumsum([0, *(each * (1 + count) for each in many)]), many, strict=False) for k in range(each)]
     lever, coefficient = (np.stack([getattr(rub, what) for rub in rubbing]) for what in ("lever", "coefficient"))
-    q, locked = np.zeros((count, poses.count)), np.zeros(poses.count, bool)
+    q, locked = np.zeros((len(rubbing), poses.count)), np.zeros(poses.count, bool)
     places = poses.full(np.arange(poses.count, dtype=float)).reshape(motion.size)
     for band, part in pieces(*motion.size, PIECE):
         inputs = {name: cut_out(value, band, part, name in poses.plan.table.entries) for name, value in motion.flat.items()}
         here = places[band, part]
         good = np.isfinite(here)
-        result = program.pressing(inputs | none, size=here.shape)
-        rows = result.values.reshape(len(result.values), here.size)
-        rows = rows if good.all() else rows[:, good.ravel()]
-        if not np.all(result.guards > 0.0) or not np.isfinite(rows).all():
-            return None
         at = here[good].astype(int)
-        by_unit = np.delete(rows, free, axis=0).reshape(sum(many), count, len(at))
-        q[:, at], locked[at] = settled(Pressed(many, rows[free], by_unit, lever[:, at]), coefficient[:, at])
+        if not at.size:
+            continue
+        found = Piece(inputs, here.shape, good, many, lever[:, at], coefficient[:, at]).settled(kernels)
+        if found is None:
+            return None
+        q[:, at], locked[at] = found
     return q, locked
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Some poses on their way to settled frictions: the inputs of the kernels, their shape, the poses that count, and what rubs there."""
+
+    inputs: dict[str, Any]
+    shape: tuple[int, ...]
+    good: Mask
+    parts: tuple[int, ...]
+    lever: FloatArray
+    coefficient: FloatArray
+
+    def settled(self, kernels: Rubbing) -> tuple[FloatArray, Mask] | None:
+        """Return the frictions (frictions, n) and the locked poses (n,); None where an assumption fails."""
+        growth = self.asked(kernels.growth, lever_name, np.abs(self.lever))
+        if growth is None:
+            return None
+        none = np.zeros(self.lever.shape)
+        if np.max(growth * self.coefficient, initial=0.0) < CONTRACTS:
+            return self.iterated(kernels, none)
+        rows = self.asked(kernels.by_each, friction_name, none)
+        if rows is None:
+            return None
+        forces = sum(self.parts)
+        by_unit = rows[forces:].reshape(forces, len(self.lever), -1)
+        return settled(Pressed(self.parts, rows[:forces], by_unit, self.lever), self.coefficient)
+
+    def iterated(self, kernels: Rubbing, q: FloatArray) -> tuple[FloatArray, Mask] | None:
+        """Return the frictions to which plain iteration comes."""
+        pressed = Pressed(self.parts, q, q, self.lever)
+        first, last, share = pressed.first, pressed.last, pressed.share * self.coefficient
+        for _ in range(100):
+            force = self.asked(kernels.forces, friction_name, q * self.lever)
+            if force is None:
+                return None
+            x, y = force[first], force[last]
+            new = np.sqrt(x * x + y * y) * share  # np.hypot costs five times as much
+            change, largest = np.abs(new - q), np.max(new, axis=0, initial=0.0)
+            q = new
+            if not np.any(change > SETTLED * largest):
+                break
+        return q, np.zeros(q.shape[1], bool)
+
+    def asked(self, kernel: Kernel, name: Callable[[int], str], values: FloatArray) -> FloatArray | None:
+        """Return a kernel's outputs (outputs, n) for values (frictions, n) of the inputs so named; None where an assumption fails."""
+        whole = bool(self.good.all())
+        given: dict[str, Any] = {}
+        for place, each in enumerate(values):
+            full = each if whole else np.zeros(self.shape)
+            if not whole:
+                full[self.good] = each
+            given[name(place)] = full.reshape(self.shape)
+        result = kernel(self.inputs | given, size=(self.shape[0], self.shape[1]))
+        rows = result.values.reshape(len(result.values), -1)
+        rows = rows if whole else rows[:, self.good.ravel()]
+        return rows if np.all(result.guards > 0.0) and np.isfinite(rows).all() else None
 
 
 def forces_of(row: Row, values: FloatArray, shape: tuple[int, ...]) -> tuple[FloatArray, FloatArray]:

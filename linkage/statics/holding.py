@@ -31,6 +31,13 @@ class Line:
 
     cylinders: tuple[TwoPoint, ...]
     stroke: str
+    steady: float = 0.0
+    """How a single cylinder's length follows its stroke, where it is driven in proportion to that and to no other; else 0."""
+
+    @property
+    def is_steady(self) -> bool:
+        """Whether its length follows its own stroke alone, in proportion."""
+        return self.steady != 0.0
 
 
 @dataclass(frozen=True)
@@ -85,7 +92,20 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holding:
     if best is None:
         raise DefinitionError(too_many(plan, lines))
     names = list(plan.strokes)
-    return Holding(tuple(Line(line, names[place]) for line, place in zip(lines, best, strict=True)))
+    pairs = [(line, names[place]) for line, place in zip(lines, best, strict=True)]
+    return Holding(tuple(Line(line, stroke, steady_rate(plan, line, stroke)) for line, stroke in pairs))
+
+
+def steady_rate(plan: Plan, line: Sequence[TwoPoint], stroke: str) -> float:
+    """Return how the declared length of a single cylinder follows its stroke, the same everywhere; 0 where it does not, or others too."""
+    length = plan.table.lengths.get(frozenset(line[0].ends)) if len(line) == 1 else None
+    if length is None or {name for name in plan.strokes if name == length.name or name in plan.reaches(length)} != {stroke}:
+        return 0.0
+    if any(name in plan.points for name in plan.reaches(length)):
+        return 0.0
+    rate = sampled(plan).ratio(length, wrt=stroke)
+    rates = np.unique(rate[np.isfinite(rate)])
+    return float(rates[0]) if len(rates) == 1 else 0.0
 
 
 def joined_lines(plan: Plan, elements: Sequence[ForceElement]) -> list[tuple[TwoPoint, ...]]:

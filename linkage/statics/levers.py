@@ -50,9 +50,25 @@ class Levers:
         scaled = self.matrix / columns / np.where(rows > 0.0, rows, 1.0)
         if self.matrix.shape[1] == 1:
             return condition(scaled[:, 0, 0])
-        least = np.linalg.svd(scaled, compute_uv=False)[:, -1]
+        return inverse_size(scaled)
+
+
+def inverse_size(matrices: FloatArray) -> FloatArray:
+    """Return the size of the inverse of each matrix (n, k, k): one over its least singular value, or up to the root of k more."""
+    k = matrices.shape[1]
+    if k > 3:
+        least = np.linalg.svd(matrices, compute_uv=False)[:, -1]
         with np.errstate(divide="ignore"):
             return np.asarray(1.0 / least)
+    rows = [matrices[:, i] for i in range(k)]
+    if k == 2:
+        minors, det = np.abs(matrices).reshape(-1, 4), rows[0][:, 0] * rows[1][:, 1] - rows[0][:, 1] * rows[1][:, 0]
+    else:
+        crosses = [np.cross(rows[1], rows[2]), np.cross(rows[2], rows[0]), np.cross(rows[0], rows[1])]
+        minors, det = np.concatenate(crosses, axis=1), (rows[0] * crosses[0]).sum(axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found = np.sqrt((minors * minors).sum(axis=1)) / np.abs(det)
+    return np.where(det == 0.0, np.inf, found)
 
 
 def with_levers(poses: Poses, lines: Sequence[Line], what: str) -> tuple[Poses, tuple[Levers, ...]]:
@@ -60,6 +76,8 @@ def with_levers(poses: Poses, lines: Sequence[Line], what: str) -> tuple[Poses, 
 
     SingularError at the others unless NaN was asked for; `what` opens the sentence.
     """
+    if all(line.is_steady for line in lines):
+        return poses, (steady_levers(poses, lines),)
     both = any(len(line.cylinders) > 1 and any(each.works_both for each in line.cylinders) for line in lines)
     found = [levers_of(poses, lines, way) for way in ((1, -1) if both else (1,))]
     names = [each.name or str(each) for line in lines for each in line.cylinders]
@@ -70,6 +88,15 @@ def with_levers(poses: Poses, lines: Sequence[Line], what: str) -> tuple[Poses, 
         return poses, tuple(found)
     left = poses.without(lost)
     return left, tuple(levers_of(left, lines, way) for way in ((1, -1) if both else (1,)))
+
+
+def steady_levers(poses: Poses, lines: Sequence[Line]) -> Levers:
+    """Return the levers of cylinders whose lengths follow their own strokes in proportion: nothing stands still."""
+    matrix = np.zeros((poses.count, len(lines), len(lines)))
+    for i, line in enumerate(lines):
+        matrix[:, i, i] = line.steady
+    one = np.ones(poses.count)
+    return Levers(matrix, np.abs(matrix), tuple((one,) for _ in lines))
 
 
 def levers_of(poses: Poses, lines: Sequence[Line], way: int) -> Levers:

@@ -19,6 +19,8 @@ STEPS = 16
 ROUNDS = 40
 CONTRACTS = 0.7
 """The row sum up to which plain iteration is quick: some 80 rounds to the last digit at the most, mostly 10."""
+SETTLED = 4e-15
+"""A friction that changes by less than this part of the largest stays."""
 BLOCK = 1024
 
 
@@ -86,7 +88,7 @@ def iterated(pressed: Pressed, coefficient: FloatArray) -> FloatArray:
         new = np.hypot(force[first], force[last]) * share
         change, largest = np.abs(new - q), np.max(new, axis=0, initial=0.0)
         q = new
-        if not np.any(change > 1e-15 * largest):
+        if not np.any(change > SETTLED * largest):
             break
         force = np.einsum("rjn,jn->rn", pressed.by_unit, q * pressed.lever) + pressed.free
     return q

@@ -176,7 +176,9 @@ def test_a_load_that_drives_is_said_so():
         lift_verdicts(circuit, Lift(OB=np.array([0.30, 0.31])).sweep(5))
 
 
-@pytest.mark.parametrize(("machine", "word"), [(Lift(**{"load.mass": 0.0, "arm.mass": 0.0}), "is a mass zero"), (LIFT, "no load is declared")])
+@pytest.mark.parametrize(
+    ("machine", "word"), [(Lift(**{"load.mass": 0.0, "arm.mass": 0.0}), "is a mass zero"), (LIFT, "no load is declared")]
+)  # fmt: skip
 def test_a_lift_without_a_load_is_not_called_good(machine, word):
     said = lift_verdicts(circuit, machine.sweep(5), [] if machine is LIFT else None)
     assert not said[0] and "nothing to lift" in said[0].sentence and word in said[0].sentence

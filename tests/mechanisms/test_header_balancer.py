@@ -430,7 +430,8 @@ def test_header_2_needs_its_first_pair_of_accumulators_as_little_as_the_paper_sa
     assert Balance(with_both).pressure.max() < 50 * kgf_cm2
     assert_allclose(Balance(alone).pressure, Balance(with_both).pressure, rtol=1e-13)
     assert_allclose(Balance(alone).down, Balance(with_both).down, rtol=1e-10)
-    said = [[str(each) for each in criteria(motion) if "fast" not in each.rule and each.rule != "accumulators"] for motion in (with_both, alone)]
+    both = (with_both, alone)
+    said = [[str(each) for each in criteria(motion) if "fast" not in each.rule and each.rule != "accumulators"] for motion in both]
     assert said[0] == said[1]
 
 

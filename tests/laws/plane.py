@@ -49,7 +49,8 @@ class Move:
 
     def angle(self, value):
         """Return a direction against the x axis [rad], a number or a quantity."""
-        return (math.pi - value if self.mirror else value) + self.turn
+        turned = (math.pi - value if self.mirror else value) + self.turn
+        return math.remainder(turned, 2.0 * math.pi) if isinstance(turned, float) else turned
 
     def side(self, side):
         return (RIGHT if side is LEFT else LEFT) if self.mirror else side

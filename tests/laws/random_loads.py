@@ -118,7 +118,8 @@ class Draft(Steps):
 
     def rub(self):
         """Friction in some pins and on some guides."""
-        pins = [name for name, bodies in self.joined().items() if bodies > 1]
+        runs = Counter(run.point for run in self.runs if not run.driven)
+        pins = [name for name, bodies in self.joined().items() if bodies > 1 or runs[name] == 1]
         for name in self.random.permutation(pins)[: int(self.random.integers(2, 5))]:
             radius, coefficient = self.uniform(0.005, 0.02), self.uniform(0.03, 0.12)
             self.parts[f"rub{name}"] = lambda to, name=str(name), radius=radius, coefficient=coefficient: PinFriction(

@@ -128,9 +128,10 @@ class Sketch:
         members = {each: make(to) for each, make in self.parts.items() if each not in other}
         members |= {each: member for each, member in other.items() if member is not None}
         members["sketch"] = members.get("sketch") or drawn(**dict.fromkeys(self.spans, 0.0))
-        order = list(members)
+        order = [*self.parts, "sketch"]
         np.random.default_rng([9, self.seed]).shuffle(order)
-        return type(f"{name}{self.seed}", (Mechanism,), {each: members[each] for each in order})
+        order += [each for each in members if each not in order]
+        return type(f"{name}{self.seed}", (Mechanism,), {each: members[each] for each in order if each in members})
 
     def strokes(self, number=6):
         """Return strokes of one shape all over the ranges, by name: a path where there are several."""

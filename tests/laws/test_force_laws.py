@@ -13,7 +13,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import Actuator, Crank, LoadCase, Stroke, driving_force, pin_forces
+from linkage import Actuator, Crank, DefinitionError, LoadCase, Spring, Stroke, drive_force, driving_force, pin_force, pin_forces
 from linkage.loads import ForceElement
 from linkage.quantities import ref
 from tests.laws.by_hand import FRAME, ByHand, by_point, full
@@ -130,7 +130,8 @@ def test_two_point_elements_act_at_their_pins_by_their_law(seed):
         assert_allclose(found.thrusts[name], wanted, rtol=0, atol=NOTHING * largest, err_msg=name)
         assert_allclose(joints[element.A, name][0], wanted * u, rtol=0, atol=NOTHING * largest, err_msg=name)
         assert_allclose(joints[element.B, name][0], -wanted * u, rtol=0, atol=NOTHING * largest, err_msg=name)
-        assert_allclose(found.force(element.A, on=name), wanted * u, rtol=0, atol=NOTHING * largest, err_msg=name)
+        if sum(name in (each.on, each.by) for each in found.at(element.A)) == 1:
+            assert_allclose(found.force(element.A, on=name), wanted * u, rtol=0, atol=NOTHING * largest, err_msg=name)
 
 
 @EACH
@@ -233,15 +234,15 @@ def test_the_work_of_the_oil_is_the_change_of_energy(first):
     for seed in twinned(first):
         draft = random_machine(seed)
         for holder in draft.holders:
-            if not holder.member or len([each for each in draft.holders if each.stroke == holder.stroke]) > 1:
+            name, bore, rod, stroke = holder.member or "lift", 0.08, 0.05, holder.stroke
+            if len([each for each in draft.holders if each.stroke == stroke]) > 1:
                 continue
-            bore, rod, stroke = 0.08, 0.05, holder.stroke
             lift = Cylinder(holder.A, holder.B, bore=bore, rod=rod, works="both")
-            supply = LiftCircuit(holder.member, pressure=400e5, relief=450e5)
+            supply = LiftCircuit(name, pressure=400e5, relief=450e5)
             path, half = along(draft, stroke)
-            hand = ByHand(draft, draft.machine(**{holder.member: lift, "supply": supply})().at(**path))
-            pressure = hand.motion.plan.members[holder.member].pressure(hand.motion, direction="frictionless")
-            thrust = pin_forces(hand.motion).thrusts[holder.member]
+            hand = ByHand(draft, draft.machine(**{name: lift, "supply": supply})().at(**path))
+            pressure = hand.motion.plan.members[name].pressure(hand.motion, direction="frictionless")
+            thrust = pin_forces(hand.motion).thrusts[name]
             oil = np.where(thrust >= 0.0, 1.0, -1.0) * np.pi / 4.0 * (bore**2 - np.where(thrust < 0.0, rod**2, 0.0))
             work = pressure * oil * hand.stretch(holder.A, holder.B, stroke)
             energy = hand.energy()
@@ -249,6 +250,24 @@ def test_the_work_of_the_oil_is_the_change_of_energy(first):
             assert_allclose((work[:16] * SHARES * half).sum(), energy[17] - energy[16], rtol=0, atol=1e-11 * scale, err_msg=f"seed {seed}")
             done += 1
     assert done
+
+
+@EACH
+def test_requests_are_the_same_forces(seed):
+    """Asked of the machine by values of its strokes, at rest: the drives' forces, and joint forces by pin and body."""
+    hand, _ = seen(seed)
+    plan, found = hand.motion.plan, pin_forces(hand.motion)
+    preloaded = [spring for spring in plan.of_kind(Spring).values() if spring.preload is not None]
+    if any(plan.reaches(end) & set(plan.groups) for spring in preloaded for end in spring.ends):
+        with pytest.raises(DefinitionError, match="sketch pose, which groups of links have no closed form for"):
+            hand.draft.drawn().evaluate([drive_force(next(iter(plan.strokes)))], **hand.draft.strokes())
+        return
+    joints = [each for each in found.joints if each.has_force and len(found.at(each.point)) == 1][:4]
+    requests = [*(drive_force(stroke) for stroke in hand.draft.spans), *(pin_force(each.point, each.on) for each in joints)]
+    given = hand.draft.drawn().evaluate(requests, **hand.draft.strokes())
+    wanted = [*(driving_force(hand.motion, drive=stroke) for stroke in hand.draft.spans), *(size(each.force) for each in joints)]
+    for request, one, other in zip(requests, given, wanted, strict=True):
+        assert_allclose(one, other, rtol=0, atol=1e-11 * np.max(hand.largest(found.joints)), err_msg=str(request))
 
 
 # -- one thing in the place of another ---------------------------------------------------------------------
@@ -264,7 +283,7 @@ def test_a_cylinder_may_be_replaced_by_its_thrust(first):
             held = [each for each in hand.draft.holders if each.stroke == stroke]
             twin, there = pushed(hand, found, held, machine, values, rate)
             works = [found.thrusts[each.name] * twin.stretch(each.A, each.B, stroke) for each in held] + works_of(twin, stroke)
-            assert np.max(np.abs(there.drives[stroke])) < 1e-11 * max(np.max(np.abs(work)) for work in works), seed
+            assert np.max(np.abs(there.drives[stroke])) <= 1e-11 * max(np.max(np.abs(work)) for work in works), seed
             same_forces(hand, found, twin, there, {each.name for each in held}, seed)
             done += 1
     assert done

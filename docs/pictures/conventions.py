@@ -126,7 +126,7 @@ def cylinder(ax: Axes, A: Place, B: Place, out: float = 0.5) -> None:
     length = hypot(B[0] - A[0], B[1] - A[1])
     mouth = 0.62 * length
     piston = 2.4 * SIZE + out * (mouth - 3.6 * SIZE)
-    ram = Ram("A", "B", 1.4 * SIZE, mouth, length - piston, 2.0 * SIZE, mouth - 0.9 * SIZE)
+    ram = Ram("A", "B", 0.0, 1.4 * SIZE, mouth, length - piston, 2.0 * SIZE, mouth - 0.9 * SIZE)
     CylinderPart(ax, ram, SIZE, STRONG).update({"A": np.array(A), "B": np.array(B)})
 
 

@@ -9,7 +9,7 @@ from ..errors import DefinitionError, unknown
 from ..loads import ForceElement, Load
 from ..plan import Plan
 from ..quantities import Joint, JointSide, Quantity
-from ..steps import Guide
+from ..steps import Guide, Link
 from .bodies import FRAME, FRAME_NAME, Strut, blocks, frame_points, parts, refuse_driven
 from .contacts import Contact
 from .holding import Holding, holding_of
@@ -80,6 +80,9 @@ class Structure:
         """The names of all bodies by what they go by: their own, their link's, their points; not what several go by."""
         found: dict[str, str] = {}
         labels = [(part.label, part.name) for part in self.parts if part.label]
+        for link, member in self.plan.of_kind(Link).items():  # a driven length goes by its link's name as well
+            driven = [each for each in self.struts if each.quantity is not None and {each.P, each.Q} == set(member.point_names)]
+            labels += [(link, each.name) for each in driven]
         for label, name in labels:
             if [each for each, _ in labels].count(label) == 1:
                 found[label] = name

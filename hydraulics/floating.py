@@ -140,9 +140,27 @@ def length_at(motion: Poses, ram: Cylinder, at: Array) -> Any:
     if length is not None:
         return reading.value(length)
     if plan.groups:
-        raise DefinitionError(f"{ram}: its length follows from a group of links; declare it by a step, AB=... + {stroke}.")
+        return length_by_groups(motion, ram, stroke, at)
     with np.errstate(all="ignore"):
         found = (reading.at(name_of(ram.B)) - reading.at(name_of(ram.A))).length()
     if not np.all(np.isfinite(found)):
         raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {stroke} = {np.ravel(at)[0]:.6g}.")
     return found
+
+
+def length_by_groups(motion: Poses, ram: Cylinder, stroke: str, at: Array) -> Array:
+    """Return a cylinder's length [m] where a stroke is `at`, its ends found with groups of links; broadcasts against the motion."""
+    if not isinstance(motion, Motion) or np.size(at) != 1:
+        what = f"{ram}: its length follows from a group of links, which has no closed form"
+        raise DefinitionError(f"{what}; give the circuit one charging stroke for all designs, and ask for arrays.")
+    others = {name: value for name, value in motion.strokes.items() if name != stroke}
+    value = np.asarray(float(np.ravel(at)[0]))
+    if any(np.ptp(each) > 0.0 for each in others.values()):
+        found = motion.moved({**others, stroke: value}).distance(ram.A, ram.B)
+    else:
+        still = {name: np.ravel(each)[:1].reshape(()) for name, each in others.items()}
+        pose = Motion(motion.plan, motion.designs, {name: {**still, stroke: value}[name] for name in motion.strokes}, "nan")
+        found = pose.distance(ram.A, ram.B).reshape((*motion.design_shape, *(1,) * len(motion.stroke_shape)))
+    if not np.all(np.isfinite(found)):
+        raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {stroke} = {float(value):.6g}.")
+    return np.asarray(found)

@@ -72,11 +72,16 @@ def refusal(plan: Plan, found: Mapping[str, FloatArray], mask: Mask, strokes: Ma
     worst = float(np.nanmax(found[name]))
     size = "infinite" if np.isinf(worst) else f"{worst:.1e}"
     return SingularError(
-        f"{what} is refused {where_words(plan, mask, strokes)}: {opening(plan, name)} stands at a {kind} "
+        f"{what} {be(what)} refused {where_words(plan, mask, strokes)}: {opening(plan, name)} stands at a {kind} "
         f"(condition {size}, refused above {REFUSE:.0e}). The positions hold; shorten the stroke, or ask with "
         f'unreachable="nan" for the other poses.',
         point=name, mask=mask, motion=motion,
     )  # fmt: skip
+
+
+def be(what: str) -> str:
+    """Return "is" or "are" for what opens a sentence: `The joint forces`, `The ratio of BS`."""
+    return "are" if what.split(" of ")[0].endswith("s") else "is"
 
 
 def crosses(motion: Any, name: str) -> bool:

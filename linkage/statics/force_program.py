@@ -171,7 +171,7 @@ def rubbing_kernels(
         slopes = [[tangent.of(force) for tangent in tangents] for force in own]
         forces += own
         by_each += [each for row in slopes for each in row]
-        sizes = [abs(each[0]) if len(each) == 1 else np.sqrt(each[0] * each[0] + each[1] * each[1]) for each in zip(*slopes, strict=True)]
+        sizes = [np.abs(each[0]) if len(each) == 1 else np.sqrt(each[0] * each[0] + each[1] * each[1]) for each in zip(*slopes, strict=True)]
         growth.append(sum((size * lever for size, lever in zip(sizes[1:], levers[1:], strict=True)), sizes[0] * levers[0]))
     return Rubbing(Kernel(growth, guards), Kernel(forces, guards), Kernel([*forces, *by_each], guards))
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..errors import SingularError, SingularWarning
 from ..motion.reach import where_words
-from ..motion.singular import REFUSE, WARN, condition
+from ..motion.singular import REFUSE, WARN, be, condition
 from ..program import FloatArray
 from .poses import Poses
 
@@ -34,7 +34,7 @@ def refused_where(poses: Poses, values: FloatArray, cond: FloatArray, what: str,
             where = where_words(motion.plan, mask, motion.strokes)
             worst = float(np.max(np.nan_to_num(cond[lost], nan=np.inf)))
             size = "infinite" if np.isinf(worst) else f"{worst:.1e}"
-            text = f"{what}: refused {where}: {reason} (condition {size}, refused above {REFUSE:.0e})."
+            text = f"{what} {be(what)} refused {where}: {reason} (condition {size}, refused above {REFUSE:.0e})."
             raise SingularError(text, mask=mask, motion=motion)
     near = (cond > WARN) & ~lost
     if near.any():
@@ -42,6 +42,6 @@ def refused_where(poses: Poses, values: FloatArray, cond: FloatArray, what: str,
         where = where_words(motion.plan, poses.full(near.astype(float)) == 1.0, motion.strokes)
         # one division by a difference that is lost: the error goes with the condition, not its square
         error = f"expect a relative error of about {np.finfo(float).eps * worst:.0e}"
-        text = f"{what} {where}: nearly refused, for {reason} close by (condition {worst:.1e}); {error}."
+        text = f"{what} {be(what)} nearly refused {where}, for close by {reason} (condition {worst:.1e}); {error}."
         warnings.warn(text, SingularWarning, stacklevel=5)
     return np.where(lost, np.nan, values)

@@ -71,8 +71,14 @@ def standing_for(motion: Motion, member: TwoPoint) -> TwoPoint:
 def own_movement(motion: Motion, member: TwoPoint, direction: str, rates: Mapping[str, Any] | None, line: Line | None) -> Movement:
     """Return how strokes move while a member grows or shrinks: along the path, else by the stroke it holds or follows most."""
     sense = sense_of(direction)
-    if rates is not None or not sense:
-        return movement_of(motion, direction, rates, None if line is None else line.stroke)
+    if not sense:
+        return movement_of(motion, direction, rates, None)
+    if rates is not None:
+        moves = movement_of(motion, "frictionless", rates, None).rates
+        if np.any(sense * np.nan_to_num(member.growth(motion, moves)) < 0.0):
+            what = f"{member.name or member}: direction={direction!r} is its own, and at these rates it goes the other way at some poses"
+            raise DefinitionError(f"{motion.plan.title}: {what}; drop one of them.")
+        return Movement(direction, moves, True, True)
     tangent: Mapping[str, Any] = path_tangent(motion) or {line.stroke if line is not None else stroke_followed(motion.plan, member): 1.0}
     way = sense * np.sign(np.nan_to_num(member.growth(motion, tangent)))
     return Movement(direction, {name: way * rate for name, rate in tangent.items()}, True)

@@ -21,7 +21,7 @@ from .following import kgf_cm2_text, over_following, reaction_columns
 from .headers import HEADERS
 from .machine import HeaderBalancer
 from .measured import Deviation, deviations, read_measured
-from .settings import setting_table
+from .settings import setting_table, with_header
 
 REACTION = {1: "2", 2: "4", 3: "5"}
 """The figure that shows the reaction of each header; without one it is drawn like header 2's."""
@@ -120,6 +120,6 @@ def draw(machine: HeaderBalancer, options: Namespace, path: Path | None, compare
     """Draw the figure that is wanted."""
     if path is not None:
         number = options.figure or ("7" if compared else REACTION.get(options.header, "4"))
-        improved = number[0] == "6" and type(machine) is HeaderBalancer and machine.dimensions == HeaderBalancer().dimensions
-        figure(number, None if improved else machine, compared).savefig(path)
+        as_shipped = type(machine) is HeaderBalancer and machine.dimensions in (HeaderBalancer().dimensions, with_header(1).dimensions)
+        figure(number, None if number[0] == "6" and as_shipped else machine, compared).savefig(path)
         print(path)

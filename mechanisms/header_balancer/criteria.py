@@ -168,7 +168,7 @@ def vessels(balance: Balance) -> Verdict:
             says.append(f"{name} is at work over the whole range")
         else:
             at = motion.moved({"h": np.array([works[-1].end["h"]])}).y("R")[0] / mm
-            says.append(f"{name} is at work below R_y = {at:+.0f} mm and off above: where it joins the curves have a kink")
+            says.append(f"{name} is at work below R_y = {at:+z.0f} mm and off above: where it joins the curves have a kink")
     return Verdict("accumulators", True, f"at {kgf_cm2_text(charge)} {'; '.join(says)}.")
 
 

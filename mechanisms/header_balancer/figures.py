@@ -42,6 +42,7 @@ SHOWN: Mapping[str, Callable[[], HeaderBalancer]] = MappingProxyType(
         "6": ImprovedBalancer, "7": lambda: with_header(1),
     }
 )  # fmt: skip
+IMPROVED = ", improved mechanism"
 TITLES: Mapping[str, str] = MappingProxyType(
     {
         "2a": "Reaction of a shoe, hysteresis from the cylinders' seals only",
@@ -52,8 +53,8 @@ TITLES: Mapping[str, str] = MappingProxyType(
         "4b": "Given and needed pressure",
         "5a": "Reaction of a shoe",
         "5b": "Given and needed pressure",
-        "6a": "Reaction of a shoe, improved mechanism",
-        "6b": "Given and needed pressure, improved mechanism",
+        "6a": f"Reaction of a shoe{IMPROVED}",
+        "6b": f"Given and needed pressure{IMPROVED}",
         "7": "Reaction of a shoe, calculated and measured",
     }
 )
@@ -71,7 +72,8 @@ def figure(number: int | str, machine: HeaderBalancer | None = None, measured: S
     parts = [part for part in TITLES if part.startswith(key)]
     shown = machine if machine is not None else SHOWN[key[0]]()
     motion = over_following(shown.at(h=shown.strokes["h"].start))
-    sheet, cells = _sheet(parts, _name(shown))
+    improved = "" if isinstance(shown, ImprovedBalancer) else IMPROVED
+    sheet, cells = _sheet({part: TITLES[part].removesuffix(improved) for part in parts}, _name(shown))
     for part, ax in zip(parts, cells, strict=True):
         DRAWN[part](ax, motion, measured)
         if key[0] == "6" and machine is None:
@@ -194,10 +196,11 @@ def matched(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None
 
     balance = Balance(motion)
     up, down = (balance.required_while(way) / kgf_cm2 for way in ("extending", "retracting"))
-    text = "with friction: moving up at the upper edge, moving down at the lower"
+    text = "with friction: up at the upper edge, down at the lower"
     ax.fill_between(balance.height / mm, down, up, color=style.ACCENT, alpha=0.12, linewidth=0, label=text)
     _curve(ax, balance.height, balance.required / kgf_cm2, style.ACCENT, "needed: the shoes carry nothing")
     given(ax, motion)
+    ax.margins(y=0.14)  # room for the legend
 
 
 DRAWN: Mapping[str, Callable[[Any, Motion, Sequence[Deviation]], None]] = MappingProxyType(
@@ -283,20 +286,20 @@ def _name(machine: HeaderBalancer) -> str:
     return f"{what}, {machine['m2']:.0f} kg, charged to {machine['charge'] / kgf_cm2:.4g} kgf/cm²"
 
 
-def _sheet(parts: Sequence[str], name: str) -> tuple[Any, list[Any]]:
+def _sheet(titles: Mapping[str, str], name: str) -> tuple[Any, list[Any]]:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
     from linkage.draw import style
     from linkage.draw.sheet import quiet
 
-    sheet = Figure(figsize=SIZE if len(parts) == 1 else PAIR, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
+    sheet = Figure(figsize=SIZE if len(titles) == 1 else PAIR, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
     FigureCanvasAgg(sheet)
-    cells = [sheet.add_subplot(1, len(parts), place + 1) for place in range(len(parts))]
-    for part, ax in zip(parts, cells, strict=True):
+    cells = [sheet.add_subplot(1, len(titles), place + 1) for place in range(len(titles))]
+    for (part, title), ax in zip(titles.items(), cells, strict=True):
         quiet(ax)
         number = f"{part[0]} {part[1:]}".strip()
-        ax.set_title(f"{number}   {TITLES[part]}", loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=26)
+        ax.set_title(f"{number}   {title}", loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=26)
         ax.annotate(
             name, (0.0, 1.0), xycoords="axes fraction", xytext=(0, 8), textcoords="offset points", fontsize=style.TEXT, color=style.MUTED
         )  # fmt: skip

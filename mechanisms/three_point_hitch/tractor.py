@@ -1,7 +1,8 @@
 """The tractor's balance: front-axle load, and the implement's mass and the slope at which it tips.
 
 Moments about the driving wheels' contact with the ground, the origin; tyres are rigid, inertia is left out. Heavy is the
-implement `load` at G and the tractor at (vehicle_x, vehicle_y); a slope turns gravity to (-sin, -cos).
+implement `load` at G, the tractor at (vehicle_x, vehicle_y), and every other load that the hitch declares, a user's additions too;
+a slope turns gravity to (-sin, -cos).
 """
 
 from __future__ import annotations
@@ -9,10 +10,12 @@ from __future__ import annotations
 import numpy as np
 
 from hydraulics import Verdict
-from linkage import Motion
+from linkage import ForceElement, Motion
 from linkage.program import FloatArray
 from linkage.report import closely
 from linkage.units import deg, g0, kN, mm
+
+from .capacity import own_loads
 
 
 def lever(motion: Motion, x: FloatArray, y: FloatArray) -> FloatArray:
@@ -31,11 +34,39 @@ def implement_lever(motion: Motion) -> FloatArray:
     return lever(motion, motion.x("G"), motion.y("G"))
 
 
+def added(motion: Motion) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the moment of all other loads about the wheels' contact [Nm] as (a, b, c), shape (...): a cos + b sin + c of the slope.
+
+    Positive where it lifts the front axle. Masses turn with the slope, other forces stay. What acts between two points of the machine
+    has none.
+    """
+    level, wall, upside = (added_at(motion, slope) for slope in (0.0, np.pi / 2.0, np.pi))
+    constant = 0.5 * (level + upside)
+    return level - constant, wall - constant, constant
+
+
+def added_at(motion: Motion, slope: float) -> FloatArray:
+    """Return the moment of all other loads on one slope [Nm], shape (...)."""
+    elements, total = motion.plan.of_kind(ForceElement), np.zeros(motion.shape)
+    for name in own_loads(motion):
+        for load in elements[name].in_gravity(None, slope).loads(motion):
+            r, force = motion[load.point], load.force
+            total = total - (r[0] * force[1] - r[1] * force[0])
+    return total
+
+
+def added_moment(motion: Motion) -> FloatArray:
+    """Return the moment of all other loads on the slope as it is set [Nm], shape (...), positive where it lifts the front axle."""
+    a, b, c = added(motion)
+    slope = motion.inputs["slope"]
+    return np.asarray(a * np.cos(slope) + b * np.sin(slope) + c)
+
+
 def front_axle(motion: Motion) -> FloatArray:
     """Return the front axle's load square to the ground [N], shape (...); below zero the tractor tips over backwards."""
     given = motion.inputs
     moment = given["vehicle_mass"] * vehicle_lever(motion) + given["load.mass"] * implement_lever(motion)
-    return np.asarray(-g0 * moment / given["wheelbase"])
+    return np.asarray(-(g0 * moment + added_moment(motion)) / given["wheelbase"])
 
 
 def mass_leaving(motion: Motion, share: FloatArray | float) -> FloatArray:
@@ -44,8 +75,9 @@ def mass_leaving(motion: Motion, share: FloatArray | float) -> FloatArray:
     0 where not even the bare tractor has it; NaN where the implement's weight does not lift the front axle: no limit.
     """
     given, arm = motion.inputs, implement_lever(motion)
+    spare = -given["vehicle_mass"] * (vehicle_lever(motion) + share * given["wheelbase"]) - added_moment(motion) / g0
     with np.errstate(divide="ignore", invalid="ignore"):
-        mass = given["vehicle_mass"] * -(vehicle_lever(motion) + share * given["wheelbase"]) / arm
+        mass = spare / arm
     return np.where(arm > 0.0, np.maximum(mass, 0.0), np.nan)
 
 
@@ -61,10 +93,12 @@ def largest_mass(motion: Motion) -> FloatArray:
 
 def tipping_slope(motion: Motion) -> FloatArray:
     """Return how steep it may go uphill until the tractor tips over backwards [rad], shape (...); 0 where it tips on level ground."""
-    given = motion.inputs
-    along = given["vehicle_mass"] * given["vehicle_x"] + given["load.mass"] * motion.x("G")
-    up = given["vehicle_mass"] * given["vehicle_y"] + given["load.mass"] * motion.y("G")
-    return np.asarray(np.maximum(np.arctan2(-along, up), 0.0))
+    given, (a, b, c) = motion.inputs, added(motion)
+    along = g0 * (given["vehicle_mass"] * given["vehicle_x"] + given["load.mass"] * motion.x("G")) + a
+    up = g0 * (given["vehicle_mass"] * given["vehicle_y"] + given["load.mass"] * motion.y("G")) - b
+    with np.errstate(divide="ignore", invalid="ignore"):
+        held = np.arcsin(np.clip(-c / np.hypot(along, up), -1.0, 1.0))  # along cos + up sin + c = 0 of the angle uphill
+    return np.asarray(np.maximum(held + np.arctan2(-along, up), 0.0))
 
 
 def balance_verdict(motion: Motion) -> Verdict:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hydraulics import Verdict
-from linkage import Motion, pin_forces
+from linkage import ForceElement, Motion, pin_forces
 from linkage.program import FloatArray
 from linkage.report import below_zero, closely, spans_in_words
 from linkage.statics.loaded import Case
@@ -14,7 +14,8 @@ from linkage.units import kN
 
 def upper_link_force(motion: Motion, case: Case = None) -> FloatArray:
     """Return the force in the upper link MK [N], shape (...): positive in tension, negative in compression."""
-    (joint,) = pin_forces(motion, case=case).at("M")
+    elements = motion.plan.of_kind(ForceElement)  # a spring at M, say, has a joint of its own there
+    (joint,) = (each for each in pin_forces(motion, case=case).at("M") if not {each.on, each.by} & set(elements))
     on_link = joint.force if joint.by == "frame" else -joint.force
     along = motion["M"] - motion["K"]
     return np.asarray((on_link * along).sum(axis=0) / np.hypot(along[0], along[1]))

@@ -430,8 +430,8 @@ def test_header_2_needs_its_first_pair_of_accumulators_as_little_as_the_paper_sa
     assert Balance(with_both).pressure.max() < 50 * kgf_cm2
     assert_allclose(Balance(alone).pressure, Balance(with_both).pressure, rtol=1e-13)
     assert_allclose(Balance(alone).down, Balance(with_both).down, rtol=1e-10)
-    both = (with_both, alone)
-    said = [[str(each) for each in criteria(motion) if "fast" not in each.rule and each.rule != "accumulators"] for motion in both]
+    others = ("2 no hang-up, fast from the settled charge, n = 1.4", "accumulators", "change of header")  # there it is at work
+    said = [[str(each) for each in criteria(motion) if each.rule not in others] for motion in (with_both, alone)]
     assert said[0] == said[1]
 
 

@@ -109,17 +109,17 @@ class Draft(Steps):
     # -- friction ------------------------------------------------------------------------------------------
 
     def joined(self):
-        """Return how many bodies meet at each point: the frame, links, cylinders, elements."""
+        """Return how many bodies meet at each point, in the order of the points: the frame, links, cylinders, elements."""
         bars = [*self.bodies(), *({each.A, each.B} for each in self.holders), *({each.A, each.B} for each in self.elements.values())]
         bars += [set(pair) for pair in self.own.values() if pair not in [(each.A, each.B) for each in self.elements.values()]]
         found = Counter(point for bar in bars for point in bar)
         found.update(point for point in self.at if self.is_fixed(point))
-        return found
+        return {name: found[name] for name in self.at}
 
     def rub(self):
         """Friction in some pins and on some guides."""
-        runs = Counter(run.point for run in self.runs if not run.driven)
-        pins = [name for name, bodies in self.joined().items() if bodies > 1 or runs[name] == 1]
+        runs = Counter(run.point for run in self.runs if not (run.driven or run.block))
+        pins = [name for name, bodies in self.joined().items() if bodies > 1 or (bodies == 1 and runs[name] == 1 and name in self.moving)]
         for name in self.random.permutation(pins)[: int(self.random.integers(2, 5))]:
             radius, coefficient = self.uniform(0.005, 0.02), self.uniform(0.03, 0.12)
             self.parts[f"rub{name}"] = lambda to, name=str(name), radius=radius, coefficient=coefficient: PinFriction(

@@ -31,6 +31,7 @@ def seeds(chosen):
 
 
 EACH = pytest.mark.parametrize("seed", seeds(range(MANY)))
+FOURTH = pytest.mark.parametrize("seed", seeds(range(0, MANY, 4)))
 RUBBING = pytest.mark.parametrize("seed", seeds([seed for seed in range(MANY) if "friction" in wants(seed)]))
 BLOCKS = pytest.mark.parametrize("first", [n if n < DAILY else pytest.param(n, marks=pytest.mark.slow) for n in range(0, MANY, BLOCK)])
 
@@ -252,7 +253,7 @@ def test_the_work_of_the_oil_is_the_change_of_energy(first):
     assert done
 
 
-@EACH
+@FOURTH
 def test_requests_are_the_same_forces(seed):
     """Asked of the machine by values of its strokes, at rest: the drives' forces, and joint forces by pin and body."""
     hand, _ = seen(seed)
@@ -489,8 +490,8 @@ def test_along_a_path_friction_goes_by_its_tangent(seed):
         for each in found.joints:
             if each.kind == "pin" and each.point in pins:
                 turning = sum(turning_of(hand, each, name) * rate for name, rate in rates.items())
-                sure = np.abs(turning) > 0.02 * np.max(np.abs(turning))
-                sure &= np.abs(turning) > 1e-9
+                sure = np.abs(turning) > max(1e-9, 0.02 * np.max(np.abs(turning)))
+                sure[[0, -1]] = False  # where a path ends its tangent is known from one side alone
                 wanted = -np.sign(turning) * math.prod(pins[each.point]) * size(each.force)
                 assert_allclose(each.couple[sure], wanted[sure], rtol=1e-7, atol=1e-9, err_msg=f"{each} {direction}")
 

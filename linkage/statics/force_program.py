@@ -26,7 +26,7 @@ from ..program import FloatArray, Kernel, Level, Node, Tangent
 from .contacts import Contact
 from .drives import cut
 from .elimination import eliminated_system, held
-from .law import Law
+from .law import Law, rate_name
 from .loaded import Case, Loaded, Loads
 from .movement import Movement
 from .poses import Poses
@@ -76,24 +76,20 @@ def by_program(poses: Poses, loaded: Loaded, loads: Loads, case: Case) -> Equili
     motion = poses.motion
     if not isinstance(motion, Motion) or motion.reached.size <= FEW:
         return None
-    steady = steady_rates(loaded.movement)
-    if steady is None:
-        return None
     structure = Structure(poses.plan, loaded.elements, loaded.pushing)
     lines = structure.holding.lines
     if any(len(line.cylinders) > 1 and any(each.works_both for each in line.cylinders) for line in lines):
         return None
     rubbing = rubs(structure, poses, loaded.frictions, loaded.movement) if loaded.frictions else []
-    found = program_of(poses.plan, structure, loads, case, steady, [structure.contacts.index(rub.column.contact) for rub in rubbing])
+    rubbed = [structure.contacts.index(rub.column.contact) for rub in rubbing]
+    found = program_of(poses.plan, structure, loads, case, loaded.movement, rubbed)
     return None if found is None else run(found, structure, poses, loaded, rubbing)
 
 
-def steady_rates(movement: Movement) -> Movement | None:
-    """Return a movement whose rates are the same at all poses, as numbers; None where they are not."""
-    rates = {name: np.unique(np.asarray(rate, float)) for name, rate in movement.rates.items()}
-    if any(len(each) != 1 for each in rates.values()):
-        return None
-    return Movement(movement.direction, {name: float(each[0]) for name, each in rates.items()}, movement.rubs, movement.is_timed)
+def rate_inputs(motion: Motion, movement: Movement) -> dict[str, Any]:
+    """Return the rates of the strokes as a kernel takes them, of all designs and poses."""
+    rates = {name: np.broadcast_to(np.asarray(rate, float), motion.shape) for name, rate in movement.rates.items()}
+    return {rate_name(name): rate.reshape(motion.size) for name, rate in rates.items()}
 
 
 def program_of(
@@ -186,10 +182,10 @@ def run(program: ForceProgram, structure: Structure, poses: Poses, loaded: Loade
     """Return the forces by the kernels; None where an assumption of a law fails or a pose that should has no value."""
     motion, n = poses.motion, poses.count
     assert isinstance(motion, Motion)
-    inputs, size = dict(motion.flat), motion.size
+    inputs, size = motion.flat | rate_inputs(motion, loaded.movement), motion.size
     q, locked = np.zeros((0, n)), np.zeros(n, bool)
     if program.rubbing is not None:
-        found = frictions(program, structure, poses, rubbing)
+        found = frictions(program, structure, poses, rubbing, inputs)
         if found is None:
             return None
         q, locked = found
@@ -212,7 +208,9 @@ def run(program: ForceProgram, structure: Structure, poses: Poses, loaded: Loade
     )  # fmt: skip
 
 
-def frictions(program: ForceProgram, structure: Structure, poses: Poses, rubbing: Sequence[Rub]) -> tuple[FloatArray, Mask] | None:
+def frictions(
+    program: ForceProgram, structure: Structure, poses: Poses, rubbing: Sequence[Rub], given: dict[str, Any]
+) -> tuple[FloatArray, Mask] | None:
     """Return the frictions (frictions, n) [N] and where they have no bounded solution (n,); None where an assumption fails.
 
     Some thousand poses are looked at at a time: what presses the joints, with its derivatives, is much for each.
@@ -224,7 +222,7 @@ def frictions(program: ForceProgram, structure: Structure, poses: Poses, rubbing
     q, locked = np.zeros((len(rubbing), poses.count)), np.zeros(poses.count, bool)
     places = poses.full(np.arange(poses.count, dtype=float)).reshape(motion.size)
     for band, part in pieces(*motion.size, PIECE):
-        inputs = {name: cut_out(value, band, part, name in poses.plan.table.entries) for name, value in motion.flat.items()}
+        inputs = {name: cut_out(value, band, part, name in poses.plan.table.entries) for name, value in given.items()}
         here = places[band, part]
         good = np.isfinite(here)
         at = here[good].astype(int)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from threading import RLock
 from typing import Any, final
 
@@ -26,7 +27,8 @@ class Law:
 
     def __init__(self, motion: TracedMotion, loads: Loads, case: Case, movement: Movement) -> None:
         self.motion = motion
-        self.loaded: Loaded = traced(motion, loads, case, movement)
+        rates = {name: motion.input(rate_name(name)) for name in movement.rates}
+        self.loaded: Loaded = traced(motion, loads, case, replace(movement, rates=rates))
         self.poses = Poses(motion, "")
 
     @classmethod
@@ -62,6 +64,11 @@ class Law:
     def names(self) -> set[str]:
         """The members that the laws read and the loads act on."""
         return self.motion.read | self.carriers
+
+
+def rate_name(stroke: str) -> str:
+    """Return the name of a stroke's rate as an input of the program; no dimension can be called so."""
+    return f"|rate {stroke}"
 
 
 def traced(motion: TracedMotion, loads: Loads, case: Case, movement: Movement) -> Loaded:

@@ -12,7 +12,7 @@ from ..errors import DefinitionError
 from ..motion.asked import named
 from ..motion.request import stroke_of
 from ..plan import ArrayReading, Plan, Trace
-from ..program import FloatArray, Node, Notes, Tangent, Traced, node_of
+from ..program import FloatArray, Level, Node, Notes, Tangent, Traced, node_of
 from ..quantities import Angle, Distance, Quantity, Reference
 from ..steps import Arrow, Point
 
@@ -40,6 +40,10 @@ class TracedMotion:
     def number(self, value: Any) -> Any:
         """Return a number of the program as a traced one."""
         return Traced(self.reading.graph.node(node_of(value)), self.notes)
+
+    def input(self, name: str) -> Any:
+        """Return an input of the program at the poses, besides those of the plan, as a traced number."""
+        return self.number(self.reading.graph.input(name, Level.POSE))
 
     def array(self, values: Any) -> FloatArray:
         """Return numbers of the program as an array of traced ones."""

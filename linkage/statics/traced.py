@@ -97,7 +97,7 @@ class TracedMotion:
 
     def sketched(self, quantity: Quantity) -> Any:
         """Return what a quantity is at the sketch pose; DefinitionError where groups have to be solved for it."""
-        if self.plan.groups:
+        if self.plan.reaches(quantity) & set(self.plan.groups):
             raise DefinitionError("it asks for the sketch pose, which groups of links have no closed form for")
         reading = ArrayReading(self.plan.members, self.plan.table.lengths, {**self.inputs, **self.plan.sketch_strokes})
         return reading.value(quantity)

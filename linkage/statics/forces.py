@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -49,10 +50,7 @@ def pin_forces(
     remarks = [*locked_words(found, direction), *held_words(poses, loaded, found.drives), *rest_words(loaded)]
     on = tuple((structure.name(structure.bearer(each.load)), each) for each in loaded.acting)
     locked = poses.full(found.locked.astype(float)) == 1.0
-
-    def again(other: Motion) -> PinForces:
-        return pin_forces(other, loads, case=case, direction=direction, drive=drive, rates=rates, split=split)
-
+    again = partial(pin_forces, loads=loads, case=case, direction=direction, drive=drive, rates=rates, split=split)
     return PinForces(
         motion, found.joints, found.drives, found.thrusts, loaded.case, direction, locked, tuple(remarks), poses, loaded, on, structure,
         again,

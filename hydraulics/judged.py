@@ -12,7 +12,7 @@ from typing import Any, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError
+from linkage.errors import DefinitionError, unknown
 from linkage.motion import Motion, Span, below_zero, greatest, lowest, reached
 from linkage.statics import Case, Loads, elements_of
 from linkage.units import litre, mm, show
@@ -26,13 +26,14 @@ from .verdict import Verdict
 
 
 def lift_verdicts(
-    circuit: LiftCircuit, motion: Motion, loads: Loads = None, *, case: Case = None, resistance: float = 0.0, unit: str = "bar"
+    circuit: LiftCircuit | str, motion: Motion, loads: Loads = None, *, case: Case = None, resistance: float = 0.0, unit: str = "bar"
 ) -> list[Verdict]:
     """Return the verdicts on lifting (with the remedy), oil and time, holding, and lowering against a `resistance` [Pa].
 
     `loads` are the machine's own unless others are given; `unit` is that of the pressures in the sentences. Along a path of
     several strokes, `at(S1=..., S2=...)` with arrays of one axis, it is judged along the path. Of a line of several cylinders each is.
     """
+    circuit = the_circuit(circuit, motion)
     one_design(motion, "A lift")
     if len(motion.stroke_shape) > 1:
         raise DefinitionError("A lift is judged along one stroke or one path; this motion is a grid of several strokes. Give at() arrays.")
@@ -49,6 +50,17 @@ def lift_verdicts(
         *(named(each.holding(), each.ram, several) for each in judged),
         *(named(each.lowering(resistance), each.ram, several) for each in judged),
     ]
+
+
+def the_circuit(circuit: LiftCircuit | str, motion: Motion) -> LiftCircuit:
+    """Return the circuit that is meant, by its name in the class too; DefinitionError for what is none."""
+    if not isinstance(motion, Motion):
+        raise DefinitionError(f"{motion!r:.60} is no motion; give machine.sweep(...) or machine.at(...).")
+    circuits = motion.plan.of_kind(LiftCircuit)
+    found = circuits.get(circuit) if isinstance(circuit, str) else circuit
+    if not isinstance(found, LiftCircuit):
+        raise unknown("LiftCircuit", str(circuit), circuits, where=motion.plan.title)
+    return found
 
 
 def named(verdict: Verdict, ram: Cylinder, several: bool) -> Verdict:
@@ -208,10 +220,11 @@ class Judged:
             return Verdict("holding", False, text)
         ok = bool(working.value <= limit and other.value <= limit)
         sides = "piston" if self.ram.works != "rod" else "rod", "rod" if self.ram.works != "rod" else "piston"
-        where = f", {working.where}" if working.value > 0.0 else ""
-        more = f", up to {self.show(other.value)} in the {sides[1]} side where the load drives, {other.where}" if other.value > 0.0 else ""
+        drives = "" if self.ram.works == "both" else " where the load drives"
+        found = [(working, f"{sides[0]} side"), (other, f"{sides[1]} side{drives}")]
+        parts = [f"up to {self.show(most.value)} stand in the {side}, {most.where}" for most, side in found if most.value > 0.0]
         valve = "the relief valve" if circuit.relief is not None else "the pump, for no relief= is given"
-        says = f"with the pump off up to {self.show(working.value)} stand in the {sides[0]} side{where}{more}"
+        says = f"with the pump off {', '.join(parts) or 'no pressure stands on either side'}"
         rest = f", held against {valve}, {self.show(limit)}" if ok else f"; that is above {valve}, {self.show(limit)}: take a larger bore"
         return Verdict("holding", ok, f"{says}{rest}.")
 
@@ -226,7 +239,8 @@ class Judged:
         if not stuck:
             least = lowest(motion, lambda at: sinks(at).working)
             if least.value <= 1e-9 * float(circuit.supply(motion)):
-                return Verdict("lowering", True, f"it sinks by itself {against}, but the load asks for nothing {least.where}.")
+                text = f"it goes back by itself {against}; {least.where} the load presses on neither side and nothing drives it."
+                return Verdict("lowering", True, text)
             text = f"it sinks by itself {against}: the load makes at least {self.show(least.value)} in the working side, {least.where}."
             return Verdict("lowering", True, text)
         whole = reached(motion)

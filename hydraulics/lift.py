@@ -121,16 +121,17 @@ class LiftCircuit(Circuit):
         return number_set(self, motion, name) if follows(getattr(self, name)) else super().number(motion, name)
 
     def supply(self, motion: Poses) -> Array:
-        """Return the pump's highest pressure [Pa]; DefinitionError unless it is above zero."""
-        what = f"{self.name or 'LiftCircuit'}.pressure"
-        return in_pascals(positive(self.number(motion, "pressure"), what), what)
+        """Return the highest pressure that lifts [Pa]: the pump's, as far as the relief valve lets it; DefinitionError for none."""
+        pump = self._pressure_set(motion, "pressure")
+        return pump if self.relief is None else np.minimum(pump, self._pressure_set(motion, "relief"))
 
     def held(self, motion: Poses) -> Array:
         """Return the pressure at which the relief valve opens [Pa], the pump's where none is given."""
-        if self.relief is None:
-            return self.supply(motion)
-        what = f"{self.name or 'LiftCircuit'}.relief"
-        return in_pascals(positive(self.number(motion, "relief"), what), what)
+        return self._pressure_set(motion, "pressure" if self.relief is None else "relief")
+
+    def _pressure_set(self, motion: Poses, name: str) -> Array:
+        what = f"{self.name or 'LiftCircuit'}.{name}"
+        return in_pascals(positive(self.number(motion, name), what), what)
 
     def efficiency(self, motion: Poses, kind: str) -> Array:
         """Return the "mechanical" or "hydraulic" efficiency; DefinitionError unless it is above 0 and not above 1."""

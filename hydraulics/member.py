@@ -175,7 +175,11 @@ class Cylinder(TwoPoint, Tabled):
         if closed > low + TOLERANCE:
             faults.append(f"it is {(closed - low) / mm:.1f} mm too long closed: take one with a shorter closed length")
         if opened < high - TOLERANCE:
-            faults.append(f"{(high - opened) / mm:.1f} mm are missing open: take a longer stroke")
+            single = high - closed <= closed
+            remedy = "take a longer stroke" if single else "no cylinder comes out by more than it is long closed: move its pins"
+            faults.append(f"{(high - opened) / mm:.1f} mm are missing open: {remedy}")
+        elif np.isfinite(opened) and opened - closed > closed:
+            faults.append(f"it cannot come out by {(opened - closed) / mm:.1f} mm, more than it is long closed: move its pins")
         says = f"{self._pins} goes from {low / mm:.1f} to {high / mm:.1f} mm, the cylinder is {closed / mm:.1f} mm long closed{out}"
         return Verdict("length", not faults, f"{'; '.join([says, *faults])}.")
 

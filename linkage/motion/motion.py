@@ -64,7 +64,10 @@ class Motion(Outputs):
         """
         if len(self.strokes) < 2 or len(self.stroke_shape) != 1 or self.stroke_shape[0] < 2:
             return None
-        return {name: np.gradient(value) for name, value in self.strokes.items()}
+        if self.stroke_shape[0] == 2:
+            return {name: np.gradient(value) for name, value in self.strokes.items()}
+        # of second order at the ends too; a stroke that is held stays exactly so
+        return {name: np.gradient(value, edge_order=2) * float(np.ptp(value) > 0.0) for name, value in self.strokes.items()}
 
     def sketched(self, quantity: Quantity) -> FloatArray:
         """Return what a quantity is at the sketch pose of each design [SI], shaped to broadcast against results."""

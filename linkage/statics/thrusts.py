@@ -37,6 +37,8 @@ def member_thrust(
     `direction` is the member's own: "extending" while it grows, whatever that makes of the strokes. Raises DefinitionError for one
     that neither holds nor has a law here, SingularError where its length stands still against its drive.
     """
+    if not isinstance(motion, Motion):
+        raise DefinitionError(f"{motion!r:.60} is no motion; give machine.sweep(...) or machine.at(...).")
     plan, member = motion.plan, standing_for(motion, member)
     elements = [each.element for each in chosen(plan, loads, None)]
     holding = holding_of(plan, [*elements, member])

@@ -35,9 +35,9 @@ Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
 class FloatCircuit(Circuit):
     """A cylinder on a closed accumulator block: `FloatCircuit(lift, block, charge_pressure=94 * kgf_cm2, at=h_horizon)`.
 
-    The line has `charge_pressure` [Pa gauge] where the stroke that drives the cylinder is `at` [m]; `seal_friction` is what
-    the seals take off that pressure [Pa]. `exponent` 1 is a slow movement, by the block's own gas law; above 1 the block has
-    settled at the charge pressure and moves fast, by p V^exponent. `block` is an AccumulatorBlock, whose charges and volumes
+    The line has `charge_pressure` [Pa gauge] where the stroke that the cylinder follows is `at` [m], other strokes at the sketch;
+    `seal_friction` is what the seals take off that pressure [Pa]. `exponent` 1 is a slow movement, by the block's own gas law; above 1
+    the block has settled at the charge pressure and moves fast, by p V^exponent. `block` is an AccumulatorBlock, whose charges and volumes
     may follow dimensions, or a function of the motion that returns one. The cylinder works with one side, and has no other force than
     the gas's; what its stroke still needs is the drive's.
     """
@@ -133,9 +133,9 @@ class FloatCircuit(Circuit):
 
 
 def length_at(motion: Poses, ram: Cylinder, at: Array) -> Any:
-    """Return a cylinder's length [m] where the stroke that drives it is `at`, the other strokes as they are; broadcasts."""
+    """Return a cylinder's length [m] where the line is charged: the stroke that it follows at `at`, others at the sketch; broadcasts."""
     plan, stroke = motion.plan, stroke_followed(motion.plan, ram)
-    reading = ArrayReading(plan.members, plan.table.lengths, motion.inputs | {stroke: at})
+    reading = ArrayReading(plan.members, plan.table.lengths, {**motion.inputs, **plan.sketch_strokes, stroke: at})
     length = plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
     if length is not None:
         return reading.value(length)
@@ -149,18 +149,13 @@ def length_at(motion: Poses, ram: Cylinder, at: Array) -> Any:
 
 
 def length_by_groups(motion: Poses, ram: Cylinder, stroke: str, at: Array) -> Array:
-    """Return a cylinder's length [m] where a stroke is `at`, its ends found with groups of links; broadcasts against the motion."""
+    """Return a cylinder's length [m] where its line is charged, its ends found with groups of links; broadcasts against the motion."""
     if not isinstance(motion, Motion) or np.size(at) != 1:
         what = f"{ram}: its length follows from a group of links, which has no closed form"
         raise DefinitionError(f"{what}; give the circuit one charging stroke for all designs, and ask for arrays.")
-    others = {name: value for name, value in motion.strokes.items() if name != stroke}
-    value = np.asarray(float(np.ravel(at)[0]))
-    if any(np.ptp(each) > 0.0 for each in others.values()):
-        found = motion.moved({**others, stroke: value}).distance(ram.A, ram.B)
-    else:
-        still = {name: np.ravel(each)[:1].reshape(()) for name, each in others.items()}
-        pose = Motion(motion.plan, motion.designs, {name: {**still, stroke: value}[name] for name in motion.strokes}, "nan")
-        found = pose.distance(ram.A, ram.B).reshape((*motion.design_shape, *(1,) * len(motion.stroke_shape)))
+    value = float(np.ravel(at)[0])
+    strokes = {name: np.asarray(place) for name, place in {**motion.plan.sketch_strokes, stroke: value}.items()}
+    found = Motion(motion.plan, motion.designs, {name: strokes[name] for name in motion.strokes}, "nan").distance(ram.A, ram.B)
     if not np.all(np.isfinite(found)):
-        raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {stroke} = {float(value):.6g}.")
-    return np.asarray(found)
+        raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {stroke} = {value:.6g}.")
+    return np.asarray(found.reshape((*motion.design_shape, *(1,) * len(motion.stroke_shape))))

@@ -15,6 +15,7 @@ import numpy as np
 from linkage.errors import DefinitionError, unknown
 from linkage.motion import Motion, Span, below_zero, greatest, lowest, reached
 from linkage.statics import Case, Loads, elements_of
+from linkage.statics.holding import same
 from linkage.units import litre, mm, show
 
 from .cylinder import CylinderSize
@@ -72,6 +73,13 @@ def idle(judged: Sequence[Judged]) -> Verdict | None:
     """Return the verdict on a lift that has nothing to carry; None where it has."""
     first = judged[0]
     elements = elements_of(first.motion.plan, first.loads)
+    members = first.motion.plan.members
+    feeding = [(name, one.feeds(members)) for name, one in elements]
+    fed = [(name, each.ram) for each in judged for name, rams in feeding if any(same(each.ram, ram) for ram in rams)]
+    if fed:
+        (line, ram), *_ = fed
+        says = f"{ram.name or ram} is fed by {line} and carries the gas's force, whatever the load: there is nothing that the pump lifts"
+        return Verdict("lifting", False, f"{says}. Judge what the drive must do, driving_force(motion), or leave {line} out of the loads.")
     if any(greatest(each.motion, lambda at, each=each: np.abs(each.thrust(at))).value > 0.0 for each in judged):  # type: ignore[misc]
         return None
     acting = [name for name, each in elements if not each.holds and not each.joined(first.motion.plan.members)]

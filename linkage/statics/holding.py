@@ -93,19 +93,24 @@ def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holding:
         raise DefinitionError(too_many(plan, lines))
     names = list(plan.strokes)
     pairs = [(line, names[place]) for line, place in zip(lines, best, strict=True)]
+    motion = sampled(plan)
+    for line, stroke in pairs:
+        apart = [each for each in line if not share(motion, each, stroke) > 0.0]
+        if apart:
+            raise DefinitionError(
+                f"{plan.title}: {titled(line)} are on one line, but {titled(apart)} does not move with {stroke}: one pressure cannot hold "
+                f"several strokes. Give each a circuit of its own, LiftCircuit({titled(apart[:1])}, pressure=...)."
+            )
     return Holding(tuple(Line(line, stroke, steady_rate(plan, line, stroke)) for line, stroke in pairs))
 
 
 def steady_rate(plan: Plan, line: Sequence[TwoPoint], stroke: str) -> float:
-    """Return how the declared length of a single cylinder follows its stroke, the same everywhere; 0 where it does not, or others too."""
+    """Return how the declared length of a single cylinder follows its stroke: a number, of all designs and poses; else 0."""
     length = plan.table.lengths.get(frozenset(line[0].ends)) if len(line) == 1 else None
     if length is None or {name for name in plan.strokes if name == length.name or name in plan.reaches(length)} != {stroke}:
         return 0.0
-    if any(name in plan.points for name in plan.reaches(length)):
-        return 0.0
-    rate = sampled(plan).ratio(length, wrt=stroke)
-    rates = np.unique(rate[np.isfinite(rate)])
-    return float(rates[0]) if len(rates) == 1 else 0.0
+    (slope,) = plan.made(("slope", *line[0].ends, stroke), lambda twin: twin.derived(twin.nodes(length), (stroke,)))
+    return float(slope.value) if slope.op == "constant" else 0.0
 
 
 def joined_lines(plan: Plan, elements: Sequence[ForceElement]) -> list[tuple[TwoPoint, ...]]:

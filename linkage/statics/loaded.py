@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, Protocol, TypeAlias
 
 import numpy as np
@@ -91,6 +91,10 @@ class Plain(ForceElement):
     def loads(self, motion: Moved) -> list[Load]:
         return self.element.loads(motion)
 
+    def moving(self, motion: Moved, rates: Rates) -> list[Load]:
+        moving: Callable[[Moved, Rates], list[Load]] | None = getattr(self.element, "moving", None)
+        return self.loads(motion) if moving is None else moving(motion, rates)
+
     def __str__(self) -> str:
         return str(self.element)
 
@@ -109,7 +113,8 @@ def gathered(motion: Motion, loads: Loads, case: Case, movement: Movement, witho
         ]
         found = [] if pushes else called(each.in_case, motion, movement.known, each.name)
         acting += [Acting(load, fitted(load, motion, each.name) * each.factor, each.name) for load in found]
-    frictions = tuple(friction for each in kept for friction in each.element.frictions(motion)) if movement.rubs else ()
+    rubbing = [(each.factor, friction) for each in kept if movement.rubs for friction in each.element.frictions(motion)]
+    frictions = tuple(replace(friction, coefficient=friction.coefficient * factor) for factor, friction in rubbing)
     still = tuple(each.name for each in kept if isinstance(each.element, Damper) and not movement.is_timed)
     return Loaded(tuple(acting), tuple(pushing), frictions, tuple(each.element for each in kept), label, movement, still)
 
@@ -143,8 +148,13 @@ def chosen(plan: Plan, loads: Loads, case: Case, without: str = "") -> list[Chos
     for name in chosen.mentioned:
         if name not in known:
             raise unknown("Load", name, known, where=f"{plan.title}, {chosen.label}")
-    kept = [(name, element) for name, element in present if chosen.factor(name) != 0.0 and name != without]
-    return [Chosen(name, element, chosen.on(element), chosen.factor(name)) for name, element in kept]
+    factors = [(name, element, factor_of(chosen, name, element)) for name, element in present if name != without]
+    return [Chosen(name, element, chosen.on(element), factor) for name, element, factor in factors if factor != 0.0]
+
+
+def factor_of(case: LoadCase, name: str, element: ForceElement) -> float:
+    """Return what a load is multiplied by in a case; one without a name, which is given to count, is not left out by `only`."""
+    return case.factor(name) if element.name else float(case.scale.get(name, 1.0))
 
 
 def called(element: ForceElement, motion: Moved, rates: Rates, name: str) -> list[Load]:
@@ -212,6 +222,6 @@ def fitted(load: Load, motion: Motion, name: str) -> FloatArray:
 
 def known_points(load: Load, plan: Plan, name: str) -> None:
     """Raise DefinitionError for a load at a point that there is not."""
-    for point in (load.point, *load.on):
+    for point in (load.point, *(load.on if len(load.on) > 1 else ())):
         if name_of(point) not in plan.points:
             raise unknown("Point", point, plan.points, where=f"{plan.title}: {name}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import pi
@@ -9,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, SingularWarning
 from ..motion import greatest
 from ..units import deg, kN
 from .joint_force import JointForce
@@ -55,7 +56,10 @@ def max_table(results: PinForces | Iterable[PinForces]) -> tuple[PinLoad, ...]:
     each_of = [results] if isinstance(results, PinForces) else list(results)
     best: dict[tuple[str, str, str, str], PinLoad] = {}
     for one in each_of:
-        for row in largest(one):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SingularWarning)  # what comes of a dead point is said by the row
+            rows = largest(one)
+        for row in rows:
             key = (row.point, row.on, row.by, row.kind)
             if key not in best or row.force > best[key].force:
                 best[key] = row

@@ -95,14 +95,14 @@ def by_differences(request: Callable[[Hitch], FloatArray]) -> FloatArray:
     return np.array([(up - down) / (2.0 * STEP) for up, down in found])
 
 
-ASKED = {"thrust": drive_force(), "pin force": pin_force("C", "CD", "x")}
+ASKED = {"drive force": drive_force(), "pin force": pin_force("C", "CD", "x")}
 BY_HAND: dict[str, tuple[str, Callable[[Hitch, FloatArray], FloatArray]]] = {
-    "thrust": ("at() and driving_force", lambda hitch, stroke: driving_force(hitch.at(S=stroke))),
+    "drive force": ("at() and driving_force", lambda hitch, stroke: driving_force(hitch.at(S=stroke))),
     "pin force": ("at() and pin_forces, all joints", lambda hitch, stroke: pin_forces(hitch.at(S=stroke)).force("C", on="CD")[0]),
 }
 
 
-FEWER = {"thrust": 5, "pin force": 50}
+FEWER = {"drive force": 5, "pin force": 50}
 """How many times fewer poses the forces as arrays are worked out over."""
 
 

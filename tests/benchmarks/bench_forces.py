@@ -1,6 +1,6 @@
 """The speed of forces and of their gradients: the three-point hitch with an implement, in nanoseconds of processor time per pose.
 
-`python -m tests.benchmarks.bench_forces [ROUNDS]`. A thrust and a pin force as requests, against driving_force and
+`python -m tests.benchmarks.bench_forces [ROUNDS]`. A drive's force and a pin force as requests, against driving_force and
 pin_forces; their gradients by ten lengths, exact and by central differences of designs. All cases run in turn, round after
 round; the median of the rounds is printed, and what it is of the first case of its kind.
 

@@ -6,7 +6,7 @@ from tests.benchmarks.bench_forces import answered, answers, measured, table
 def test_all_find_the_same_forces():
     found, apart = measured(rounds=1, poses=400)
     assert len(apart) == 4 and len(found) == 12
-    assert apart["thrust"] < 1e-12 and apart["pin force"] < 1e-10
+    assert apart["drive force"] < 1e-12 and apart["pin force"] < 1e-10
     assert max(apart.values()) < 1e-6  # differences of designs
     assert all(each > 0.0 for _, each in found) and "gradient, numba" in table(found)
 

@@ -13,14 +13,14 @@ from typing import Any, final
 import numpy as np
 
 from linkage.errors import DefinitionError, unknown
-from linkage.motion import Motion, Span, below_zero, greatest, lowest, reached
+from linkage.motion import Motion, Span, below_zero, greatest, lowest, reached, require_motion
 from linkage.statics import Case, Loads, elements_of
 from linkage.statics.holding import same
 from linkage.units import litre, mm, show
 
 from .cylinder import CylinderSize
 from .inputs import Array
-from .lift import LiftCircuit, Work
+from .lift import LiftCircuit, Lowering, Work
 from .member import Cylinder, one_design, one_size
 from .sizes import standard_bores
 from .verdict import Verdict
@@ -55,8 +55,7 @@ def lift_verdicts(
 
 def the_circuit(circuit: LiftCircuit | str, motion: Motion) -> LiftCircuit:
     """Return the circuit that is meant, by its name in the class too; DefinitionError for what is none."""
-    if not isinstance(motion, Motion):
-        raise DefinitionError(f"{motion!r:.60} is no motion; give machine.sweep(...) or machine.at(...).")
+    require_motion(motion)
     circuits = motion.plan.of_kind(LiftCircuit)
     found = circuits.get(circuit) if isinstance(circuit, str) else circuit
     if not isinstance(found, LiftCircuit):
@@ -240,10 +239,14 @@ class Judged:
         """Return whether it sinks by itself against the resistance of the returning oil; where not, what the other side must give."""
         circuit, motion, against = self.circuit, self.motion, f"against {self.show(resistance)} in the return line"
 
-        def sinks(at: Motion) -> Any:
+        def sinks(at: Motion) -> Lowering:
             return circuit.lowering(at, self.loads, resistance=resistance, **self.choice)
 
-        stuck = below_zero(motion, lambda at: np.where(sinks(at).by_itself, 1.0, -1.0) + 0.0 * sinks(at).working)
+        def margin(at: Motion) -> Array:
+            found = sinks(at)
+            return np.asarray(np.where(found.by_itself, 1.0, -1.0) + 0.0 * found.working)
+
+        stuck = below_zero(motion, margin)
         if not stuck:
             least = lowest(motion, lambda at: sinks(at).working)
             if least.value <= 1e-9 * float(circuit.supply(motion)):
@@ -275,7 +278,7 @@ def filling(circuit: LiftCircuit, motion: Motion) -> Verdict:
 def oil_back(circuit: LiftCircuit, motion: Motion) -> float:
     """Return the oil [m3] that the rod sides take over the same way, of cylinders that work with both; 0 where none does."""
     both = [ram for ram in circuit.rams(motion) if ram.works == "both"]
-    return sum(float(circuit.way(motion, ram) * ram.sized(motion).pull_area) for ram in both)
+    return sum(float(ram.travel(motion) * ram.sized(motion).pull_area) for ram in both)
 
 
 def spans(found: Sequence[Span]) -> str:

@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError
 from linkage.loads import Force, ForceElement, Load, Poses
-from linkage.motion import Motion, greatest, lowest
+from linkage.motion import Motion
 from linkage.motion.reach import Mask
 from linkage.quantities import Reference, label, name_of
 from linkage.statics import Case, Loads, elements_of
@@ -116,6 +116,10 @@ class LiftCircuit(Circuit):
             raise DefinitionError(f"{self.name or 'The circuit'} has the cylinders {names}; say cylinder= one of them.")
         return named[0]
 
+    def meant(self, motion: Poses, cylinder: Reference | None) -> tuple[Cylinder, ...]:
+        """Return all its cylinders, or the one named."""
+        return self.rams(motion) if cylinder is None else (self.one(motion, cylinder),)
+
     def number(self, motion: Poses, name: str) -> Array:
         """Return a parameter as a motion's designs have it [SI], the same at all poses; DefinitionError for one that follows a stroke."""
         return number_set(self, motion, name) if follows(getattr(self, name)) else super().number(motion, name)
@@ -163,7 +167,7 @@ class LiftCircuit(Circuit):
         if direction is not None:
             thrust = ram.thrust(motion, loads, case=case, direction=direction)
             return Work(thrust, sense_in(direction, thrust), size, self.efficiency(motion, "mechanical"), False)
-        out, back = (ram.thrust(motion, loads, case=case, direction=way) for way in ("extending", "retracting"))
+        out, back = both_ways(ram, motion, loads, case)
         pushes = out + back >= 0.0  # against a pushing load it extends, against a pulling one it retracts
         thrust = np.where(pushes, out, back)
         return Work(thrust, np.where(pushes, 1.0, -1.0), size, self.efficiency(motion, "mechanical"), True)
@@ -178,8 +182,7 @@ class LiftCircuit(Circuit):
         `choice`: `case=`, `direction=` of the cylinder where it is not its working direction, `cylinder=` of a line of several (else
         the one that needs most).
         """
-        rams = self.rams(motion) if choice.get("cylinder") is None else (self.one(motion, choice["cylinder"]),)
-        each = [self._pressure(motion, loads, **{**choice, "cylinder": ram}) for ram in rams]
+        each = [self._pressure(motion, loads, **{**choice, "cylinder": ram}) for ram in self.meant(motion, choice.get("cylinder"))]
         return np.asarray(np.max(each, axis=0))
 
     def _pressure(self, motion: Motion, loads: Loads, **choice: Any) -> Array:
@@ -198,21 +201,24 @@ class LiftCircuit(Circuit):
 
     def most(self, motion: Motion, work: Work, share: float = 1.0) -> Array:
         """Return the greatest rod force [N] with the areas of a work, at a share of the pump's pressure."""
-        force = share * self.efficiency(motion, "hydraulic") * self.supply(motion) * work.area - self.back(motion) * work.other_area
+        force = self._given(motion, work, share)
         if np.any(force <= 0.0):
             raise DefinitionError(f"{self}: the back pressure eats up the pump's; lower it or raise the pressure.")
-        return np.asarray(force)
+        return force
+
+    def _given(self, motion: Motion, work: Work, share: float) -> Array:
+        """Return what the pressures on both sides give with the areas of a work [N], below zero where the back pressure is the stronger."""
+        pushes = share * self.efficiency(motion, "hydraulic") * self.supply(motion) * work.area
+        return np.asarray(pushes - self.back(motion) * work.other_area)
 
     def reserve(self, motion: Motion, loads: Loads = None, **choice: Any) -> Array:
         """Return the greatest rod force over the needed one, shape (...); NaN where it is not limited by this cylinder.
 
         Of a line of several cylinders the least, unless one is named.
         """
-        rams = self.rams(motion) if choice.get("cylinder") is None else (self.one(motion, choice["cylinder"]),)
         with np.errstate(invalid="ignore"):
-            each = [self._reserve(motion, loads, **{**choice, "cylinder": ram}) for ram in rams]
-            found = np.min(np.where(np.isnan(each), np.inf, each), axis=0)
-        return np.where(np.isfinite(found), found, np.nan)
+            each = [self._reserve(motion, loads, **{**choice, "cylinder": ram}) for ram in self.meant(motion, choice.get("cylinder"))]
+            return least_of(each)
 
     def _reserve(self, motion: Motion, loads: Loads, **choice: Any) -> Array:
         work = self.work(motion, loads, **choice)
@@ -240,23 +246,19 @@ class LiftCircuit(Circuit):
             raise DefinitionError(f"share = {share:.6g} of the pressure is not in 0 to 1; 0.9 is how tractors are tested.")
         unit = direction_of(along)
         own: list[Any] = [name for name, _ in elements_of(motion.plan, None)] if loads is None else listed(loads)
-        rams = self.rams(motion) if cylinder is None else (self.one(motion, cylinder),)
-        each = [self._capacity(motion, point, own, unit, share, ram, case) for ram in rams]
-        least = np.min(np.where(np.isnan(each), np.inf, each), axis=0)
-        return np.where(np.isfinite(least), least, np.nan)
+        return least_of([self._capacity(motion, point, own, unit, share, ram, case) for ram in self.meant(motion, cylinder)])
 
     def _capacity(self, motion: Motion, point: str, own: list[Any], unit: Array, share: float, ram: Cylinder, case: Case) -> Array:
         size, k_m = ram.sized(motion), self.efficiency(motion, "mechanical")
         lever = ram.thrust(motion, [Force(point, (-unit[0], -unit[1]))])  # what one newton there asks of it
         sense = np.sign(lever) if size.works == "both" else np.full(np.shape(lever), float(size.sense))
         lifts, lever = lever * sense > IDLE, lever * sense
-        lifting = Work(sense, sense, size, k_m, True)
-        force = share * self.efficiency(motion, "hydraulic") * self.supply(motion) * lifting.area - self.back(motion) * lifting.other_area
+        force = self._given(motion, Work(sense, sense, size, k_m, True), share)
 
         def carried(load: Array) -> Array:
             """Return the thrust that the machine and a load there need, in the direction in which it lifts."""
             loads = [*own, Force(point, (-unit[0] * load, -unit[1] * load))]
-            out, back = (ram.thrust(motion, loads, case=case, direction=way) for way in ("extending", "retracting"))
+            out, back = both_ways(ram, motion, loads, case)
             return np.where(sense > 0.0, out, -back)
 
         alone, safe = carried(np.zeros(motion.shape)), np.where(lifts, lever, 1.0)
@@ -275,11 +277,7 @@ class LiftCircuit(Circuit):
 
         Of a cylinder that works with both sides it is that outwards; `size.pull_area` over the same way is that inwards.
         """
-        return np.asarray(sum(for_designs(motion, ram.sized(motion).area) * travel_of(motion, ram) for ram in self.rams(motion)))[()]
-
-    def way(self, motion: Motion, ram: Cylinder) -> Array:
-        """Return greatest less least length of a cylinder over all that a motion covers [m], one value a design."""
-        return travel_of(motion, ram)
+        return np.asarray(sum(for_designs(motion, ram.sized(motion).area) * ram.travel(motion) for ram in self.rams(motion)))[()]
 
     def time(self, motion: Motion) -> Array:
         """Return the time [s] that the pump's flow takes for it, one value a design; DefinitionError without a flow."""
@@ -318,7 +316,7 @@ class LiftCircuit(Circuit):
         ram, k_m = self.one(motion, cylinder), self.efficiency(motion, "mechanical")
         size = ram.sized(motion)
         if size.works == "both":
-            out, back = (ram.thrust(motion, loads, case=case, direction=way) for way in ("extending", "retracting"))
+            out, back = both_ways(ram, motion, loads, case)
             pushes = out + back >= 0.0
             force, area = np.where(pushes, back, -out), np.where(pushes, size.push_area, size.pull_area)
             other = np.where(pushes, size.pull_area, size.push_area)
@@ -427,12 +425,16 @@ def listed(loads: Any) -> list[Any]:
     return list(loads) if isinstance(loads, Sequence) and not isinstance(loads, str) else [loads]
 
 
-def travel_of(motion: Motion, ram: Cylinder) -> Array:
-    """Return greatest less least length of a cylinder over all that a motion covers [m], one value a design."""
-    low, high = (found(motion, lambda each: each.distance(ram.A, ram.B)).value for found in (lowest, greatest))
-    if not np.all(np.isfinite(np.asarray(high) - low)):
-        raise DefinitionError(f"{ram}: no pose of this motion can be assembled.")
-    return np.asarray(np.asarray(high) - low)
+def both_ways(ram: Cylinder, motion: Motion, loads: Loads, case: Case) -> tuple[Array, Array]:
+    """Return what a cylinder carries while it grows and while it shrinks [N]."""
+    out, back = (ram.thrust(motion, loads, case=case, direction=way) for way in ("extending", "retracting"))
+    return out, back
+
+
+def least_of(each: Sequence[Array]) -> Array:
+    """Return the least of what each cylinder allows; NaN where none limits it."""
+    least = np.min(np.where(np.isnan(each), np.inf, each), axis=0)
+    return np.where(np.isfinite(least), least, np.nan)
 
 
 def for_designs(motion: Motion, value: ArrayLike) -> Array:

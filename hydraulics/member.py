@@ -10,7 +10,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -18,7 +17,7 @@ from typing import Any, ClassVar, Literal, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, SingularWarning, unknown
+from linkage.errors import DefinitionError, unknown, unwarned
 from linkage.loads import AT_REST, DrawnAs, ForceElement, LoadCase, Poses, Push, Rates, TwoPoint
 from linkage.motion import Column, Motion, Tabled, greatest, lowest
 from linkage.quantities import Reference, label, name_of
@@ -121,6 +120,18 @@ class Cylinder(TwoPoint, Tabled):
         push = max(thrust, 0.0) / self.count
         return [size for size in enough if length is None or Buckling(float(size.rod), self.mounting, self.safety).allowed(length) >= push]
 
+    def extent(self, motion: Motion) -> tuple[Array, Array]:
+        """Return its least and its greatest length over all that a motion covers [m], one value a design; NaN where no pose is reached."""
+        low, high = (np.asarray(found(motion, lambda each: each.distance(self.A, self.B)).value) for found in (lowest, greatest))
+        return low, high
+
+    def travel(self, motion: Motion) -> Array:
+        """Return greatest less least length over all that a motion covers [m], one value a design; DefinitionError for no pose reached."""
+        low, high = self.extent(motion)
+        if not np.all(np.isfinite(high - low)):
+            raise DefinitionError(f"{self}: no pose of this motion can be assembled.")
+        return np.asarray(high - low)
+
     # -- what it carries -----------------------------------------------------------------------------------
 
     def thrust(
@@ -164,7 +175,7 @@ class Cylinder(TwoPoint, Tabled):
         one_design(motion, str(self))
         if not motion.reached.any():
             raise DefinitionError(f"{self}: no pose of this motion can be assembled, so that there is no length to check.")
-        low, high = (float(found(motion, lambda each: each.distance(self.A, self.B)).value) for found in (lowest, greatest))
+        low, high = map(float, self.extent(motion))
         if self.closed is not None:
             return [self._reaches(low, high, self.closed, self.closed + self.stroke if self.stroke is not None else np.inf)]
         return [] if self.stroke is None else [self._travels(high - low, self.stroke)]
@@ -215,8 +226,7 @@ class Cylinder(TwoPoint, Tabled):
                 if np.isnan(found.value) or (worst is not None and found.value <= worst[0]):
                     continue
                 place = motion.moved(found.strokes)
-                with warnings.catch_warnings():
-                    warnings.simplefilter("ignore", SingularWarning)  # the verdict itself says what comes of it
+                with unwarned():  # the verdict itself says what comes of it
                     force = float(self.thrust(place, loads, case=each, direction=direction)) / self.count
                 worst = float(found.value), float(place.distance(self.A, self.B)), force, found.where
         if worst is None:

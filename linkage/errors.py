@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import warnings
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from difflib import get_close_matches
 from typing import Any
 
@@ -42,6 +44,14 @@ class SingularError(AssemblyError):
 
 class SingularWarning(UserWarning):
     """A pose so near to a singular one that digits are lost; the text gives the estimate."""
+
+
+@contextmanager
+def unwarned() -> Iterator[None]:
+    """Leave out the warnings of poses near singular ones, where what comes of these is said in another way."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SingularWarning)
+        yield
 
 
 class FileError(LinkageError):

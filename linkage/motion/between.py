@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularWarning
+from ..errors import DefinitionError, unwarned
 from ..program import FloatArray
 from .along import Along
 from .motion import Motion
@@ -21,8 +20,7 @@ Function: TypeAlias = Callable[[Motion], Any]
 
 def values_of(f: Function, motion: Motion) -> FloatArray:
     """Return what a function gives at every pose, shape (..., *motion.shape), NaN out of reach. Nearness to a dead point is not told."""
-    with warnings.catch_warnings(), np.errstate(all="ignore"):
-        warnings.simplefilter("ignore", SingularWarning)
+    with unwarned(), np.errstate(all="ignore"):
         found = np.asarray(f(motion), float)
     axes = len(motion.shape)
     if found.ndim < axes or found.shape[found.ndim - axes :] != motion.shape:

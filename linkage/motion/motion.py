@@ -194,3 +194,9 @@ class Motion(Outputs):
         """Return zeros in the shape of a ratio, NaN where the pose is not reached."""
         parts = (2,) if isinstance(self._member(target), (Point, Arrow)) else ()
         return np.where(self.reached, np.zeros((*parts, *self.shape)), np.nan)
+
+
+def require_motion(given: Any) -> None:
+    """Raise DefinitionError for what is no motion."""
+    if not isinstance(given, Motion):
+        raise DefinitionError(f"{given!r:.60} is no motion; give machine.sweep(...) or machine.at(...).")

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import SingularWarning
+from ..errors import unwarned
 from ..loads import TwoPoint
 from ..program import FloatArray
 from ..quantities import Distance
@@ -55,8 +54,7 @@ def follows(motion: Motion, element: TwoPoint, stroke: str, held: Mapping[str, f
     """Return whether an element's length changes with a stroke beyond rounding, as that of one between two points of a body does not."""
     at = np.concatenate([np.linspace(low, high, LOOKS) for low, high in ranges])
     moved = motion.moved({**held, stroke: at})
-    with warnings.catch_warnings(), np.errstate(all="ignore"):
-        warnings.simplefilter("ignore", SingularWarning)
+    with unwarned(), np.errstate(all="ignore"):
         way = sum(np.hypot(*moved.ratio(end, wrt=stroke)) for end in element.ends)
         rate = np.abs(moved.ratio(Distance(*element.ends), wrt=stroke))
     return bool(np.any(rate > STILL * way))
@@ -78,8 +76,7 @@ def rate_of(motion: Motion, element: TwoPoint, stroke: str, held: Mapping[str, f
     length = Distance(*element.ends)
 
     def rate(at: FloatArray) -> FloatArray:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore", SingularWarning)
+        with unwarned(), np.errstate(all="ignore"):
             return motion.moved({**held, stroke: at}).ratio(length, wrt=stroke)
 
     return rate

@@ -7,12 +7,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from ..errors import DefinitionError
-from ..loads import ForceElement, PinFriction, TwoPoint
+from ..loads import ForceElement, PinFriction
 from ..plan import Plan
 from ..quantities import Quantity, name_of
 from ..steps import Link
 from .holding import Holding, Line
-from .loaded import Pushing
+from .loaded import Pushing, member_title
 
 FRAME = -1
 FRAME_NAME = "frame"
@@ -115,11 +115,6 @@ def driven_lengths(plan: Plan, holding: Holding) -> list[Strut]:
 def holders(holding: Holding) -> list[Strut]:
     """Return the cylinders that hold."""
     return [Strut(member_title(each), *each.ends, line=line) for line in holding.lines for each in line.cylinders]
-
-
-def member_title(member: TwoPoint) -> str:
-    """Return the name of a two-point member as a body."""
-    return member.name or f"{type(member).__name__} {''.join(member.ends)}"
 
 
 def pushed(pushing: Sequence[Pushing]) -> list[Strut]:

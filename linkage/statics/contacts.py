@@ -34,6 +34,11 @@ class Contact:
         return len(self.holds)
 
     @property
+    def presses(self) -> int:
+        """How many of its unknowns make its friction: both components of a pin, the normal one of a guide."""
+        return 2 if self.kind == "pin" else 1
+
+    @property
     def has_force(self) -> bool:
         """Whether it transmits a force; a crank's drive has only a couple."""
         return self.holds != "c"

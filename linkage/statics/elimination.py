@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularWarning
+from ..errors import DefinitionError, unwarned
 from ..motion import Motion
 from ..plan import Plan
 from ..program import FloatArray, Node, eliminated
@@ -38,8 +37,7 @@ def held(plan: Plan, loaded: Loaded) -> float:
     along = np.linspace(0.0, 1.0, SAMPLE)
     ranges = {name: each.start + along * (each.end - each.start) for name, each in plan.strokes.items()}
     strokes = {name: np.append(plan.sketch_strokes[name], values) for name, values in ranges.items()}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", SingularWarning)
+    with unwarned():
         poses = Poses(Motion(plan, plan.defaults, strokes, "nan"), "The joint forces")
     still = tuple(replace(each, thrust=np.zeros(poses.motion.shape)) for each in loaded.pushing)
     system = System(Structure(plan, loaded.elements, still), poses, ())

@@ -31,7 +31,7 @@ from .loaded import Case, Loaded, Loads
 from .movement import Movement
 from .poses import Poses
 from .rub import Rub, rubs, unit_friction
-from .rubbing import CONTRACTS, SETTLED, Pressed, settled
+from .rubbing import CONTRACTS, Pressed, Rows, iterated, settled
 from .solved import Equilibrium, Solved
 from .structure import Structure
 from .system import System
@@ -71,14 +71,17 @@ class ForceProgram:
     struts: tuple[str, ...]
 
 
+class AssumptionError(Exception):
+    """What the program takes for granted does not hold at some pose: the equations are solved on arrays instead."""
+
+
 def by_program(poses: Poses, loaded: Loaded, loads: Loads, case: Case) -> Equilibrium | None:
     """Return the forces of a motion's poses by the program; None where it cannot say them, or is not worth its making."""
     motion = poses.motion
     if not isinstance(motion, Motion) or motion.reached.size <= FEW:
         return None
     structure = Structure(poses.plan, loaded.elements, loaded.pushing)
-    lines = structure.holding.lines
-    if any(len(line.cylinders) > 1 and any(each.works_both for each in line.cylinders) for line in lines):
+    if any(line.changes_shares for line in structure.holding.lines):
         return None
     rubbing = rubs(structure, poses, loaded.frictions, loaded.movement) if loaded.frictions else []
     rubbed = [structure.contacts.index(rub.column.contact) for rub in rubbing]
@@ -163,7 +166,7 @@ def rubbing_kernels(
     growth: list[Node] = []
     for contact in contacts:
         start = system.first[contact]
-        own = [law.motion.node(u[0, start + k]) for k in range(parts(contact))]
+        own = [law.motion.node(u[0, start + k]) for k in range(contact.presses)]
         slopes = [[tangent.of(force) for tangent in tangents] for force in own]
         forces += own
         by_each += [each for row in slopes for each in row]
@@ -173,11 +176,6 @@ def rubbing_kernels(
     return Rubbing(Kernel(growth, guards), Kernel(forces, guards), Kernel([*forces, *by_each], guards))
 
 
-def parts(contact: Contact) -> int:
-    """Return how many components press a rubbing joint: both of a pin, the normal one of a guide."""
-    return 2 if contact.kind == "pin" else 1
-
-
 def run(program: ForceProgram, structure: Structure, poses: Poses, loaded: Loaded, rubbing: Sequence[Rub]) -> Equilibrium | None:
     """Return the forces by the kernels; None where an assumption of a law fails or a pose that should has no value."""
     motion, n = poses.motion, poses.count
@@ -185,10 +183,10 @@ def run(program: ForceProgram, structure: Structure, poses: Poses, loaded: Loade
     inputs, size = motion.flat | rate_inputs(motion, loaded.movement), motion.size
     q, locked = np.zeros((0, n)), np.zeros(n, bool)
     if program.rubbing is not None:
-        found = frictions(program, structure, poses, rubbing, inputs)
-        if found is None:
+        try:
+            q, locked = frictions(program, structure, poses, rubbing, inputs)
+        except AssumptionError:
             return None
-        q, locked = found
         couples = poses.full(np.where(locked, 0.0, q) * np.stack([rub.lever for rub in rubbing])).reshape(len(rubbing), *size)
         inputs |= {friction_name(place): np.nan_to_num(each) for place, each in enumerate(couples)}
     result = program.whole(inputs, size=size)
@@ -210,14 +208,14 @@ def run(program: ForceProgram, structure: Structure, poses: Poses, loaded: Loade
 
 def frictions(
     program: ForceProgram, structure: Structure, poses: Poses, rubbing: Sequence[Rub], given: dict[str, Any]
-) -> tuple[FloatArray, Mask] | None:
-    """Return the frictions (frictions, n) [N] and where they have no bounded solution (n,); None where an assumption fails.
+) -> tuple[FloatArray, Mask]:
+    """Return the frictions (frictions, n) [N] and where they have no bounded solution (n,); AssumptionError where an assumption fails.
 
     Some thousand poses are looked at at a time: what presses the joints, with its derivatives, is much for each.
     """
     motion, kernels = poses.motion, program.rubbing
     assert kernels is not None and isinstance(motion, Motion)
-    many = tuple(parts(structure.contacts[index]) for index in program.rubbed)
+    rows = Rows(tuple(structure.contacts[index].presses for index in program.rubbed))
     lever, coefficient = (np.stack([getattr(rub, what) for rub in rubbing]) for what in ("lever", "coefficient"))
     q, locked = np.zeros((len(rubbing), poses.count)), np.zeros(poses.count, bool)
     places = poses.full(np.arange(poses.count, dtype=float)).reshape(motion.size)
@@ -228,10 +226,7 @@ def frictions(
         at = here[good].astype(int)
         if not at.size:
             continue
-        found = Piece(inputs, here.shape, good, many, lever[:, at], coefficient[:, at]).settled(kernels)
-        if found is None:
-            return None
-        q[:, at], locked[at] = found
+        q[:, at], locked[at] = Piece(inputs, here.shape, good, rows, lever[:, at], coefficient[:, at]).settled(kernels)
     return q, locked
 
 
@@ -242,43 +237,23 @@ class Piece:
     inputs: dict[str, Any]
     shape: tuple[int, ...]
     good: Mask
-    parts: tuple[int, ...]
+    rows: Rows
     lever: FloatArray
     coefficient: FloatArray
 
-    def settled(self, kernels: Rubbing) -> tuple[FloatArray, Mask] | None:
-        """Return the frictions (frictions, n) and the locked poses (n,); None where an assumption fails."""
+    def settled(self, kernels: Rubbing) -> tuple[FloatArray, Mask]:
+        """Return the frictions (frictions, n) and the locked poses (n,); AssumptionError where an assumption fails."""
         growth = self.asked(kernels.growth, lever_name, np.abs(self.lever))
-        if growth is None:
-            return None
-        none = np.zeros(self.lever.shape)
         if np.max(growth * self.coefficient, initial=0.0) < CONTRACTS:
-            return self.iterated(kernels, none)
-        rows = self.asked(kernels.by_each, friction_name, none)
-        if rows is None:
-            return None
-        forces = sum(self.parts)
-        by_unit = rows[forces:].reshape(forces, len(self.lever), -1)
-        return settled(Pressed(self.parts, rows[:forces], by_unit, self.lever), self.coefficient)
+            q = iterated(self.rows, self.coefficient, lambda q: self.asked(kernels.forces, friction_name, q * self.lever))
+            return q, np.zeros(q.shape[1], bool)
+        values = self.asked(kernels.by_each, friction_name, np.zeros(self.lever.shape))
+        forces = sum(self.rows.parts)
+        by_unit = values[forces:].reshape(forces, len(self.lever), -1)
+        return settled(Pressed(self.rows, values[:forces], by_unit, self.lever), self.coefficient)
 
-    def iterated(self, kernels: Rubbing, q: FloatArray) -> tuple[FloatArray, Mask] | None:
-        """Return the frictions to which plain iteration comes."""
-        pressed = Pressed(self.parts, q, q, self.lever)
-        first, last, share = pressed.first, pressed.last, pressed.share * self.coefficient
-        for _ in range(100):
-            force = self.asked(kernels.forces, friction_name, q * self.lever)
-            if force is None:
-                return None
-            x, y = force[first], force[last]
-            new = np.sqrt(x * x + y * y) * share  # np.hypot costs five times as much
-            change, largest = np.abs(new - q), np.max(new, axis=0, initial=0.0)
-            q = new
-            if not np.any(change > SETTLED * largest):
-                break
-        return q, np.zeros(q.shape[1], bool)
-
-    def asked(self, kernel: Kernel, name: Callable[[int], str], values: FloatArray) -> FloatArray | None:
-        """Return a kernel's outputs (outputs, n) for values (frictions, n) of the inputs so named; None where an assumption fails."""
+    def asked(self, kernel: Kernel, name: Callable[[int], str], values: FloatArray) -> FloatArray:
+        """Return a kernel's outputs (outputs, n) for values (frictions, n) of the inputs so named."""
         whole = bool(self.good.all())
         given: dict[str, Any] = {}
         for place, each in enumerate(values):
@@ -289,7 +264,9 @@ class Piece:
         result = kernel(self.inputs | given, size=(self.shape[0], self.shape[1]))
         rows = result.values.reshape(len(result.values), -1)
         rows = rows if whole else rows[:, self.good.ravel()]
-        return rows if np.all(result.guards > 0.0) and np.isfinite(rows).all() else None
+        if not (np.all(result.guards > 0.0) and np.isfinite(rows).all()):
+            raise AssumptionError
+        return rows
 
 
 def forces_of(row: Row, values: FloatArray, shape: tuple[int, ...]) -> tuple[FloatArray, FloatArray]:

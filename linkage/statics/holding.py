@@ -6,14 +6,13 @@ are left over keep the drive of their step. Which line takes which stroke is tol
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import permutations
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularWarning
+from ..errors import DefinitionError, unwarned
 from ..loads import ForceElement, TwoPoint
 from ..motion import Motion
 from ..plan import Plan
@@ -38,6 +37,11 @@ class Line:
     def is_steady(self) -> bool:
         """Whether its length follows its own stroke alone, in proportion."""
         return self.steady != 0.0
+
+    @property
+    def changes_shares(self) -> bool:
+        """Whether its cylinders carry other shares while it pulls than while it pushes: several, one of which works with both sides."""
+        return len(self.cylinders) > 1 and any(each.works_both for each in self.cylinders)
 
 
 @dataclass(frozen=True)
@@ -164,8 +168,7 @@ def share(motion: Motion, cylinder: TwoPoint, stroke: str) -> float:
     plan, span = motion.plan, motion.plan.strokes[stroke]
     if stroke not in plan.reaches(A) | plan.reaches(B):
         return 0.0
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", SingularWarning)
+    with unwarned():
         rate = np.abs(cylinder.growth(motion, {stroke: 1.0}))
         way = np.hypot(*motion.ratio(A, wrt=stroke)) + np.hypot(*motion.ratio(B, wrt=stroke))
     moved = np.nan_to_num(np.where(rate > STILL * way, rate, 0.0))

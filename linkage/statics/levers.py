@@ -78,7 +78,7 @@ def with_levers(poses: Poses, lines: Sequence[Line], what: str) -> tuple[Poses, 
     """
     if all(line.is_steady for line in lines):
         return poses, (steady_levers(poses, lines),)
-    both = any(len(line.cylinders) > 1 and any(each.works_both for each in line.cylinders) for line in lines)
+    both = any(line.changes_shares for line in lines)
     found = [levers_of(poses, lines, way) for way in ((1, -1) if both else (1,))]
     names = [each.name or str(each) for line in lines for each in line.cylinders]
     whose = f"the length of {names[0]} stands" if len(names) == 1 else f"the lengths of {', '.join(names)} stand"

@@ -121,7 +121,12 @@ def gathered(motion: Motion, loads: Loads, case: Case, movement: Movement, witho
 
 def member_name(member: TwoPoint, owner: str) -> str:
     """Return the name under which a two-point member is a body: its own, or that of the element which gives its thrust."""
-    return member.name or (owner if owner.isidentifier() else f"{type(member).__name__} {''.join(member.ends)}")
+    return member_title(member) if member.name or not owner.isidentifier() else owner
+
+
+def member_title(member: TwoPoint) -> str:
+    """Return the name of a two-point member as a body: its own, or its kind with its points."""
+    return member.name or f"{type(member).__name__} {''.join(member.ends)}"
 
 
 def over_poses(values: Any, motion: Motion, name: str, what: str) -> FloatArray:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import DefinitionError, unknown
 from ..loads import Rates
-from ..motion import Motion, rates_of
+from ..motion import Motion, rates_of, require_motion
 from ..plan import Plan
 from ..program import FloatArray
 
@@ -70,8 +70,7 @@ def movement_of(motion: Motion, direction: str, rates: Mapping[str, Any] | None,
     Along a path of several strokes they move as the path's tangent goes. DefinitionError where nobody says which one moves, and for
     rates that go against the direction.
     """
-    if not isinstance(motion, Motion):
-        raise DefinitionError(f"{motion!r:.60} is no motion; give machine.sweep(...) or machine.at(...).")
+    require_motion(motion)
     sense = sense_of(direction)
     if rates is not None:
         given = rates_of("rates", rates, motion.strokes, motion.shape, motion.plan.title)

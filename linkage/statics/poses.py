@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from copy import copy
 from typing import Any, Protocol
 
 import numpy as np
 
-from ..errors import SingularWarning
+from ..errors import unwarned
 from ..loads import Poses as ForElements
 from ..motion import singular
 from ..motion.reach import Mask
@@ -136,8 +135,7 @@ class Poses:
 
     def ratio(self, target: Any, drive: str) -> FloatArray:
         """Return the ratio of a point (2, n) or a quantity (n,); what is near singular has been told already."""
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", SingularWarning)
+        with unwarned():
             return self.flat(self.motion.ratio(target, wrt=drive))
 
     def line(self, guide: str) -> tuple[FloatArray, FloatArray]:

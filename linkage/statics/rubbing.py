@@ -8,6 +8,7 @@ zero on the way the forces grow beyond all bounds: the mechanism jams, or locks 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,20 +26,10 @@ BLOCK = 1024
 
 
 @dataclass(frozen=True)
-class Pressed:
-    """The forces that make the frictions: without any (rows, n), and by each friction of one unit (rows, frictions, n).
-
-    A pin has two rows, a guide one: `parts` says how many each; `lever` (frictions, n) how many units a friction of 1 N is, signed.
-    """
+class Rows:
+    """Where each friction's pressing forces stand: a pin has two rows, a guide one; `parts` says how many each."""
 
     parts: tuple[int, ...]
-    free: FloatArray
-    by_unit: FloatArray
-    lever: FloatArray
-
-    def at(self, places: Mask | slice) -> Pressed:
-        """Return the same at some poses."""
-        return Pressed(self.parts, self.free[:, places], self.by_unit[:, :, places], self.lever[:, places])
 
     @property
     def first(self) -> FloatArray:
@@ -56,6 +47,27 @@ class Pressed:
         return np.asarray(np.where(np.asarray(self.parts) == 2, 1.0, np.sqrt(0.5))[:, None])
 
 
+@dataclass(frozen=True)
+class Pressed:
+    """The forces that make the frictions: without any (rows, n), and by each friction of one unit (rows, frictions, n).
+
+    `lever` (frictions, n) says how many units a friction of 1 N is, signed.
+    """
+
+    rows: Rows
+    free: FloatArray
+    by_unit: FloatArray
+    lever: FloatArray
+
+    def at(self, places: Mask | slice) -> Pressed:
+        """Return the same at some poses."""
+        return Pressed(self.rows, self.free[:, places], self.by_unit[:, :, places], self.lever[:, places])
+
+    def forces(self, q: FloatArray) -> FloatArray:
+        """Return the pressing forces (rows, n) at some frictions (frictions, n) [N]."""
+        return np.asarray(np.einsum("rjn,jn->rn", self.by_unit, q * self.lever) + self.free)
+
+
 def settled(pressed: Pressed, coefficient: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the frictions (frictions, n) [N] for coefficients (frictions, n), and where they have no bounded solution (n,)."""
     count, n = coefficient.shape
@@ -68,10 +80,13 @@ def settled(pressed: Pressed, coefficient: FloatArray) -> tuple[FloatArray, Mask
 
 def settled_block(pressed: Pressed, coefficient: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the frictions and the locked poses of one block of poses."""
-    size = np.hypot(pressed.by_unit[pressed.first], pressed.by_unit[pressed.last]) * pressed.share[:, :, None]
-    rows = coefficient * np.einsum("rjn,jn->rn", size, np.abs(pressed.lever))
-    contracts = np.max(rows, axis=0, initial=0.0) < CONTRACTS
-    q = iterated(pressed, coefficient) if contracts.any() else np.zeros(coefficient.shape)
+    rows, q = pressed.rows, np.zeros(coefficient.shape)
+    size = np.hypot(pressed.by_unit[rows.first], pressed.by_unit[rows.last]) * rows.share[:, :, None]
+    growth = coefficient * np.einsum("rjn,jn->rn", size, np.abs(pressed.lever))
+    contracts = np.max(growth, axis=0, initial=0.0) < CONTRACTS
+    if contracts.any():
+        with np.errstate(over="ignore", invalid="ignore"):  # of poses that do not contract
+            q = iterated(rows, coefficient, pressed.forces)
     hard = ~contracts
     locked = np.zeros(len(hard), bool)
     if hard.any():
@@ -79,25 +94,25 @@ def settled_block(pressed: Pressed, coefficient: FloatArray) -> tuple[FloatArray
     return q, locked
 
 
-@np.errstate(over="ignore", invalid="ignore")
-def iterated(pressed: Pressed, coefficient: FloatArray) -> FloatArray:
-    """Return the frictions (frictions, n) to which plain iteration comes, where it contracts."""
-    first, last, share = pressed.first, pressed.last, pressed.share * coefficient
-    force, q = pressed.free, np.zeros(coefficient.shape)
+def iterated(rows: Rows, coefficient: FloatArray, forces: Callable[[FloatArray], FloatArray]) -> FloatArray:
+    """Return the frictions (frictions, n) to which plain iteration comes, where it contracts, with the pressing forces at frictions."""
+    first, last, share = rows.first, rows.last, rows.share * coefficient
+    q = np.zeros(coefficient.shape)
     for _ in range(100):
-        new = np.hypot(force[first], force[last]) * share
+        force = forces(q)
+        x, y = force[first], force[last]
+        new = np.sqrt(x * x + y * y) * share  # np.hypot costs five times as much
         change, largest = np.abs(new - q), np.max(new, axis=0, initial=0.0)
         q = new
         if not np.any(change > SETTLED * largest):
             break
-        force = np.einsum("rjn,jn->rn", pressed.by_unit, q * pressed.lever) + pressed.free
     return q
 
 
 def followed(pressed: Pressed, coefficient: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the frictions (frictions, n) that grow from none with the coefficients, NaN where they jam on the way, and where (n,)."""
     free, by_unit = pressed.free.T, np.moveaxis(pressed.by_unit * pressed.lever, -1, 0)
-    rows = [slice(first, last + 1) for first, last in zip(pressed.first, pressed.last, strict=True)]
+    rows = [slice(first, last + 1) for first, last in zip(pressed.rows.first, pressed.rows.last, strict=True)]
     forces = [(free[:, each], by_unit[:, each]) for each in rows]
     final = coefficient.T
     q, alive = np.zeros(final.shape), np.ones(len(final), bool)

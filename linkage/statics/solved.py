@@ -17,7 +17,7 @@ from .joint_force import JointForce
 from .loaded import Loaded
 from .poses import Poses
 from .rub import Rub, rubs
-from .rubbing import Pressed, settled
+from .rubbing import Pressed, Rows, settled
 from .structure import Structure
 from .system import Form, System
 
@@ -81,7 +81,7 @@ def pulling(solved: Solved) -> Mask:
     system = solved.system
     mask = np.zeros(system.poses.count, bool)
     for line in system.structure.holding.lines:
-        if len(line.cylinders) > 1 and any(each.works_both for each in line.cylinders):
+        if line.changes_shares:
             first = next(each for each in system.structure.struts if each.line is line)
             mask |= solved.value(system.thrust(first)) < 0.0
     return mask
@@ -112,11 +112,11 @@ def consistent(equations: Equations) -> Solved:
 
 def pressing(system: System, balance: Balance, rubbing: list[Rub]) -> Pressed:
     """Return the forces that make the frictions, by the solution of the equations."""
-    parts = tuple(2 if rub.column.contact.kind == "pin" else 1 for rub in rubbing)
+    parts = tuple(rub.column.contact.presses for rub in rubbing)
     starts = [system.first[rub.column.contact] for rub in rubbing]
     rows = [start + k for start, many in zip(starts, parts, strict=True) for k in range(many)]
     by_unit = np.moveaxis(balance.spread[:, rows], 0, -1)
-    return Pressed(parts, balance.start[:, rows].T, by_unit, np.ones((len(rubbing), system.poses.count)))
+    return Pressed(Rows(parts), balance.start[:, rows].T, by_unit, np.ones((len(rubbing), system.poses.count)))
 
 
 @dataclass(frozen=True)

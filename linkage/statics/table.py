@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import pi
@@ -10,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularWarning
+from ..errors import DefinitionError, unwarned
 from ..motion import greatest
 from ..units import deg, kN
 from .joint_force import JointForce
@@ -56,8 +55,7 @@ def max_table(results: PinForces | Iterable[PinForces]) -> tuple[PinLoad, ...]:
     each_of = [results] if isinstance(results, PinForces) else list(results)
     best: dict[tuple[str, str, str, str], PinLoad] = {}
     for one in each_of:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", SingularWarning)  # what comes of a dead point is said by the row
+        with unwarned():  # what comes of a dead point is said by the row
             rows = largest(one)
         for row in rows:
             key = (row.point, row.on, row.by, row.kind)

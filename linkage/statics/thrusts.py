@@ -9,13 +9,12 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..loads import TwoPoint
-from ..motion import Motion
+from ..motion import Motion, require_motion
 from ..program import FloatArray
-from .bodies import member_title
 from .forces import equilibrium, held_poses, locked_words
 from .holding import Line, holding_of, same, stroke_followed
 from .levers import Levers, with_levers
-from .loaded import Case, Loaded, Loads, chosen, gathered
+from .loaded import Case, Loaded, Loads, chosen, gathered, member_title
 from .movement import Movement, movement_of, path_tangent, sense_of
 from .poses import Poses
 from .work import by_work
@@ -37,8 +36,7 @@ def member_thrust(
     `direction` is the member's own: "extending" while it grows, whatever that makes of the strokes. Raises DefinitionError for one
     that neither holds nor has a law here, SingularError where its length stands still against its drive.
     """
-    if not isinstance(motion, Motion):
-        raise DefinitionError(f"{motion!r:.60} is no motion; give machine.sweep(...) or machine.at(...).")
+    require_motion(motion)
     plan, member = motion.plan, standing_for(motion, member)
     elements = [each.element for each in chosen(plan, loads, None)]
     holding = holding_of(plan, [*elements, member])

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularWarning
+from ..errors import DefinitionError, unwarned
 from ..mechanism import Mechanism
 from ..motion import Motion, Paired
 from ..plan import Plan
@@ -56,8 +55,7 @@ def paired(machine: Mechanism, settings: Mapping[str, Any], base: Motion, place:
 
 def values(motion: Motion, asked: Asked) -> FloatArray:
     """Return what is asked for at every pose of a motion, NaN where it has no value; nearness to a dead point is told by the study."""
-    with warnings.catch_warnings(), np.errstate(all="ignore"):
-        warnings.simplefilter("ignore", SingularWarning)
+    with unwarned(), np.errstate(all="ignore"):
         found = asked(motion) if callable(asked) else motion.value(asked) if isinstance(asked, Quantity) else motion[asked]
     result = np.asarray(found, float)
     if result.shape != motion.shape:

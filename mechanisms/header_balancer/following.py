@@ -15,6 +15,7 @@ from linkage.motion import greatest
 from linkage.program import FloatArray
 from linkage.quantities import Coordinate, Distance
 from linkage.statics import driving_force, reaction
+from linkage.statics.movement import SENSES
 from linkage.units import kgf_cm2, mm
 
 AB = Distance("A", "B")  # one for all, so that its ratio is worked out once
@@ -118,9 +119,9 @@ class Balance:
 
     def required_while(self, direction: str) -> FloatArray:
         """Return the block's pressure [Pa gauge] at which the shoe carries nothing, in a direction of motion, friction included."""
-        sense = {"extending": 1.0, "retracting": -1.0, "frictionless": 0.0}[direction]
         size = self.cylinder.sized(self.motion)
-        return np.asarray(size.pressure_for(self.thrust_without_line(direction)) + sense * size.sense * self.motion.inputs["seals"])
+        seals = SENSES[direction] * size.sense * self.motion.inputs["seals"]
+        return np.asarray(size.pressure_for(self.thrust_without_line(direction)) + seals)
 
     def thrust_without_line(self, direction: str = "frictionless", pressed: float = 0.0) -> FloatArray:
         """Return the cylinders' thrust [N] that all loads but the line's ask for, the shoes `pressed` with a force [N]."""

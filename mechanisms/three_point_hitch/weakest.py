@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 
 import numpy as np
 
 from hydraulics import Verdict
-from linkage import Motion, SingularWarning, angle
+from linkage import Motion, angle
+from linkage.errors import unwarned
 from linkage.motion import greatest, lowest
 from linkage.report import closely
 from linkage.units import deg, g0, kN, mm
@@ -56,8 +56,7 @@ def weakest(motion: Motion) -> Weakest | None:
     S = greatest(motion, stroke_per_newton).strokes["S"]
     there = closely(motion, np.array([S]))
     best = closely(motion, np.array([lowest(motion, lambda each: np.abs(stroke_per_newton(each))).strokes["S"]]))
-    with warnings.catch_warnings():  # at the end of the reach it stands next to a dead point: the sentence keeps few digits
-        warnings.simplefilter("ignore", SingularWarning)
+    with unwarned():  # at the end of the reach it stands next to a dead point: the sentence keeps few digits
         ratio, force = float(there.ratio("G")[1][0]), float(capacity(there)[0])
         return Weakest(S, float(there.y("F")[0]), force, ratio, stage(there, best), remedy(motion))
 

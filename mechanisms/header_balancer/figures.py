@@ -224,6 +224,8 @@ def _as_it_stands(ax: Any, part: str) -> None:
         for label in ("moving up", "moving down"):
             text = f"as it stands, {label}"
             ax.plot(balance.height / mm, found[label], color=_colours()[label], linewidth=1.1, linestyle=":", label=text, zorder=4.0)
+        low, high = ax.get_ylim()
+        ax.set_ylim(low, high + 0.25 * (high - low))  # room for the legend
     else:
         for values, colour, text in (
             (balance.required, style.ACCENT, "needed, as it stands"),

@@ -43,7 +43,11 @@ class SingularError(AssemblyError):
 
 
 class SingularWarning(UserWarning):
-    """A pose so near to a singular one that digits are lost; the text gives the estimate."""
+    """A pose so near to a singular one that digits are lost; `estimate` is the relative error to expect, as the text says."""
+
+    def __init__(self, message: str = "", *, estimate: float = float("nan")) -> None:
+        super().__init__(message)
+        self.estimate = estimate
 
 
 @contextmanager

@@ -230,6 +230,14 @@ class Listing:
         """Return the distance of two points."""
         return self.link(P, Q) or Term(Norm(self.between(P, Q)), LENGTH)
 
+    def apart(self, square: Any) -> Any:
+        """Return the square of a vector whose direction is taken."""
+        return square
+
+    def direction(self, P: str, Q: str) -> Any:
+        """Return the vector between two points."""
+        return self.at(Q) - self.at(P)
+
     def vector_length(self, vector: Reference) -> Term:
         """Return the length of a vector member."""
         return Term(Norm(self.arrow(vector)), LENGTH)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularWarning
+from ..errors import DefinitionError, SingularError
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Kernel, Node, Way
 from . import reach, singular
@@ -18,7 +17,8 @@ from .grid import Grid
 from .motion import Motion
 from .reach import Mask
 from .request import Request, all_wanted
-from .wanted import Wanted, astray
+from .singular import Judged
+from .wanted import Wanted, astray, examined
 
 PIECE = 1 << 18
 """Poses that are looked at again at a time."""
@@ -82,16 +82,17 @@ class Bulk:
 
     def _guards(self, plan: Plan) -> list[Node]:
         """Return the guards of what the requests are built from."""
-        return [guard.node for guard in plan.trace.guards if guard.step in self.names]
+        return plan.trace.watched(self.names)
 
     def _assumed(self, plan: Plan) -> list[Node]:
         """Return what the requests take to be above zero."""
         return [node for each in self.wanted for node in each.notes(plan).assumed]
 
     def _watch(self, plan: Plan) -> tuple[int, Kernel]:
-        """Return how many of its outputs are assumptions, and the kernel of these and of the guards, pose by pose."""
+        """Return how many of its outputs are assumptions, and the kernel of these, of the guards, then of how near each request is."""
         assumed = self._assumed(plan)
-        return len(assumed), Kernel([*assumed, *self._guards(plan)])
+        near = [plan.trace.nearness(each.names(plan)) - each.regular for each in self.wanted]
+        return len(assumed), Kernel([*assumed, *self._guards(plan), *near])
 
     def _place(self, rows: int, out: FloatArray | None) -> FloatArray | None:
         """Return where the caller wants the results, shape (rows, designs, poses)."""
@@ -113,26 +114,28 @@ class Bulk:
         """Put right the poses where a guard tells: place them to rounding, refuse or mask those out of reach or singular."""
         plan = self.grid.plan
         assumed, kernel = plan.made(("guards", tuple(each.key for each in self.wanted)), self._watch)
-        worst: dict[str, float] = {}
+        worst: dict[int, Judged] = {}
         for band, part in pieces(*self.grid.size):
             inputs = {name: cut(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
             block = place[:, band, part]
             least = np.broadcast_to(kernel(inputs, way=self.way).values, (len(kernel.plan.outputs), *block.shape[1:]))
             with np.errstate(invalid="ignore"):
-                bad = ~np.all(least > 0.0, axis=0) | ~np.isfinite(block).all(axis=0)
+                above = least > 0.0
+                bad = ~np.all(above[: len(above) - len(self.wanted)], axis=0) | ~np.isfinite(block).all(axis=0)
             if bad.any():
                 paired = {name: spread(value, name in plan.table.entries, bad) for name, value in inputs.items()}
-                self._put_right(block, bad, paired, worst, ~np.all(least[:assumed, bad] > 0.0, axis=0))
-        for name, condition in worst.items():
-            warnings.warn(
-                f"{plan.title}: {name} comes near a dead point (condition {condition:.1e}); expect ratios there to be off by "
-                f"about {singular.loss(condition):.0e} of their size.",
-                SingularWarning,
-                stacklevel=5,
-            )
+                flagged = above[:, bad]
+                self._put_right(block, bad, paired, worst, ~flagged[:assumed].all(axis=0), ~flagged[len(above) - len(self.wanted) :])
+        for k, found in worst.items():
+            singular.warn(found, f"{plan.title}: {self.wanted[k]}", 5, "comes")
 
-    def _put_right(self, block: FloatArray, bad: Mask, inputs: dict[str, Any], worst: dict[str, float], broken: Mask) -> None:
-        """Fill the poses of a block that a mask names, from their paired inputs; `broken`: where an assumption does not hold."""
+    def _put_right(
+        self, block: FloatArray, bad: Mask, inputs: dict[str, Any], worst: dict[int, Judged], broken: Any, near: Any
+    ) -> None:
+        """Fill the poses of a block that a mask names, from their paired inputs.
+
+        `broken`: where an assumption does not hold; `near`: for each request, where it has to be looked at closely.
+        """
         plan, shape = self.grid.plan, (int(bad.sum()),)
         with np.errstate(all="ignore"):
             reading = plan.read(inputs)
@@ -140,24 +143,31 @@ class Bulk:
             for name, mask in reach.failures(plan, reading, shape):
                 if name in self.names:
                     lost |= mask
-            steep = [each.steep(plan) for each in self.wanted]
-            found = singular.conditions(plan, reading, set[str]().union(*steep))
-            conditions = {name: np.where(lost, np.nan, cond) for name, cond in found.items()}
-            refused = [singular.refused(plan, {name: conditions[name] for name in names & conditions.keys()}, shape) for names in steep]
-            if (broken & ~lost & ~np.any(refused, axis=0)).any() or (self._raises and np.any([lost, *refused])):
-                self._refuse()
-            self._fill(block, bad, reading, [lost | mask for mask in refused])
-        for name, cond in conditions.items():
-            near = cond[(cond > singular.WARN) & (cond <= singular.REFUSE)]
-            if near.size:
-                worst[name] = max(worst.get(name, 0.0), float(near.max()))
+        refused = [np.zeros(shape, bool) for _ in self.wanted]
+        for k, each in enumerate(self.wanted):
+            here = near[k] & ~lost
+            if here.any():
+                at = {name: value[here] for name, value in inputs.items()}
+                found = examined(plan, each, at, plan.read(at))
+                refused[k][here] = found.refused
+                if found.doubtful.any():
+                    told = found.at(found.doubtful)
+                    told = told.at(told.error == told.error.max())
+                    if k not in worst or told.error[0] > worst[k].error[0]:
+                        worst[k] = told
+        if (broken & ~lost & ~np.any(refused, axis=0)).any() or (self._raises and np.any([lost, *refused])):
+            self._refuse()
+        self._fill(block, bad, reading, [lost | mask for mask in refused])
 
     def _fill(self, block: FloatArray, bad: Mask, reading: ArrayReading, without: Sequence[Mask]) -> None:
-        """Fill the bad poses of a block: from their eager reading where that holds there, with NaN where a request has no value."""
+        """Fill the bad poses of a block: from their eager reading where only that has a value, with NaN where a request has none."""
         for (first, each), mask in zip(self._starts(), without, strict=True):
-            rows, placed = slice(first, first + each.rows), each.placed(reading, mask.size)
-            found = np.where(mask, np.nan, block[rows, bad] if placed is None else placed)
-            if self._raises and each.may_fail and not np.isfinite(found).all():
+            rows = slice(first, first + each.rows)
+            found = block[rows, bad]
+            if not np.isfinite(found).all() and (placed := each.placed(reading, mask.size)) is not None:
+                found = np.where(np.isfinite(found).all(axis=0), found, placed)
+            found = np.where(mask, np.nan, found)
+            if self._raises and not np.isfinite(found).all():
                 self._refuse()
             block[rows, bad] = found
 
@@ -175,6 +185,9 @@ class Bulk:
         for each in self.wanted:
             if each.may_fail:
                 raise astray(grid.plan, each)
+        names = ", ".join(map(str, self.wanted))
+        text = f'{grid.plan.title}: {names} has no value at some of these poses. Leave them out, or ask with unreachable="nan".'
+        raise SingularError(text, motion=motion)
 
     # -- angles ----------------------------------------------------------------------------------------
 

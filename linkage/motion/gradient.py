@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
 
 from ..errors import DefinitionError
 from ..plan import Plan
-from ..program import FloatArray, Kernel, ancestors, gradient
+from ..program import FloatArray, Kernel, Node, ancestors, gradient
 from .angles import Angles, angles_of
 from .reach import Mask
 from .request import Request, dimensions_of, wanted
@@ -30,10 +30,40 @@ class Slopes:
     touched: tuple[str, ...]
 
 
+@final
+@dataclass(frozen=True)
+class Slope(Wanted):
+    """The derivatives of a request by some dimensions, as a request that is looked at near singular poses."""
+
+    what: Wanted
+    by: tuple[str, ...]
+
+    @property
+    def key(self) -> Any:
+        return "slope", self.what.key, self.by
+
+    @property
+    def order(self) -> int:
+        return 1 + self.what.order
+
+    def nodes(self, plan: Plan) -> tuple[Node, ...]:
+        inputs = [plan.trace.inputs[name] for name in self.by]
+        return tuple(share for node in self.what.nodes(plan) for share in gradient(node, inputs))
+
+    def names(self, plan: Plan) -> set[str]:
+        return self.what.names(plan)
+
+    def refuse(self, motion: Motion) -> None:
+        """It is asked of motions only, which refuse it themselves."""
+
+    def __str__(self) -> str:
+        return f"the gradient of {self.what}"
+
+
 def slopes_of(plan: Plan, what: Wanted, names: Sequence[str]) -> Slopes:
     """Return the derivatives of a request by dimensions, as a kernel."""
     inputs = [plan.trace.inputs[name] for name in names]
-    shares, notes = [share for node in what.nodes(plan) for share in gradient(node, inputs)], what.notes(plan)
+    shares, notes = Slope(what, tuple(names)).nodes(plan), what.notes(plan)
     touched = [
         (switch, f"{name}: the law of {owner} compares what follows {name} with a number")
         for switch, owner in notes.switches.items()
@@ -49,7 +79,7 @@ def gradient_of(motion: Motion, of: Request, wrt: Sequence[str]) -> FloatArray:
     plan = motion.plan
     what, dimensions = wanted(plan, of), dimensions_of(plan, wrt)
     names, title = tuple(name for name, _ in dimensions), f"The gradient of {what}"
-    refused = motion.refused_of(what.names(plan), title, 1 + what.order)
+    refused = motion.refused(Slope(what, names), title)
     good = motion.reached & ~refused
     slopes = plan.made(("gradient", what.key, names), lambda plan: slopes_of(plan, what, names))
     rest = what.rows * len(names)

@@ -86,7 +86,11 @@ class Grid:
     def read_at(self, mask: Mask) -> ArrayReading:
         """Return the eager reading of some poses."""
         with np.errstate(all="ignore"):
-            return self.plan.read({name: np.broadcast_to(value, self.shape)[mask] for name, value in self.inputs.items()})
+            return self.plan.read(self.inputs_at(mask))
+
+    def inputs_at(self, mask: Mask) -> dict[str, FloatArray]:
+        """Return the inputs at some poses, shape (n,)."""
+        return {name: np.broadcast_to(value, self.shape)[mask] for name, value in self.inputs.items()}
 
 
 def varies(value: Any) -> bool:

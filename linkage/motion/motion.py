@@ -20,7 +20,8 @@ from .gradient import gradient_of
 from .outputs import Outputs
 from .outputs import Target as Target
 from .reach import Mask
-from .request import Request
+from .request import Request, Value
+from .wanted import Wanted, examined, near_of
 
 
 class Motion(Outputs):
@@ -89,7 +90,7 @@ class Motion(Outputs):
         stroke = self._stroke(wrt)
         order, method = order_of(order), method_of(method, step)
         member = self._member(target)
-        refused = self.refused(member, f"The ratio of {member.name or member}", order)
+        refused = self.refused(Value(member, (stroke,) * order), f"The ratio of {member.name or member}")
         found = self._exact(member, (stroke,) * order) if method == "exact" else self._numeric(member, stroke, order, step)
         found = np.where(refused, np.nan, found) if refused.any() else found
         return self.finite(found, refused, f"The ratio of {member.name or member} by {stroke}")
@@ -146,20 +147,21 @@ class Motion(Outputs):
             warnings.warn(text, SingularWarning, stacklevel=3)
         return np.where(useless, np.nan, found)
 
-    def refused(self, member: Member, what: str, order: int = 1) -> Mask:
-        """Return the mask of poses where a ratio is refused; raise or warn as asked."""
-        names = self.plan.reaches(member.name or member) if self.is_near_singular else set[str]()
-        return self.refused_of(names, what, order)
-
-    def refused_of(self, names: set[str], what: str, order: int = 1) -> Mask:
-        """Return the mask of poses where ratios of what is built from some members are refused; raise or warn as asked."""
+    def refused(self, what: Wanted, words: str) -> Mask:
+        """Return the mask of poses where a result is refused; raise or warn as asked. `words` begin a sentence about it."""
+        none = np.zeros(self.shape, bool)
         if not self.is_near_singular:
-            return np.zeros(self.shape, bool)
-        found = {name: np.where(self.reached, cond, np.nan) for name, cond in singular.conditions(self.plan, self.reading, names).items()}
-        refused = singular.refused(self.plan, found, self.shape)
+            return none
+        near = near_of(self, what) & self.reached
+        if not near.any():
+            return none
+        found = examined(self.plan, what, self.inputs_at(near), self.read_at(near))
+        refused, doubtful = none, none.copy()
+        refused[near], doubtful[near] = found.refused, found.doubtful
         if refused.any() and self.unreachable == "raise":
-            raise singular.refusal(self.plan, found, refused, self.strokes, what, self)
-        singular.warn(self.plan, found, self.strokes, what, order)
+            raise singular.refusal(found.at(found.refused), refused, self.strokes, words, self)
+        if doubtful.any():
+            singular.warn(found.at(found.doubtful), f"{words} {reach.where_words(self.plan, doubtful, self.strokes)}", 4)
         return refused
 
     def gradient(self, of: Request, wrt: Sequence[str]) -> FloatArray:
@@ -183,7 +185,9 @@ class Motion(Outputs):
         given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title)
         driven = rates_of("accelerations", accelerations or {}, self.strokes, self.shape, self.plan.title)
         member = self._member(target)
-        refused = self.refused(member, f"The acceleration of {member.name or member}", 2)
+        along = [tuple(sorted((first, second))) for first in given for second in given]
+        masks = [self.refused(Value(member, each), f"The acceleration of {member.name or member}") for each in dict.fromkeys(along)]
+        refused = np.any(masks, axis=0)
         total = sum((self.ratio(target, wrt=name) * value for name, value in driven.items()), self._still(target))
         for first, u in given.items():
             for second, v in given.items():

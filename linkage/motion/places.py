@@ -9,12 +9,14 @@ from typing import Any, Self
 
 import numpy as np
 
-from ..errors import AssemblyError
+from ..errors import AssemblyError, unwarned
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray
 from . import reach, singular
 from .grid import Grid
 from .reach import Mask
+from .request import Everywhere
+from .wanted import examined, near_of
 
 
 class Places(Grid):
@@ -31,6 +33,8 @@ class Places(Grid):
         self.is_near_singular = not np.all(result.guards > 0.0)
         if self.is_near_singular or plan.may_overflow:
             self._settle_unreached()
+        if self.is_near_singular:
+            self._settle_lost()
         self._places.flags.writeable = False
 
     @abstractmethod
@@ -59,6 +63,24 @@ class Places(Grid):
         if self.unreachable == "raise" and lost.any():
             raise self.refusal()
 
+    def _settle_lost(self) -> None:
+        """Refuse or mask the poses of which rounding leaves nothing, as where two points that another hangs from come together."""
+        every = Everywhere(self.plan.moving)
+        near = near_of(self, every) & self.reached
+        if not near.any():
+            return
+        found = examined(self.plan, every, self.inputs_at(near), self.read_at(near))
+        lost, doubtful = np.zeros(self.shape, bool), np.zeros(self.shape, bool)
+        lost[near], doubtful[near] = found.refused, found.doubtful
+        if lost.any() and self.unreachable == "raise":
+            raise singular.lost(found.at(found.refused), lost, self.strokes)
+        if lost.any():
+            self._places = np.where(lost, np.nan, self._places)
+            self.reached &= ~lost
+        if doubtful.any():
+            where = reach.where_words(self.plan, doubtful, self.strokes)
+            singular.warn(found.at(found.doubtful), f"The places of {self.plan.title} {where}", 6)
+
     # -- looked at again ---------------------------------------------------------------------------------
 
     @property
@@ -85,4 +107,5 @@ class Places(Grid):
     def moved(self, strokes: Mapping[str, Any]) -> Self:
         """Return the same design at other strokes [SI], unreachable poses as NaN."""
         arrays = np.broadcast_arrays(*(np.asarray(strokes[name], float) for name in self.strokes))
-        return type(self)(self.plan, self.designs, dict(zip(self.strokes, arrays, strict=True)), "nan")
+        with unwarned():
+            return type(self)(self.plan, self.designs, dict(zip(self.strokes, arrays, strict=True)), "nan")

@@ -14,10 +14,15 @@ from ..program import FloatArray, Node
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
 from .asked import named, order_of
-from .wanted import Asked, Wanted
+from .singular import LEAST, Left
+from .wanted import SMALL, Asked, Wanted
 
 if TYPE_CHECKING:
     from .motion import Motion
+
+
+MINOR = 1e-3
+"""Of the fastest point's ratio: what a slower one's error is compared with where both go into a force."""
 
 
 @final
@@ -95,9 +100,94 @@ class Value(Wanted):
             return np.array([np.broadcast_to(part, (count,)) for part in (place.x, place.y)], float)
         return np.array(np.broadcast_to(reading.value(self.member), (1, count)), float)
 
+    def error(self, plan: Plan, left: Left) -> FloatArray:
+        scale = natural(self.member, left.size)
+        if scale is None:
+            return left.over(SMALL)
+        for name in self.along:
+            scale = scale / (abs(plan.strokes[name].end - plan.strokes[name].start) or 1.0)
+        return left.over(LEAST * scale if self.along else scale)
+
     def __str__(self) -> str:
         what = self.member.name or str(self.member)
         return f"the ratio of {what} by {self.along[0]}" if self.along else what
+
+
+def natural(member: Any, size: FloatArray) -> Any:
+    """Return what a position, a length or an angle is compared with: the machine's size [m], or 1 rad; None for other quantities."""
+    if isinstance(member, (Point, Arrow)) or member.measures == "length":
+        return size
+    return np.ones_like(size) if member.measures == "angle" else None
+
+
+@final
+@dataclass(frozen=True)
+class Ratios(Wanted):
+    """The ratios of all moving points among some members by all strokes: what forces go through."""
+
+    members: frozenset[str]
+
+    @property
+    def key(self) -> Any:
+        return "ratios", self.members
+
+    def points(self, plan: Plan) -> list[str]:
+        """Return the points."""
+        return [name for name in plan.moving if name in self.members]
+
+    @property
+    def order(self) -> int:
+        return 1
+
+    def nodes(self, plan: Plan) -> tuple[Node, ...]:
+        places = [node for name in self.points(plan) for node in plan.nodes(name)]
+        return tuple(node for stroke in plan.strokes for node in plan.derived(places, (stroke,)))
+
+    def names(self, plan: Plan) -> set[str]:
+        return set(self.members)
+
+    def refuse(self, motion: Motion) -> None:
+        """Ratios that stand for a force are refused with it."""
+
+    def error(self, plan: Plan, left: Left) -> FloatArray:
+        parts = [left.part(slice(row, row + 2)) for row in range(0, len(left.values), 2)]
+        if not parts:
+            return np.zeros(left.size.shape)
+        with np.errstate(all="ignore"):
+            largest = np.max([np.hypot(*part.values) for part in parts], axis=0)
+        return np.asarray(np.max([part.over(MINOR * largest) for part in parts], axis=0))
+
+    def __str__(self) -> str:
+        return "the ratios of the points"
+
+
+@final
+@dataclass(frozen=True)
+class Everywhere(Wanted):
+    """The places of some points together: what a motion works out first."""
+
+    points: tuple[str, ...]
+
+    @property
+    def key(self) -> Any:
+        return "places", self.points
+
+    def nodes(self, plan: Plan) -> tuple[Node, ...]:
+        return tuple(node for name in self.points for node in plan.nodes(name))
+
+    def names(self, plan: Plan) -> set[str]:
+        return set[str]().union(*map(plan.reaches, self.points))
+
+    def refuse(self, motion: Motion) -> None:
+        """A motion refuses its places itself."""
+
+    def error(self, plan: Plan, left: Left) -> FloatArray:
+        with np.errstate(all="ignore"):
+            found = left.errors.max(axis=0, initial=0.0) / left.size
+        return np.where(np.isnan(found), np.inf, found)
+
+    def __str__(self) -> str:
+        return "the places"
 
 
 def wanted(plan: Plan, request: Request) -> Wanted:

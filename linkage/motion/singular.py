@@ -1,27 +1,140 @@
-"""How near a pose is to a singular one, and what is said about it.
+"""How near a pose is to a singular one, what that leaves of a result, and what is said about it.
 
-Where two links that close a loop come into line, a velocity ratio is off by about 0.1-0.3 eps cond^2, with
-cond the condition of the scaled constraint Jacobian: (1 + cos) / sin of the angle between the links. Where the
-loop's other side is longer than its links the squares cancel more: cond^2 then grows by the reading's `rounding`.
+Where two links that close a loop come into line, a velocity ratio is off by about 0.1-0.3 eps cond^2, with cond the condition of the
+scaled constraint Jacobian: (1 + cos) / sin of the angle between the links. Where the loop's other side is longer than its links the
+squares cancel more: cond^2 then grows by the reading's `rounding`. A direction between points that come close loses as much, and
+what goes through several such places loses by their product. The kernel watches the product of all these parts; where it is small,
+the request's own program tells what rounding leaves of it (`Rounding`).
 """
 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ..errors import SingularError, SingularWarning
 from ..plan import ArrayReading, Plan
-from ..program import FloatArray
+from ..program import FloatArray, Iterated, Node, scatter
 from ..quantities import Member
 from ..steps import Point
 from .reach import Mask, called, opening, where_words
 
 WARN = 1e4
 REFUSE = 1e6
+DOUBTFUL, LOST = 1e-7, 1e-3
+"""The relative errors above which a result is warned of and refused, where they do not come from the condition of one loop."""
+PLACES = 1e-13
+"""The product of squared parts (Trace.nearness) above which positions keep nine digits."""
+LEAST = 1e-6
+"""Of a result's natural size: a value that is smaller counts as so large where its relative error is told."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rounding:
+    """What rounding leaves of some nodes: their program, the groups' pins in it, and the machine's size."""
+
+    nodes: tuple[Node, ...]
+    iterated: tuple[Iterated, ...]
+    extent: Node
+
+    @classmethod
+    def of(cls, plan: Plan, nodes: Iterable[Node]) -> Rounding:
+        """Return what rounding leaves of nodes of a plan's program."""
+        closures = [plan.trace.at(group.pins[0]).x.closure for group in plan.groups.values()]
+        graph = plan.trace.graph
+        return cls(tuple(nodes), tuple(map(Iterated.of, closures)), graph.node(plan.trace.extent))
+
+    def at(self, inputs: Mapping[str, Any]) -> Left:
+        """Return what is left at poses, inputs as floats or (n,)."""
+        values, errors = scatter((*self.nodes, self.extent), inputs, self.iterated)
+        return Left(values[:-1], errors[:-1], np.sqrt(values[-1]))
+
+
+@dataclass(frozen=True, eq=False)
+class Left:
+    """Values of a program, how far rounding scatters them, shape (rows, n), and the machine's size [m], shape (n,)."""
+
+    values: FloatArray
+    errors: FloatArray
+    size: FloatArray
+
+    def part(self, rows: slice) -> Left:
+        """Return those of some rows."""
+        return Left(self.values[rows], self.errors[rows], self.size)
+
+    def over(self, scale: Any) -> FloatArray:
+        """Return the error of a vector, shape (n,), relative to its length or to a size that is larger; infinite where it has no value."""
+        with np.errstate(all="ignore"):
+            found = np.hypot.reduce(self.errors, axis=0) / np.maximum(np.hypot.reduce(self.values, axis=0), scale)
+        return np.where(np.isnan(found), np.inf, found)
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """How far poses (n,) are from singular ones for a result.
+
+    The conditions of the loops and the least spans of the directions it is built from, by member; the relative error to expect; and the
+    members that it is differentiated through.
+    """
+
+    plan: Plan
+    conditions: Mapping[str, FloatArray]
+    spans: Mapping[str, FloatArray]
+    error: FloatArray
+    steep: frozenset[str] = frozenset()
+
+    @property
+    def refused(self) -> Mask:
+        """The poses where the result is refused."""
+        mask: Mask = ~(self.error <= LOST)
+        for name, cond in self.conditions.items():
+            if name in self.steep:
+                mask = mask | ~(cond <= REFUSE)
+        return mask
+
+    @property
+    def doubtful(self) -> Mask:
+        """The poses where the result holds, with an error that has to be told."""
+        mask: Mask = self.error > DOUBTFUL
+        for name, cond in self.conditions.items():
+            if name in self.steep:
+                mask = mask | (cond > WARN)
+        return mask & ~self.refused
+
+    def at(self, mask: Mask) -> Judged:
+        """Return the same of some poses."""
+        def cut(given: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
+            return {name: np.broadcast_to(each, mask.shape)[mask] for name, each in given.items()}
+
+        return replace(self, conditions=cut(self.conditions), spans=cut(self.spans), error=self.error[mask])
+
+    def culprit(self) -> tuple[str, str]:
+        """Return the member that comes nearest to a singular pose, and how, in words."""
+        near = {name: float(np.max(np.where(np.isnan(cond), np.inf, cond), initial=0.0)) for name, cond in self.conditions.items()}
+        close = {name: 1.0 / max(float(np.min(span, initial=np.inf)), 1e-300) for name, span in self.spans.items()}
+        if not near and not close:
+            return "", ""
+        loop = max(near, key=near.__getitem__, default="")
+        direction = max(close, key=close.__getitem__, default="")
+        if near.get(loop, 0.0) >= close.get(direction, 0.0):
+            size = "infinite" if np.isinf(near[loop]) else f"{near[loop]:.1e}"
+            return loop, f"(condition {size}, refused above {REFUSE:.0e})"
+        return direction, f"takes a direction between points that are {1.0 / close[direction]:.1e} of the machine's size apart"
+
+
+def judged(plan: Plan, reading: ArrayReading, steep: set[str], names: set[str], error: FloatArray) -> Judged:
+    """Return how far poses are from singular ones for a result built from some members, whose relative error (n,) is known.
+
+    `steep` are the members that it is differentiated through.
+    """
+    moving = {name: span for name, span in reading.spans.items() if name in names and plan.moves(plan.members[name])}
+    spans = {name: np.broadcast_to(span, error.shape) for name, span in moving.items()}
+    loops = {name: np.broadcast_to(cond, error.shape) for name, cond in conditions(plan, reading, names).items()}
+    return Judged(plan, loops, spans, error, frozenset(steep))
 
 
 def conditions(plan: Plan, reading: ArrayReading, names: set[str]) -> dict[str, FloatArray]:
@@ -51,31 +164,36 @@ def condition(sine: FloatArray) -> FloatArray:
         return worst
 
 
-def loss(cond: float, order: int = 1) -> float:
-    """Return the relative error to expect of a ratio: 0.3 eps cond^2, three times that of its derivative."""
-    return float(0.3 * (2 * order - 1) * np.finfo(float).eps * cond * cond)
-
-
-def refused(plan: Plan, found: Mapping[str, FloatArray], shape: tuple[int, ...]) -> Mask:
-    """Return the mask of the poses where ratios and forces are refused."""
-    mask = np.zeros(shape, bool)
-    for cond in found.values():
-        mask |= cond > REFUSE
-    return mask
-
-
-def refusal(plan: Plan, found: Mapping[str, FloatArray], mask: Mask, strokes: Mapping[str, Any], what: str, motion: Any) -> SingularError:
-    """Return the error for ratios asked at singular poses."""
-    name = max((each for each in found if np.any(found[each] > REFUSE)), key=lambda each: float(np.nanmax(found[each])))
-    crossing = ", where its two branches cross" if crosses(motion, name) else ""
-    kind = f"{'change' if crossing else 'dead'} point{crossing}: its links are in line"
-    worst = float(np.nanmax(found[name]))
-    size = "infinite" if np.isinf(worst) else f"{worst:.1e}"
+def refusal(found: Judged, mask: Mask, strokes: Mapping[str, Any], what: str, motion: Any) -> SingularError:
+    """Return the error for a result asked at singular poses; `found` is of these alone, `mask` in the motion's shape."""
+    plan = found.plan
+    name, how = found.culprit()
+    if how.startswith("("):
+        crossing = ", where its two branches cross" if crosses(motion, name) else ""
+        why = f"{opening(plan, name)} stands at a {'change' if crossing else 'dead'} point{crossing}: its links are in line {how}"
+    else:
+        why = f"{opening(plan, name)} {how}" if name else "what it is built from comes near singular poses one after the other"
+        if not np.max(found.error) < 1.0:
+            why += ", and rounding leaves nothing of it"
+        else:
+            why += f", and rounding leaves an error of about {float(np.max(found.error)):.0e} of it"
     return SingularError(
-        f"{what} {be(what)} refused {where_words(plan, mask, strokes)}: {opening(plan, name)} stands at a {kind} "
-        f"(condition {size}, refused above {REFUSE:.0e}). The positions hold; shorten the stroke, or ask with "
+        f"{what} {be(what)} refused {where_words(plan, mask, strokes)}: {why}. The positions hold; shorten the stroke, or ask with "
         f'unreachable="nan" for the other poses.',
         point=name, mask=mask, motion=motion,
+    )  # fmt: skip
+
+
+def lost(found: Judged, mask: Mask, strokes: Mapping[str, Any]) -> SingularError:
+    """Return the error for poses of which rounding leaves nothing; `found` is of these alone, `mask` in the motion's shape."""
+    plan = found.plan
+    name, how = found.culprit()
+    why = f"has its links in line {how.split(',')[0]})" if how.startswith("(") else how
+    return SingularError(
+        f"{plan.title} stands at a change point {where_words(plan, mask, strokes)}: {opening(plan, name) if name else 'it'} {why}, so that "
+        "its place is not settled by its geometry and lost in rounding. Stop before it, move a point, or ask with "
+        'unreachable="nan" for the other poses.',
+        point=name, mask=mask,
     )  # fmt: skip
 
 
@@ -86,7 +204,7 @@ def be(what: str) -> str:
 
 def crosses(motion: Any, name: str) -> bool:
     """Return whether a loop in line can be assembled on both sides of the pose, so that two branches cross there."""
-    if len(motion.strokes) != 1 or motion.design_shape:
+    if len(motion.strokes) != 1 or motion.design_shape or name not in motion.loop_sines:
         return False
     ((stroke, values),) = motion.strokes.items()
     place = int(np.nanargmin(np.abs(np.broadcast_to(motion.loop_sines[name], motion.shape))))
@@ -94,15 +212,17 @@ def crosses(motion: Any, name: str) -> bool:
     return bool(motion.moved({stroke: np.ravel(values)[place] + np.array([-step, step])}).reached.all())
 
 
-def warn(plan: Plan, found: Mapping[str, FloatArray], strokes: Mapping[str, Any], what: str, order: int = 1) -> None:
-    """Warn of poses next to a singular one, with the estimate of what is lost."""
-    for name, cond in found.items():
-        near = (cond > WARN) & (cond <= REFUSE)
-        if np.any(near):
-            worst = float(np.nanmax(np.where(near, cond, np.nan)))
-            warnings.warn(
-                f"{what} {where_words(plan, near, strokes)}: {called(plan, name)} is near a dead point (condition {worst:.1e}); "
-                f"expect a relative error of about {loss(worst, order):.0e}.",
-                SingularWarning,
-                stacklevel=4,
-            )
+def warn(found: Judged, what: str, level: int = 4, be: str = "is") -> None:
+    """Warn of poses next to a singular one, with the estimate of what is lost; `found` is of these alone."""
+    name, how = found.culprit()
+    plan, estimate = found.plan, float(np.max(found.error))
+    how = f"{be} near a dead point {how.split(',')[0]})" if how.startswith("(") else how
+    who = f"{called(plan, name)} {how}" if name else ""
+    warnings.warn(
+        SingularWarning(
+            f"{what}: {who or 'it comes near singular poses one after the other'}; expect a relative error of about {estimate:.0e}.",
+            estimate=estimate,
+        ),
+        stacklevel=level,
+    )
+

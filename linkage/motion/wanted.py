@@ -3,14 +3,24 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from ..errors import DefinitionError
-from ..plan import ArrayReading, Plan
-from ..program import FloatArray, Node, Notes
+from ..plan import NEAR, ArrayReading, Plan
+from ..program import FloatArray, Kernel, Node, Notes
+from .grid import Grid
+from .reach import Mask
+from .singular import PLACES, Judged, Left, Rounding, judged
 
 if TYPE_CHECKING:
     from .motion import Motion
+
+
+SMALL = 1e-9
+"""A result of no known size [SI] that is smaller counts as so large where its relative error is told."""
 
 
 class Wanted(ABC):
@@ -56,6 +66,15 @@ class Wanted(ABC):
         return self.names(plan) if self.order else set()
 
     @property
+    def regular(self) -> float:
+        """The product of squared parts (Trace.nearness) above which rounding leaves at least nine digits of it."""
+        return NEAR**2 if self.order else PLACES
+
+    def error(self, plan: Plan, left: Left) -> FloatArray:
+        """Return the relative error to expect, shape (n,), from what rounding leaves of its nodes."""
+        return left.over(SMALL)
+
+    @property
     def may_fail(self) -> bool:
         """Whether it may have no value where all points it is built from have a place."""
         return False
@@ -76,6 +95,27 @@ class Asked(ABC):
     @abstractmethod
     def settled(self, plan: Plan) -> Wanted:
         """Return the request settled on a plan; DefinitionError where there is no such thing."""
+
+
+def watch_of(plan: Plan, what: Wanted) -> Kernel:
+    """Return the kernel of what is above zero where a request is far from every singular pose."""
+    names = what.names(plan)
+    return plan.made(("watch", frozenset(names), what.regular), lambda twin: Kernel(twin.trace.watched(names, what.regular)))
+
+
+def near_of(grid: Grid, what: Wanted) -> Mask:
+    """Return the mask of poses at which a request has to be looked at closely."""
+    watch = watch_of(grid.plan, what)
+    if not watch.plan.outputs:
+        return np.zeros(grid.shape, bool)
+    with np.errstate(invalid="ignore"):
+        return np.asarray(~np.all(grid.full(watch(grid.flat).values) > 0.0, axis=0))
+
+
+def examined(plan: Plan, what: Wanted, inputs: Mapping[str, Any], reading: ArrayReading) -> Judged:
+    """Return how far poses are from singular ones for a request: inputs as floats or (n,), and the eager reading there."""
+    rounding = plan.made(("rounding", what.key), lambda twin: Rounding.of(twin, what.nodes(twin)))
+    return judged(plan, reading, what.steep(plan), what.names(plan), what.error(plan, rounding.at(inputs)))
 
 
 def astray(plan: Plan, what: Wanted) -> DefinitionError:

@@ -13,5 +13,7 @@ from .reading import ArrayReading as ArrayReading
 from .reading import Reading as Reading
 from .table import Entry as Entry
 from .table import Table as Table
+from .trace import NEAR as NEAR
 from .trace import Guard as Guard
+from .trace import Measure as Measure
 from .trace import Trace as Trace

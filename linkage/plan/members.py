@@ -99,8 +99,9 @@ class Members:
             if name not in self.members:
                 raise unknown("Name", name, self.named(), where=self.title)
             if name not in found:
+                member = self.members[name]
                 found.add(name)
-                stack.extend(needs(self.members[name]))
+                stack += [*needs(member), *(member.companions if isinstance(member, Point) else ())]
         return found
 
     def moves(self, quantity: Member) -> bool:

@@ -82,7 +82,7 @@ class Plan(Members):
 
         def make(plan: Plan) -> Kernel:
             nodes = [node for target in targets for node in plan.derived(plan.nodes(target), along)]
-            return Kernel(nodes, [guard.node for guard in plan.trace.guards] if guarded else ())
+            return Kernel(nodes, plan.trace.watched(plan.members) if guarded else ())
 
         return self.made((targets, along, guarded), make)
 

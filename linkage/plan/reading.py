@@ -6,13 +6,14 @@ On arrays this is the eager evaluation; on a graph's nodes it is the trace of th
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property, reduce
 from typing import Any
 
 import numpy as np
 
 from ..errors import unknown
-from ..quantities import Member, Quantity, Reference, Turning, name_of
-from ..steps import Point
+from ..quantities import Member, Quantity, Reference, Stroke, Turning, name_of
+from ..steps import Ground, Point
 from ..vectors import Line, Scalar, Vec
 
 
@@ -40,8 +41,8 @@ class Reading:
 
     @property
     def owner(self) -> str:
-        """The named member that is being worked out."""
-        return self.placing[-1]
+        """The named member that is being worked out; "" where it has no name."""
+        return self.placing[-1] if self.placing else ""
 
     def closed(self, step: Point, X: Vec) -> Vec:
         """Return the position of a point that closes a loop; here it is known by its value."""
@@ -98,10 +99,41 @@ class Reading:
         """Return a vector's direction [rad]."""
         return np.arctan2(vector.y, vector.x)
 
+    def apart(self, square: Scalar) -> Scalar:
+        """Return the square of a vector whose direction is taken [m2], noted as its distance from a pose where that is lost."""
+        return square
+
+    def direction(self, P: str, Q: str) -> Vec:
+        """Return the vector from one point to another [m], noted as one whose direction is taken."""
+        found = self.at(Q) - self.at(P)
+        if frozenset((P, Q)) in self.lengths:
+            self.link_length(P, Q)
+        else:
+            self.apart(found.square())
+        return found
+
     def link_length(self, P: str, Q: str) -> Scalar:
         """Return the distance of two points [m]: the link's own length where a label gives it."""
         known = self.lengths.get(frozenset((P, Q)))
-        return (self.at(Q) - self.at(P)).length() if known is None else self.value(known)
+        if known is None:
+            return np.sqrt(self.apart((self.at(Q) - self.at(P)).square()))
+        length = self.value(known)
+        if not known.is_constant:
+            self.apart(length * length)
+        return length
+
+    @cached_property
+    def extent(self) -> Scalar:
+        """The square of the machine's size [m2]: the longest length that follows no stroke, or the distance of two fixed points."""
+        fixed = [self.at(name) for name, member in self.members.items() if isinstance(member, Ground)]
+        squares = [(place - fixed[0]).square() for place in fixed[1:]]
+        squares += [value * value for length in self.lengths.values() if self.stays(value := self.value(length))]
+        ranges = [max(abs(member.start), abs(member.end)) for member in self.members.values() if isinstance(member, Stroke)]
+        return reduce(np.maximum, squares) if squares else max(ranges, default=1.0) ** 2 or 1.0
+
+    def stays(self, value: Scalar) -> bool:
+        """Return whether a value is known to follow no stroke."""
+        return True
 
     def close_angle(self, cos: Scalar, sin: Scalar) -> Turning:
         """Return an angle that closes a loop, as its cosine and sine."""
@@ -112,7 +144,8 @@ class ArrayReading(Reading):
     """The eager evaluation on NumPy arrays: a dead point is reached to rounding, and every loop tells how near it is.
 
     `sines` holds, for each step that closes a loop, the sine of the angle between its links (NaN where it fails);
-    `rounding` how much larger the numbers are whose difference closes the loop than its own links.
+    `rounding` how much larger the numbers are whose difference closes the loop than its own links; `spans`, for each member that takes a
+    direction between points, their least distance over the machine's size.
     """
 
     ROUNDING = 8 * np.finfo(float).eps
@@ -121,6 +154,7 @@ class ArrayReading(Reading):
         super().__init__(members, lengths, inputs)
         self.sines: dict[str, Any] = {}
         self.rounding: dict[str, Any] = {}
+        self.spans: dict[str, Any] = {}
 
     def root(self, radicand: Scalar, scale: Scalar, size: Scalar) -> Scalar:
         inside = np.where((radicand < 0.0) & (radicand >= -self.ROUNDING * size), 0.0, radicand)
@@ -133,3 +167,7 @@ class ArrayReading(Reading):
         """Return a sine, noted for the member that is being placed."""
         self.sines[self.owner] = sine
         return sine
+
+    def apart(self, square: Scalar) -> Scalar:
+        self.spans[self.owner] = np.minimum(self.spans.get(self.owner, np.inf), np.sqrt(square / self.extent))
+        return square

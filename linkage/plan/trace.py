@@ -2,27 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from copy import copy
 from dataclasses import dataclass
+from functools import cached_property, reduce
 
 import numpy as np
 
 from ..program import Graph, Level, Node
 from ..quantities import Member, Quantity, Turning
-from ..steps import Point
+from ..steps import Ground, Point
 from ..vectors import Scalar, Vec
 from .reading import ArrayReading, Reading
 
-#: A loop whose links meet under a smaller sine has a condition above 1e4: its ratios lose digits.
-NEAR = 2e-4
+#: The sine of a loop, and the distance of two points over the machine's size, below which they count as near a singular pose.
+REGULAR = 0.3
+#: The product of all such parts below which a pose is looked at closely: that of a single loop whose condition is about 500.
+NEAR = 0.01
+#: Fixed points so many times farther away than the machine is large leave so few digits that every pose is looked at closely.
+AWAY = 1e4
 
 
 @dataclass(frozen=True)
 class Guard:
-    """A node that is NaN where a step cannot be assembled, negative near a singular pose, zero where a direction is lost."""
+    """A node that is above zero where a member can be worked out; a member of "" is all of them."""
 
-    step: str
+    member: str
+    node: Node
+
+
+@dataclass(frozen=True)
+class Measure:
+    """How far a member is from a singular pose: the square of a loop's sine, or of a distance over the machine's size, over REGULAR's."""
+
+    member: str
     node: Node
 
 
@@ -34,13 +47,14 @@ class Trace(Reading):
         inputs = {name: self.graph.input(name, level) for name, level in levels.items()}
         super().__init__(members, lengths, inputs)
         self.guards: list[Guard] = []
+        self.measures: list[Measure] = []
         self.noted: dict[str, Node] = {}
         self.angles: list[Node] = []
 
     def view(self) -> Trace:
         """Return this trace as it stands, for reading more: what is read there leaves nothing here but nodes."""
         view = copy(self)
-        view.guards, view.angles, view.placing = list(self.guards), list(self.angles), []
+        view.guards, view.measures, view.angles, view.placing = list(self.guards), list(self.measures), list(self.angles), []
         view.positions, view.noted, view._values = dict(self.positions), dict(self.noted), dict(self._values)
         return view
 
@@ -50,16 +64,55 @@ class Trace(Reading):
             limit = size * -ArrayReading.ROUNDING
             radicand = self.graph.pick(limit, radicand, np.maximum(radicand, 0.0), radicand)
         node: Node = self.graph.apply("sqrt", radicand)
-        watched = radicand - NEAR**2 * (scale * scale + size) if node.level is Level.POSE else node
-        self.guards.append(Guard(self.owner, self.graph.node(watched)))
         self.noted[self.owner] = node
+        if node.level is Level.POSE:
+            self._measure(np.maximum(radicand, 0.0) / ((scale * scale + size) * REGULAR**2))
+        else:
+            self.guards.append(Guard(self.owner, node))
         return node
 
     def margin(self, sine: Scalar) -> Scalar:
         if isinstance(sine, Node):
-            self.guards.append(Guard(self.owner, np.abs(sine) - NEAR))
+            self._measure(sine * sine * REGULAR**-2)
             self.noted[self.owner] = sine
         return sine
+
+    def apart(self, square: Scalar) -> Scalar:
+        node = self.graph.node(square)
+        if node.level is Level.POSE:
+            self._measure(node / (self.extent * REGULAR**2))
+        else:
+            self.guards.append(Guard(self.owner, node))
+        return square
+
+    def _measure(self, node: Node) -> None:
+        found = Measure(self.owner, node)
+        if found not in self.measures:
+            self.measures.append(found)
+
+    def stays(self, value: Scalar) -> bool:
+        return self.graph.node(value).level is not Level.POSE
+
+    @cached_property
+    def away(self) -> Node:
+        """What is above zero where the fixed points stand near enough to the origin."""
+        places = [self.at(name) for name, member in self.members.items() if isinstance(member, Ground)]
+        coordinates = [part for place in places for part in (place.x, place.y)]
+        return self.graph.node(self.extent * AWAY**2 - reduce(np.maximum, (part * part for part in coordinates), 0.0))
+
+    def nearness(self, names: Container[str]) -> Node:
+        """Return the product of what measures the distance of some members from singular poses, each at most 1."""
+        found = self.graph.constant(1.0)
+        for measure in self.measures:
+            if measure.member in names or not measure.member:
+                found = found * self.graph.apply("minimum", measure.node, 1.0)
+        return found
+
+    def watched(self, names: Container[str], near: float = NEAR**2) -> list[Node]:
+        """Return the nodes that are above zero where some members can be worked out, far from every singular pose."""
+        nearness = self.nearness(names)
+        guards = [guard.node for guard in self.guards if guard.member in names or not guard.member]
+        return [*guards, *([] if nearness.op == "constant" else [self.away, nearness - near])]
 
     def angle_of(self, vector: Vec) -> Scalar:
         angle = self.graph.node(super().angle_of(vector))
@@ -69,12 +122,6 @@ class Trace(Reading):
     def watch_length(self, step: str, length: Quantity) -> None:
         """Keep a guard that is NaN where a length is negative."""
         self.guards.append(Guard(step, self.graph.apply("sqrt", self.value(length))))
-
-    def link_length(self, P: str, Q: str) -> Scalar:
-        length = super().link_length(P, Q)
-        if frozenset((P, Q)) not in self.lengths:
-            self.guards.append(Guard(self.owner, self.graph.node(length)))
-        return length
 
     def closed(self, step: Point, X: Vec) -> Vec:
         if not step.closes:

@@ -18,6 +18,8 @@ from .node import Level as Level
 from .node import Node as Node
 from .operations import NO_VALUE as NO_VALUE
 from .pin import pinned as pinned
+from .rounding import Iterated as Iterated
+from .rounding import scatter as scatter
 from .tangent import Tangent as Tangent
 from .tangent import jacobian as jacobian
 from .traced import Notes as Notes

@@ -35,7 +35,7 @@ class Angle(Quantity):
         return self.P, self.Q
 
     def rule(self, where: Where) -> Scalar:
-        return where.angle_of(where.at(self.Q) - where.at(self.P))
+        return where.angle_of(where.direction(name_of(self.P), name_of(self.Q)))
 
     def turning(self, where: Where) -> Turning:
         v = where.at(self.Q) - where.at(self.P)
@@ -62,7 +62,7 @@ class Distance(Quantity):
         return self.P, self.Q
 
     def rule(self, where: Where) -> Scalar:
-        return (where.at(self.Q) - where.at(self.P)).length()
+        return where.direction(name_of(self.P), name_of(self.Q)).length()
 
     def __str__(self) -> str:
         return f"distance({label(self.P)}, {label(self.Q)})"
@@ -106,7 +106,7 @@ class Length(Quantity):
         return (self.vector,)
 
     def rule(self, where: Where) -> Scalar:
-        return np.sqrt(where.vector(self.vector).square())
+        return np.sqrt(where.apart(where.vector(self.vector).square()))
 
     def __str__(self) -> str:
         return f"abs({label(self.vector)})"

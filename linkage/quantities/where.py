@@ -44,6 +44,12 @@ class Where(Protocol):
     def angle_of(self, vector: Vec) -> Scalar:
         """Return a vector's direction [rad]."""
 
+    def apart(self, square: Scalar) -> Scalar:
+        """Return the square of a vector whose direction is taken [m2], noted as its distance from a pose where that is lost."""
+
+    def direction(self, P: str, Q: str) -> Vec:
+        """Return the vector from one point to another [m], noted as one whose direction is taken."""
+
     def link_length(self, P: str, Q: str) -> Scalar:
         """Return the distance of two points [m]; the link's own length where one body holds both."""
 

@@ -10,8 +10,9 @@ import numpy as np
 
 from ..errors import unwarned
 from ..loads import Poses as ForElements
-from ..motion import singular
+from ..motion import Wanted
 from ..motion.reach import Mask
+from ..motion.request import Ratios
 from ..plan import Plan
 from ..program import FloatArray
 from ..vectors import Line
@@ -31,9 +32,8 @@ class Posed(ForElements, Protocol):
     def reached(self) -> Any:
         """The mask of the poses that are reached."""
 
-    @property
-    def is_near_singular(self) -> bool:
-        """Whether some pose is near a singular one."""
+    def refused(self, what: Wanted, words: str) -> Mask:
+        """Return the mask of poses where a result is refused; raise or warn as asked."""
 
     @property
     def unreachable(self) -> str:
@@ -74,15 +74,7 @@ class Poses:
         return left
 
     def _refused(self, what: str, names: set[str]) -> Mask:
-        motion = self.motion
-        if not motion.is_near_singular:
-            return np.zeros(motion.shape, bool)
-        found = {name: np.where(motion.reached, cond, np.nan) for name, cond in singular.conditions(self.plan, self.reading, names).items()}
-        mask = singular.refused(self.plan, found, motion.shape)
-        if mask.any() and motion.unreachable == "raise":
-            raise singular.refusal(self.plan, found, mask, motion.strokes, what, motion)
-        singular.warn(self.plan, found, motion.strokes, what)
-        return mask
+        return self.motion.refused(Ratios(frozenset(names)), what)
 
     @property
     def is_whole(self) -> bool:

@@ -26,7 +26,6 @@ class TracedMotion:
 
     shape: tuple[int, ...] = ()
     reached = np.array(True)
-    is_near_singular = False
     unreachable = "raise"
 
     def __init__(self, plan: Plan, trace: Trace) -> None:
@@ -34,6 +33,10 @@ class TracedMotion:
         self.notes = Notes()
         self.read: set[str] = set()
         self._tangents: dict[str, Tangent] = {}
+
+    def refused(self, what: Any, words: str) -> Any:
+        """Return that no pose is refused: what is made of the program here is looked at where it is asked for."""
+        return np.zeros((), bool)
 
     # -- numbers ---------------------------------------------------------------------------------------------
 

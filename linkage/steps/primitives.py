@@ -25,7 +25,7 @@ class Arrow(Member):
 
     def length(self, where: Where) -> Scalar:
         """Return its length [m]; the link's where it is known."""
-        return where.vector(self).length()
+        return np.sqrt(where.apart(where.vector(self).square()))
 
     def __abs__(self) -> Quantity:
         return Length(self)

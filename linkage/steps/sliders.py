@@ -103,7 +103,7 @@ class PinSlotDyad(Step):
         return Side.LEFT, Side.RIGHT
 
     def place(self, where: Where) -> Vec:
-        P, to_pin, e = where.at(self.P), where.at(self.Q) - where.at(self.P), where.value(self.offset)
+        P, to_pin, e = where.at(self.P), where.direction(self.P, self.Q), where.value(self.offset)
         d2 = to_pin.square()
         along = where.root(d2 - e * e, scale=d2**0.5, size=d2) * -float(self.settled_side)
         scale = where.value(self.PX) / d2

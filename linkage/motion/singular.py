@@ -207,7 +207,7 @@ def crosses(motion: Any, name: str) -> bool:
     if len(motion.strokes) != 1 or motion.design_shape or name not in motion.loop_sines:
         return False
     ((stroke, values),) = motion.strokes.items()
-    place = int(np.nanargmin(np.abs(np.broadcast_to(motion.loop_sines[name], motion.shape))))
+    place = int(np.argmin(np.nan_to_num(np.abs(np.broadcast_to(motion.loop_sines[name], motion.shape)))))
     step = 1e-4 * abs(motion.plan.strokes[stroke].end - motion.plan.strokes[stroke].start)
     return bool(motion.moved({stroke: np.ravel(values)[place] + np.array([-step, step])}).reached.all())
 

@@ -44,6 +44,9 @@ class Where(Protocol):
     def angle_of(self, vector: Vec) -> Scalar:
         """Return a vector's direction [rad]."""
 
+    def followed(self, angle: str, vector: Vec) -> Scalar | None:
+        """Return the direction of a vector [rad] where that angle is followed from the sketch; None where it is not."""
+
     def link_length(self, P: str, Q: str) -> Scalar:
         """Return the distance of two points [m]; the link's own length where one body holds both."""
 

@@ -252,7 +252,7 @@ class Vectors:
         missing = ~np.isfinite(value).all(axis=0)
         if not missing.any():
             return value
-        size = len(missing)
+        size = missing.size
         there = {name: np.ravel(each)[missing] if np.size(each) == size and np.ndim(each) else each for name, each in inputs.items()}
         there |= {name: np.full(int(missing.sum()), np.nan) for name in self.plan.followed if name not in there}
         with np.errstate(all="ignore"):

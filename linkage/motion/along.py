@@ -67,7 +67,8 @@ class Along(Motion):
         if not (self._own and self.plan.solved):
             return super().solved
         m, n = self.size
-        every = {name: np.broadcast_to(value, self.design_shape).ravel() if varies(value) else value for name, value in self.designs.items()}
+        shape = self.design_shape
+        every = {name: np.broadcast_to(value, shape).ravel() if varies(value) else value for name, value in self.designs.items()}
         strokes = {name: value.reshape(m, n) for name, value in self.strokes.items()}
         return with_angles(self._grouped(m, n) if self.plan.groups else NONE_SOLVED, self.plan, every, strokes)
 

@@ -66,5 +66,5 @@ def closed_form(plan: Plan, nodes: Sequence[Node]) -> None:
             raise DefinitionError(f"{what}; ask for what does not hang on {', '.join(group.pins)}, or use function().")
     for angle in plan.followed:
         if angle in read:
-            what = f"{plan.title}: {angle} is followed from the sketch, as its whole turns tell poses apart, and has no closed form to write"
-            raise DefinitionError(f"{what} down; use a whole multiple of it, drive the angle by a Stroke, or use function().")
+            what = f"{plan.title}: {angle} is followed from the sketch, as its whole turns tell poses apart, and has no closed form"
+            raise DefinitionError(f"{what} to write down; use a whole multiple of it, drive the angle by a Stroke, or use function().")

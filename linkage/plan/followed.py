@@ -50,9 +50,9 @@ def followed_angles(plan: Plan, trace: Trace, loads: Sequence[Quantity]) -> tupl
     if grouped:
         pins = ", ".join(pin for group in plan.groups.values() for pin in group.pins)
         raise DefinitionError(
-            f"{plan.title}: {grouped[0]} is used in another way than by a whole multiple, its cosine or its sine, and the pins {pins} hang on "
-            "it. Such an angle and pins that are found by iteration cannot both be followed from the sketch; use a whole multiple, or "
-            "drive the angle by a Stroke."
+            f"{plan.title}: {grouped[0]} is used in another way than by a whole multiple, its cosine or its sine, and the pins {pins} "
+            "hang on it. Such an angle and pins that are found by iteration cannot both be followed from the sketch; use a whole multiple, "
+            "or drive the angle by a Stroke."
         )
     return found
 

@@ -35,12 +35,12 @@ def exact(AB, order):
         return np.array([float(p), float(rise)] if order == 1 else [1.0, float(bend)])
 
 
-def told(ask):
-    """Return what a call gives, and the error told: the threshold of warnings where nothing is, infinite where it is refused."""
+def told(motion, name, **options):
+    """Return a motion's numerical ratio, and the error told: the threshold of warnings where nothing is, infinite where it is refused."""
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always")
         try:
-            found = ask()
+            found = motion.ratio(name, method="central", **options)
         except SingularError as error:
             assert "with step=" in str(error)
             return None, np.inf
@@ -58,11 +58,11 @@ def off(found, wanted):
 def test_any_step_next_to_a_dead_point_tells_what_it_loses(order, S):
     wanted = exact(S, order)
     for step in STEPS:
-        options = dict(order=order, method="central", step=float(step))
-        found, error = told(lambda: Lever().at(S=S).ratio("B", **options))
+        options = dict(order=order, step=float(step))
+        found, error = told(Lever().at(S=S), "B", **options)
         if found is not None:
             assert off(found, wanted) <= FACTOR * max(error, numeric.WARN[order]), step
-        masked, error = told(lambda: Lever().at(S=[S, 1.1], unreachable="nan").ratio("B", **options))
+        masked, error = told(Lever().at(S=[S, 1.1], unreachable="nan"), "B", **options)
         both = np.stack([wanted, exact(1.1, order)], axis=1)
         assert off(masked, both) <= FACTOR * max(error, numeric.WARN[order]), step
         assert found is not None or np.isnan(masked[:, 0]).all()
@@ -75,8 +75,7 @@ def checked(machine, strokes, names, steps):
         for name in names:
             wanted = motion.ratio(name, wrt=next(iter(strokes)), order=order)
             for step in steps:
-                options = dict(wrt=next(iter(strokes)), order=order, method="central", step=float(step))
-                found, error = told(lambda: motion.ratio(name, **options))
+                found, error = told(motion, name, wrt=next(iter(strokes)), order=order, step=float(step))
                 tried, refused = tried + 1, refused + (found is None)
                 if found is not None:
                     size = max(float(np.abs(wanted).max()), 1e-9)

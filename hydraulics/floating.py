@@ -139,7 +139,7 @@ def length_at(motion: Poses, ram: Cylinder, at: Array) -> Any:
     length = plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
     if length is not None:
         return reading.value(length)
-    if (plan.reaches(name_of(ram.A)) | plan.reaches(name_of(ram.B))) & set(plan.groups):
+    if plan.followed or (plan.reaches(name_of(ram.A)) | plan.reaches(name_of(ram.B))) & set(plan.groups):
         return length_by_groups(motion, ram, stroke, at)
     with np.errstate(all="ignore"):
         found = (reading.at(name_of(ram.B)) - reading.at(name_of(ram.A))).length()

@@ -12,6 +12,7 @@ from ..errors import AssemblyError, DefinitionError
 from ..plan import ArrayReading, Plan, missing_words, strokes_text
 from ..quantities import Member, name_of
 from ..steps import Point, Step
+from .following import NONE_SOLVED, with_angles
 from .groups import solve_groups
 
 Place = tuple[float, float]
@@ -20,8 +21,9 @@ Place = tuple[float, float]
 def inputs_at(plan: Plan, strokes: Mapping[str, float]) -> dict[str, Any]:
     """Return all inputs at some strokes and default dimensions, the pins of groups included [SI]."""
     inputs: dict[str, Any] = plan.defaults | dict(strokes)
-    if plan.groups:
-        solved = solve_groups(plan, plan.defaults, {name: np.array([value]) for name, value in strokes.items()})
+    if plan.solved:
+        at = {name: np.array([value]) for name, value in strokes.items()}
+        solved = with_angles(solve_groups(plan, plan.defaults, at) if plan.groups else NONE_SOLVED, plan, plan.defaults, at)
         inputs |= {name: float(value[0, 0]) for name, value in solved.inputs.items()}
     return inputs
 

@@ -221,6 +221,9 @@ class Listing:
         """Return a vector's direction."""
         return Term(Direction(vector.expr), ANGLE)
 
+    def followed(self, angle: str, vector: Any) -> None:
+        """Return nothing: an angle is written the same, wherever it is counted from."""
+
     def link(self, P: str, Q: str) -> Term | None:
         """Return the given length of a link, or None where no label gives it."""
         known = self.plan.table.lengths.get(frozenset((P, Q)))

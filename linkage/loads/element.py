@@ -167,6 +167,10 @@ class ForceElement(Holding):
             found: Array = motion.inputs[key]
             return found
         if isinstance(given, (str, Quantity)):
+            strays = motion.plan.strays(quantity(given))
+            if strays:
+                what = f"{self.name or self}: {name} = {written(given)} depends on the whole turns of {strays[0]}, which are followed"
+                raise DefinitionError(f"{what} for the loads of a class only; declare it in the class, or use sines and cosines.")
             followed = motion.value(quantity(given))
             if name in self.not_negative and np.any(followed < 0.0):
                 what = f"{self.name or self}: {name} = {written(given)} is negative, {np.nanmin(followed):.6g}"

@@ -9,7 +9,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from ..assembly import Solved, solve_groups
+from ..assembly import NONE_SOLVED, Solved, solve_groups, with_angles
 from ..plan import Plan
 from ..program import FloatArray, Kernel
 from ..quantities import Angle, Reference
@@ -64,9 +64,16 @@ class Along(Motion):
     @cached_property
     def solved(self) -> Solved:
         """The pins of groups, shape (m, n); where each design stands at strokes of its own they are followed design by design."""
-        if not (self._own and self.plan.groups):
+        if not (self._own and self.plan.solved):
             return super().solved
         m, n = self.size
+        shape = self.design_shape
+        every = {name: np.broadcast_to(value, shape).ravel() if varies(value) else value for name, value in self.designs.items()}
+        strokes = {name: value.reshape(m, n) for name, value in self.strokes.items()}
+        return with_angles(self._grouped(m, n) if self.plan.groups else NONE_SOLVED, self.plan, every, strokes)
+
+    def _grouped(self, m: int, n: int) -> Solved:
+        """Return the pins of groups of m designs at n strokes of each its own."""
         found = []
         for place in range(m):
             designs = {name: np.broadcast_to(value, self.design_shape).ravel()[place : place + 1] if varies(value) else value
@@ -118,6 +125,6 @@ class AlongReading(OutputReading):
 
     def value(self, quantity: Reference) -> Any:
         found, member = super().value(quantity), self.members[quantity] if isinstance(quantity, str) else quantity
-        if self._like is None or not isinstance(member, Angle):
+        if self._like is None or not isinstance(member, Angle) or str(member) in self.inputs:
             return found
         return self._motion.nearest(np.broadcast_to(found, self.shape), np.broadcast_to(self._like.value(member), self._like.shape))

@@ -35,7 +35,7 @@ def function_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Reque
     def careful(*strokes: float, **named: float) -> tuple[float, ...]:
         return tuple(float(part) for values in bulk((*strokes, *rest(plan, len(strokes), named))).run(None) for part in np.ravel(values))
 
-    if plan.groups:
+    if plan.solved:
         return careful
     first = bulk([stroke.start for stroke in plan.strokes.values()])
     return quick(plan, designs, first.kernel, careful, first.may_fail)

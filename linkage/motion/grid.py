@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..assembly import Solved, solve_groups
+from ..assembly import NONE_SOLVED, Solved, solve_groups, with_angles
 from ..errors import DefinitionError
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Kernel
@@ -54,11 +54,12 @@ class Grid:
     @cached_property
     def solved(self) -> Solved:
         """The pins of groups, shape (m, n)."""
-        if not self.plan.groups:
-            return Solved({}, np.zeros((1, 1), bool))
+        if not self.plan.solved:
+            return NONE_SOLVED
         shape = self.design_shape
         designs = {name: np.broadcast_to(value, shape).ravel() if varies(value) else value for name, value in self.designs.items()}
-        return solve_groups(self.plan, designs, {name: value.ravel() for name, value in self.strokes.items()})
+        strokes = {name: value.ravel() for name, value in self.strokes.items()}
+        return with_angles(solve_groups(self.plan, designs, strokes) if self.plan.groups else NONE_SOLVED, self.plan, designs, strokes)
 
     @cached_property
     def inputs(self) -> dict[str, Any]:

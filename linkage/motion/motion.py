@@ -136,14 +136,17 @@ class Motion(Outputs):
         declared = self.plan.strokes[stroke]
         least = 1.0 if isinstance(member, Quantity) else 0.0  # an output may be a difference of what is much larger: rad
         found, error, still = numeric.derivative(values, abs(declared.end - declared.start), order, step, least)
-        useless, lost = numeric.losses(found, np.where(self.reached, error, 0.0), still, len(self.shape))
-        what = f"The numerical ratio of {member.name or member}"
+        most = numeric.USELESS if step is None else numeric.COARSE
+        useless, lost = numeric.losses(found, np.where(self.reached, error, 0.0), still, len(self.shape), most)
+        what = f"The numerical ratio of {member.name or member}{'' if step is None else f' with step={step:.6g}'}"
+        if step is not None:
+            useless |= self.reached & ~np.isfinite(found).all(axis=tuple(range(found.ndim - len(self.shape))))
         if useless.any() and self.unreachable == "raise":
             where = reach.where_words(self.plan, useless, self.strokes)
-            text = f'{what} is refused {where}: differences do not settle so near a dead point. Ask for method="exact".'
-            raise SingularError(text, mask=useless, motion=self)
+            raise SingularError(f"{what} is refused {where}: {numeric.refusal(step)}", mask=useless, motion=self)
         if lost > numeric.WARN[order]:
-            text = f"{what} is off by up to about {lost:.0e} of its greatest value; the exact one is not."
+            other = "the exact one is not" if step is None else "without a step it is chosen at every pose"
+            text = f"{what} is off by up to about {lost:.0e} of its greatest value; {other}."
             warnings.warn(text, SingularWarning, stacklevel=3)
         return np.where(useless, np.nan, found)
 

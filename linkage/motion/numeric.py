@@ -19,8 +19,9 @@ STEPS = 14
 FIRST = 8e-2
 WARN = {1: 1e-6, 2: 1e-5}
 """By order: the relative error above which a numerical derivative warns; a second difference loses twice the digits."""
-USELESS = 1e-3
-"""The error, against the greatest value of all poses, above which a derivative as uncertain as it is large is refused."""
+USELESS, COARSE = 1e-3, 1e-1
+"""The error, against the greatest value of all poses, above which a derivative as uncertain as it is large is refused; with a step
+that was given, which may be meant to be coarse."""
 STILL = {1: 1e-3, 2: 1e-1}
 """By order: a derivative this much smaller than value over span counts as none, only rounding is left of its differences."""
 ROUNDING = 4 * np.finfo(float).eps
@@ -33,23 +34,34 @@ def derivative(
 
     `values(offsets)` returns the function at strokes shifted by each offset, along a new last axis; NaN where
     unreachable. `span` is the length of the stroke [m or rad], `least` the size that its values have at least. With
-    `step` a plain difference of that step is taken.
+    `step` a plain difference of that step is taken; its error, of rounding and of the step's length, is what it differs by from
+    the one whose steps are chosen, and the error of that.
     """
-    steps = np.array([step]) if step is not None else FIRST * span * RATIO ** -np.arange(float(STEPS))
-    at = values(np.concatenate([[0.0], steps, -steps, 2 * steps, -2 * steps, 3 * steps, -3 * steps]))
-    zero, (ahead, back, ahead2, back2, ahead3, back3) = at[..., :1], np.split(at[..., 1:], 6, axis=-1)
-    if order == 1:
-        two = (ahead - back) / (2 * steps)
-        one = np.where(np.isfinite(ahead2), (-3 * zero + 4 * ahead - ahead2) / (2 * steps), (3 * zero - 4 * back + back2) / (2 * steps))
-    else:
-        two = (ahead - 2 * zero + back) / steps**2
-        one = np.where(np.isfinite(ahead3), 2 * zero - 5 * ahead + 4 * ahead2 - ahead3, 2 * zero - 5 * back + 4 * back2 - back3) / steps**2
-    if step is not None:
-        best = np.where(np.isfinite(two), two, one)[..., 0]
-        return best, np.zeros_like(best), 0.0
+    steps = FIRST * span * RATIO ** -np.arange(float(STEPS))
+    zero, two, one = differences(values, steps, order)
     still = STILL[order] * float(np.max(np.abs(zero), initial=least, where=np.isfinite(zero))) / span**order
     floor = ROUNDING * np.abs(zero) / steps[2:] ** order
-    return *_best(np.concatenate([_extrapolated(two, floor), _extrapolated(one, floor)], axis=-1)), still
+    found, error = _best(np.concatenate([_extrapolated(two, floor), _extrapolated(one, floor)], axis=-1))
+    if step is None:
+        return found, error, still
+    _, two, one = differences(values, np.array([step]), order)
+    plain = np.where(np.isfinite(two), two, one)[..., 0]
+    with np.errstate(all="ignore"):
+        off = np.abs(plain - found) + error
+    return plain, np.where(np.isnan(off), np.inf, off), still
+
+
+def differences(values: Callable[[FloatArray], FloatArray], steps: FloatArray, order: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the function itself, and its two-sided and one-sided differences of some steps, along a last axis; NaN out of reach."""
+    at = values(np.concatenate([[0.0], steps, -steps, 2 * steps, -2 * steps, 3 * steps, -3 * steps]))
+    zero, (ahead, back, ahead2, back2, ahead3, back3) = at[..., :1], np.split(at[..., 1:], 6, axis=-1)
+    with np.errstate(all="ignore"):  # a step may be so small that its square is none
+        if order == 1:
+            two, forth, rear = ahead - back, -3 * zero + 4 * ahead - ahead2, 3 * zero - 4 * back + back2
+            return zero, two / (2 * steps), np.where(np.isfinite(ahead2), forth, rear) / (2 * steps)
+        two = ahead - 2 * zero + back
+        forth, rear = 2 * zero - 5 * ahead + 4 * ahead2 - ahead3, 2 * zero - 5 * back + 4 * back2 - back3
+        return zero, two / steps**2, np.where(np.isfinite(ahead3), forth, rear) / steps**2
 
 
 def _extrapolated(estimate: FloatArray, floor: FloatArray) -> Any:
@@ -79,14 +91,24 @@ def _best(table: FloatArray) -> tuple[FloatArray, FloatArray]:
     return np.where(np.isfinite(error), np.take_along_axis(values, place, axis=-1)[..., 0], np.nan), error
 
 
-def losses(found: FloatArray, error: FloatArray, still: float, axes: int) -> tuple[npt.NDArray[np.bool_], float]:
+def losses(found: FloatArray, error: FloatArray, still: float, axes: int, most: float = USELESS) -> tuple[npt.NDArray[np.bool_], float]:
     """Return the poses where a derivative is as uncertain as it is large, and the worst error of the others.
 
-    The error is relative to the derivative's greatest value; poses are the last `axes` axes.
+    The error is relative to the derivative's greatest value, of which only what is certain counts; poses are the last `axes` axes.
     """
     components = tuple(range(found.ndim - axes))
     local, off = np.max(np.abs(found), axis=components), np.max(error, axis=components)
-    size = float(np.max(local, initial=still, where=np.isfinite(local)))
-    useless = np.isfinite(local) & (off > 0.1 * local) & (off > USELESS * size)
+    with np.errstate(invalid="ignore"):
+        sure = local - off
+    size = float(np.max(sure, initial=still, where=np.isfinite(sure)))
+    useless = np.isfinite(local) & (off > 0.1 * local) & (off > most * size)
     kept = np.where(np.isfinite(local) & ~useless, off, 0.0)
     return useless, float(np.max(kept, initial=0.0)) / size if size else 0.0
+
+
+def refusal(step: float | None) -> str:
+    """Return why a numerical derivative is refused, and what to ask for: with the step chosen at every pose, or one given."""
+    if step is None:
+        return 'differences do not settle so near a dead point. Ask for method="exact".'
+    why = "the difference is rounding, or goes too far or out of reach, or stands too near a dead point"
+    return f'{why}. Leave the step out, which is then chosen at every pose, or ask for method="exact".'

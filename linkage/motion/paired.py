@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..assembly import Solved, solve_groups
+from ..assembly import NONE_SOLVED, Solved, solve_groups, with_angles
 from ..plan import Plan
 from ..program import FloatArray, Kernel
 from ..quantities import Angle, Reference
@@ -42,10 +42,11 @@ class Paired(Motion):
     def solved(self) -> Solved:
         """The pins of groups, shape (m, 1), found design by design."""
         if not self.plan.groups:
-            return Solved({}, np.zeros((1, 1), bool))
+            return with_angles(NONE_SOLVED, self.plan, self.designs, {name: value[:, None] for name, value in self._each.items()})
         found = [solve_groups(self.plan, *self._of(place)) for place in range(self.design_shape[0])]
         inputs = {name: np.concatenate([np.broadcast_to(each.inputs[name], (1, 1)) for each in found]) for name in found[0].inputs}
-        return Solved(inputs, np.concatenate([np.broadcast_to(each.crossed, (1, 1)) for each in found]))
+        solved = Solved(inputs, np.concatenate([np.broadcast_to(each.crossed, (1, 1)) for each in found]))
+        return with_angles(solved, self.plan, self.designs, {name: value[:, None] for name, value in self._each.items()})
 
     def _of(self, place: int) -> tuple[dict[str, FloatArray], dict[str, FloatArray]]:
         """Return one design and its stroke, as arrays (1,)."""
@@ -78,7 +79,7 @@ class PairedReading(OutputReading):
 
     def value(self, quantity: Reference) -> Any:
         found, member = super().value(quantity), self.members[quantity] if isinstance(quantity, str) else quantity
-        if self._like is None or not isinstance(member, Angle):
+        if self._like is None or not isinstance(member, Angle) or str(member) in self.inputs:
             return found
         turns = np.round((self._like.value(member)[self._at] - found) / (2.0 * np.pi))
         return found + 2.0 * np.pi * np.nan_to_num(turns)

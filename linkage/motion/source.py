@@ -58,9 +58,13 @@ def held(plan: Plan, what: Wanted) -> list[Node]:
 
 
 def closed_form(plan: Plan, nodes: Sequence[Node]) -> None:
-    """Raise DefinitionError where nodes hang on pins that are found by iteration."""
+    """Raise DefinitionError where nodes hang on pins that are found by iteration, or on an angle that is followed."""
     read = {node.value for node in Kernel(nodes).plan.pose_inputs}
     for group in plan.groups.values():
         if not read.isdisjoint(group.inputs):
             what = f"{plan.title}: {group} is solved by iteration and has no closed form to write down"
             raise DefinitionError(f"{what}; ask for what does not hang on {', '.join(group.pins)}, or use function().")
+    for angle in plan.followed:
+        if angle in read:
+            what = f"{plan.title}: {angle} is followed from the sketch, as its whole turns tell poses apart, and has no closed form"
+            raise DefinitionError(f"{what} to write down; use a whole multiple of it, drive the angle by a Stroke, or use function().")

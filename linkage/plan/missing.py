@@ -59,7 +59,7 @@ def called(plan: Members, name: str) -> str:
 
 def missing_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) -> tuple[str, float]:
     """Return why a member cannot be placed at the poses `lost` of a reading, at the worst of them, and what is missing [m]."""
-    told = negative_words(plan, name, reading) or coinciding_words(plan, name, reading)
+    told = negative_words(plan, name, reading) or coinciding_words(plan, name, reading) or followed_words(plan, name, reading)
     return told or triangle_words(plan, name, reading, lost)
 
 
@@ -81,6 +81,18 @@ def coinciding_words(plan: Members, name: str, reading: ArrayReading) -> tuple[s
         if np.any((base.x == 0.0) & (base.y == 0.0)):
             words = f"{names[0]} and {names[1]} coincide there, so that no direction goes from one to the other. Move one of them."
             return words, float("nan")
+    return None
+
+
+def followed_words(plan: Members, name: str, reading: ArrayReading) -> tuple[str, float] | None:
+    """Return which angle of a point cannot be followed from the sketch; None where none is lost."""
+    lost = [angle for angle in reading.directions if np.any(np.isnan(reading.inputs.get(angle, 0.0)))]
+    used = {str(part) for each in plan.reaches(name) for part in plan.with_parts(each)} if lost else set[str]()
+    for angle in lost:
+        if angle in used:
+            why = "on the way its ends meet, or a pose is out of reach"
+            remedy = "Take a whole multiple of it, which need not be followed, or drive the angle by a Stroke"
+            return f"{angle}, whose whole turns count here, cannot be followed there from the sketch: {why}. {remedy}.", float("nan")
     return None
 
 

@@ -11,8 +11,9 @@ from ..errors import DefinitionError, unknown
 from ..program import Kernel, Level, Node, Tangent
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
+from .followed import followed_angles, has_angles, load_quantities, told_apart
 from .members import Members
-from .reading import ArrayReading
+from .reading import ArrayReading, Reading
 from .sent import sent
 from .trace import Trace
 
@@ -40,20 +41,29 @@ class Plan(Members):
     @cached_property
     def trace(self) -> Trace:
         """The program's nodes: every point placed."""
-        levels = dict.fromkeys((*self.strokes, *self.solved), Level.POSE) | dict.fromkeys(self.table.entries, Level.DESIGN)
-        trace = Trace(self.members, self.table.lengths, levels)
-        for name in self.points:
-            trace.at(name)
+        trace = self._traced(self.solved)
+        self._asked(trace)
         for name, length in self.following:
             trace.watch_length(name, length)
         return trace
 
+    def _traced(self, solved: Sequence[str]) -> Trace:
+        """Return a trace of nothing yet, with the dimensions, the strokes and what is solved for as inputs."""
+        levels = dict.fromkeys((*self.strokes, *solved), Level.POSE) | dict.fromkeys(self.table.entries, Level.DESIGN)
+        return Trace(self.members, self.table.lengths, levels)
+
     def read(self, inputs: Mapping[str, Any]) -> ArrayReading:
         """Return the eager reading on arrays, every point placed."""
         reading = ArrayReading(self.members, self.table.lengths, inputs)
+        self._asked(reading)
+        return reading
+
+    def _asked(self, reading: Reading) -> None:
+        """Work out every point in a reading, and where angles are followed what loads follow."""
         for name in self.points:
             reading.at(name)
-        return reading
+        for quantity in self.followers if self.followed else ():
+            reading.value(quantity)
 
     def nodes(self, target: str | Quantity) -> tuple[Node, ...]:
         """Return the nodes of a point, a vector or a quantity."""
@@ -103,6 +113,43 @@ class Plan(Members):
         return twin
 
     @cached_property
-    def solved(self) -> tuple[str, ...]:
+    def grouped(self) -> tuple[str, ...]:
         """The inputs that a group's solution supplies: its pins' coordinates and its distance from a singular pose."""
         return tuple(name for group in self.groups.values() for name in group.inputs)
+
+    @cached_property
+    def followers(self) -> tuple[Quantity, ...]:
+        """The quantities that the loads of the class follow."""
+        return load_quantities(self)
+
+    @cached_property
+    def followed(self) -> tuple[str, ...]:
+        """The angles that are followed from the sketch, as whole turns of them tell poses apart; each is an input, its reference [rad].
+
+        In an order in which each hangs on none after it.
+        """
+        if not has_angles(self, (*self.points, *self.followers)):
+            return ()
+        trace = self._traced(self.grouped)
+        for name in self.points:
+            trace.at(name)
+        for name, length in self.following:
+            trace.watch_length(name, length)
+        return followed_angles(self, trace, self.followers)
+
+    @cached_property
+    def solved(self) -> tuple[str, ...]:
+        """The inputs that are found by iteration along the way from the sketch: those of groups, and references of angles."""
+        return (*self.grouped, *self.followed)
+
+    @property
+    def may_overflow(self) -> bool:
+        """Whether a place may have no value where no guard tells: by arithmetic, or as an angle cannot be followed."""
+        return super().may_overflow or bool(self.followed)
+
+    def strays(self, quantity: Quantity) -> tuple[str, ...]:
+        """Return the angles that a quantity uses, other than by whole multiples, cosines and sines, and that are not followed."""
+        if not has_angles(self, (quantity,)):
+            return ()
+        trace = self._traced(self.solved)
+        return told_apart(trace, [trace.graph.node(trace.value(quantity))])

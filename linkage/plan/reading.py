@@ -25,6 +25,7 @@ class Reading:
         self.positions: dict[str, Vec] = {}
         self._values: dict[Any, Any] = {}
         self.placing: list[str] = []
+        self.directions: dict[str, Vec] = {}
 
     def at(self, point: Reference) -> Vec:
         """Return a point's position [m]."""
@@ -98,6 +99,18 @@ class Reading:
     def angle_of(self, vector: Vec) -> Scalar:
         """Return a vector's direction [rad]."""
         return np.arctan2(vector.y, vector.x)
+
+    def followed(self, angle: str, vector: Vec) -> Scalar | None:
+        """Return the direction of a vector [rad] counted from the reference that the angle's input gives; None without such an input.
+
+        The reference [rad] lies within a radian of the direction, so that the arc tangent is far from where it jumps.
+        """
+        self.directions[angle] = vector
+        if angle not in self.inputs:
+            return None
+        reference = self.inputs[angle]
+        cos, sin = np.cos(reference), np.sin(reference)
+        return reference + np.arctan2(vector.y * cos - vector.x * sin, vector.x * cos + vector.y * sin)
 
     def apart(self, square: Scalar) -> Scalar:
         """Return the square of a vector whose direction is taken [m2], noted as its distance from a pose where that is lost."""

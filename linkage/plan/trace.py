@@ -56,6 +56,7 @@ class Trace(Reading):
         view = copy(self)
         view.guards, view.measures, view.angles, view.placing = list(self.guards), list(self.measures), list(self.angles), []
         view.positions, view.noted, view._values = dict(self.positions), dict(self.noted), dict(self._values)
+        view.directions = dict(self.directions)
         return view
 
     def root(self, radicand: Scalar, scale: Scalar, size: Scalar) -> Scalar:

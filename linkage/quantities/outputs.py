@@ -35,7 +35,9 @@ class Angle(Quantity):
         return self.P, self.Q
 
     def rule(self, where: Where) -> Scalar:
-        return where.angle_of(where.direction(name_of(self.P), name_of(self.Q)))
+        v = where.direction(name_of(self.P), name_of(self.Q))
+        found = where.followed(str(self), v)
+        return where.angle_of(v) if found is None else found
 
     def turning(self, where: Where) -> Turning:
         v = where.at(self.Q) - where.at(self.P)

@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from ..errors import DefinitionError
-from ..vectors import Scalar
+from ..vectors import Scalar, Vec
 from .arithmetic import BINDS, FUNCTIONS, OPERATORS, UFUNCS
 from .member import Member, Reference
 from .numbers import is_number
@@ -244,7 +244,10 @@ class Function(Quantity):
         return self.arguments
 
     def rule(self, where: Where) -> Scalar:
-        return FUNCTIONS[self.function](*(where.value(each) for each in self.arguments))
+        values = [where.value(each) for each in self.arguments]
+        if self.function == "arctan2" and (found := where.followed(str(self), Vec(*values[::-1]))) is not None:
+            return found
+        return FUNCTIONS[self.function](*values)
 
     def __str__(self) -> str:
         return f"{self.function}({', '.join(spelled(each) for each in self.arguments)})"

@@ -44,6 +44,9 @@ class Where(Protocol):
     def angle_of(self, vector: Vec) -> Scalar:
         """Return a vector's direction [rad]."""
 
+    def followed(self, angle: str, vector: Vec) -> Scalar | None:
+        """Return the direction of a vector [rad] where that angle is followed from the sketch; None where it is not."""
+
     def apart(self, square: Scalar) -> Scalar:
         """Return the square of a vector whose direction is taken [m2], noted as its distance from a pose where that is lost."""
 

@@ -102,8 +102,8 @@ class TracedMotion:
         """Return what a quantity is at the sketch pose; DefinitionError where groups have to be solved for it."""
         if self.plan.reaches(quantity) & set(self.plan.groups):
             raise DefinitionError("it asks for the sketch pose, which groups of links have no closed form for")
-        reading = ArrayReading(self.plan.members, self.plan.table.lengths, {**self.inputs, **self.plan.sketch_strokes})
-        return reading.value(quantity)
+        inputs = {name: value for name, value in self.inputs.items() if name not in self.plan.followed}  # there they begin
+        return ArrayReading(self.plan.members, self.plan.table.lengths, {**inputs, **self.plan.sketch_strokes}).value(quantity)
 
     def x(self, point: str) -> Any:
         """Return a point's x coordinate [m]."""

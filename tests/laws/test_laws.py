@@ -1,5 +1,6 @@
 """Laws of the geometry, over every shipped machine and some random ones."""
 
+import warnings
 from functools import cache
 from importlib.metadata import entry_points
 from itertools import combinations
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import LEFT, RIGHT, Dyad, Ground, Mechanism, OnLink
+from linkage import LEFT, RIGHT, Dyad, Ground, Mechanism, OnLink, SingularWarning
 from linkage.motion import stroke_unit
 from linkage.quantities import Dimension, Quantity
 from linkage.units import UNITS
@@ -79,9 +80,12 @@ def test_error_of_the_plain_difference_falls_with_its_order(machine):
         step = 0.01 * abs(declared.end - declared.start)
         sizes = []
         for each in (step, step / 2):
-            wrong = [
-                motion.ratio(name, wrt=stroke, method="central", step=each) - motion.ratio(name, wrt=stroke) for name in machine.plan.moving
-            ]
+            with warnings.catch_warnings():
+                warnings.filterwarnings("ignore", "The numerical ratio", SingularWarning)  # so coarse a step tells what it loses
+                wrong = [
+                    motion.ratio(name, wrt=stroke, method="central", step=each) - motion.ratio(name, wrt=stroke)
+                    for name in machine.plan.moving
+                ]
             sizes.append(np.sqrt(sum(np.sum(part**2, axis=0) for part in wrong)))
         clear = sizes[1] > 1e-9  # above rounding
         assert not clear.any() or 3.9 < np.median(sizes[0][clear] / sizes[1][clear]) < 4.1, stroke

@@ -125,7 +125,8 @@ def test_a_step_of_ones_own_is_a_plain_difference():
     motion = Lever().at(S=[0.9, 1.1])
     h = 1e-3
     up, down = Lever().at(S=[0.9 + h, 1.1 + h]), Lever().at(S=[0.9 - h, 1.1 - h])
-    assert_allclose(motion.ratio("B", method="central", step=h), (up["B"] - down["B"]) / (2 * h), rtol=1e-12)
+    with pytest.warns(SingularWarning, match="with step=0.001 is off by up to about 3e-06 of its greatest value"):
+        assert_allclose(motion.ratio("B", method="central", step=h), (up["B"] - down["B"]) / (2 * h), rtol=1e-12)
     assert_allclose(motion.ratio("B", order=2, method="central", step=h), (up["B"] - 2 * motion["B"] + down["B"]) / h**2, rtol=1e-9)
 
 

@@ -1,0 +1,116 @@
+"""Which angles have to be followed from the sketch: those whose whole turns make a difference to a place or to a load.
+
+The direction of P -> Q comes back after a turn, and so does what cosines and sines make of it, or of a whole multiple. Seven tenths
+of it do not: where the arc tangent jumps from 180 to -180 deg, they would jump as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..program import Level, Node, ancestors
+from ..quantities import Angle, Function, Member, Quantity, unnamed
+from .trace import Trace
+
+if TYPE_CHECKING:
+    from .plan import Plan
+
+WHOLE = 1e-14
+"""A multiple so near to a whole number, for its size, is one."""
+
+
+def load_quantities(plan: Plan) -> tuple[Quantity, ...]:
+    """Return the quantities that the loads of a class follow."""
+    given = [part for member in plan.members.values() if member.kind == "load" for part in member.parts()]
+    found = (plan.members.get(part) if isinstance(part, str) else part for part in given)
+    return tuple(each for each in dict.fromkeys(found) if isinstance(each, Quantity))
+
+
+def has_angles(plan: Plan, asked: Iterable[str | Member]) -> bool:
+    """Return whether some members are built from directions of points."""
+    parts = [part for each in asked if isinstance(each, Quantity) for part in (each, *unnamed(each))]
+    parts += [part for name in set[str]().union(*map(plan.reaches, asked)) for part in plan.with_parts(name)]
+    return any(isinstance(part, Angle) or (isinstance(part, Function) and part.function == "arctan2") for part in parts)
+
+
+def followed_angles(plan: Plan, trace: Trace, loads: Sequence[Quantity]) -> tuple[str, ...]:
+    """Return the angles of a trace, as yet not followed, whose whole turns change where points are or what loads are.
+
+    DefinitionError where one of them changes the pins of a group.
+    """
+    ends = [node for place in trace.positions.values() for node in (trace.graph.node(place.x), trace.graph.node(place.y))]
+    ends += [guard.node for guard in trace.guards] + [trace.graph.node(trace.value(each)) for each in loads]
+    found = told_apart(trace, ends)
+    closures = dict.fromkeys(root.closure for group in plan.groups.values() for pin in group.pins for root in roots(trace, pin))
+    grouped = told_apart(trace, [residual for closure in closures if closure for residual in closure.residuals])
+    if grouped:
+        pins = ", ".join(pin for group in plan.groups.values() for pin in group.pins)
+        raise DefinitionError(
+            f"{plan.title}: {grouped[0]} is used in another way than by a whole multiple, its cosine or its sine, and the pins {pins} "
+            "hang on it. Such an angle and pins that are found by iteration cannot both be followed from the sketch; use a whole multiple, "
+            "or drive the angle by a Stroke."
+        )
+    return found
+
+
+def roots(trace: Trace, pin: str) -> Iterator[Node]:
+    """Yield the nodes of a pin's coordinates."""
+    place = trace.at(pin)
+    yield from (trace.graph.node(place.x), trace.graph.node(place.y))
+
+
+def told_apart(trace: Trace, ends: Sequence[Node]) -> tuple[str, ...]:
+    """Return the moving angles of a trace whose whole turns change some nodes, in the order in which they were worked out."""
+    nodes = ancestors(ends)
+    behind, wanted = set(nodes), set(ancestors_of(ends))
+    found = []
+    for name, vector in trace.directions.items():
+        angle = trace.graph.node(np.arctan2(vector.y, vector.x))
+        if angle in behind and angle.level is Level.POSE:
+            changes = turned(nodes, angle)
+            if any(changes[end] != 0.0 for end in wanted):
+                found.append(name)
+    return tuple(found)
+
+
+def ancestors_of(ends: Sequence[Node]) -> Iterator[Node]:
+    """Yield the nodes that hold the values of some."""
+    for end in ends:
+        while end.op in ("root", "alias"):
+            end = end.args[0]
+        yield end
+
+
+def turned(nodes: Sequence[Node], angle: Node) -> dict[Node, float | None]:
+    """Return by how many turns each of some nodes, in order of dependence, changes with a whole turn of an angle; None: in another way."""
+    found: dict[Node, float | None] = {}
+    for node in nodes:
+        changes = [found[each] for each in ancestors_of(node.args)]
+        if node is angle:
+            found[node] = 1.0
+        elif not any(changes) and None not in changes:
+            found[node] = 0.0
+        else:
+            found[node] = change(node, changes)
+    return found
+
+
+def change(node: Node, changes: Sequence[float | None]) -> float | None:
+    """Return by how many turns an operation changes where its arguments change by so many; None where it changes in another way."""
+    if any(each is None for each in changes):
+        return None
+    turns = [each or 0.0 for each in changes]
+    if node.op in ("add", "subtract"):
+        return turns[0] + turns[1] if node.op == "add" else turns[0] - turns[1]
+    if node.op == "negative":
+        return -turns[0]
+    if node.op == "multiply":
+        factor, other = ancestors_of(node.args)
+        return factor.value * turns[1] if factor.op == "constant" else turns[0] * other.value if other.op == "constant" else None
+    if node.op in ("sin", "cos", "tan") and abs(turns[0] - round(turns[0])) <= WHOLE * abs(turns[0]):
+        return 0.0
+    return None

@@ -14,4 +14,5 @@ from .reading import Reading as Reading
 from .table import Entry as Entry
 from .table import Table as Table
 from .trace import Guard as Guard
+from .trace import Loop as Loop
 from .trace import Trace as Trace

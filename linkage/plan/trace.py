@@ -26,6 +26,18 @@ class Guard:
     node: Node
 
 
+@dataclass(frozen=True)
+class Loop:
+    """What a step's place hangs on: links that must meet, guides that must cross, a length that must be positive.
+
+    `links`: the radicand, the product of its sides [m2] and the size of the terms whose difference it is; `guides`: the sine; `length`: [m].
+    """
+
+    step: str
+    kind: str
+    terms: tuple[Node, ...]
+
+
 class Trace(Reading):
     """A reading whose scalars are the nodes of one graph."""
 
@@ -34,13 +46,14 @@ class Trace(Reading):
         inputs = {name: self.graph.input(name, level) for name, level in levels.items()}
         super().__init__(members, lengths, inputs)
         self.guards: list[Guard] = []
+        self.loops: list[Loop] = []
         self.noted: dict[str, Node] = {}
         self.angles: list[Node] = []
 
     def view(self) -> Trace:
         """Return this trace as it stands, for reading more: what is read there leaves nothing here but nodes."""
         view = copy(self)
-        view.guards, view.angles, view.placing = list(self.guards), list(self.angles), []
+        view.guards, view.loops, view.angles, view.placing = list(self.guards), list(self.loops), list(self.angles), []
         view.positions, view.noted, view._values = dict(self.positions), dict(self.noted), dict(self._values)
         return view
 
@@ -49,6 +62,8 @@ class Trace(Reading):
         if radicand.level is not Level.POSE:  # a triangle of the design may be flat: rounding must not open it
             limit = size * -ArrayReading.ROUNDING
             radicand = self.graph.pick(limit, radicand, np.maximum(radicand, 0.0), radicand)
+        else:
+            self.loops.append(Loop(self.owner, "links", tuple(map(self.graph.node, (radicand, scale, size)))))
         node: Node = self.graph.apply("sqrt", radicand)
         watched = radicand - NEAR**2 * (scale * scale + size) if node.level is Level.POSE else node
         self.guards.append(Guard(self.owner, self.graph.node(watched)))
@@ -58,6 +73,8 @@ class Trace(Reading):
     def margin(self, sine: Scalar) -> Scalar:
         if isinstance(sine, Node):
             self.guards.append(Guard(self.owner, np.abs(sine) - NEAR))
+            if sine.level is Level.POSE:
+                self.loops.append(Loop(self.owner, "guides", (sine,)))
             self.noted[self.owner] = sine
         return sine
 
@@ -69,6 +86,7 @@ class Trace(Reading):
     def watch_length(self, step: str, length: Quantity) -> None:
         """Keep a guard that is NaN where a length is negative."""
         self.guards.append(Guard(step, self.graph.apply("sqrt", self.value(length))))
+        self.loops.append(Loop(step, "length", (self.graph.node(self.value(length)),)))
 
     def link_length(self, P: str, Q: str) -> Scalar:
         length = super().link_length(P, Q)

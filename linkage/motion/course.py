@@ -104,7 +104,8 @@ class Course:
     def rounding(self, x: FloatArray) -> FloatArray:
         """Return by how much rounding moves every loop's clearance at the most along the values, shape (loops, 1)."""
         sizes = self.clearances.rounding(self.inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
-        return ROUNDING * np.fmax.reduce(np.abs(sizes), axis=1, initial=1.0)[:, None]
+        found: FloatArray = ROUNDING * np.fmax.reduce(np.abs(sizes), axis=1, initial=1.0)[:, None]
+        return found
 
     # -- the search --------------------------------------------------------------------------------------
 
@@ -122,7 +123,7 @@ class Course:
         seen = self.seen(x)
         with np.errstate(invalid="ignore"):
             bends = np.abs(seen[:, 2:] - 2.0 * seen[:, 1:-1] + seen[:, :-2])
-        if seen.min() > BENDS * bends.max() + TOUCH:
+        if seen.min() > BENDS * bends.max() + TOUCH or np.all(seen.min(axis=1) > BENDS * bends.max(axis=1) + TOUCH):
             return ()
         return self._narrowed(x, seen, bends)
 

@@ -82,12 +82,14 @@ def halts(motion: Motion) -> tuple[Halt, ...]:
 
 def group_crossing(motion: Motion, crossed: Any) -> SingularError:
     """Return the error for poses that a group's pins reach only through a change point."""
-    groups = ", ".join(f"{name} = {group}" for name, group in motion.plan.groups.items())
+    numbers = np.unique(motion.full(motion.solved.crossed[None].astype(float))[0][crossed])
+    named = list(motion.plan.groups.items())
+    groups = ", ".join(f"{name} = {group}" for name, group in (named[int(number) - 1] for number in numbers))
     where = where_words(motion.plan, crossed, motion.strokes)
     return SingularError(
         f"{motion.plan.title} passes a change point before the poses {where}: the branches of {groups} cross on the way from the sketch. "
         'Stop before it, start from a sketch on the other side, or ask with unreachable="nan".',
-        point=next(iter(motion.plan.groups)), mask=crossed, motion=motion,
+        point=named[int(numbers[0]) - 1][0], mask=crossed, motion=motion,
     )  # fmt: skip
 
 

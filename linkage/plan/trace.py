@@ -30,7 +30,7 @@ class Guard:
 class Loop:
     """What a step's place hangs on: links that must meet, guides that must cross, a length that must be positive.
 
-    `links`: the radicand, the product of its sides [m2] and the size of the terms whose difference it is; `guides`: the sine; `length`: [m].
+    `links`: the radicand, the scale of its root and the size of the terms whose difference it is; `guides`: the sine; `length`: [m].
     """
 
     step: str

@@ -22,6 +22,8 @@ NEARBY = 0.05
 STEPS = 32
 """The steps of a way over a stroke are at most so many parts of it, and of an angle a tenth of a radian."""
 ANGLE = 0.1
+KEPT = 64
+"""The designs of a plan whose tracks are kept."""
 LINE = 1.0 / 16
 """The largest step of a straight way from the sketch to a pose of several strokes, or from the class's design to another."""
 
@@ -39,14 +41,14 @@ class Solved:
 def solve_groups(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray]) -> Solved:
     """Return the pins of all groups for designs (float or (m,)) and strokes (n,); NaN where they cannot be reached."""
     newtons = [Newton(plan, group) for group in plan.groups.values()]
-    start, m = designed(plan, newtons, designs)
+    kept = known(plan, newtons, designs)
     n = max((np.size(value) for value in strokes.values()), default=1)
-    shape = (m, n)
+    shape = (kept.start[0].shape[1], n)
     if len(strokes) == 1:
         ((name, values),) = strokes.items()
-        solved = along_one(plan, newtons, start, designs, name, values)
+        solved = along_one(plan, newtons, kept, designs, name, values)
     else:
-        solved = along_many(newtons, start, LineRoute(plan, designs, strokes, n), m * n)
+        solved = along_many(newtons, kept.start, LineRoute(plan, designs, strokes, n), shape[0] * n)
     found, crossed, stops = solved
     inputs: dict[str, FloatArray] = {}
     for newton, u in zip(newtons, found, strict=True):
@@ -54,6 +56,28 @@ def solve_groups(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, F
         inputs |= dict(zip(newton.names, u.reshape(-1, *shape), strict=True))
         inputs[newton.group.inputs[-1]] = sine
     return Solved(inputs, np.broadcast_to(crossed.reshape(shape), shape), stops)
+
+
+@dataclass
+class Known:
+    """What is known of some designs: their groups' pins at the sketch, and the tracks along a stroke, by its name and sense."""
+
+    start: list[FloatArray]
+    tracks: dict[tuple[str, float], list[Track]]
+
+
+def known(plan: Plan, newtons: Sequence[Newton], designs: Mapping[str, Any]) -> Known:
+    """Return what is known of some designs; of a single one it is kept, the last ones of a plan."""
+    if any(map(np.ndim, designs.values())):
+        return Known(designed(plan, newtons, designs), {})
+    every: dict[tuple[float, ...], Known] = plan.made("tracks", lambda _: {})
+    key = tuple(float(designs[name]) for name in plan.defaults)
+    found = every.get(key)
+    if found is None:
+        found = every[key] = Known(designed(plan, newtons, designs), {})
+        for old in list(every)[:-KEPT]:
+            every.pop(old, None)
+    return found
 
 
 # -- where the ways begin -------------------------------------------------------------------------------------
@@ -80,28 +104,38 @@ def at_sketch(plan: Plan) -> dict[str, FloatArray]:
     return found
 
 
-def designed(plan: Plan, newtons: Sequence[Newton], designs: Mapping[str, Any]) -> tuple[list[FloatArray], int]:
-    """Return the pins of every group at the sketch for all designs, continued from the class's, shape (coordinates, m), and m."""
+def designed(plan: Plan, newtons: Sequence[Newton], designs: Mapping[str, Any]) -> list[FloatArray]:
+    """Return the pins of every group at the sketch for all designs, continued from the class's, shape (coordinates, m)."""
     base = plan.made("sketch", at_sketch)
     changed = {name: np.asarray(value, float) for name, value in designs.items() if np.ndim(value) or value != plan.defaults[name]}
     m = max((value.size for value in changed.values() if value.ndim), default=1)
     start = [np.repeat(base[newton.group.name], m, axis=1) for newton in newtons]
     if not changed:
-        return start, m
+        return start
     found = tracks(newtons, DesignRoute(plan, changed), start, np.ones(m), LINE, exact=True)
-    return [np.where(np.isinf(track.ended), track.u[:, track.last], np.nan) for track in found], m
+    return [np.where(np.isinf(track.ended), track.u[:, track.last], np.nan) for track in found]
 
 
 def tracks(
-    newtons: Sequence[Newton], route: Route, start: Sequence[FloatArray], goal: FloatArray, largest: float, *, exact: bool
+    newtons: Sequence[Newton],
+    route: Route,
+    start: Sequence[FloatArray],
+    goal: FloatArray,
+    largest: float,
+    *,
+    exact: bool,
+    begun: Sequence[Track] = (),
 ) -> list[Track]:
-    """Return the ways of all groups, each followed with the ones before it known."""
+    """Return the ways of all groups, each followed with the ones before it known; tracks that were begun go on."""
     found: list[Track] = []
     for place, (newton, u) in enumerate(zip(newtons, start, strict=True)):
         # the next one's steps may go beyond the goal by one
         far = goal if exact else goal + (len(newtons) - 1 - place) * largest
-        lanes = Lanes(np.arange(len(goal)), np.zeros(len(goal)), u.copy(), far, largest, exact)
-        found.append(Track(newton, route, list(found), lanes))
+        if begun:
+            found.append(begun[place].onward(list(found), far))
+        else:
+            lanes = Lanes(np.arange(len(goal)), np.zeros(len(goal)), u.copy(), far, largest, exact)
+            found.append(Track(newton, route, list(found), lanes))
     return found
 
 
@@ -166,10 +200,10 @@ Found = tuple[list[FloatArray], npt.NDArray[Any], tuple[float, ...]]
 
 
 def along_one(
-    plan: Plan, newtons: Sequence[Newton], start: Sequence[FloatArray], designs: Mapping[str, Any], name: str, values: FloatArray
+    plan: Plan, newtons: Sequence[Newton], known: Known, designs: Mapping[str, Any], name: str, values: FloatArray
 ) -> Found:
     """Return the pins of every group over one stroke, shape (coordinates, m * n), what crossed, and where a single design's ways end."""
-    m, values = start[0].shape[1], np.ravel(values)
+    start, m, values = known.start, known.start[0].shape[1], np.ravel(values)
     u = [np.full((len(each), m, len(values)), np.nan) for each in start]
     crossed = np.zeros((m, len(values)), int)
     stops: list[float] = []
@@ -179,7 +213,9 @@ def along_one(
             continue
         route = StrokeRoute(plan, designs, name, sense)
         place = np.abs(values[side] - route.sketch)
-        found = tracks(newtons, route, start, np.full(m, float(place.max())), route.largest, exact=False)
+        begun = known.tracks.get((name, sense), ())
+        found = tracks(newtons, route, start, np.full(m, float(place.max())), route.largest, exact=False, begun=begun)
+        known.tracks[name, sense] = found
         lane, at = np.repeat(np.arange(m), len(place)), np.tile(place, m)
         for number, track in enumerate(found):
             u[number][:, :, side] = track.at(lane, at).reshape(-1, m, len(place))

@@ -8,16 +8,16 @@ become small in proportion where branches cross or end, and a way comes to an en
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Protocol, TypeAlias
+from typing import Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from ..program import FloatArray
-from .newton import Newton
+from .newton import Mask, Newton
 
 Index = npt.NDArray[np.intp]
 Places: TypeAlias = tuple[Index, FloatArray, FloatArray, FloatArray, FloatArray]
@@ -59,12 +59,85 @@ class Lanes:
     """Whether a way ends at its goal, or at the first of its own steps behind it, so that these are the same for every goal."""
 
 
+class Landed(NamedTuple):
+    """What Newton's method found a step ahead, and whether it did; how far from where it was expected, the clearance, the size [m]."""
+
+    u: FloatArray
+    done: Mask
+    miss: FloatArray
+    sense: FloatArray
+    size: FloatArray
+
+
+@dataclass
+class Ways:
+    """Where the lanes of a track stand: their place, the pins, the clearance with its sign, the place and pins before, the next step."""
+
+    t: FloatArray
+    u: FloatArray
+    s: FloatArray
+    before: FloatArray
+    u_before: FloatArray
+    step: FloatArray
+    largest: FloatArray
+    going: Mask
+    record: list[Places]
+
+    @classmethod
+    def of(cls, newton: Newton, inputs: Mapping[str, Any], lanes: Lanes) -> Ways:
+        """Return the lanes at their beginning."""
+        largest = np.broadcast_to(np.asarray(lanes.largest, float), lanes.place.shape)
+        s, size = newton.sense(inputs, lanes.u)
+        record = [(np.arange(len(s)), lanes.place.copy(), lanes.u.copy(), s.copy(), size)]
+        t, u = lanes.place.copy(), lanes.u.copy()
+        return cls(t, u, s, t.copy(), u.copy(), FIRST * largest, largest, np.asarray(np.abs(s) >= TOUCH), record)
+
+    def copied(self) -> Ways:
+        """Return a copy that can be followed farther."""
+        return replace(
+            self, t=self.t.copy(), u=self.u.copy(), s=self.s.copy(), before=self.before.copy(), u_before=self.u_before.copy(),
+            step=self.step.copy(), going=self.going.copy(), record=list(self.record),
+        )  # fmt: skip
+
+    def guess(self, k: Index, h: FloatArray) -> FloatArray:
+        """Return where the pins of some lanes are expected after a step: on the line through the last two places."""
+        back = self.t[k] - self.before[k]
+        share = np.where(back > 0.0, h / np.where(back > 0.0, back, 1.0), 0.0)
+        return np.asarray(self.u[:, k] + (self.u[:, k] - self.u_before[:, k]) * share)
+
+    def taken(self, k: Index, ahead: FloatArray, landed: Landed) -> None:
+        """Go to what was found a step ahead where it is the same branch; settle the next step."""
+        h, sense, size = ahead - self.t[k], landed.sense, landed.size
+        with np.errstate(all="ignore"):
+            was, now = np.abs(self.s[k]), np.abs(sense)
+            excess = np.sqrt((NEAR * np.minimum(was, now) + ROUNDING) * size / np.maximum(landed.miss, 1e-300))
+            same = landed.done & (sense * self.s[k] > 0.0)
+            good = same & (now >= SHRINK * was) & (excess >= 1.0)
+            falls = np.maximum(was - now, 0.0) / h
+            onward = np.minimum(h * np.clip(0.7 * excess, SHRINK, GROW), np.where(falls > 0.0, 0.45 * now / falls, np.inf))
+            again = h * np.where(same, np.clip(0.7 * excess, 0.1, SHRINK), 0.3)
+        self.step[k] = np.where(good, np.minimum(self.largest[k], onward), again)
+        a = k[good]
+        self.before[a], self.u_before[:, a] = self.t[a], self.u[:, a]
+        self.t[a], self.u[:, a], self.s[a] = ahead[good], landed.u[:, good], sense[good]
+        self.record.append((a, self.t[a], self.u[:, a], self.s[a], size[good]))
+        self.going[k] = (np.abs(self.s[k]) >= TOUCH) & (self.step[k] > LEAST * self.largest[k]) & (self.t[k] + self.step[k] > self.t[k])
+
+
 class Track:
     """One group's way along each lane of a route: the places it was solved at, and the solution at any place between."""
 
-    def __init__(self, newton: Newton, route: Route, before: Sequence[Track], lanes: Lanes) -> None:
+    def __init__(self, newton: Newton, route: Route, before: Sequence[Track], lanes: Lanes, begun: Track | None = None) -> None:
         self.newton, self.route, self.before, self.lanes = newton, route, before, lanes
-        self._follow()
+        self._ways: Ways = Ways.of(newton, self.inputs(lanes.lane, lanes.place), lanes) if begun is None else begun._ways.copied()
+        self._follow(self._ways)
+        self._store(self._ways.record, len(lanes.lane))
+
+    def onward(self, before: Sequence[Track], goal: FloatArray) -> Track:
+        """Return this track followed farther, by the steps it would have taken at once; itself where it goes so far."""
+        if np.all((goal <= self.lanes.goal) | (self.ended < np.inf)):
+            return self
+        return Track(self.newton, self.route, before, replace(self.lanes, goal=np.maximum(goal, self.lanes.goal)), self)
 
     def inputs(self, lane: Index, place: FloatArray) -> dict[str, Any]:
         """Return the inputs at places of lanes, the pins of the groups before this one included."""
@@ -73,46 +146,24 @@ class Track:
             found |= dict(zip(track.newton.names, track.at(lane, place), strict=True))
         return found
 
-    def _follow(self) -> None:
+    def _follow(self, ways: Ways) -> None:
         """Follow every lane to its goal, or to the end of its way."""
-        lanes, newton = self.lanes, self.newton
-        count = len(lanes.lane)
-        largest = np.broadcast_to(np.asarray(lanes.largest, float), (count,))
-        t, u, step = lanes.place.copy(), lanes.u.copy(), FIRST * largest
-        s, size = newton.sense(self.inputs(lanes.lane, t), u)
-        t0, u0, s0 = t.copy(), u.copy(), s.copy()
-        going = np.isfinite(s) & (np.abs(s) >= TOUCH) & (t < lanes.goal)
-        self.lost = ~np.isfinite(s)
-        record: list[Places] = [(np.arange(count), t.copy(), u.copy(), s.copy(), size)]
-        while going.any():
-            k = np.flatnonzero(going)
-            h = np.minimum(step[k], lanes.goal[k] - t[k]) if lanes.exact else step[k]
-            ahead = t[k] + h
-            if lanes.exact:
-                ahead = np.where(h < step[k], lanes.goal[k], ahead)
-            back = t[k] - t0[k]
-            with np.errstate(all="ignore"):
-                guess = u[:, k] + np.where(back > 0.0, (u[:, k] - u0[:, k]) * (h / back), 0.0)
-                inputs = self.inputs(lanes.lane[k], ahead)
-                found, done = newton.correct(inputs, guess)
-                sense, size = newton.sense(inputs, found)
-                limit = NEAR * np.minimum(np.abs(sense), np.abs(s[k])) * size + ROUNDING * size
-                excess = np.sqrt(limit / np.maximum(np.abs(found - guess).max(axis=0), 1e-300))
-            same = done & (sense * s[k] > 0.0)
-            good = same & (np.abs(sense) >= SHRINK * np.abs(s[k])) & (excess >= 1.0)
-            a, b = k[good], k[~good]
-            with np.errstate(all="ignore"):
-                falls = (np.abs(s[a]) - np.abs(sense[good])) / h[good]
-                step[a] = np.minimum(largest[a], h[good] * np.clip(0.7 * excess[good], SHRINK, GROW))
-                step[a] = np.where(falls > 0.0, np.minimum(step[a], 0.45 * np.abs(sense[good]) / falls), step[a])
-                step[b] = h[~good] * np.where(same[~good], np.clip(0.7 * excess[~good], 0.1, SHRINK), 0.3)
-            t0[a], u0[:, a], s0[a] = t[a], u[:, a], s[a]
-            t[a], u[:, a], s[a] = ahead[good], found[:, good], sense[good]
-            record.append((a, t[a], u[:, a], s[a], size[good]))
-            going[k] = (t[k] < lanes.goal[k]) & (np.abs(s[k]) >= TOUCH) & (step[k] > LEAST * largest[k]) & (t[k] + step[k] > t[k])
-        self._store(record, count)
+        lanes = self.lanes
+        while True:
+            k = np.flatnonzero(ways.going & (ways.t < lanes.goal))
+            if not k.size:
+                return
+            h = np.minimum(ways.step[k], lanes.goal[k] - ways.t[k]) if lanes.exact else ways.step[k]
+            ahead = np.where(h < ways.step[k], lanes.goal[k], ways.t[k] + h)
+            guess = ways.guess(k, h)
+            inputs = self.inputs(lanes.lane[k], ahead)
+            found, done = self.newton.correct(inputs, guess)
+            sense, size = self.newton.sense(inputs, found)
+            with np.errstate(invalid="ignore"):
+                miss = np.abs(found - guess).max(axis=0)
+            ways.taken(k, ahead, Landed(found, done, miss, sense, size))
 
-    def _store(self, record: list[Places], count: int) -> None:
+    def _store(self, record: Sequence[Places], count: int) -> None:
         """Keep the places of all lanes one after the other."""
         lane = np.concatenate([each[0] for each in record])
         order = np.argsort(lane, kind="stable")
@@ -123,7 +174,8 @@ class Track:
         self.first = np.searchsorted(lane[order], np.arange(count + 1))
         self.last = self.first[1:] - 1
         reached = self.places[self.last]
-        self.ended = np.where(self.lost, -1.0, np.where(reached >= self.lanes.goal, np.inf, reached))
+        lost = ~np.isfinite(self.clear[self.first[:-1]])
+        self.ended = np.where(lost, -1.0, np.where(reached >= self.lanes.goal, np.inf, reached))
         self.crossed = np.array([0.0 <= self.ended[k] < np.inf and self._crosses(k) for k in range(count)], bool)
 
     def _crosses(self, k: int) -> bool:

@@ -2,27 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError
+from ..errors import AssemblyError, DefinitionError, SingularError
 from ..program import FloatArray
-from ..steps import Pin, Point
+from ..steps import Point
 from ..units import deg
+from .course import Course, Halt
 from .limits import TOUCH as TOUCH
-from .limits import Held, Scanned, StrokeLimits, deepest, intervals, search
+from .limits import Held, Scanned, StrokeLimits, intervals, search
 from .limits import Limits as Limits
-from .reach import called, failures, stroke_unit, where_words
+from .reach import called, failures, missing_words, opening, stroke_unit, where_words
 from .still import dead_points
 from .transmission import transmission
 from .turns import open_turn
 
 if TYPE_CHECKING:
     from .motion import Motion
-
-WATCHED = 20_000
 
 Moved = Callable[[Mapping[str, Any]], "Motion"]
 """The motion at other strokes, unreachable poses as NaN."""
@@ -71,23 +70,26 @@ def failing(motion: Motion) -> str:
 
 
 def is_watched(motion: Motion) -> bool:
-    """Return whether change points between the poses are looked for: one design along one stroke.
+    """Return whether it is looked at between the poses: of one design along one stroke, from two poses on."""
+    return len(motion.strokes) == 1 and not motion.design_shape and motion.shape != () and motion.reached.size > 1
 
-    A sweep of many thousand poses stands so close to every change point that its guards tell.
-    """
-    poses = next((value for value in motion.strokes.values()), np.zeros(0))
-    single = len(motion.strokes) == 1 and not motion.design_shape and poses.ndim == 1
-    return single and poses.size > 2 and (poses.size <= WATCHED or motion.is_near_singular)
+
+def halts(motion: Motion) -> tuple[Halt, ...]:
+    """Return what interrupts the way of one design along its one stroke, between the least and the greatest of its poses."""
+    ((name, values),) = motion.strokes.items()
+    return Course(motion.plan, motion.flat, name, {}).halts(float(values.min()), float(values.max()))
 
 
 def group_crossing(motion: Motion, crossed: Any) -> SingularError:
     """Return the error for poses that a group's pins reach only through a change point."""
-    groups = ", ".join(f"{name} = {group}" for name, group in motion.plan.groups.items())
+    numbers = np.unique(motion.full(motion.solved.crossed[None].astype(float))[0][crossed])
+    named = list(motion.plan.groups.items())
+    groups = ", ".join(f"{name} = {group}" for name, group in (named[int(number) - 1] for number in numbers))
     where = where_words(motion.plan, crossed, motion.strokes)
     return SingularError(
         f"{motion.plan.title} passes a change point before the poses {where}: the branches of {groups} cross on the way from the sketch. "
         'Stop before it, start from a sketch on the other side, or ask with unreachable="nan".',
-        point=next(iter(motion.plan.groups)), mask=crossed, motion=motion,
+        point=named[int(numbers[0]) - 1][0], mask=crossed, motion=motion,
     )  # fmt: skip
 
 
@@ -104,30 +106,34 @@ def stop_words(motion: Motion) -> str:
 
 
 def refuse_crossing(motion: Motion) -> None:
-    """Raise SingularError where a sweep passes a change point: between its poses two branches of a loop cross.
+    """Raise the error of what interrupts a sweep between its poses: a stretch out of reach, or a change point.
 
-    A loop that a declared side keeps on one branch would turn back there, which no machine does.
+    A loop that a declared side keeps on one branch would turn back at a change point, which no machine does.
     """
+    found = halts(motion)
+    if not found:
+        return
     ((name, values),) = motion.strokes.items()
-    order = np.argsort(values, kind="stable")
-    at = values[order]
-    scan = scanner(motion.moved, name, {})
-    # a group is followed step by step from the sketch and tells of its own crossings
-    alone = {loop: sine for loop, sine in motion.loop_sines.items() if loop not in motion.plan.of_kind(Pin)}
-    for loop, sine in alone.items():
-        ordered = np.broadcast_to(np.abs(sine), values.shape)[order]
-        for place in suspects(ordered):
-            value, least = deepest(scan, loop, at[max(place - 1, 0)], at[min(place + 1, len(at) - 1)])
-            if least < TOUCH and at[0] < value < at[-1]:
-                raise crossing(motion, loop, name, value)
+    start = float(np.ravel(values)[0])
+    first = min(found, key=lambda halt: min(abs(halt.low - start), abs(halt.high - start)))
+    raise gap(motion, first, found) if first.is_gap else crossing(motion, first.step, name, first.deepest)
 
 
-def suspects(sine: FloatArray) -> list[int]:
-    """Return the inner places near which a sine may touch zero: minima that lie low beside their surroundings."""
-    before, here, after = sine[:-2], sine[1:-1], sine[2:]
-    with np.errstate(invalid="ignore"):
-        low = (here <= before) & (here <= after) & (here < 0.5) & (here <= 1.05 * np.abs(after - before) + 0.6 * np.maximum(before, after))
-    return [int(place) + 1 for place in np.flatnonzero(low)]
+def gap(motion: Motion, halt: Halt, found: Sequence[Halt]) -> AssemblyError:
+    """Return the error for a stretch between the poses of a sweep that cannot be assembled."""
+    ((name, values),) = motion.strokes.items()
+    plan, unit = motion.plan, stroke_unit(motion.plan, name)
+    there = motion.moved({name: np.array([halt.deepest])})
+    step = next((each for each, mask in failures(plan, there.reading, (1,)) if mask.any()), halt.step)
+    words, shortfall = missing_words(plan, step, there.reading, np.ones(1, bool))
+    far = np.asarray(values > halt.low if np.ravel(values)[0] <= halt.low else values < halt.high)
+    edges = [float(values.min()), *(edge for each in found if each.is_gap for edge in (each.low, each.high)), float(values.max())]
+    spans = [f"from {name} = {low:.6g} to {high:.6g} {unit}" for low, high in zip(edges[::2], edges[1::2], strict=True)]
+    return AssemblyError(
+        f"{opening(plan, step)} cannot be assembled between {name} = {halt.low:.9g} and {halt.high:.9g} {unit}, though at all poses asked "
+        f"for:\n{words} It goes {', and '.join(spans)}.",
+        point=step, mask=far, shortfall=shortfall,
+    )  # fmt: skip
 
 
 def crossing(motion: Motion, loop: str, name: str, value: float) -> SingularError:
@@ -135,9 +141,9 @@ def crossing(motion: Motion, loop: str, name: str, value: float) -> SingularErro
     unit = stroke_unit(motion.plan, name)
     where = f"{name} = {value:.6g} {unit}" + (f" ({value / deg:.4g} deg)" if unit == "rad" else "")
     member = motion.plan.members[loop]
-    opening = f"{loop} = {member}" if isinstance(member, Point) else loop
+    named = f"{loop} = {member}" if isinstance(member, Point) else loop
     return SingularError(
-        f"{motion.plan.title} passes a change point at {where}: {opening} has its links in line there and its two branches cross, "
+        f"{motion.plan.title} passes a change point at {where}: {named} has its links in line there and its two branches cross, "
         "so which way the mechanism goes on is not settled by its geometry. Stop the sweep before it, take the poses on each side "
         'in sweeps of their own, or ask with unreachable="nan".',
         point=loop, mask=np.asarray(motion.strokes[name] >= value), motion=motion,

@@ -15,5 +15,6 @@ from .table import Entry as Entry
 from .table import Table as Table
 from .trace import NEAR as NEAR
 from .trace import Guard as Guard
+from .trace import Loop as Loop
 from .trace import Measure as Measure
 from .trace import Trace as Trace

@@ -39,6 +39,18 @@ class Measure:
     node: Node
 
 
+@dataclass(frozen=True)
+class Loop:
+    """What a step's place hangs on: links that must meet, guides that must cross, a length that must be positive.
+
+    `links`: the radicand, the scale of its root and the size of the terms whose difference it is; `guides`: the sine; `length`: [m].
+    """
+
+    step: str
+    kind: str
+    terms: tuple[Node, ...]
+
+
 class Trace(Reading):
     """A reading whose scalars are the nodes of one graph."""
 
@@ -48,13 +60,15 @@ class Trace(Reading):
         super().__init__(members, lengths, inputs)
         self.guards: list[Guard] = []
         self.measures: list[Measure] = []
+        self.loops: list[Loop] = []
         self.noted: dict[str, Node] = {}
         self.angles: list[Node] = []
 
     def view(self) -> Trace:
         """Return this trace as it stands, for reading more: what is read there leaves nothing here but nodes."""
         view = copy(self)
-        view.guards, view.measures, view.angles, view.placing = list(self.guards), list(self.measures), list(self.angles), []
+        view.guards, view.measures, view.loops, view.angles = list(self.guards), list(self.measures), list(self.loops), list(self.angles)
+        view.placing = []
         view.positions, view.noted, view._values = dict(self.positions), dict(self.noted), dict(self._values)
         view.directions = dict(self.directions)
         return view
@@ -64,6 +78,8 @@ class Trace(Reading):
         if radicand.level is not Level.POSE:  # a triangle of the design may be flat: rounding must not open it
             limit = size * -ArrayReading.ROUNDING
             radicand = self.graph.pick(limit, radicand, np.maximum(radicand, 0.0), radicand)
+        else:
+            self.loops.append(Loop(self.owner, "links", tuple(map(self.graph.node, (radicand, scale, size)))))
         node: Node = self.graph.apply("sqrt", radicand)
         self.noted[self.owner] = node
         if node.level is Level.POSE:
@@ -75,6 +91,8 @@ class Trace(Reading):
     def margin(self, sine: Scalar) -> Scalar:
         if isinstance(sine, Node):
             self._measure(sine * sine * REGULAR**-2)
+            if sine.level is Level.POSE:
+                self.loops.append(Loop(self.owner, "guides", (sine,)))
             self.noted[self.owner] = sine
         return sine
 
@@ -123,6 +141,7 @@ class Trace(Reading):
     def watch_length(self, step: str, length: Quantity) -> None:
         """Keep a guard that is NaN where a length is negative."""
         self.guards.append(Guard(step, self.graph.apply("sqrt", self.value(length))))
+        self.loops.append(Loop(step, "length", (self.graph.node(self.value(length)),)))
 
     def closed(self, step: Point, X: Vec) -> Vec:
         if not step.closes:

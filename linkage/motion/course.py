@@ -1,0 +1,220 @@
+"""The way between poses along one stroke: where a loop comes to its dead point there, and where it cannot be assembled.
+
+Every loop tells how far it is from its dead point: the squared sine of the angle between its links, which is negative where they
+do not reach, or the sine of the angle between its guides. A function of the stroke, it is looked at on a grid of its own, whatever
+poses were asked for; an interval is dismissed where the lower of its ends stands clear of twice what the function bends there, and
+else divided by eight, down to 1e-9 of the way.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from ..assembly import solve_groups
+from ..plan import Loop, Plan
+from ..program import FloatArray, Kernel, Level, Way
+from ..steps import Pin
+
+GRID = 128
+"""Intervals of the grid; an angle has so many for each turn of it."""
+PARTS = 8
+DEPTH = 1e-9
+"""The width, of the way, down to which it is divided."""
+BENDS = 2.0
+TOUCH = 1e-6
+"""A sine that comes so low has come to zero: a clearance of 1e-12 of the links' lengths is not told from none."""
+END = 1e-7
+"""A dead point so near to an end of the way, compared with the way, is its end and not passed."""
+ROUNDING = 8 * np.finfo(float).eps
+MOST = 4096
+
+ON_ARRAYS = Way("numpy")
+INNER = np.arange(1, PARTS) / PARTS
+
+
+@dataclass(frozen=True)
+class Halt:
+    """What interrupts the way along a stroke: from where to where a step cannot be assembled; low = high where it only touches that."""
+
+    step: str
+    low: float
+    high: float
+    deepest: float
+    """Where it is farthest from being assembled, or in line."""
+    kind: str = "links"
+
+    @property
+    def is_gap(self) -> bool:
+        """Whether a stretch of the way is out of reach; else it touches a singular pose."""
+        return self.high > self.low
+
+
+@dataclass(frozen=True)
+class Clearances:
+    """The loops of a plan that move, and the kernels of how clear of their dead points they are, and of the size of rounding there."""
+
+    loops: tuple[Loop, ...]
+    kernel: Kernel
+    rounding: Kernel
+
+    @classmethod
+    def of(cls, plan: Plan) -> Clearances:
+        """Return those of a plan; pins of groups are followed on their own."""
+        trace = plan.trace
+        moving = dict.fromkeys(loop for loop in trace.loops if loop.terms[0].level is Level.POSE)
+        own = tuple(loop for loop in moving if not isinstance(plan.members[loop.step], Pin))
+        clear = [loop.terms[0] / (loop.terms[1] * loop.terms[1]) if loop.kind == "links" else loop.terms[0] for loop in own]
+        size = [loop.terms[2] / (loop.terms[1] * loop.terms[1]) if loop.kind == "links" else trace.graph.constant(1.0) for loop in own]
+        return cls(own, Kernel(clear), Kernel(size))
+
+
+class Course:
+    """One design along one stroke, the others held: `seen(x)` are the clearances at values of the stroke, shape (loops, n)."""
+
+    def __init__(self, plan: Plan, designs: Mapping[str, Any], name: str, held: Mapping[str, float]) -> None:
+        self.plan, self.designs, self.name, self.held = plan, designs, name, held
+        self.clearances = plan.made("clearances", Clearances.of)
+
+    @property
+    def loops(self) -> tuple[Loop, ...]:
+        """The loops that are watched."""
+        return self.clearances.loops
+
+    def inputs(self, x: FloatArray) -> dict[str, Any]:
+        """Return the inputs of the program at values of the stroke."""
+        inputs: dict[str, Any] = {**self.designs, **self.held, self.name: x}
+        if self.plan.groups:
+            strokes = {name: x if name == self.name else np.full(x.shape, self.held[name]) for name in self.plan.strokes}
+            inputs |= solve_groups(self.plan, {name: self.designs[name] for name in self.plan.defaults}, strokes).inputs
+        return inputs
+
+    def seen(self, x: FloatArray) -> FloatArray:
+        """Return the clearance of every loop, shape (loops, n): squared sines of links, sizes of the sines of guides, lengths [m]."""
+        found: FloatArray = self.clearances.kernel(self.inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
+        for row, loop in enumerate(self.loops):
+            if loop.kind == "guides":
+                np.abs(found[row], out=found[row])
+        return found
+
+    def rounding(self, x: FloatArray) -> FloatArray:
+        """Return by how much rounding moves every loop's clearance at the most along the values, shape (loops, 1)."""
+        sizes = self.clearances.rounding(self.inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
+        found: FloatArray = ROUNDING * np.fmax.reduce(np.abs(sizes), axis=1, initial=1.0)[:, None]
+        return found
+
+    # -- the search --------------------------------------------------------------------------------------
+
+    def grid(self, low: float, high: float) -> FloatArray:
+        """Return the values at which a way is looked at first."""
+        turns = (high - low) / (2.0 * np.pi) if self.name in self.plan.turning else 1.0
+        found: FloatArray = low + (high - low) * shares(GRID * max(1, int(np.ceil(turns))))
+        return found
+
+    def halts(self, low: float, high: float) -> tuple[Halt, ...]:
+        """Return what interrupts the way between two values of the stroke, in their order."""
+        if not (self.loops and high > low):
+            return ()
+        x = self.grid(low, high)
+        seen = self.seen(x)
+        with np.errstate(invalid="ignore"):
+            bends = np.abs(seen[:, 2:] - 2.0 * seen[:, 1:-1] + seen[:, :-2])
+        if seen.min() > BENDS * bends.max() + TOUCH or np.all(seen.min(axis=1) > BENDS * bends.max(axis=1) + TOUCH):
+            return ()
+        return self._narrowed(x, seen, bends)
+
+    def _narrowed(self, x: FloatArray, seen: FloatArray, bends: FloatArray) -> tuple[Halt, ...]:
+        """Return what interrupts the way, from the grid on."""
+        low, high = float(x[0]), float(x[-1])
+        noise = self.rounding(x)
+        tells = np.array([loop.kind != "length" for loop in self.loops])
+        level = np.array([TOUCH if loop.kind == "guides" else TOUCH**2 for loop in self.loops])[:, None]
+        level = np.where(tells[:, None], np.maximum(level, noise), 0.0)
+        still = np.fmax.reduce(seen, axis=1) <= 4.0 * level[:, 0]
+        if still.any():  # in line all the way, as a rod that is straight; or the way is so short
+            stroke = self.plan.strokes[self.name]
+            wide = self.seen(self.grid(min(stroke.start, stroke.end), max(stroke.start, stroke.end)))
+            still &= ~(np.fmax.reduce(wide, axis=1) > 4.0 * level[:, 0])
+        places, values = divided(self.seen, x, seen, bends, level, noise, ~still)
+        halts: list[Halt] = []
+        for row, loop in enumerate(self.loops):
+            if not still[row]:
+                halts += self._halts_of(row, loop, places, values[row], float(level[row, 0]), float(noise[row, 0]), (low, high))
+        return tuple(sorted(halts, key=lambda halt: halt.low))
+
+    def _halts_of(
+        self, row: int, loop: Loop, x: FloatArray, seen: FloatArray, level: float, noise: float, ends: tuple[float, float]
+    ) -> list[Halt]:
+        """Return where one loop interrupts the way: runs of values that have come to zero."""
+        known = np.isfinite(seen)
+        x, seen = x[known], seen[known]
+        halts = []
+        edges = np.flatnonzero(np.diff(np.concatenate([[False], seen <= level, [False]]).astype(int)))
+        for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
+            run = slice(first, last + 1)
+            deepest = float(x[run][seen[run] <= seen[run].min() + noise].mean())
+            if seen[run].min() < -noise:
+                under = first + np.flatnonzero(seen[run] < -noise)
+                low = self._border(row, x, int(under[0]), -1, noise)
+                high = self._border(row, x, int(under[-1]), 1, noise)
+                halts.append(Halt(loop.step, low, high, deepest, loop.kind))
+            elif loop.kind != "length" and min(deepest - ends[0], ends[1] - deepest) > END * (ends[1] - ends[0]):
+                halts.append(Halt(loop.step, deepest, deepest, deepest, loop.kind))
+        return halts
+
+    def _border(self, row: int, x: FloatArray, place: int, side: int, noise: float) -> float:
+        """Return the end of a stretch that is out of reach, on one side of a value in it, by bisection."""
+        inside, outside = float(x[place]), float(x[min(max(place + side, 0), len(x) - 1)])
+        while abs(outside - inside) > 4e-16 * max(abs(inside), abs(outside)):
+            at = inside + (outside - inside) * INNER
+            under = self.seen(at)[row] < -noise
+            count = PARTS - 1 if under.all() else int(np.argmin(under))
+            points = [inside, *at.tolist(), outside]
+            if (points[count], points[count + 1]) == (inside, outside):
+                break
+            inside, outside = points[count], points[count + 1]
+        return outside
+
+
+def divided(
+    look: Any, x: FloatArray, seen: FloatArray, bends: FloatArray, level: FloatArray, noise: FloatArray, wanted: Any
+) -> tuple[FloatArray, FloatArray]:
+    """Return all values looked at, in order, and what was seen there, shape (loops, n): intervals divided where a loop may reach zero."""
+    wide = np.pad(np.where(np.isfinite(bends), bends, 0.0), ((0, 0), (2, 2)), mode="edge")
+    bend = np.maximum.reduce([wide[:, k : k + x.size - 1] for k in range(4)])
+    left, right, first, last = x[:-1], x[1:], seen[:, :-1], seen[:, 1:]
+    places, values = [x], [seen]
+    least = DEPTH * float(x[-1] - x[0])
+    while left.size:
+        lower = np.minimum(first, last)
+        low = (lower <= BENDS * bend + level) & (np.maximum(first, last) >= -noise) & wanted[:, None]
+        pick = np.flatnonzero(low.any(axis=0) & (right - left > least))[:MOST]
+        if not pick.size:
+            break
+        left, right, first, last = left[pick], right[pick], first[:, pick], last[:, pick]
+        inner = left[:, None] + (right - left)[:, None] * INNER
+        found = look(inner.ravel()).reshape(len(seen), *inner.shape)
+        places.append(inner.ravel())
+        values.append(found.reshape(len(seen), -1))
+        f = np.concatenate([first[..., None], found, last[..., None]], axis=2)
+        at = np.concatenate([left[:, None], inner, right[:, None]], axis=1)
+        with np.errstate(invalid="ignore"):
+            curved = np.abs(f[..., 2:] - 2.0 * f[..., 1:-1] + f[..., :-2])
+        bend = np.repeat(np.fmax.reduce(curved, axis=2, initial=0.0), PARTS, axis=1)
+        left, right = at[:, :-1].ravel(), at[:, 1:].ravel()
+        first, last = f[..., :-1].reshape(len(seen), -1), f[..., 1:].reshape(len(seen), -1)
+    at = np.concatenate(places)
+    order = np.argsort(at, kind="stable")
+    return at[order], np.concatenate(values, axis=1)[:, order]
+
+
+@cache
+def shares(count: int) -> FloatArray:
+    """Return equal steps from 0 to 1."""
+    found: FloatArray = np.linspace(0.0, 1.0, count + 1)
+    found.flags.writeable = False
+    return found

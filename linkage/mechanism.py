@@ -124,8 +124,8 @@ class Mechanism:
         change points between them. Raises AssemblyError out of reach and SingularError for ratios at a dead point, unless
         `unreachable="nan"`.
         """
-        grid = Grid(self.plan, self._values, at_values(strokes, self.plan, as_given), unreachable)
-        return evaluate(grid, of, out, Way(backend, threads))
+        grid = Grid(self.plan, self._values, at_values(strokes, self.plan, as_given))
+        return evaluate(grid, of, out, Way(backend, threads), unreachable)
 
     def function(self, of: Sequence[Request]) -> PoseFunction:
         """Return values, ratios and forces of this design as a function of the strokes, in floats: `f = function(["G", ratio("G")])`.

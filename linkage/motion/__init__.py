@@ -14,8 +14,8 @@ from .function import function_of as function_of
 from .grid import Grid as Grid
 from .motion import Motion as Motion
 from .motion import Target as Target
+from .motion import paired as paired
 from .motion import require_motion as require_motion
-from .paired import Paired as Paired
 from .reach import stroke_unit as stroke_unit
 from .request import Ratio as Ratio
 from .request import Request as Request

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import DefinitionError, unwarned
 from ..program import FloatArray
-from .along import Along
+from .grid import Beside, in_order
 from .motion import Motion
 from .peaks import Index, Mask, samples
 from .route import Route
@@ -42,7 +42,9 @@ class Between:
         self.motion, self.f, self.sense = motion, f, sense
         self.route = Route.of(motion.strokes)
         self.leg, self.t = leg, t = samples(self.route.counts)
-        self.first = Along(motion.plan, motion.designs, self.route.strokes(leg, t), tangent=self.route.tangent(leg))
+        self.first = Motion(
+            motion.plan, motion.designs, self.route.strokes(leg, t), "nan", joining=in_order, tangent=self.route.tangent(leg)
+        )
         self.seen = sense * values_of(f, self.first)
         self.front = self.seen.shape[: self.seen.ndim - len(self.first.shape)]
         self._starts = np.cumsum([0, *(count + 1 for count in self.route.counts[:-1])])
@@ -57,7 +59,7 @@ class Between:
         D, n = self._reached.shape[0], t.shape[-1]
         return seen.reshape(-1, D, n), motion.reached.reshape(D, n)
 
-    def _own(self, leg: Index, t: FloatArray) -> tuple[Along, FloatArray]:
+    def _own(self, leg: Index, t: FloatArray) -> tuple[Motion, FloatArray]:
         """Return the poses at places (D, n), each design at its own, and the values there."""
         first, tangent = self.first, self.route.tangent(leg)
         places = self._starts[leg] + np.rint(t * np.asarray(self.route.counts)[leg]).astype(int)
@@ -66,9 +68,10 @@ class Between:
         def shaped(values: Any) -> Any:
             return values.reshape(*first.design_shape, t.shape[-1])
 
-        motion = Along(
-            first.plan, first.designs, {name: shaped(value) for name, value in self.route.strokes(leg, t).items()}, own=True,
-            tangent=tangent and {name: shaped(value) for name, value in tangent.items()}, like=first, near=shaped(near),
+        strokes = {name: shaped(value) for name, value in self.route.strokes(leg, t).items()}
+        motion = Motion(
+            first.plan, first.designs, strokes, "nan", own=True, joining=Beside(first.grid, shaped(near)),
+            tangent=tangent and {name: shaped(value) for name, value in tangent.items()},
         )  # fmt: skip
         return motion, self.sense * values_of(self.f, motion)
 

@@ -20,8 +20,8 @@ from itertools import product
 import numpy as np
 
 from ..program import FloatArray
-from .along import Along
 from .between import Function, values_of
+from .grid import Beside, in_order
 from .motion import Motion
 from .peaks import Mask, is_pole, level
 
@@ -51,7 +51,7 @@ class Box:
         self.k = len(self.names)
         self.side = SIDES.get(self.k, 3)
         grid = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, self.side)] * self.k, indexing="ij"), axis=-1)
-        self.first = Along(motion.plan, motion.designs, self.strokes(grid))
+        self.first = Motion(motion.plan, motion.designs, self.strokes(grid), "nan", joining=in_order)
         self.seen = sense * values_of(f, self.first)
         self.front = self.seen.shape[: self.seen.ndim - len(self.first.shape)]
         self._reached = self.first.reached.reshape(-1, self.side**self.k)
@@ -67,7 +67,7 @@ class Box:
         shape = (*self.first.design_shape, *unit.shape[1:-1])
         strokes = {name: value.reshape(shape) for name, value in self.strokes(unit).items()}
         near = self._near(unit).reshape(shape)
-        motion = Along(self.first.plan, self.first.designs, strokes, own=True, like=self.first, near=near)
+        motion = Motion(self.first.plan, self.first.designs, strokes, "nan", own=True, joining=Beside(self.first.grid, near))
         seen = self.sense * values_of(self.f, motion)
         return seen.reshape(-1, *unit.shape[:-1]), motion.reached.reshape(unit.shape[:-1])
 

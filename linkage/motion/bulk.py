@@ -14,7 +14,7 @@ from ..program import FloatArray, Kernel, Node, Way
 from . import reach, singular
 from .angles import Angles, angles_of
 from .grid import Grid
-from .motion import Motion
+from .motion import Motion, checked_unreachable
 from .reach import Mask
 from .request import Request, all_wanted
 from .singular import Judged
@@ -24,9 +24,10 @@ PIECE = 1 << 18
 """Poses that are looked at again at a time."""
 
 
-def evaluate(grid: Grid, requests: Sequence[Request], out: FloatArray | None, way: Way) -> list[FloatArray]:
+def evaluate(grid: Grid, requests: Sequence[Request], out: FloatArray | None, way: Way, unreachable: str) -> list[FloatArray]:
     """Return the values of requests over a grid; see Mechanism.evaluate."""
-    return Bulk(grid, all_wanted(grid.plan, requests), way).run(out)
+    checked_unreachable(unreachable)
+    return Bulk(grid, all_wanted(grid.plan, requests), way, unreachable).run(out)
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,7 @@ class Bulk:
     grid: Grid
     wanted: tuple[Wanted, ...]
     way: Way
+    unreachable: str = "raise"
 
     @property
     def names(self) -> set[str]:
@@ -174,12 +176,12 @@ class Bulk:
     @property
     def _raises(self) -> bool:
         """Whether poses without a value are an error."""
-        return self.grid.unreachable == "raise"
+        return self.unreachable == "raise"
 
     def _refuse(self) -> None:
         """Raise the error of these poses, in the words of a motion."""
         grid = self.grid
-        motion = Motion(grid.plan, grid.designs, grid.strokes, grid.unreachable)
+        motion = Motion(grid.plan, grid.designs, grid.strokes, self.unreachable)
         for each in self.wanted:
             each.refuse(motion)
         for each in self.wanted:

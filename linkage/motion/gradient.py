@@ -83,9 +83,9 @@ def gradient_of(motion: Motion, of: Request, wrt: Sequence[str]) -> FloatArray:
     good = motion.reached & ~refused
     slopes = plan.made(("gradient", what.key, names), lambda plan: slopes_of(plan, what, names))
     rest = what.rows * len(names)
-    values, assumed, switches = np.split(motion.full(slopes.kernel(motion.flat).values), [rest, rest + slopes.assumed])
+    values, assumed, switches = np.split(motion.grid.full(slopes.kernel(motion.grid.flat).values), [rest, rest + slopes.assumed])
     check(motion, what, good, assumed, zip(slopes.touched, switches, strict=True))
-    continued = slopes.angles.continued(motion)
+    continued = slopes.angles.continued(motion.grid)
     signs = np.tile([float(sign) for _, sign in dimensions], what.rows).reshape(-1, *(1,) * len(motion.shape))
     found = values if continued is None else continued
     if not (good.all() and np.all(signs > 0.0) and found.flags.writeable):

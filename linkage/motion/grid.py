@@ -1,11 +1,12 @@
-"""Designs and strokes as a grid of poses, and the inputs of the program on it."""
+"""Designs and strokes as a grid of poses: its shapes, the inputs of the program on it, and how angles go on over it."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from math import prod
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -18,24 +19,33 @@ from .unwrap import unwrapped
 
 
 class Grid:
-    """Designs times strokes: shapes and inputs. Arrays are component-first, designs before strokes."""
+    """Designs times strokes. Arrays are component-first, designs before strokes.
 
-    def __init__(self, plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray], unreachable: str = "raise") -> None:
-        if unreachable not in ("raise", "nan"):
-            raise DefinitionError(f'unreachable={unreachable!r}: say "raise" or "nan".')
-        self.plan, self.designs, self.strokes, self.unreachable = plan, dict(designs), dict(strokes), unreachable
+    `strokes` are arrays of one shape; with `own` this begins with that of the designs, each of which then has strokes of its own.
+    `joining` says how angles are made continuous.
+    """
+
+    def __init__(
+        self,
+        plan: Plan,
+        designs: Mapping[str, Any],
+        strokes: Mapping[str, FloatArray],
+        *,
+        own: bool = False,
+        joining: Joining | None = None,
+    ) -> None:
+        self.plan, self.designs, self.strokes, self.own = plan, dict(designs), dict(strokes), own
         arrays = [np.shape(value) for value in self.designs.values() if varies(value)]
         try:
             self.design_shape = np.broadcast_shapes(*arrays)
         except ValueError:
             shapes = ", ".join(map(str, arrays))
             raise DefinitionError(f"{plan.title}: the shapes of the design arrays do not fit each other: {shapes}.") from None
-        self.stroke_shape = self._stroke_shape()
+        shape = next((value.shape for value in self.strokes.values()), ())
+        self.stroke_shape: tuple[int, ...] = shape[len(self.design_shape) if own else 0 :]
         self.shape = (*self.design_shape, *self.stroke_shape)
-
-    def _stroke_shape(self) -> tuple[int, ...]:
-        """Return the shape of the poses of each design."""
-        return next((value.shape for value in self.strokes.values()), ())
+        self.is_special, self._joining = own or joining is not None, joining or by_stroke
+        self._angles: dict[Kernel, FloatArray] = {}
 
     @cached_property
     def size(self) -> tuple[int, int]:
@@ -43,40 +53,52 @@ class Grid:
         return prod(self.design_shape), prod(self.stroke_shape)
 
     @cached_property
+    def flat_strokes(self) -> dict[str, FloatArray]:
+        """The strokes as a kernel takes them: (n,), or (m, n) where each design has its own."""
+        return {name: value.reshape(self.size) if self.own else value.ravel() for name, value in self.strokes.items()}
+
+    @cached_property
+    def flat_designs(self) -> dict[str, Any]:
+        """The dimensions as a kernel takes them: floats, or arrays (m,)."""
+        shape = self.design_shape
+        return {name: np.broadcast_to(value, shape).ravel() if varies(value) else float(value) for name, value in self.designs.items()}
+
+    @cached_property
     def flat(self) -> dict[str, Any]:
-        """The inputs as a kernel takes them: designs (m,), poses (n,)."""
-        flat: dict[str, Any] = {}
-        for name, value in self.designs.items():
-            flat[name] = np.broadcast_to(value, self.design_shape).ravel() if varies(value) else float(value)
-        flat |= {name: value.ravel() for name, value in self.strokes.items()}
-        return flat | dict(self.solved.inputs)
+        """The inputs as a kernel takes them: designs (m,), poses (n,) or (m, n)."""
+        return self.flat_designs | self.flat_strokes | dict(self.solved.inputs)
 
     @cached_property
     def solved(self) -> Solved:
-        """The pins of groups, shape (m, n)."""
+        """The pins of groups and the references of followed angles, shape (m, n)."""
         if not self.plan.solved:
             return NONE_SOLVED
-        shape = self.design_shape
-        designs = {name: np.broadcast_to(value, shape).ravel() if varies(value) else value for name, value in self.designs.items()}
-        strokes = {name: value.ravel() for name, value in self.strokes.items()}
-        return with_angles(solve_groups(self.plan, designs, strokes) if self.plan.groups else NONE_SOLVED, self.plan, designs, strokes)
+        groups = NONE_SOLVED if not self.plan.groups else self._each() if self.own else self._grouped(self.flat_designs, self.flat_strokes)
+        return with_angles(groups, self.plan, self.flat_designs, self.flat_strokes)
+
+    def _grouped(self, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray]) -> Solved:
+        return solve_groups(self.plan, designs, strokes)
+
+    def _each(self) -> Solved:
+        """Return the pins of groups where each design has strokes of its own: followed design by design."""
+        m, n = self.size
+        found = [
+            self._grouped(
+                {name: value[place : place + 1] if varies(value) else value for name, value in self.flat_designs.items()},
+                {name: value[place] for name, value in self.flat_strokes.items()},
+            )
+            for place in range(m)
+        ]
+        inputs = {name: np.concatenate([np.broadcast_to(each.inputs[name], (1, n)) for each in found]) for name in found[0].inputs}
+        return Solved(inputs, np.concatenate([np.broadcast_to(each.crossed, (1, n)) for each in found]))
 
     @cached_property
     def inputs(self) -> dict[str, Any]:
         """The inputs shaped to broadcast against results: designs first, strokes last."""
         tail = (1,) * len(self.stroke_shape)
-        shaped = {name: np.reshape(value, np.shape(value) + tail) if varies(value) else value for name, value in self.designs.items()}
-        solved = {name: self.full(value[None])[0] for name, value in self.solved.inputs.items()}
-        shaped = {name: np.float64(value) if np.ndim(value) == 0 else value for name, value in shaped.items()}
-        return shaped | dict(self.strokes) | solved
-
-    def array(self, values: Any) -> FloatArray:
-        """Return numbers as arrays of floats."""
-        return np.asarray(values, float)
-
-    def joined(self, angles: FloatArray, kernel: Kernel) -> FloatArray:
-        """Return the angles that a kernel gives [rad], shape (angles, ...), without jumps along the stroke."""
-        return np.array([unwrapped(angle, [value for value in self.strokes.values() if value.ndim]) for angle in angles])
+        designs = self.designs.items()
+        shaped = {name: np.reshape(value, np.shape(value) + tail) if varies(value) else np.float64(value) for name, value in designs}
+        return shaped | self.strokes | {name: self.full(value[None])[0] for name, value in self.solved.inputs.items()}
 
     def full(self, values: FloatArray) -> FloatArray:
         """Return a kernel's values in the grid's shape."""
@@ -84,14 +106,67 @@ class Grid:
             values = np.broadcast_to(values, (len(values), *self.size))
         return values.reshape(len(values), *self.shape)
 
+    def inputs_at(self, mask: Mask) -> dict[str, FloatArray]:
+        """Return the inputs at some poses, shape (n,)."""
+        return {name: np.broadcast_to(value, self.shape)[mask] for name, value in self.inputs.items()}
+
     def read_at(self, mask: Mask) -> ArrayReading:
         """Return the eager reading of some poses."""
         with np.errstate(all="ignore"):
             return self.plan.read(self.inputs_at(mask))
 
-    def inputs_at(self, mask: Mask) -> dict[str, FloatArray]:
-        """Return the inputs at some poses, shape (n,)."""
-        return {name: np.broadcast_to(value, self.shape)[mask] for name, value in self.inputs.items()}
+    # -- angles --------------------------------------------------------------------------------------------
+
+    def joined(self, angles: FloatArray, kernel: Kernel) -> FloatArray:
+        """Return the angles that a kernel gives [rad], shape (angles, ...), without jumps from pose to pose."""
+        return self._joining(self, angles, kernel)
+
+    def angles(self, kernel: Kernel) -> FloatArray:
+        """Return the angles of a kernel here [rad], without jumps; kept."""
+        if kernel not in self._angles:
+            self._angles[kernel] = self.joined(self.full(kernel(self.flat).values), kernel)
+        return self._angles[kernel]
+
+
+Joining: TypeAlias = Callable[[Grid, FloatArray, Kernel], FloatArray]
+"""How angles (k, ...) [rad] that a kernel gives on a grid are made continuous."""
+
+
+def by_stroke(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
+    """Return angles without jumps along the strokes, whatever the order of the poses."""
+    return np.array([unwrapped(angle, [value for value in grid.strokes.values() if value.ndim]) for angle in angles])
+
+
+def in_order(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
+    """Return angles without jumps in the order of the poses."""
+    return np.array([unwrapped(angle, [np.empty(grid.stroke_shape)] * 2) for angle in angles])  # two: one would be sorted by its values
+
+
+def as_they_are(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
+    """Return angles within 180 deg of zero."""
+    return angles
+
+
+@dataclass(frozen=True, eq=False)
+class Beside:
+    """Angles within 180 deg of those of poses that are known: of `like`, by their number `near`, an array that fits the grid's poses.
+
+    The poses that are known belong to the same designs, or to a single one.
+    """
+
+    like: Grid
+    near: Any
+
+    def __call__(self, grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
+        near = np.broadcast_to(self.near, grid.shape)
+        known = self.like.angles(kernel).reshape(len(angles), *self.like.design_shape, -1)
+        if self.like.design_shape:
+            near = np.broadcast_to(near.reshape(*grid.design_shape, -1), (len(angles), *grid.design_shape, grid.size[1]))
+            others = np.take_along_axis(known, near, axis=-1).reshape(angles.shape)
+        else:
+            others = known[:, near]
+        found: FloatArray = angles + 2.0 * np.pi * np.nan_to_num(np.round((others - angles) / (2.0 * np.pi)))
+        return found
 
 
 def varies(value: Any) -> bool:

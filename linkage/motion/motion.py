@@ -4,38 +4,90 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import Any
+from functools import cached_property
+from typing import Any, Self, TypeAlias
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning
-from ..plan import Plan
+from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, unwarned
+from ..plan import ArrayReading, Plan
 from ..program import FloatArray
-from ..quantities import Member, Quantity
+from ..quantities import Angle, Distance, Member, Quantity
 from ..steps import Arrow, Point
+from ..vectors import Vec
 from . import numeric, reach, scan, singular
 from .angles import angles_of
 from .asked import method_of, named, order_of, rates_of
 from .gradient import gradient_of
-from .outputs import Outputs
-from .outputs import Target as Target
+from .grid import Beside, Grid, Joining, as_they_are, in_order
 from .reach import Mask
-from .request import Request, Value
+from .request import Everywhere, Request, Value
 from .wanted import Wanted, examined, near_of
 
+Target: TypeAlias = str | Member
 
-class Motion(Outputs):
+
+class Motion:
     """The poses of a mechanism: all positions, worked out at once; ratios and outputs when asked.
 
     Arrays are component-first, designs before strokes: a position has the shape (2, *designs, *strokes).
-    Raises AssemblyError where a pose cannot be assembled, unless `unreachable="nan"`.
+    Raises AssemblyError where a pose cannot be assembled, unless `unreachable="nan"`. With `own` the arrays of strokes begin with the
+    shape of the designs, each of which has strokes of its own; `joining` says how angles are made continuous, `tangent` how several
+    strokes go on along a path.
     """
 
-    def __init__(self, plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray], unreachable: str = "raise") -> None:
-        super().__init__(plan, designs, strokes, unreachable)
-        self._ratios: dict[Any, FloatArray] = {}
+    def __init__(
+        self,
+        plan: Plan,
+        designs: Mapping[str, Any],
+        strokes: Mapping[str, FloatArray],
+        unreachable: str = "raise",
+        *,
+        own: bool = False,
+        joining: Joining | None = None,
+        tangent: Mapping[str, FloatArray] | None = None,
+    ) -> None:
+        checked_unreachable(unreachable)
+        self.grid = Grid(plan, designs, strokes, own=own, joining=joining)
+        self.plan, self.unreachable = plan, unreachable
+        self.shape, self.design_shape = self.grid.shape, self.grid.design_shape
+        self._tangent = tangent
+        self._values: dict[Any, FloatArray] = {}
+        self.reached: Mask = np.ones(self.shape, bool)
+        result = plan.kernel(plan.moving, guarded=True)(self.grid.flat)
+        self._places = self.grid.full(result.values)
+        self.is_near_singular = not np.all(result.guards > 0.0)
+        if self.is_near_singular or plan.may_overflow:
+            self._settle_unreached()
+        if self.is_near_singular:
+            self._settle_lost()
+        self._places.flags.writeable = False
         if unreachable == "raise" and scan.is_watched(self):
             scan.refuse_crossing(self)
+
+    @property
+    def designs(self) -> dict[str, Any]:
+        """The design variables by name [SI]."""
+        return self.grid.designs
+
+    @property
+    def strokes(self) -> dict[str, FloatArray]:
+        """The strokes by name [m or rad], arrays of one shape."""
+        return self.grid.strokes
+
+    @property
+    def inputs(self) -> dict[str, Any]:
+        """Design variables and strokes by name, shaped to broadcast against results."""
+        return self.grid.inputs
+
+    def array(self, values: Any) -> FloatArray:
+        """Return numbers as arrays of floats."""
+        return np.asarray(values, float)
+
+    @property
+    def stroke_shape(self) -> tuple[int, ...]:
+        """The shape of the poses of each design."""
+        return self.grid.stroke_shape
 
     def __repr__(self) -> str:
         spans = [f"{name} = {reach.span_read(values, reach.stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
@@ -47,7 +99,7 @@ class Motion(Outputs):
         """Return the error for the poses that are not reached: out of reach, or behind a change point."""
         if self.crossed.any():
             return scan.group_crossing(self, self.crossed)
-        return reach.refusal(self.plan, self.read_at(~self.reached), ~self.reached, self.strokes, scan.stop_words(self))
+        return reach.refusal(self.plan, self.grid.read_at(~self.reached), ~self.reached, self.strokes, scan.stop_words(self))
 
     def limits(self) -> scan.Limits:
         """Return, for every stroke, how far it can go and what stops it; printed as sentences.
@@ -57,12 +109,188 @@ class Motion(Outputs):
         """
         return scan.limits(self)
 
+    # -- reach -----------------------------------------------------------------------------------------
+
+    def _settle_unreached(self) -> None:
+        """Place the poses at a dead point, to rounding; refuse or mask those out of reach."""
+        failed: Mask = np.asarray(~np.isfinite(self._places).all(axis=0)) if len(self._places) else np.ones(self.shape, bool)
+        with np.errstate(all="ignore"):
+            failed |= reach.negative(self.plan, ArrayReading(self.plan.members, self.plan.table.lengths, self.inputs), self.shape)
+        if not failed.any():
+            return
+        reading = self.grid.read_at(failed)
+        lost = np.zeros(int(failed.sum()), bool)
+        for _, mask in reach.failures(self.plan, reading, lost.shape):
+            lost |= mask
+        self._places = np.array(self._places)
+        for index, name in enumerate(self.plan.moving):
+            place = reading.at(name)
+            for axis, part in enumerate((place.x, place.y)):
+                self._places[2 * index + axis, ...][failed] = np.where(lost, np.nan, part)
+        self.reached[failed] = ~lost
+        if self.unreachable == "raise" and lost.any():
+            raise self.refusal()
+
+    def _settle_lost(self) -> None:
+        """Refuse or mask the poses of which rounding leaves nothing, as where two points that another hangs from come together."""
+        every = Everywhere(self.plan.moving)
+        near = near_of(self.grid, every) & self.reached
+        if not near.any():
+            return
+        found = examined(self.plan, every, self.grid.inputs_at(near), self.grid.read_at(near))
+        lost, doubtful = np.zeros(self.shape, bool), np.zeros(self.shape, bool)
+        lost[near], doubtful[near] = found.refused, found.doubtful
+        if lost.any() and self.unreachable == "raise":
+            raise singular.lost(found.at(found.refused), lost, self.strokes)
+        if lost.any():
+            self._places = np.where(lost, np.nan, self._places)
+            self.reached &= ~lost
+        if doubtful.any():
+            where = reach.where_words(self.plan, doubtful, self.strokes)
+            singular.warn(found.at(found.doubtful), f"The places of {self.plan.title} {where}", 6)
+
+    # -- looked at again ---------------------------------------------------------------------------------
+
+    @property
+    def group_stops(self) -> tuple[float, ...]:
+        """The strokes at which a group's pins could not be followed farther from the sketch."""
+        return self.grid.solved.stops
+
+    @property
+    def crossed(self) -> Mask:
+        """The poses that a group's pins reach only through a change point."""
+        return np.asarray(np.broadcast_to(self.grid.full(self.grid.solved.crossed[None].astype(float))[0] > 0.0, self.shape))
+
+    @cached_property
+    def reading(self) -> ArrayReading:
+        """The eager reading of all poses."""
+        with np.errstate(all="ignore"):
+            return self.plan.read(self.inputs)
+
+    @cached_property
+    def loop_sines(self) -> dict[str, Any]:
+        """The sine of the angle between the two links of every moving loop; zero at a dead point."""
+        return singular.loops(self.plan, self.reading)
+
+    def moved(self, strokes: Mapping[str, Any]) -> Self:
+        """Return the same designs at other strokes [SI], each at its own where the arrays begin with the designs; NaN out of reach."""
+        arrays = np.broadcast_arrays(*(np.asarray(strokes[name], float) for name in self.strokes))
+        own = self.grid.own and arrays[0].shape[: len(self.design_shape)] == self.design_shape
+        joining = in_order if self.grid.is_special else None
+        with unwarned():
+            return type(self)(self.plan, self.designs, dict(zip(self.strokes, arrays, strict=True)), "nan", own=own, joining=joining)
+
+    # -- what is read off ---------------------------------------------------------------------------------
+
+    def __getitem__(self, name: str) -> FloatArray:
+        """Return a point's position or a vector, shape (2, ...) [m], or a quantity, shape (...) [SI]."""
+        member = self._known(name)
+        if isinstance(member, Point):
+            return self._place(member.name)
+        if isinstance(member, Quantity):
+            return self.value(member)
+        if isinstance(member, Arrow):
+            return self._evaluated(member, ())
+        raise DefinitionError(f"{self.plan.title}: {name} = {member} has no value over the stroke; name a point, a vector or an output.")
+
+    def _place(self, name: str) -> FloatArray:
+        if name in self.plan.ground:
+            return self._evaluated(self.plan.members[name], ())
+        index = 2 * self.plan.moving.index(name)
+        return self._places[index : index + 2]
+
+    def value(self, quantity: Quantity) -> FloatArray:
+        """Return a quantity over all poses [SI]; angles without jumps along the stroke."""
+        member = self._member(quantity)
+        if not isinstance(member, Quantity):
+            raise DefinitionError(f'{self.plan.title}: {member.name} is no quantity; ask for motion["{member.name}"].')
+        words = str(member.name or member)
+        refused = self.refused(Value(member, ()), words)
+        return self.finite(np.where(self.reached & ~refused, self._evaluated(member, ()), np.nan), refused, words)
+
+    @cached_property
+    def _placed(self) -> ArrayReading:
+        """The eager reading whose points are where the motion has them."""
+        reading = ArrayReading(self.plan.members, self.plan.table.lengths, self.inputs)
+        for name in self.plan.moving:
+            reading.positions[name] = Vec(*self._place(name))
+        return reading
+
+    def finite(self, values: FloatArray, excused: Mask, what: str) -> FloatArray:
+        """Return values that are finite at every pose reached; NaN where they are not and NaN was asked for."""
+        finite = np.isfinite(values)
+        if finite.all():
+            return values
+        good: Mask = np.asarray(finite if finite.ndim == len(self.shape) else finite.all(axis=0))
+        missing = ~good & self.reached & ~excused
+        if missing.any() and self.unreachable == "raise":
+            where = reach.where_words(self.plan, missing, self.strokes)
+            text = f'{what} has no finite value {where}. Leave these poses out, or ask with unreachable="nan".'
+            raise SingularError(text, mask=missing, motion=self)
+        return np.where(good, values, np.nan)
+
+    def x(self, point: Target) -> FloatArray:
+        """Return a point's x coordinate [m]."""
+        return np.asarray(self._point(point)[0])
+
+    def y(self, point: Target) -> FloatArray:
+        """Return a point's y coordinate [m]."""
+        return np.asarray(self._point(point)[1])
+
+    def _point(self, name: Target) -> FloatArray:
+        return self._place(named("Point", name, self.plan.points, self.plan.title))
+
+    def _known(self, target: Target) -> Member:
+        return self.plan.members[named("Name", target, self.plan.members, self.plan.title)]
+
+    def angle(self, P: Target, Q: Target) -> FloatArray:
+        """Return the direction of P -> Q [rad], without jumps along the stroke."""
+        self._point(P), self._point(Q)
+        return self.value(Angle(P, Q))
+
+    def distance(self, P: Target, Q: Target) -> FloatArray:
+        """Return the distance of two points [m]."""
+        self._point(P), self._point(Q)
+        return self.value(Distance(P, Q))
+
+    def transmission_angle(self, point: Target) -> FloatArray:
+        """Return the transmission angle of a dyad's joint [rad], shape (...), 0 to pi; best near pi / 2.
+
+        Between the two links that meet in it (Dyad); between the link and the normal to its guide (SliderDyad: a
+        slider-crank's connecting rod and the normal to the slide); between the line to the pin and the normal to the slot
+        (PinSlotDyad); between the two guides (GuideCross); between slot and guide (YokeDyad). Its sine is the share of the
+        force on the way from link to link that moves the second one. DefinitionError for a point that is no such joint.
+        Sources: H. Alt, Werkstattstechnik 26 (1932); S. S. Balli, S. Chand, Mech. Mach. Theory 37 (2002) 175-195.
+        """
+        name = named("Point", point, self.plan.points, self.plan.title)
+        directions = self._meeting(name)
+        if not directions:
+            raise reach.no_joint(self.plan, name, self.joints)
+        u, w = directions
+        with np.errstate(all="ignore"):
+            angle = np.arctan2(np.abs(u.cross(w)), u.dot(w))
+        return np.where(self.reached, np.broadcast_to(angle, self.shape), np.nan)
+
+    @cached_property
+    def joints(self) -> tuple[str, ...]:
+        """The points that have a transmission angle: the joints of dyads."""
+        return tuple(name for name in self.plan.points if self._meeting(name))
+
+    def _meeting(self, name: str) -> tuple[Vec, ...]:
+        with np.errstate(all="ignore"):
+            return self.plan.points[name].meeting(self._placed)
+
+    def _member(self, target: Target) -> Member:
+        return target if isinstance(target, Quantity) and not target.name else self._known(target)
+
     @property
     def tangent(self) -> Mapping[str, FloatArray] | None:
         """How several strokes go on along a path of poses, by name, shape (poses,); None where the poses are no path.
 
         Half the way from the pose before to the pose after [SI]: its signs and ratios mean something, its length does not.
         """
+        if self.grid.is_special:
+            return self._tangent
         if len(self.strokes) < 2 or len(self.stroke_shape) != 1 or self.stroke_shape[0] < 2:
             return None
         if self.stroke_shape[0] == 2:
@@ -91,7 +319,7 @@ class Motion(Outputs):
         order, method = order_of(order), method_of(method, step)
         member = self._member(target)
         refused = self.refused(Value(member, (stroke,) * order), f"The ratio of {member.name or member}")
-        found = self._exact(member, (stroke,) * order) if method == "exact" else self._numeric(member, stroke, order, step)
+        found = self._evaluated(member, (stroke,) * order) if method == "exact" else self._numeric(member, stroke, order, step)
         found = np.where(refused, np.nan, found) if refused.any() else found
         return self.finite(found, refused, f"The ratio of {member.name or member} by {stroke}")
 
@@ -102,30 +330,30 @@ class Motion(Outputs):
             raise DefinitionError(f"{self.plan.title} has {len(self.strokes)} strokes: say wrt= one of {', '.join(self.strokes)}.")
         return named("Stroke", wrt, self.strokes, self.plan.title)
 
-    def _exact(self, member: Member, along: tuple[str, ...]) -> FloatArray:
-        """Return a derivative through the program; the first derivatives of all points come in one pass, kept."""
-        if isinstance(member, Point) and member.name in self.plan.ground:
+    def _evaluated(self, member: Member, along: tuple[str, ...]) -> FloatArray:
+        """Return a value or a derivative through the program; the first derivatives of all points come in one pass, kept."""
+        if isinstance(member, Point) and member.name in self.plan.ground and along:
             return np.zeros((2, *self.shape))
-        pass_of_all = isinstance(member, Point)
+        pass_of_all = isinstance(member, Point) and bool(along)
         targets: tuple[Any, ...] = self.plan.moving if pass_of_all else (member.name or member,)
         key = (targets, along)
-        if key not in self._ratios:
-            found = self.full(self.plan.kernel(targets, along)(self.flat).values)
+        if key not in self._values:
+            found = self.grid.full(self.plan.kernel(targets, along)(self.grid.flat, size=self.grid.size).values)
             continued = self._continued(targets[0], along) if isinstance(member, Quantity) else None
-            self._ratios[key] = found if continued is None else continued
-            self._ratios[key].flags.writeable = False
-        values = self._ratios[key]
-        if not self.reached.all():
+            self._values[key] = found if continued is None else continued
+            self._values[key].flags.writeable = False
+        values = self._values[key]
+        if not self.reached.all() and member.name not in self.plan.ground:
             values = np.where(self.reached, values, np.nan)
         if pass_of_all:
             index = 2 * self.plan.moving.index(member.name)
             return values[index : index + 2]
-        return values if isinstance(member, Arrow) else values[0]
+        return values if isinstance(member, (Arrow, Point)) else values[0]
 
     def _continued(self, target: Any, along: tuple[str, ...]) -> FloatArray | None:
-        """Return the derivative of a quantity that holds angles, which are continued along the stroke; None where they need not be."""
+        """Return what holds angles, which are continued along the stroke; None where they need not be."""
         key = ("angles", target, along)
-        return self.plan.made(key, lambda plan: angles_of(plan, plan.derived(plan.nodes(target), along))).continued(self)
+        return self.plan.made(key, lambda plan: angles_of(plan, plan.derived(plan.nodes(target), along))).continued(self.grid)
 
     def _numeric(self, member: Member, stroke: str, order: int, step: float | None) -> FloatArray:
         def values(offsets: FloatArray) -> FloatArray:
@@ -155,10 +383,10 @@ class Motion(Outputs):
         none = np.zeros(self.shape, bool)
         if not self.is_near_singular:
             return none
-        near = near_of(self, what) & self.reached
+        near = near_of(self.grid, what) & self.reached
         if not near.any():
             return none
-        found = examined(self.plan, what, self.inputs_at(near), self.read_at(near))
+        found = examined(self.plan, what, self.grid.inputs_at(near), self.grid.read_at(near))
         refused, doubtful = none, none.copy()
         refused[near], doubtful[near] = found.refused, found.doubtful
         if refused.any() and self.unreachable == "raise":
@@ -194,13 +422,32 @@ class Motion(Outputs):
         total = sum((self.ratio(target, wrt=name) * value for name, value in driven.items()), self._still(target))
         for first, u in given.items():
             for second, v in given.items():
-                total = total + self._exact(member, tuple(sorted((first, second)))) * u * v
+                total = total + self._evaluated(member, tuple(sorted((first, second)))) * u * v
         return np.where(refused, np.nan, total)
 
     def _still(self, target: Target) -> FloatArray:
         """Return zeros in the shape of a ratio, NaN where the pose is not reached."""
         parts = (2,) if isinstance(self._member(target), (Point, Arrow)) else ()
         return np.where(self.reached, np.zeros((*parts, *self.shape)), np.nan)
+
+
+def paired(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], like: Motion | None = None, at: Any = slice(None)) -> Motion:
+    """Return the poses of m designs, each at a stroke of its own; a position has the shape (2, m), what is out of reach is NaN.
+
+    `designs` and `strokes` are floats or arrays (m,) [SI]. There is no stroke along which angles could be followed: they lie
+    within 180 deg of those of the poses `at` (m,) of another motion, `like`, or of zero.
+    """
+    size = np.broadcast_shapes((1,), *(np.shape(value) for value in (*designs.values(), *strokes.values())))
+    of_each = {name: np.broadcast_to(np.asarray(value, float), size) for name, value in designs.items()}
+    at_each = {name: np.broadcast_to(np.asarray(value, float), size) for name, value in strokes.items()}
+    joining = as_they_are if like is None else Beside(like.grid, at)
+    return Motion(plan, of_each, at_each, "nan", own=True, joining=joining)
+
+
+def checked_unreachable(word: str) -> None:
+    """Raise DefinitionError unless it says what is done about poses out of reach."""
+    if word not in ("raise", "nan"):
+        raise DefinitionError(f'unreachable={word!r}: say "raise" or "nan".')
 
 
 def require_motion(given: Any) -> None:

@@ -77,12 +77,12 @@ def is_watched(motion: Motion) -> bool:
 def halts(motion: Motion) -> tuple[Halt, ...]:
     """Return what interrupts the way of one design along its one stroke, between the least and the greatest of its poses."""
     ((name, values),) = motion.strokes.items()
-    return Course(motion.plan, motion.flat, name, {}).halts(float(values.min()), float(values.max()))
+    return Course(motion.plan, motion.grid.flat, name, {}).halts(float(values.min()), float(values.max()))
 
 
 def group_crossing(motion: Motion, crossed: Any) -> SingularError:
     """Return the error for poses that a group's pins reach only through a change point."""
-    numbers = np.unique(motion.full(motion.solved.crossed[None].astype(float))[0][crossed])
+    numbers = np.unique(motion.grid.full(motion.grid.solved.crossed[None].astype(float))[0][crossed])
     named = list(motion.plan.groups.items())
     groups = ", ".join(f"{name} = {group}" for name, group in (named[int(number) - 1] for number in numbers))
     where = where_words(motion.plan, crossed, motion.strokes)

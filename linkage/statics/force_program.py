@@ -92,7 +92,7 @@ def by_program(poses: Poses, loaded: Loaded, loads: Loads, case: Case) -> Equili
 def rate_inputs(motion: Motion, movement: Movement) -> dict[str, Any]:
     """Return the rates of the strokes as a kernel takes them, of all designs and poses."""
     rates = {name: np.broadcast_to(np.asarray(rate, float), motion.shape) for name, rate in movement.rates.items()}
-    return {rate_name(name): rate.reshape(motion.size) for name, rate in rates.items()}
+    return {rate_name(name): rate.reshape(motion.grid.size) for name, rate in rates.items()}
 
 
 def program_of(
@@ -180,7 +180,7 @@ def run(program: ForceProgram, structure: Structure, poses: Poses, loaded: Loade
     """Return the forces by the kernels; None where an assumption of a law fails or a pose that should has no value."""
     motion, n = poses.motion, poses.count
     assert isinstance(motion, Motion)
-    inputs, size = motion.flat | rate_inputs(motion, loaded.movement), motion.size
+    inputs, size = motion.grid.flat | rate_inputs(motion, loaded.movement), motion.grid.size
     q, locked = np.zeros((0, n)), np.zeros(n, bool)
     if program.rubbing is not None:
         try:
@@ -218,8 +218,8 @@ def frictions(
     rows = Rows(tuple(structure.contacts[index].presses for index in program.rubbed))
     lever, coefficient = (np.stack([getattr(rub, what) for rub in rubbing]) for what in ("lever", "coefficient"))
     q, locked = np.zeros((len(rubbing), poses.count)), np.zeros(poses.count, bool)
-    places = poses.full(np.arange(poses.count, dtype=float)).reshape(motion.size)
-    for band, part in pieces(*motion.size, PIECE):
+    places = poses.full(np.arange(poses.count, dtype=float)).reshape(motion.grid.size)
+    for band, part in pieces(*motion.grid.size, PIECE):
         inputs = {name: cut_out(value, band, part, name in poses.plan.table.entries) for name, value in given.items()}
         here = places[band, part]
         good = np.isfinite(here)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import DefinitionError, unwarned
 from ..mechanism import Mechanism
-from ..motion import Motion, Paired
+from ..motion import Motion, paired
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import Quantity
@@ -47,10 +47,10 @@ def one_design(machine: Mechanism) -> None:
         raise DefinitionError(f"{type(machine).__name__}: a study starts from one design, this is a batch; choose one of them.")
 
 
-def paired(machine: Mechanism, settings: Mapping[str, Any], base: Motion, place: Any) -> Paired:
+def poses_of(machine: Mechanism, settings: Mapping[str, Any], base: Motion, place: Any) -> Motion:
     """Return the poses of some settings (m,) of a machine, each at one of the poses (n,) of it as it is set, by its place (m,)."""
     strokes = {name: value[place] for name, value in base.strokes.items()}
-    return Paired(machine.plan, machine.replaced(**settings).dimensions, strokes, base, place)
+    return paired(machine.plan, machine.replaced(**settings).dimensions, strokes, base, place)
 
 
 def values(motion: Motion, asked: Asked) -> FloatArray:

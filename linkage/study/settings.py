@@ -13,7 +13,7 @@ from ..mechanism import Mechanism
 from ..program import FloatArray
 from ..quantities import is_number
 from ..units import show
-from .asked import Asked, one_design, paired, title_of, unit_of, values
+from .asked import Asked, one_design, poses_of, title_of, unit_of, values
 from .box import range_of
 
 SAMPLES = 1025
@@ -54,7 +54,7 @@ def settings_for(
     base = machine.at(unreachable="nan", **{each: [value] for each, value in strokes.items()})
 
     def curve(at: FloatArray) -> FloatArray:
-        return values(paired(machine, {name: at}, base, np.zeros(at.shape, int)), quantity) - target
+        return values(poses_of(machine, {name: at}, base, np.zeros(at.shape, int)), quantity) - target
 
     at = np.linspace(low, high, SAMPLES)
     at = ends_of_reach(curve, at)

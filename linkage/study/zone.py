@@ -14,7 +14,7 @@ from ..errors import DefinitionError, SingularWarning
 from ..mechanism import Mechanism
 from ..motion import Motion, at_values
 from ..program import FloatArray
-from .asked import Asked, one_design, paired, title_of, values
+from .asked import Asked, one_design, poses_of, title_of, values
 from .box import Box, setting_words
 from .search import Index, extremes, grid_of
 
@@ -65,7 +65,7 @@ def zone(machine: Mechanism, quantity: Asked, over: Mapping[str, Any], **strokes
     base = machine.at(unreachable="nan", **flat)
 
     def f(task: Index, unit: FloatArray, choice: Index) -> FloatArray:
-        return values(paired(machine, box.settings(unit, choice), base, task), quantity)
+        return values(poses_of(machine, box.settings(unit, choice), base, task), quantity)
 
     tasks = int(np.prod(shape, dtype=int))
     found = extremes(f, tasks, len(box.ranges), len(box.choices))

@@ -1,4 +1,4 @@
-"""Next to singular poses nothing is wrong in silence: positions and ratios against sixty digits, and the error told against the true one."""
+"""Next to singular poses nothing is wrong in silence: positions and ratios against sixty digits, errors told against true ones."""
 
 import warnings
 

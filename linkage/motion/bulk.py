@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ..errors import DefinitionError, SingularError
-from ..plan import ArrayReading, Plan
-from ..program import FloatArray, Kernel, Node, Way
+from ..plan import Plan
+from ..program import FloatArray, Kernel, Node, Way, interpret
 from . import reach, singular
 from .angles import Angles, angles_of
 from .grid import Grid
@@ -159,15 +159,17 @@ class Bulk:
                         worst[k] = told
         if (broken & ~lost & ~np.any(refused, axis=0)).any() or (self._raises and np.any([lost, *refused])):
             self._refuse()
-        self._fill(block, bad, reading, [lost | mask for mask in refused])
+        self._fill(block, bad, inputs, [lost | mask for mask in refused])
 
-    def _fill(self, block: FloatArray, bad: Mask, reading: ArrayReading, without: Sequence[Mask]) -> None:
-        """Fill the bad poses of a block: from their eager reading where only that has a value, with NaN where a request has none."""
+    def _fill(self, block: FloatArray, bad: Mask, inputs: Mapping[str, Any], without: Sequence[Mask]) -> None:
+        """Fill the bad poses of a block: to rounding where they stand at a dead point, with NaN where a request has no value."""
         for (first, each), mask in zip(self._starts(), without, strict=True):
             rows = slice(first, first + each.rows)
             found = block[rows, bad]
-            if not np.isfinite(found).all() and (placed := each.placed(reading, mask.size)) is not None:
-                found = np.where(np.isfinite(found).all(axis=0), found, placed)
+            at_end = ~mask & ~np.isfinite(found).all(axis=0)
+            if not each.order and at_end.any():
+                inside = interpret(self.kernel.plan.outputs[rows], {name: value[at_end] for name, value in inputs.items()}, clipped=True)
+                found[:, at_end] = np.broadcast_arrays(*inside, np.empty(int(at_end.sum())))[:-1]
             found = np.where(mask, np.nan, found)
             if self._raises and not np.isfinite(found).all():
                 self._refuse()
@@ -196,10 +198,11 @@ class Bulk:
     def _unwrap(self, found: FloatArray) -> None:
         """Make the angles in requests continuous along the stroke, in place."""
         for (first, each), angles in zip(self._starts(), self._program[1], strict=True):
-            continued = None if angles is None else angles.continued(self.grid, self.way)
+            values = found[first : first + each.rows]
+            reached = np.isfinite(values).all(axis=0)
+            continued = None if angles is None else angles.continued(self.grid, np.asarray(reached), self.way)
             if continued is not None:
-                values = found[first : first + each.rows]
-                values[...] = np.where(np.isnan(values), np.nan, continued)
+                values[...] = np.where(reached, continued, np.nan)
 
 
 def pieces(m: int, n: int, most: int = PIECE) -> Iterator[tuple[slice, slice]]:

@@ -85,7 +85,7 @@ def gradient_of(motion: Motion, of: Request, wrt: Sequence[str]) -> FloatArray:
     rest = what.rows * len(names)
     values, assumed, switches = np.split(motion.grid.full(slopes.kernel(motion.grid.flat).values), [rest, rest + slopes.assumed])
     check(motion, what, good, assumed, zip(slopes.touched, switches, strict=True))
-    continued = slopes.angles.continued(motion.grid)
+    continued = slopes.angles.continued(motion.grid, motion.reached)
     signs = np.tile([float(sign) for _, sign in dimensions], what.rows).reshape(-1, *(1,) * len(motion.shape))
     found = values if continued is None else continued
     if not (good.all() and np.all(signs > 0.0) and found.flags.writeable):

@@ -11,18 +11,18 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, unwarned
 from ..plan import ArrayReading, Plan
-from ..program import FloatArray
+from ..program import FloatArray, Kernel
 from ..quantities import Angle, Distance, Member, Quantity
 from ..steps import Arrow, Point
 from ..vectors import Vec
 from . import numeric, reach, scan, singular
-from .angles import angles_of
+from .angles import angles_of, to_rounding
 from .asked import method_of, named, order_of, rates_of
 from .gradient import gradient_of
 from .grid import Beside, Grid, Joining, as_they_are, in_order
 from .reach import Mask
 from .request import Everywhere, Request, Value
-from .wanted import Wanted, examined, near_of
+from .wanted import Wanted, examined, near_of, watched
 
 Target: TypeAlias = str | Member
 
@@ -53,6 +53,7 @@ class Motion:
         self.shape, self.design_shape = self.grid.shape, self.grid.design_shape
         self._tangent = tangent
         self._values: dict[Any, FloatArray] = {}
+        self._watched: dict[Any, bool] = {}
         self.reached: Mask = np.ones(self.shape, bool)
         result = plan.kernel(plan.moving, guarded=True)(self.grid.flat)
         self._places = self.grid.full(result.values)
@@ -335,10 +336,20 @@ class Motion:
         if isinstance(member, Point) and member.name in self.plan.ground and along:
             return np.zeros((2, *self.shape))
         pass_of_all = isinstance(member, Point) and bool(along)
+        what = Value(member, along)
         targets: tuple[Any, ...] = self.plan.moving if pass_of_all else (member.name or member,)
         key = (targets, along)
         if key not in self._values:
-            found = self.grid.full(self.plan.kernel(targets, along)(self.grid.flat, size=self.grid.size).values)
+            if pass_of_all:
+                kernel = self.plan.kernel(targets, along)
+            else:
+                kernel = self.plan.made(("watched", what.key), lambda twin: Kernel(what.nodes(twin), watched(twin, what)))
+            result = kernel(self.grid.flat, size=self.grid.size)
+            found = self.grid.full(result.values)
+            self._watched[what.key] = not np.all(result.guards > 0.0)
+            if self.is_near_singular and not along:
+                at_end = self.reached & ~np.isfinite(found).all(axis=0)
+                found = to_rounding(kernel, self.grid, at_end, found) if at_end.any() else found
             continued = self._continued(targets[0], along) if isinstance(member, Quantity) else None
             self._values[key] = found if continued is None else continued
             self._values[key].flags.writeable = False
@@ -353,7 +364,7 @@ class Motion:
     def _continued(self, target: Any, along: tuple[str, ...]) -> FloatArray | None:
         """Return what holds angles, which are continued along the stroke; None where they need not be."""
         key = ("angles", target, along)
-        return self.plan.made(key, lambda plan: angles_of(plan, plan.derived(plan.nodes(target), along))).continued(self.grid)
+        return self.plan.made(key, lambda plan: angles_of(plan, plan.derived(plan.nodes(target), along))).continued(self.grid, self.reached)
 
     def _numeric(self, member: Member, stroke: str, order: int, step: float | None) -> FloatArray:
         def values(offsets: FloatArray) -> FloatArray:
@@ -381,7 +392,7 @@ class Motion:
     def refused(self, what: Wanted, words: str) -> Mask:
         """Return the mask of poses where a result is refused; raise or warn as asked. `words` begin a sentence about it."""
         none = np.zeros(self.shape, bool)
-        if not self.is_near_singular:
+        if not self._is_near(what):
             return none
         near = near_of(self.grid, what) & self.reached
         if not near.any():
@@ -394,6 +405,13 @@ class Motion:
         if doubtful.any():
             singular.warn(found.at(found.doubtful), f"{words} {reach.where_words(self.plan, doubtful, self.strokes)}", 4)
         return refused
+
+    def _is_near(self, what: Wanted) -> bool:
+        """Return whether some pose has to be looked at closely: for points that is known, for other values it is told with these."""
+        if isinstance(what, Value) and not isinstance(what.member, Point):
+            self._evaluated(what.member, what.along)
+            return self._watched[what.key]
+        return self.is_near_singular
 
     def gradient(self, of: Request, wrt: Sequence[str]) -> FloatArray:
         """Return the exact derivatives of a position, an output, a ratio or a force by dimensions, all in one reverse pass.

@@ -92,13 +92,10 @@ class Value(Wanted):
     def turns(self) -> bool:
         return isinstance(self.member, Quantity)
 
-    def placed(self, reading: ArrayReading, count: int) -> FloatArray | None:
-        if self.along:
-            return None
-        if isinstance(self.member, (Point, Arrow)):
-            place = reading.at(self.member) if isinstance(self.member, Point) else reading.vector(self.member)
-            return np.array([np.broadcast_to(part, (count,)) for part in (place.x, place.y)], float)
-        return np.array(np.broadcast_to(reading.value(self.member), (1, count)), float)
+    def note(self, reading: ArrayReading) -> None:
+        if isinstance(self.member, Quantity):
+            with np.errstate(all="ignore"):
+                reading.value(self.member)
 
     def error(self, plan: Plan, left: Left) -> FloatArray:
         scale = natural(self.member, left.size)

@@ -123,7 +123,8 @@ class Judged:
         if near.get(loop, 0.0) >= close.get(direction, 0.0):
             size = "infinite" if np.isinf(near[loop]) else f"{near[loop]:.1e}"
             return loop, f"(condition {size}, refused above {REFUSE:.0e})"
-        return direction, f"takes a direction between points that are {1.0 / close[direction]:.1e} of the machine's size apart"
+        apart = f"are {1.0 / close[direction]:.1e} of the machine's size apart" if close[direction] < 1e300 else "coincide"
+        return direction, f"takes a direction between points that {apart}"
 
 
 def judged(plan: Plan, reading: ArrayReading, steep: set[str], names: set[str], error: FloatArray) -> Judged:
@@ -131,7 +132,7 @@ def judged(plan: Plan, reading: ArrayReading, steep: set[str], names: set[str], 
 
     `steep` are the members that it is differentiated through.
     """
-    moving = {name: span for name, span in reading.spans.items() if name in names and plan.moves(plan.members[name])}
+    moving = {name: span for name, span in reading.spans.items() if not name or (name in names and plan.moves(plan.members[name]))}
     spans = {name: np.broadcast_to(span, error.shape) for name, span in moving.items()}
     loops = {name: np.broadcast_to(cond, error.shape) for name, cond in conditions(plan, reading, names).items()}
     return Judged(plan, loops, spans, error, frozenset(steep))
@@ -172,7 +173,8 @@ def refusal(found: Judged, mask: Mask, strokes: Mapping[str, Any], what: str, mo
         crossing = ", where its two branches cross" if crosses(motion, name) else ""
         why = f"{opening(plan, name)} stands at a {'change' if crossing else 'dead'} point{crossing}: its links are in line {how}"
     else:
-        why = f"{opening(plan, name)} {how}" if name else "what it is built from comes near singular poses one after the other"
+        who = opening(plan, name) if name else "it"
+        why = f"{who} {how}" if how else "what it is built from comes near singular poses one after the other"
         if not np.max(found.error) < 1.0:
             why += ", and rounding leaves nothing of it"
         else:
@@ -217,7 +219,7 @@ def warn(found: Judged, what: str, level: int = 4, be: str = "is") -> None:
     name, how = found.culprit()
     plan, estimate = found.plan, float(np.max(found.error))
     how = f"{be} near a dead point {how.split(',')[0]})" if how.startswith("(") else how
-    who = f"{called(plan, name)} {how}" if name else ""
+    who = f"{called(plan, name) if name else 'it'} {how}" if how else ""
     warnings.warn(
         SingularWarning(
             f"{what}: {who or 'it comes near singular poses one after the other'}; expect a relative error of about {estimate:.0e}.",

@@ -65,6 +65,9 @@ class Wanted(ABC):
         """Return the members at whose singular poses it is refused: those it is differentiated through."""
         return self.names(plan) if self.order else set()
 
+    def note(self, reading: ArrayReading) -> None:  # noqa: B027
+        """Work out in an eager reading what is its own, so that its directions are noted; of most there is nothing."""
+
     @property
     def regular(self) -> float:
         """The product of squared parts (Trace.nearness) above which rounding leaves at least nine digits of it."""
@@ -84,10 +87,6 @@ class Wanted(ABC):
         """Whether it follows angles, which are continued along the stroke."""
         return False
 
-    def placed(self, reading: ArrayReading, count: int) -> FloatArray | None:
-        """Return its values in an eager reading, which holds at a dead point, shape (rows, count); None where there are none."""
-        return None
-
 
 class Asked(ABC):
     """Something to ask of a mechanism that is no member of it: a ratio, a thrust, a pin force."""
@@ -99,8 +98,13 @@ class Asked(ABC):
 
 def watch_of(plan: Plan, what: Wanted) -> Kernel:
     """Return the kernel of what is above zero where a request is far from every singular pose."""
-    names = what.names(plan)
-    return plan.made(("watch", frozenset(names), what.regular), lambda twin: Kernel(twin.trace.watched(names, what.regular)))
+    return plan.made(("watch", what.key), lambda twin: Kernel(watched(twin, what)))
+
+
+def watched(plan: Plan, what: Wanted) -> list[Node]:
+    """Return the nodes that are above zero where a request is far from every singular pose."""
+    what.nodes(plan)  # directions of its own are noted then
+    return plan.trace.watched(what.names(plan), what.regular)
 
 
 def near_of(grid: Grid, what: Wanted) -> Mask:
@@ -114,6 +118,7 @@ def near_of(grid: Grid, what: Wanted) -> Mask:
 
 def examined(plan: Plan, what: Wanted, inputs: Mapping[str, Any], reading: ArrayReading) -> Judged:
     """Return how far poses are from singular ones for a request: inputs as floats or (n,), and the eager reading there."""
+    what.note(reading)
     rounding = plan.made(("rounding", what.key), lambda twin: Rounding.of(twin, what.nodes(twin)))
     return judged(plan, reading, what.steep(plan), what.names(plan), what.error(plan, rounding.at(inputs)))
 

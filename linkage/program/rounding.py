@@ -100,5 +100,14 @@ def shaken(outputs: Sequence[Node], given: Mapping[str, Any]) -> list[Any]:
                 if node.op == "sqrt":
                     args = [np.maximum(args[0], 0.0)]  # a dead point is reached to rounding; NaN stays
                 found = OPERATIONS[node.op].array(*args)
+                if node.op == "arctan2":
+                    found = near_first(np.where((np.asarray(args[0]) == 0.0) & (np.asarray(args[1]) == 0.0), np.nan, found))
                 values[node] = found if node.op in EXACT else found + found * changes[node.number % PERIOD]
     return [values[plain(node)] for node in outputs]
+
+
+def near_first(angle: FloatArray) -> FloatArray:
+    """Return angles (runs, n) [rad] within half a turn of those of the first run; NaN where a point has no direction to itself."""
+    if angle.ndim < 2:
+        return angle
+    return angle - 2.0 * np.pi * np.round((angle - angle[:1]) / (2.0 * np.pi))

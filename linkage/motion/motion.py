@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..assembly import parted
 from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning
 from ..plan import Plan
 from ..program import FloatArray
@@ -35,12 +36,28 @@ class Motion(Outputs):
         self._ratios: dict[Any, FloatArray] = {}
         if unreachable == "raise" and scan.is_watched(self):
             scan.refuse_crossing(self)
+        if unreachable == "raise" and plan.followed and len(self.strokes) > 1:
+            self._refuse_parted()
 
     def __repr__(self) -> str:
         spans = [f"{name} = {reach.span_read(values, reach.stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
         poses = f"{', '.join(spans) or 'no stroke'}; shape {self.shape}"
         reached = "all reached" if self.reached.all() else f"{int(self.reached.sum())} of {self.reached.size} reached"
         return f"<Motion of {self.plan.title}: {poses}, {reached}>"
+
+    def _refuse_parted(self) -> None:
+        """Raise SingularError where an angle that is followed from the sketch changes by a turn from one pose to the next."""
+        m, shape = self.size[0], self.stroke_shape
+        references = {name: np.broadcast_to(self.solved.inputs[name], self.size).reshape(m, *shape) for name in self.plan.followed}
+        designs = {name: np.broadcast_to(value, self.design_shape) if np.ndim(value) else value for name, value in self.designs.items()}
+        name = parted(self.plan, designs, self.strokes, references)
+        if name:
+            raise SingularError(
+                f"{self.plan.title}: {name}, whose whole turns count here, is followed from the sketch, and the straight ways to two "
+                "neighbours of these poses pass a pose where its ends meet on either side, so that a turn lies between them. Stay on one "
+                "side of it, take a whole multiple of the angle, or drive it by a Stroke.",
+                mask=np.ones(self.shape, bool), motion=self,
+            )  # fmt: skip
 
     def refusal(self) -> AssemblyError:
         """Return the error for the poses that are not reached: out of reach, or behind a change point."""

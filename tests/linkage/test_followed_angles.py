@@ -189,8 +189,8 @@ def jumps(four, at):
 
 
 def test_random_directions_are_followed_from_the_sketch():
-    _, jumped = followed_at_random(range(12))
-    assert jumped >= 5
+    _, jumped = followed_at_random(range(5))
+    assert jumped >= 2
 
 
 @pytest.mark.slow

@@ -118,9 +118,10 @@ def said_by_c(texts, given, folder):
     """Return what the texts say, compiled in one library, by seed; nothing where there is no compiler."""
     if shutil.which("cc") is None:
         return {}
-    (folder / "many.c").write_text("\n".join(texts.values()), encoding="utf-8")
-    subprocess.run(["cc", "-O1", "-shared", "-fPIC", "-o", folder / "many.so", folder / "many.c", "-lm"], check=True)
-    library, pointer = ctypes.CDLL(str(folder / "many.so")), ctypes.POINTER(ctypes.c_double)
+    source = folder / f"many{min(texts)}.c"  # a library of a name that was loaded before would not be loaded again
+    source.write_text("\n".join(texts.values()), encoding="utf-8")
+    subprocess.run(["cc", "-O1", "-shared", "-fPIC", "-o", source.with_suffix(".so"), source, "-lm"], check=True)
+    library, pointer = ctypes.CDLL(str(source.with_suffix(".so"))), ctypes.POINTER(ctypes.c_double)
 
     def pointed(arrays):
         return (pointer * len(arrays))(*(each.ctypes.data_as(pointer) for each in arrays))

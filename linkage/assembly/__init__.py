@@ -2,6 +2,7 @@
 
 from .assemble import assembled as assembled
 from .following import NONE_SOLVED as NONE_SOLVED
+from .following import parted as parted
 from .following import with_angles as with_angles
 from .groups import Solved as Solved
 from .groups import solve_groups as solve_groups

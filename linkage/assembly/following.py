@@ -10,7 +10,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import pi
+from types import MappingProxyType
 from typing import Any, Self
+from weakref import WeakKeyDictionary
 
 import numpy as np
 import numpy.typing as npt
@@ -31,6 +33,11 @@ STRAIGHT = 1e-9
 """At the sketch, what is so near to -180 deg [rad] is 180 deg: rounding must not choose."""
 MANY = 1 << 17
 """Places that are worked out at a time."""
+APART = 3.0
+"""References [rad] that differ by more are looked at: the angles may differ by a turn."""
+NOWHERE: Mapping[str, FloatArray] = MappingProxyType({})
+KEPT: WeakKeyDictionary[Plan, tuple[tuple[float, ...], Index, Mapping[str, Track]]] = WeakKeyDictionary()
+"""The last single design of a plan, how far its angles are followed each way, and these."""
 NONE_SOLVED = Solved({}, np.zeros((1, 1), bool))
 """What is solved where there are no groups."""
 
@@ -42,11 +49,14 @@ def with_angles(found: Solved, plan: Plan, designs: Mapping[str, Any], strokes: 
     """
     if not plan.followed:
         return found
-    single = {name: float(np.ravel(value)[0]) if np.size(value) == 1 else np.asarray(value, float) for name, value in designs.items()}
+    single = singled(designs)
     m = max((np.size(value) for value in single.values()), default=1)
     m = max([m, *(len(value) for value in strokes.values() if np.ndim(value) == 2)])
     n = max((np.shape(value)[-1] for value in strokes.values()), default=1)
     ways = Ways.of(plan, {name: np.broadcast_to(value, (m, n)) for name, value in strokes.items()})
+    if m == 1 and len(strokes) == 1:
+        tracks = kept_tracks(plan, single, ways)
+        return replace(found, inputs={**found.inputs, **{name: np.rint(each.at(ways.target, ways.place)) for name, each in tracks.items()}})
     references: dict[str, FloatArray] = {name: np.full((m, n), np.nan) for name in plan.followed}
     for part in ways.parts():
         here = np.isin(part.target, part.lines)
@@ -55,14 +65,66 @@ def with_angles(found: Solved, plan: Plan, designs: Mapping[str, Any], strokes: 
     return replace(found, inputs={**found.inputs, **references})
 
 
+def kept_tracks(plan: Plan, designs: Mapping[str, float], ways: Ways) -> Mapping[str, Track]:
+    """Return the followed angles of one design along both ways of its one stroke; those of the last design are kept."""
+    key, known = tuple(designs.values()), KEPT.get(plan)
+    if known is not None and known[0] == key and np.all(known[1] >= ways.length):
+        return known[2]
+    ((name, stroke),) = plan.strokes.items()
+    ends = np.array([stroke.start, stroke.end]) - plan.sketch_strokes[name]
+    declared = np.ceil(np.array([ends.max(), -ends.min()]) / piece_of(plan, name)).astype(np.intp)
+    whole = replace(ways, length=np.maximum(ways.length, declared))
+    found = whole.tracks(plan, designs)
+    KEPT[plan] = key, whole.length, found
+    return found
+
+
+def singled(designs: Mapping[str, Any]) -> dict[str, Any]:
+    """Return dimensions as floats, and as arrays (m,) where they differ from design to design."""
+    flat = {name: np.ravel(np.asarray(value, float)) for name, value in designs.items()}
+    return {name: float(value[0]) if value.size == 1 else value for name, value in flat.items()}
+
+
+def parted(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray], references: Mapping[str, FloatArray]) -> str:
+    """Return an angle that does not change from each pose (m, *shape) to the next as it does on the straight line between them; "" if none.
+
+    With several strokes the ways from the sketch to two poses may pass a pose where the ends of the angle meet on either side.
+    """
+    shape = next(iter(references.values())).shape
+    cells = np.arange(np.prod(shape)).reshape(shape)
+    axes = range(1, len(shape))
+    one, other = (np.concatenate([cells[:0].ravel(), *(np.delete(cells, end, axis).ravel() for axis in axes)]) for end in (-1, 0))
+    for name, values in references.items():
+        flat = np.ravel(values)
+        far = np.abs(flat[one] - flat[other]) > APART
+        if not far.any():
+            continue
+        a, b = one[far], other[far]
+        full = {each: np.broadcast_to(value, shape).ravel() for each, value in strokes.items()}
+        first, last = ({each: value[ends] for each, value in full.items()} for ends in (a, b))
+        ways = Ways.between(plan, a // (len(flat) // shape[0]), first, last, a.shape)
+        begin = {each: np.ravel(found)[a] for each, found in references.items()}
+        for part in ways.parts():
+            ends = part.tracks(plan, singled(designs), begin)[name].at(part.lines, ways.place[part.lines])
+            if not np.all(np.abs(ends - flat[b][part.lines]) < APART):
+                return name
+    return ""
+
+
+def piece_of(plan: Plan, name: str) -> float:
+    """Return the length of a piece of a stroke."""
+    stroke = plan.strokes[name]
+    return min(abs(stroke.end - stroke.start), 2.0 * pi) / PIECES
+
+
 @dataclass(frozen=True)
 class Ways:
-    """Lines in stroke space that begin at the sketch, each with its design, its stroke per unit of place, and its whole length.
+    """Lines in stroke space, each with its design, its first strokes, the strokes per unit of place, and its whole length.
 
     `target` and `place`, shape (m, n), tell on which line a pose stands, and where.
     """
 
-    sketch: Mapping[str, float]
+    first: Mapping[str, FloatArray]
     design: Index
     along: Mapping[str, FloatArray]
     length: Index
@@ -72,24 +134,32 @@ class Ways:
 
     @classmethod
     def of(cls, plan: Plan, strokes: Mapping[str, FloatArray]) -> Self:
-        """Return the ways to some strokes (m, n); along a single stroke one each way for all poses of a design, else one a pose."""
+        """Return the ways from the sketch to strokes (m, n): one a pose; of a single stroke one each way for all poses of a design."""
         sketch = plan.sketch_strokes
-        units = {name: min(abs(stroke.end - stroke.start), 2.0 * pi) / PIECES for name, stroke in plan.strokes.items()}
         m, n = next(iter(strokes.values())).shape
         rows = np.broadcast_to(np.arange(m)[:, None], (m, n))
-        if len(strokes) == 1:
-            ((name, values),) = strokes.items()
-            place = np.abs(values - sketch[name]) / units[name]
-            target = 2 * rows + (values < sketch[name])
-            length = np.ones(2 * m, np.intp)
-            np.maximum.at(length, target.ravel(), np.ceil(place).astype(np.intp).ravel())
-            along = {name: np.tile([units[name], -units[name]], m)}
-            return cls(sketch, np.repeat(np.arange(m), 2), along, length, target, place, np.arange(2 * m))
-        apart = {name: (value - sketch[name]).ravel() for name, value in strokes.items()}
-        length = np.maximum(1, np.max([np.ceil(np.abs(each) / units[name]) for name, each in apart.items()], axis=0)).astype(np.intp)
+        if len(strokes) > 1:
+            first = {name: np.full(m * n, sketch[name]) for name in strokes}
+            return cls.between(plan, rows.ravel(), first, {name: value.ravel() for name, value in strokes.items()}, (m, n))
+        ((name, values),) = strokes.items()
+        unit = piece_of(plan, name)
+        place, target = np.abs(values - sketch[name]) / unit, 2 * rows + (values < sketch[name])
+        length = np.ones(2 * m, np.intp)
+        np.maximum.at(length, target.ravel(), np.ceil(place).astype(np.intp).ravel())
+        along = {name: np.tile([unit, -unit], m)}
+        return cls({name: np.full(2 * m, sketch[name])}, np.repeat(np.arange(m), 2), along, length, target, place, np.arange(2 * m))
+
+    @classmethod
+    def between(
+        cls, plan: Plan, design: Index, first: Mapping[str, FloatArray], last: Mapping[str, FloatArray], shape: tuple[int, ...]
+    ) -> Self:
+        """Return the ways of designs (k,) from some strokes to others, (k,) each."""
+        apart = {name: last[name] - first[name] for name in first}
+        pieces = [np.ceil(np.abs(each) / piece_of(plan, name)) for name, each in apart.items()]
+        length = np.maximum(1, np.max(pieces, axis=0)).astype(np.intp)
+        lines = np.arange(len(length))
         along = {name: each / length for name, each in apart.items()}
-        lines = np.arange(m * n)
-        return cls(sketch, rows.ravel(), along, length, lines.reshape(m, n), length.reshape(m, n).astype(float), lines)
+        return cls(first, design, along, length, lines.reshape(shape), length.reshape(shape).astype(float), lines)
 
     def parts(self) -> list[Ways]:
         """Return these ways some at a time; those with no pose are left out."""
@@ -97,14 +167,14 @@ class Ways:
         ends = np.cumsum(self.length[used] + 1) // MANY
         return [replace(self, lines=used[ends == each]) for each in np.unique(ends)]
 
-    def tracks(self, plan: Plan, designs: Mapping[str, Any]) -> dict[str, Track]:
-        """Return every followed angle along these ways."""
+    def tracks(self, plan: Plan, designs: Mapping[str, Any], begin: Mapping[str, FloatArray] = NOWHERE) -> dict[str, Track]:
+        """Return every followed angle along these ways, which begin at the sketch, or where the angles are about `begin` [rad]."""
         found: dict[str, Track] = {}
         for name in plan.followed:
-            found[name] = self._track(Vectors(plan, designs, self, name, dict(found)))
+            found[name] = self._track(Vectors(plan, designs, self, name, dict(found)), begin.get(name))
         return found
 
-    def _track(self, vectors: Vectors) -> Track:
+    def _track(self, vectors: Vectors, begin: FloatArray | None) -> Track:
         counts = self.length[self.lines] + 1
         line = np.repeat(self.lines, counts)
         place = np.arange(len(line)) - np.repeat(np.cumsum(counts) - counts, counts).astype(float)
@@ -121,7 +191,7 @@ class Ways:
             place = 0.5 * (left.place + right.place)
             middle = Points(left.line, place, *vectors.at(left.line, place)) if len(place) else left
             left, right = left.joined(middle), middle.joined(right)
-        return Track.of(done, points.taken(points.place == 0.0))
+        return Track.of(done, points.taken(points.place == 0.0), begin)
 
 
 @dataclass(frozen=True)
@@ -166,8 +236,8 @@ class Track:
     offsets: FloatArray
 
     @classmethod
-    def of(cls, done: Sequence[tuple[Points, Points, Mask]], sketch: Points) -> Track:
-        """Return the track of settled pieces, from the directions at the sketch."""
+    def of(cls, done: Sequence[tuple[Points, Points, Mask]], start: Points, near: FloatArray | None) -> Track:
+        """Return the track of settled pieces; the directions at its start lie near some angles, or between -180 and 180 deg."""
         left, right, good = done[0]
         for more_left, more_right, more_good in done[1:]:
             left, right, good = left.joined(more_left), right.joined(more_right), np.concatenate([good, more_good])
@@ -176,8 +246,11 @@ class Track:
         with np.errstate(all="ignore"):
             (ax, ay), (bx, by) = left.value, right.value
             turn = np.arctan2(ax * by - ay * bx, ax * bx + ay * by)
-            first = np.arctan2(sketch.value[1], sketch.value[0])
-        first = np.where(first < STRAIGHT - pi, first + 2.0 * pi, first)
+            first = np.arctan2(start.value[1], start.value[0])
+        if near is None:
+            first = np.where(first < STRAIGHT - pi, first + 2.0 * pi, first)
+        else:
+            first = first + 2.0 * pi * np.rint((near[start.line] - first) / (2.0 * pi))
         begin = np.flatnonzero(left.place == 0.0)
         piece = np.cumsum(left.place == 0.0) - 1
         gone = np.cumsum(np.where(good, turn, 0.0))
@@ -230,7 +303,7 @@ class Vectors:
         design = self.ways.design[line]
         rows = any(np.ndim(value) for value in self.designs.values())
         inputs = {name: value[design] if np.ndim(value) else value for name, value in self.designs.items()}
-        moved = {name: self.ways.sketch[name] + slope[line] * place for name, slope in self.ways.along.items()}
+        moved = {name: self.ways.first[name][line] + slope[line] * place for name, slope in self.ways.along.items()}
         moved |= {name: np.rint(track.at(line, place)) for name, track in self.known.items()}
         if self.plan.groups:
             moved |= self._groups(design, {name: moved[name] for name in self.plan.strokes})

@@ -9,6 +9,7 @@ from typing import Any, Self, TypeAlias
 
 import numpy as np
 
+from ..assembly import parted
 from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, unwarned
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Kernel
@@ -65,6 +66,8 @@ class Motion:
         self._places.flags.writeable = False
         if unreachable == "raise" and scan.is_watched(self):
             scan.refuse_crossing(self)
+        if unreachable == "raise" and plan.followed and len(self.strokes) > 1:
+            self._refuse_parted()
 
     @property
     def designs(self) -> dict[str, Any]:
@@ -95,6 +98,20 @@ class Motion:
         poses = f"{', '.join(spans) or 'no stroke'}; shape {self.shape}"
         reached = "all reached" if self.reached.all() else f"{int(self.reached.sum())} of {self.reached.size} reached"
         return f"<Motion of {self.plan.title}: {poses}, {reached}>"
+
+    def _refuse_parted(self) -> None:
+        """Raise SingularError where an angle that is followed from the sketch changes by a turn from one pose to the next."""
+        m, shape = self.grid.size[0], self.stroke_shape
+        references = {name: np.broadcast_to(self.grid.solved.inputs[name], self.grid.size).reshape(m, *shape) for name in self.plan.followed}
+        designs = {name: np.broadcast_to(value, self.design_shape) if np.ndim(value) else value for name, value in self.designs.items()}
+        name = parted(self.plan, designs, self.strokes, references)
+        if name:
+            raise SingularError(
+                f"{self.plan.title}: {name}, whose whole turns count here, is followed from the sketch, and the straight ways to two "
+                "neighbours of these poses pass a pose where its ends meet on either side, so that a turn lies between them. Stay on one "
+                "side of it, take a whole multiple of the angle, or drive it by a Stroke.",
+                mask=np.ones(self.shape, bool), motion=self,
+            )  # fmt: skip
 
     def refusal(self) -> AssemblyError:
         """Return the error for the poses that are not reached: out of reach, or behind a change point."""
@@ -386,7 +403,7 @@ class Motion:
         if lost > numeric.WARN[order]:
             other = "the exact one is not" if step is None else "without a step it is chosen at every pose"
             text = f"{what} is off by up to about {lost:.0e} of its greatest value; {other}."
-            warnings.warn(text, SingularWarning, stacklevel=3)
+            warnings.warn(SingularWarning(text, estimate=lost), stacklevel=3)
         return np.where(useless, np.nan, found)
 
     def refused(self, what: Wanted, words: str) -> Mask:

@@ -23,6 +23,7 @@ from linkage import (
     OnGuide,
     OnLink,
     Pin,
+    SingularError,
     Stroke,
     Weight,
     angle,
@@ -163,7 +164,7 @@ def followed_at_random(seeds):
         assert_allclose(every, wanted, **size)
         some = random.permutation(len(at))[:60]
         assert_allclose(machine.at(phi=at[some])["E"], wanted[:, some], **size)
-        assert_allclose(np.array([machine.at(phi=at[each])["E"] for each in some[:20]]).T, every[:, some[:20]], rtol=0.0, atol=1e-14)
+        assert_allclose(np.array([machine.at(phi=at[each])["E"] for each in some[:20]]).T, every[:, some[:20]], rtol=0.0, atol=1e-12)
         function = machine.function(["E", ratio("E")])
         (values,) = machine.evaluate(["E"], phi=at[some], backend="numpy")
         (others,) = machine.evaluate(["E"], phi=at[some], backend="floats")
@@ -188,8 +189,8 @@ def jumps(four, at):
 
 
 def test_random_directions_are_followed_from_the_sketch():
-    _, jumped = followed_at_random(range(12))
-    assert jumped >= 5
+    _, jumped = followed_at_random(range(5))
+    assert jumped >= 2
 
 
 @pytest.mark.slow
@@ -268,6 +269,37 @@ def test_several_strokes_are_followed_along_straight_lines():
         assert_allclose(Arm().at(p=p, q=q)["E"], along["E"][:, -1], atol=1e-15)
     assert np.hypot(*np.diff(motion["E"], axis=-1)).max() < 0.1
     assert np.hypot(*np.diff(motion["E"], axis=-2)).max() < 0.1
+
+
+class Plane(Mechanism):
+    """A point anywhere in the plane, and a pointer that shows half of its direction from the origin."""
+
+    u, v = Stroke(1.0, 3.0), Stroke(-2.0, 2.0)
+    A, D = Ground(0.0, 0.0), Ground(5.0, 0.0)
+    floor = Guide((0.0, 0.0), angle=0.0)
+    B = OnGuide(floor, at=u)
+    mast = Guide(B, angle=pi / 2)
+    C = OnGuide(mast, at=v)
+    E = Crank(D, DE=0.2, angle=0.5 * angle(A, C))
+    sketch = drawn(u=1.0, v=0.0)
+
+
+def test_ways_on_either_side_of_where_the_ends_meet_are_told():
+    there = {"u": [-0.5, -0.5], "v": [0.5, -0.5]}
+    up, down = (Plane().at(u=-0.5, v=each)["E"] for each in (0.5, -0.5))
+    assert np.hypot(*(up - down)) > 0.25
+    (values,) = Plane().evaluate(["E"], **there)
+    assert_allclose(values, np.transpose([up, down]), atol=1e-15)
+    with pytest.raises(SingularError, match=r"angle\(A, C\), whose whole turns count here, .* on either side"):
+        Plane().at(**there)
+    u, v = np.meshgrid(np.linspace(-1.0, 1.0, 21), np.linspace(-0.95, 0.97, 20))
+    with pytest.raises(SingularError, match="so that a turn lies between them"):
+        Plane().at(u=u, v=v)
+    right = Plane().at(u=np.abs(u) + 0.01, v=v)
+    turn = 0.5 * np.arctan2(right.y("C"), right.x("C"))
+    assert_allclose(right["E"], [5.0 + 0.2 * np.cos(turn), 0.2 * np.sin(turn)], atol=1e-12)
+    round_the_corner = Plane().at(u=[-0.5, 0.5, 0.5], v=[0.5, 0.5, -0.5])
+    assert_allclose(round_the_corner["E"][:, 0], up, atol=1e-15)
 
 
 def test_a_load_of_the_class_follows_its_angle():

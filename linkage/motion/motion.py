@@ -102,7 +102,8 @@ class Motion:
     def _refuse_parted(self) -> None:
         """Raise SingularError where an angle that is followed from the sketch changes by a turn from one pose to the next."""
         m, shape = self.grid.size[0], self.stroke_shape
-        references = {name: np.broadcast_to(self.grid.solved.inputs[name], self.grid.size).reshape(m, *shape) for name in self.plan.followed}
+        solved = self.grid.solved.inputs
+        references = {name: np.broadcast_to(solved[name], self.grid.size).reshape(m, *shape) for name in self.plan.followed}
         designs = {name: np.broadcast_to(value, self.design_shape) if np.ndim(value) else value for name, value in self.designs.items()}
         name = parted(self.plan, designs, self.strokes, references)
         if name:

@@ -337,7 +337,7 @@ def test_a_direction_that_is_lost_is_never_a_silent_nan(step, count):
 def test_points_may_coincide_where_no_direction_is_taken():
     motion = coinciding({"u": distance("A", "P")})().sweep(5)
     assert_allclose(motion["u"], np.abs(motion.strokes["S"]), atol=1e-16)
-    with pytest.raises(LinkageError, match="u = distance.* takes a direction between points that coincide"):
+    with pytest.raises(LinkageError, match=r"u = distance.* takes a direction between points that coincide"):
         motion.ratio("u")
     with pytest.raises(LinkageError, match="A, P"):
         motion.angle("A", "P")

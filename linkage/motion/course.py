@@ -19,6 +19,8 @@ from ..assembly import solve_groups
 from ..plan import Loop, Plan
 from ..program import FloatArray, Kernel, Level, Way
 from ..steps import Pin
+from .limits import as_read, number
+from .reach import stroke_unit
 
 GRID = 128
 """Intervals of the grid; an angle has so many for each turn of it."""
@@ -38,9 +40,11 @@ INNER = np.arange(1, PARTS) / PARTS
 
 
 @dataclass(frozen=True)
-class Halt:
-    """What interrupts the way along a stroke: from where to where a step cannot be assembled; low = high where it only touches that."""
+class Interruption:
+    """What interrupts the way along a stroke: from `low` to `high` [m or rad] a step cannot be assembled; equal at a change point."""
 
+    stroke: str
+    unit: str
     step: str
     low: float
     high: float
@@ -50,8 +54,14 @@ class Halt:
 
     @property
     def is_gap(self) -> bool:
-        """Whether a stretch of the way is out of reach; else it touches a singular pose."""
+        """Whether a stretch of the way is out of reach; else two branches meet in a point of it, or guides are parallel."""
         return self.high > self.low
+
+    def __str__(self) -> str:
+        if self.is_gap:
+            return f"{self.step} out of reach from {self.stroke} = {number(self.low, self.unit)} to {as_read(self.high, self.unit)}"
+        what = "parallel guides" if self.kind == "guides" else "a change point"
+        return f"{what} of {self.step} at {self.stroke} = {as_read(self.low, self.unit)}"
 
 
 @dataclass(frozen=True)
@@ -79,6 +89,11 @@ class Course:
     def __init__(self, plan: Plan, designs: Mapping[str, Any], name: str, held: Mapping[str, float]) -> None:
         self.plan, self.designs, self.name, self.held = plan, designs, name, held
         self.clearances = plan.made("clearances", Clearances.of)
+
+    @property
+    def unit(self) -> str:
+        """The stroke's unit."""
+        return stroke_unit(self.plan, self.name)
 
     @property
     def loops(self) -> tuple[Loop, ...]:
@@ -115,7 +130,7 @@ class Course:
         found: FloatArray = low + (high - low) * shares(GRID * max(1, int(np.ceil(turns))))
         return found
 
-    def halts(self, low: float, high: float) -> tuple[Halt, ...]:
+    def interruptions(self, low: float, high: float) -> tuple[Interruption, ...]:
         """Return what interrupts the way between two values of the stroke, in their order."""
         if not (self.loops and high > low):
             return ()
@@ -127,7 +142,7 @@ class Course:
             return ()
         return self._narrowed(x, seen, bends)
 
-    def _narrowed(self, x: FloatArray, seen: FloatArray, bends: FloatArray) -> tuple[Halt, ...]:
+    def _narrowed(self, x: FloatArray, seen: FloatArray, bends: FloatArray) -> tuple[Interruption, ...]:
         """Return what interrupts the way, from the grid on."""
         low, high = float(x[0]), float(x[-1])
         noise = self.rounding(x)
@@ -140,19 +155,19 @@ class Course:
             wide = self.seen(self.grid(min(stroke.start, stroke.end), max(stroke.start, stroke.end)))
             still &= ~(np.fmax.reduce(wide, axis=1) > 4.0 * level[:, 0])
         places, values = divided(self.seen, x, seen, bends, level, noise, ~still)
-        halts: list[Halt] = []
+        found: list[Interruption] = []
         for row, loop in enumerate(self.loops):
             if not still[row]:
-                halts += self._halts_of(row, loop, places, values[row], float(level[row, 0]), float(noise[row, 0]), (low, high))
-        return tuple(sorted(halts, key=lambda halt: halt.low))
+                found += self._of_loop(row, loop, places, values[row], float(level[row, 0]), float(noise[row, 0]), (low, high))
+        return tuple(sorted(found, key=lambda each: each.low))
 
-    def _halts_of(
+    def _of_loop(
         self, row: int, loop: Loop, x: FloatArray, seen: FloatArray, level: float, noise: float, ends: tuple[float, float]
-    ) -> list[Halt]:
+    ) -> list[Interruption]:
         """Return where one loop interrupts the way: runs of values that have come to zero."""
         known = np.isfinite(seen)
         x, seen = x[known], seen[known]
-        halts = []
+        found = []
         edges = np.flatnonzero(np.diff(np.concatenate([[False], seen <= level, [False]]).astype(int)))
         for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
             run = slice(first, last + 1)
@@ -161,10 +176,10 @@ class Course:
                 under = first + np.flatnonzero(seen[run] < -noise)
                 low = self._border(row, x, int(under[0]), -1, noise)
                 high = self._border(row, x, int(under[-1]), 1, noise)
-                halts.append(Halt(loop.step, low, high, deepest, loop.kind))
+                found.append(Interruption(self.name, self.unit, loop.step, low, high, deepest, loop.kind))
             elif loop.kind != "length" and min(deepest - ends[0], ends[1] - deepest) > END * (ends[1] - ends[0]):
-                halts.append(Halt(loop.step, deepest, deepest, deepest, loop.kind))
-        return halts
+                found.append(Interruption(self.name, self.unit, loop.step, deepest, deepest, deepest, loop.kind))
+        return found
 
     def _border(self, row: int, x: FloatArray, place: int, side: int, noise: float) -> float:
         """Return the end of a stretch that is out of reach, on one side of a value in it, by bisection."""

@@ -154,7 +154,7 @@ class Course:
             stroke = self.plan.strokes[self.name]
             wide = self.seen(self.grid(min(stroke.start, stroke.end), max(stroke.start, stroke.end)))
             still &= ~(np.fmax.reduce(wide, axis=1) > 4.0 * level[:, 0])
-        places, values = divided(self.seen, x, seen, bends, level, noise, ~still)
+        places, values = divided(self.seen, x, seen, bends, noise, ~still)
         found: list[Interruption] = []
         for row, loop in enumerate(self.loops):
             if not still[row]:
@@ -196,7 +196,7 @@ class Course:
 
 
 def divided(
-    look: Any, x: FloatArray, seen: FloatArray, bends: FloatArray, level: FloatArray, noise: FloatArray, wanted: Any
+    look: Any, x: FloatArray, seen: FloatArray, bends: FloatArray, noise: FloatArray, wanted: Any
 ) -> tuple[FloatArray, FloatArray]:
     """Return all values looked at, in order, and what was seen there, shape (loops, n): intervals divided where a loop may reach zero."""
     wide = np.pad(np.where(np.isfinite(bends), bends, 0.0), ((0, 0), (2, 2)), mode="edge")
@@ -206,7 +206,7 @@ def divided(
     least = DEPTH * float(x[-1] - x[0])
     while left.size:
         lower = np.minimum(first, last)
-        low = (lower <= BENDS * bend + level) & (np.maximum(first, last) >= -noise) & wanted[:, None]
+        low = (lower <= BENDS * bend + noise) & (np.maximum(first, last) >= -noise) & wanted[:, None]
         pick = np.flatnonzero(low.any(axis=0) & (right - left > least))[:MOST]
         if not pick.size:
             break

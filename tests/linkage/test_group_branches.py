@@ -19,7 +19,7 @@ class Plate:
         while True:
             self.r = rng.uniform(0.2, 0.55)
             self.start, self.end = rng.uniform(-1.2, 1.2, 2) if self.flat else rng.uniform(0.3, 2.8, 2)
-            self.f, self.E = rng.uniform(-0.5, 0.5, 2) + [self.g / 2, 0.1], rng.uniform(-1.5, 1.5, 2)
+            self.f, self.E = np.add(rng.uniform(-0.5, 0.5, 2), (self.g / 2, 0.1)), rng.uniform(-1.5, 1.5, 2)
             change = np.diff(self.length(np.linspace(self.start, self.end, 400)))
             alone = self.start * self.end < 0.0 if self.flat else True
             wide = min(abs(self.start - self.end), 10.0 * abs(np.sin(self.start)), 10.0 * abs(np.sin(self.end))) > 0.3
@@ -29,7 +29,7 @@ class Plate:
     def corners(self, phi):
         """Return C, D and F of the parallelogram for some angles of AC, shape (2, n)."""
         C = np.array([self.r * np.cos(phi), self.r * np.sin(phi)])
-        return C, C + [[self.g], [0.0]], C + self.f[:, None]
+        return C, np.add(C, [[self.g], [0.0]]), C + self.f[:, None]
 
     def length(self, phi):
         """Return the length of EF for some angles of AC."""

@@ -29,7 +29,7 @@ DEPTH = 1e-9
 """The width, of the way, down to which it is divided."""
 BENDS = 2.0
 TOUCH = 1e-6
-"""A sine that comes so low has come to zero: a clearance of 1e-12 of the links' lengths is not told from none."""
+"""A sine of links that comes so low has come to zero: a clearance of 1e-12 of their lengths is not told from none."""
 END = 1e-7
 """A dead point so near to an end of the way, compared with the way, is its end and not passed."""
 ROUNDING = 8 * np.finfo(float).eps
@@ -60,7 +60,7 @@ class Interruption:
     def __str__(self) -> str:
         if self.is_gap:
             return f"{self.step} out of reach from {self.stroke} = {number(self.low, self.unit)} to {as_read(self.high, self.unit)}"
-        what = "parallel guides" if self.kind == "guides" else "a change point"
+        what = {"guides": "parallel guides", "meeting": "no direction"}.get(self.kind, "a change point")
         return f"{what} of {self.step} at {self.stroke} = {as_read(self.low, self.unit)}"
 
 
@@ -77,10 +77,14 @@ class Clearances:
         """Return those of a plan; pins of groups are followed on their own."""
         trace = plan.trace
         moving = dict.fromkeys(loop for loop in trace.loops if loop.terms[0].level is Level.POSE)
-        own = tuple(loop for loop in moving if not isinstance(plan.members[loop.step], Pin))
+        own = [loop for loop in moving if not isinstance(plan.members[loop.step], Pin)]
+        lengths = {loop.step for loop in own if loop.kind == "length"}
+        # the side that a slot's line is taken along may vanish; those of links that are driven are watched as lengths
+        sides = [Loop(loop.step, "meeting", loop.terms[1:2]) for loop in own if loop.kind == "links" and loop.step not in lengths]
+        own += [loop for loop in sides if loop.terms[0].level is Level.POSE]
         clear = [loop.terms[0] / (loop.terms[1] * loop.terms[1]) if loop.kind == "links" else loop.terms[0] for loop in own]
         size = [loop.terms[2] / (loop.terms[1] * loop.terms[1]) if loop.kind == "links" else trace.graph.constant(1.0) for loop in own]
-        return cls(own, Kernel(clear), Kernel(size))
+        return cls(tuple(own), Kernel(clear), Kernel(size))
 
 
 class Course:
@@ -109,10 +113,10 @@ class Course:
         return inputs
 
     def seen(self, x: FloatArray) -> FloatArray:
-        """Return the clearance of every loop, shape (loops, n): squared sines of links, sizes of the sines of guides, lengths [m]."""
+        """Return the clearance of every loop, shape (loops, n): squared sines of links, sines of guides without a sign, lengths [m]."""
         found: FloatArray = self.clearances.kernel(self.inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
         for row, loop in enumerate(self.loops):
-            if loop.kind == "guides":
+            if loop.kind in ("guides", "meeting"):
                 np.abs(found[row], out=found[row])
         return found
 
@@ -146,10 +150,11 @@ class Course:
         """Return what interrupts the way, from the grid on."""
         low, high = float(x[0]), float(x[-1])
         noise = self.rounding(x)
+        tops = np.fmax.reduce(seen, axis=1)
         tells = np.array([loop.kind != "length" for loop in self.loops])
-        level = np.array([TOUCH if loop.kind == "guides" else TOUCH**2 for loop in self.loops])[:, None]
+        level = np.where([[loop.kind == "links"] for loop in self.loops], TOUCH**2, 2.0 * DEPTH * tops[:, None])
         level = np.where(tells[:, None], np.maximum(level, noise), 0.0)
-        still = np.fmax.reduce(seen, axis=1) <= 4.0 * level[:, 0]
+        still = tops <= 4.0 * level[:, 0]
         if still.any():  # in line all the way, as a rod that is straight; or the way is so short
             stroke = self.plan.strokes[self.name]
             wide = self.seen(self.grid(min(stroke.start, stroke.end), max(stroke.start, stroke.end)))

@@ -155,6 +155,9 @@ def crossing(motion: Motion, found: Interruption) -> SingularError:
     named = f"{loop} = {member}" if isinstance(member, Point) else loop
     if found.kind == "guides":
         what, why = f"parallel guides at {where}", f"{named} runs to infinity there and comes back from the other side"
+    elif found.kind == "meeting":
+        what = f"a pose without a direction at {where}"
+        why = f"{named} takes a direction between two points that come together there"
     else:
         what = f"a change point at {where}"
         line = f"{named} has its links in line there and its two branches cross"

@@ -81,6 +81,18 @@ def test_guides_that_come_parallel_between_poses(seed):
     assert told(case.machine, case.values) == ("change", "X")
 
 
+@pytest.mark.parametrize(("height", "count"), [(0.0, 2), (0.0, 36), (1e-10, 5), (1e-8, 2), (1e-8, 36)])
+def test_a_slot_whose_pin_comes_to_its_pivot(height, count):
+    class Slotted(Mechanism):
+        S = Stroke(-1.0, 1.3)
+        floor, Q = Guide((0.0, 0.0), angle=0.0), Ground(0.0, 0.0)
+        P = OnGuide(floor, at=S)
+        X = PinSlotDyad(P, Q, PX=0.5)
+
+    what = told(Slotted(Q=(0.0, height)), np.linspace(-1.0, 1.3, count))
+    assert what == (("clear", "") if height == 1e-8 else ("change", "X"))
+
+
 def test_a_gap_between_two_poses_is_told_with_its_ends_and_what_is_missing():
     half = np.arccos(1.0 - (5.0**2 - 4.999**2) / 8.0)
     with pytest.raises(AssemblyError, match=r"between two poses, from phi = 3\.0915.* to 3\.1915.* rad:\nAB \+ CB .* 1 mm short") as caught:

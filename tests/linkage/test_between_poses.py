@@ -16,6 +16,7 @@ from linkage import (
     Mechanism,
     OnGuide,
     Pin,
+    PinSlotDyad,
     SingularError,
     SliderDyad,
     Stroke,

@@ -99,11 +99,19 @@ class Mechanism:
 
         With several strokes each is named: `sweep(S1=101, S2=0.15)`, an int is a count, a float a value; two
         counts give a grid. Raises AssemblyError where it cannot be assembled, unless `unreachable="nan"`.
+
+        Of one design along one stroke the whole way is looked at, however few the poses: AssemblyError for a stretch between two
+        poses that cannot be assembled, SingularError for a change point. A stretch narrower than 1e-6 of the stroke may be told as a
+        change point, a clearance of less than 1e-12 of the links as none, and what lies within 1e-7 of the stroke next to its ends is
+        not passed. `motion.interruptions` lists them where NaN is asked for; batches and several strokes are not looked at so.
         """
         return Motion(self.plan, self._values, sweep_values(count, strokes, self.plan), unreachable)
 
     def at(self, *, unreachable: str = "raise", **strokes: Any) -> Motion:
-        """Return the motion at chosen strokes [SI]: `at(S=[0.0, 0.1])`. They may lie beyond the declared range."""
+        """Return the motion at chosen strokes [SI]: `at(S=[0.0, 0.1])`. They may lie beyond the declared range.
+
+        The way from the least to the greatest of several is looked at as that of a sweep.
+        """
         return Motion(self.plan, self._values, at_values(strokes, self.plan), unreachable)
 
     def evaluate(

@@ -119,7 +119,7 @@ def next_group(parts: Parts, title: str) -> Group:
     rows = rows_of(parts, title)
     matched = matching(rows, parts, title)
     graph = nx.DiGraph()
-    graph.add_nodes_from({pin for pin, _ in matched})
+    graph.add_nodes_from(dict.fromkeys(pin for pin, _ in matched))  # a set would be in another order in every run
     for (pin, _), row in matched.items():
         graph.add_edges_from((other, pin) for other in rows[row].pins if other != pin)
     blocks = nx.condensation(graph)

@@ -24,7 +24,7 @@ STEPS = 32
 ANGLE = 0.1
 KEPT = 64
 """The designs of a plan whose tracks are kept."""
-LINE = 1.0 / 16
+LINE = 1.0 / 8
 """The largest step of a straight way from the sketch to a pose of several strokes, or from the class's design to another."""
 
 
@@ -41,6 +41,8 @@ class Solved:
 def solve_groups(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray]) -> Solved:
     """Return the pins of all groups for designs (float or (m,)) and strokes (n,); NaN where they cannot be reached."""
     newtons = [Newton(plan, group) for group in plan.groups.values()]
+    if all(np.size(value) == 1 for value in designs.values()):
+        designs = {name: float(np.ravel(value)[0]) if np.ndim(value) else value for name, value in designs.items()}
     kept = known(plan, newtons, designs)
     n = max((np.size(value) for value in strokes.values()), default=1)
     shape = (kept.start[0].shape[1], n)

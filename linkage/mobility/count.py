@@ -18,6 +18,8 @@ from ..units import mm
 from .rows import Rows, link_rows, step_rows
 
 RANK = 1e-8
+ASIDE = (0.5, 0.37, 0.61)
+"""Shares of the strokes at which mobility is looked at again: of whole turns, the middle may be in line, or at rest, as well."""
 
 
 @dataclass(frozen=True)
@@ -38,17 +40,18 @@ class Mobility:
 
 
 def mobility(plan: Plan) -> Mobility:
-    """Return the mobility at the sketch; where branches cross there, in the middle of the strokes or aside of it.
+    """Return the mobility at the sketch; where it is not the number of strokes there, in the middle of these or aside of it.
 
+    Where branches cross the rank is too small, and where a stroke starts at rest its own part of it is missing.
     AssemblyError where the mechanism cannot be assembled at the sketch.
     """
     found = mobility_at(plan, plan.sketch_strokes)
-    for share in (0.5, 0.37):  # of whole turns, the middle may be in line as well
-        if found.rank <= found.strokes:
+    for share in ASIDE:
+        if found.rank == found.strokes:
             break
         aside = {name: stroke.start + share * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()}
         try:
-            found = min(mobility_at(plan, aside), found, key=lambda each: each.rank)
+            found = min(found, mobility_at(plan, aside), key=lambda each: abs(each.rank - each.strokes))
         except AssemblyError:
             continue
     return found

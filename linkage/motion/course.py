@@ -19,6 +19,8 @@ from ..assembly import solve_groups
 from ..plan import Loop, Plan
 from ..program import FloatArray, Kernel, Level, Way
 from ..steps import Pin
+from .limits import as_read, number
+from .reach import stroke_unit
 
 GRID = 128
 """Intervals of the grid; an angle has so many for each turn of it."""
@@ -27,7 +29,7 @@ DEPTH = 1e-9
 """The width, of the way, down to which it is divided."""
 BENDS = 2.0
 TOUCH = 1e-6
-"""A sine that comes so low has come to zero: a clearance of 1e-12 of the links' lengths is not told from none."""
+"""A sine of links that comes so low has come to zero: a clearance of 1e-12 of their lengths is not told from none."""
 END = 1e-7
 """A dead point so near to an end of the way, compared with the way, is its end and not passed."""
 ROUNDING = 8 * np.finfo(float).eps
@@ -38,9 +40,11 @@ INNER = np.arange(1, PARTS) / PARTS
 
 
 @dataclass(frozen=True)
-class Halt:
-    """What interrupts the way along a stroke: from where to where a step cannot be assembled; low = high where it only touches that."""
+class Interruption:
+    """What interrupts the way along a stroke: from `low` to `high` [m or rad] a step cannot be assembled; equal at a change point."""
 
+    stroke: str
+    unit: str
     step: str
     low: float
     high: float
@@ -50,8 +54,14 @@ class Halt:
 
     @property
     def is_gap(self) -> bool:
-        """Whether a stretch of the way is out of reach; else it touches a singular pose."""
+        """Whether a stretch of the way is out of reach; else two branches meet in a point of it, or guides are parallel."""
         return self.high > self.low
+
+    def __str__(self) -> str:
+        if self.is_gap:
+            return f"{self.step} out of reach from {self.stroke} = {number(self.low, self.unit)} to {as_read(self.high, self.unit)}"
+        what = {"guides": "parallel guides", "meeting": "no direction"}.get(self.kind, "a change point")
+        return f"{what} of {self.step} at {self.stroke} = {as_read(self.low, self.unit)}"
 
 
 @dataclass(frozen=True)
@@ -67,10 +77,14 @@ class Clearances:
         """Return those of a plan; pins of groups are followed on their own."""
         trace = plan.trace
         moving = dict.fromkeys(loop for loop in trace.loops if loop.terms[0].level is Level.POSE)
-        own = tuple(loop for loop in moving if not isinstance(plan.members[loop.step], Pin))
+        own = [loop for loop in moving if not isinstance(plan.members[loop.step], Pin)]
+        lengths = {loop.step for loop in own if loop.kind == "length"}
+        # the side that a slot's line is taken along may vanish; those of links that are driven are watched as lengths
+        sides = [Loop(loop.step, "meeting", loop.terms[1:2]) for loop in own if loop.kind == "links" and loop.step not in lengths]
+        own += [loop for loop in sides if loop.terms[0].level is Level.POSE]
         clear = [loop.terms[0] / (loop.terms[1] * loop.terms[1]) if loop.kind == "links" else loop.terms[0] for loop in own]
         size = [loop.terms[2] / (loop.terms[1] * loop.terms[1]) if loop.kind == "links" else trace.graph.constant(1.0) for loop in own]
-        return cls(own, Kernel(clear), Kernel(size))
+        return cls(tuple(own), Kernel(clear), Kernel(size))
 
 
 class Course:
@@ -79,6 +93,11 @@ class Course:
     def __init__(self, plan: Plan, designs: Mapping[str, Any], name: str, held: Mapping[str, float]) -> None:
         self.plan, self.designs, self.name, self.held = plan, designs, name, held
         self.clearances = plan.made("clearances", Clearances.of)
+
+    @property
+    def unit(self) -> str:
+        """The stroke's unit."""
+        return stroke_unit(self.plan, self.name)
 
     @property
     def loops(self) -> tuple[Loop, ...]:
@@ -94,10 +113,10 @@ class Course:
         return inputs
 
     def seen(self, x: FloatArray) -> FloatArray:
-        """Return the clearance of every loop, shape (loops, n): squared sines of links, sizes of the sines of guides, lengths [m]."""
+        """Return the clearance of every loop, shape (loops, n): squared sines of links, sines of guides without a sign, lengths [m]."""
         found: FloatArray = self.clearances.kernel(self.inputs(x), way=ON_ARRAYS, size=(1, x.size)).values[:, 0]
         for row, loop in enumerate(self.loops):
-            if loop.kind == "guides":
+            if loop.kind in ("guides", "meeting"):
                 np.abs(found[row], out=found[row])
         return found
 
@@ -115,7 +134,7 @@ class Course:
         found: FloatArray = low + (high - low) * shares(GRID * max(1, int(np.ceil(turns))))
         return found
 
-    def halts(self, low: float, high: float) -> tuple[Halt, ...]:
+    def interruptions(self, low: float, high: float) -> tuple[Interruption, ...]:
         """Return what interrupts the way between two values of the stroke, in their order."""
         if not (self.loops and high > low):
             return ()
@@ -127,32 +146,33 @@ class Course:
             return ()
         return self._narrowed(x, seen, bends)
 
-    def _narrowed(self, x: FloatArray, seen: FloatArray, bends: FloatArray) -> tuple[Halt, ...]:
+    def _narrowed(self, x: FloatArray, seen: FloatArray, bends: FloatArray) -> tuple[Interruption, ...]:
         """Return what interrupts the way, from the grid on."""
         low, high = float(x[0]), float(x[-1])
         noise = self.rounding(x)
+        tops = np.fmax.reduce(seen, axis=1)
         tells = np.array([loop.kind != "length" for loop in self.loops])
-        level = np.array([TOUCH if loop.kind == "guides" else TOUCH**2 for loop in self.loops])[:, None]
+        level = np.where([[loop.kind == "links"] for loop in self.loops], TOUCH**2, 2.0 * DEPTH * tops[:, None])
         level = np.where(tells[:, None], np.maximum(level, noise), 0.0)
-        still = np.fmax.reduce(seen, axis=1) <= 4.0 * level[:, 0]
+        still = tops <= 4.0 * level[:, 0]
         if still.any():  # in line all the way, as a rod that is straight; or the way is so short
             stroke = self.plan.strokes[self.name]
             wide = self.seen(self.grid(min(stroke.start, stroke.end), max(stroke.start, stroke.end)))
             still &= ~(np.fmax.reduce(wide, axis=1) > 4.0 * level[:, 0])
-        places, values = divided(self.seen, x, seen, bends, level, noise, ~still)
-        halts: list[Halt] = []
+        places, values = divided(self.seen, x, seen, bends, noise, ~still)
+        found: list[Interruption] = []
         for row, loop in enumerate(self.loops):
             if not still[row]:
-                halts += self._halts_of(row, loop, places, values[row], float(level[row, 0]), float(noise[row, 0]), (low, high))
-        return tuple(sorted(halts, key=lambda halt: halt.low))
+                found += self._of_loop(row, loop, places, values[row], float(level[row, 0]), float(noise[row, 0]), (low, high))
+        return tuple(sorted(found, key=lambda each: each.low))
 
-    def _halts_of(
+    def _of_loop(
         self, row: int, loop: Loop, x: FloatArray, seen: FloatArray, level: float, noise: float, ends: tuple[float, float]
-    ) -> list[Halt]:
+    ) -> list[Interruption]:
         """Return where one loop interrupts the way: runs of values that have come to zero."""
         known = np.isfinite(seen)
         x, seen = x[known], seen[known]
-        halts = []
+        found = []
         edges = np.flatnonzero(np.diff(np.concatenate([[False], seen <= level, [False]]).astype(int)))
         for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
             run = slice(first, last + 1)
@@ -161,10 +181,10 @@ class Course:
                 under = first + np.flatnonzero(seen[run] < -noise)
                 low = self._border(row, x, int(under[0]), -1, noise)
                 high = self._border(row, x, int(under[-1]), 1, noise)
-                halts.append(Halt(loop.step, low, high, deepest, loop.kind))
+                found.append(Interruption(self.name, self.unit, loop.step, low, high, deepest, loop.kind))
             elif loop.kind != "length" and min(deepest - ends[0], ends[1] - deepest) > END * (ends[1] - ends[0]):
-                halts.append(Halt(loop.step, deepest, deepest, deepest, loop.kind))
-        return halts
+                found.append(Interruption(self.name, self.unit, loop.step, deepest, deepest, deepest, loop.kind))
+        return found
 
     def _border(self, row: int, x: FloatArray, place: int, side: int, noise: float) -> float:
         """Return the end of a stretch that is out of reach, on one side of a value in it, by bisection."""
@@ -181,7 +201,7 @@ class Course:
 
 
 def divided(
-    look: Any, x: FloatArray, seen: FloatArray, bends: FloatArray, level: FloatArray, noise: FloatArray, wanted: Any
+    look: Any, x: FloatArray, seen: FloatArray, bends: FloatArray, noise: FloatArray, wanted: Any
 ) -> tuple[FloatArray, FloatArray]:
     """Return all values looked at, in order, and what was seen there, shape (loops, n): intervals divided where a loop may reach zero."""
     wide = np.pad(np.where(np.isfinite(bends), bends, 0.0), ((0, 0), (2, 2)), mode="edge")
@@ -191,7 +211,7 @@ def divided(
     least = DEPTH * float(x[-1] - x[0])
     while left.size:
         lower = np.minimum(first, last)
-        low = (lower <= BENDS * bend + level) & (np.maximum(first, last) >= -noise) & wanted[:, None]
+        low = (lower <= BENDS * bend + noise) & (np.maximum(first, last) >= -noise) & wanted[:, None]
         pick = np.flatnonzero(low.any(axis=0) & (right - left > least))[:MOST]
         if not pick.size:
             break

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,13 +12,12 @@ from ..program import FloatArray
 from ..units import deg
 
 SAMPLES = 1441
-TOUCH = 1e-6
 
 READ_IN = {"m": (1.0, "m"), "rad": (deg, "deg")}
 """The unit of a stroke -> the one it is read in: its factor and its name."""
 
 Scan = Callable[[FloatArray], "Scanned"]
-"""A look at some stroke values: which are reached, how near each loop is to its dead point, and what fails."""
+"""A look at some stroke values: which are reached, and what fails."""
 
 
 def number(value: float, unit: str, digits: int = 9) -> str:
@@ -33,10 +32,9 @@ def as_read(value: float, unit: str, digits: int = 9) -> str:
 
 @dataclass(frozen=True)
 class Scanned:
-    """What was seen at some stroke values: the mask of those reached, and the sine of every loop there."""
+    """What was seen at some stroke values: the mask of those reached."""
 
     reached: Any
-    sines: Mapping[str, FloatArray]
     failing: Callable[[int], str]
     """The step that fails at one of the values."""
     stops: tuple[float, ...] = ()
@@ -144,48 +142,14 @@ class Limits(dict[str, StrokeLimits]):
         return "\n".join(map(str, self.values()))
 
 
-def search(scan: Scan, low: float, high: float) -> tuple[list[Interval], list[tuple[float, str]]]:
-    """Return the reachable intervals between two strokes, and the change points inside them."""
+def search(scan: Scan, low: float, high: float, gaps: Sequence[float] = ()) -> list[Interval]:
+    """Return the reachable intervals between two strokes, given places in the gaps that may lie between samples."""
     at = np.linspace(low, high, SAMPLES)
-    seen = scan(at)
-    reached = np.array(seen.reached)
-    touches: list[tuple[float, str]] = []
-    gaps: list[tuple[float, float]] = []
-    for name, sine in seen.sines.items():
-        for place in dips(np.abs(sine)):
-            value, least = deepest(scan, name, at[place - 1], at[place + 1])
-            if np.isnan(least):
-                gaps.append((value, value))
-            elif least < TOUCH and not any(abs(value - known) < (high - low) / SAMPLES for known, _ in touches):
-                touches.append((value, name))
-    at = np.concatenate([at, [value for value, _ in gaps]])
+    reached = np.array(scan(at).reached)
+    at = np.concatenate([at, gaps])
     reached = np.concatenate([reached, np.zeros(len(gaps), bool)])
     order = np.argsort(at, kind="stable")
-    return intervals(scan, at[order], reached[order]), sorted(touches)
-
-
-def dips(sine: FloatArray) -> list[int]:
-    """Return the places where a sine may come down to zero between its samples: sharp local minima; none where it does not change."""
-    if not np.nanmax(sine, initial=0.0) - np.nanmin(sine, initial=1.0) > TOUCH:
-        return []
-    before, here, after = sine[:-2], sine[1:-1], sine[2:]
-    with np.errstate(invalid="ignore"):
-        lowest = (here <= before) & (here <= after)
-        sharp = np.minimum(before, after) <= np.maximum(3.0 * np.abs(after - before), 4.0 * np.maximum(before, after) / len(sine)) + 0.05
-    return [int(place) + 1 for place in np.nonzero(lowest & sharp)[0]]
-
-
-def deepest(scan: Scan, name: str, low: float, high: float) -> tuple[float, float]:
-    """Return where a loop comes nearest to its dead point between two strokes, and its sine there; NaN in a gap."""
-    for _ in range(10):
-        at = np.linspace(low, high, 17)
-        seen = scan(at)
-        sine = np.abs(np.broadcast_to(seen.sines[name], at.shape))
-        if np.isnan(sine).any():
-            return float(at[int(np.argmax(np.isnan(sine)))]), float("nan")
-        place = int(np.argmin(sine))
-        low, high = at[max(place - 1, 0)], at[min(place + 1, 16)]
-    return 0.5 * (low + high), float(sine.min())
+    return intervals(scan, at[order], reached[order])
 
 
 def intervals(scan: Scan, at: FloatArray, reached: Any) -> list[Interval]:

@@ -97,7 +97,18 @@ class Motion:
         spans = [f"{name} = {reach.span_read(values, reach.stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
         poses = f"{', '.join(spans) or 'no stroke'}; shape {self.shape}"
         reached = "all reached" if self.reached.all() else f"{int(self.reached.sum())} of {self.reached.size} reached"
-        return f"<Motion of {self.plan.title}: {poses}, {reached}>"
+        return f"<Motion of {self.plan.title}: {poses}, {reached}{scan.between_words(self)}>"
+
+    @cached_property
+    def interruptions(self) -> tuple[scan.Interruption, ...] | None:
+        """What interrupts the way between the least and the greatest stroke, in order: stretches out of reach and change points.
+
+        Empty where nothing does; it then leads from every pose to every other. None where it is not looked for: of batches and
+        of several strokes. Asked with unreachable="raise", a motion that is interrupted is refused.
+        """
+        if not scan.is_watched(self):
+            return None
+        return scan.interruptions(self) if self.unreachable == "nan" else ()
 
     def _refuse_parted(self) -> None:
         """Raise SingularError where an angle that is followed from the sketch changes by a turn from one pose to the next."""

@@ -11,8 +11,8 @@ from ..errors import AssemblyError, DefinitionError, SingularError
 from ..program import FloatArray
 from ..steps import Point
 from ..units import deg
-from .course import Course, Halt
-from .limits import TOUCH as TOUCH
+from .course import Course
+from .course import Interruption as Interruption
 from .limits import Held, Scanned, StrokeLimits, intervals, search
 from .limits import Limits as Limits
 from .reach import called, failures, missing_words, opening, stroke_unit, where_words
@@ -44,8 +44,9 @@ def stroke_limits(motion: Motion, name: str, held: Mapping[str, float]) -> Strok
     span = end - start
     turn = max(0.0, np.pi - 0.5 * span)
     low, high = (start - span, end + span) if unit == "m" else (start - turn, end + turn)
-    found, touches = search(scanner(motion.moved, name, held), low, high)
-    crossings = tuple((value, called(motion.plan, step)) for value, step in touches)
+    between = Course(motion.plan, motion.flat, name, held).interruptions(low, high)
+    found = search(scanner(motion.moved, name, held), low, high, [each.deepest for each in between if each.is_gap])
+    crossings = tuple((each.deepest, called(motion.plan, each.step)) for each in between if not each.is_gap)
     others = tuple(Held(each, value, stroke_unit(motion.plan, each)) for each, value in held.items() if each != name)
     least = transmission(motion, name, held, found)
     turns = open_turn(motion, name, held, found) if unit == "rad" else None
@@ -58,8 +59,7 @@ def scanner(moved: Moved, name: str, held: Mapping[str, float]) -> Callable[[Flo
 
     def scan(at: FloatArray) -> Scanned:
         motion = moved({**held, name: at})
-        loops = {each: np.broadcast_to(np.where(motion.reached, sine, np.nan), at.shape) for each, sine in motion.loop_sines.items()}
-        return Scanned(motion.reached, loops, lambda place: failing(moved({**held, name: at[place : place + 1]})), motion.group_stops)
+        return Scanned(motion.reached, lambda place: failing(moved({**held, name: at[place : place + 1]})), motion.group_stops)
 
     return scan
 
@@ -74,10 +74,20 @@ def is_watched(motion: Motion) -> bool:
     return len(motion.strokes) == 1 and not motion.design_shape and motion.shape != () and motion.reached.size > 1
 
 
-def halts(motion: Motion) -> tuple[Halt, ...]:
+def interruptions(motion: Motion) -> tuple[Interruption, ...]:
     """Return what interrupts the way of one design along its one stroke, between the least and the greatest of its poses."""
     ((name, values),) = motion.strokes.items()
-    return Course(motion.plan, motion.grid.flat, name, {}).halts(float(values.min()), float(values.max()))
+    return Course(motion.plan, motion.grid.flat, name, {}).interruptions(float(values.min()), float(values.max()))
+
+
+def between_words(motion: Motion) -> str:
+    """Return what is known of the way between the poses, in words: nothing where it is clear."""
+    if motion.shape in ((), (1,)):
+        return ""
+    found = motion.interruptions
+    if found is None:
+        return ", not looked at between the poses"
+    return "".join(f", interrupted: {each}" for each in found)
 
 
 def group_crossing(motion: Motion, crossed: Any) -> SingularError:
@@ -110,41 +120,50 @@ def refuse_crossing(motion: Motion) -> None:
 
     A loop that a declared side keeps on one branch would turn back at a change point, which no machine does.
     """
-    found = halts(motion)
+    found = interruptions(motion)
     if not found:
         return
-    ((name, values),) = motion.strokes.items()
+    (values,) = motion.strokes.values()
     start = float(np.ravel(values)[0])
-    first = min(found, key=lambda halt: min(abs(halt.low - start), abs(halt.high - start)))
-    raise gap(motion, first, found) if first.is_gap else crossing(motion, first.step, name, first.deepest)
+    first = min(found, key=lambda each: min(abs(each.low - start), abs(each.high - start)))
+    raise gap(motion, first, found) if first.is_gap else crossing(motion, first)
 
 
-def gap(motion: Motion, halt: Halt, found: Sequence[Halt]) -> AssemblyError:
+def gap(motion: Motion, first: Interruption, found: Sequence[Interruption]) -> AssemblyError:
     """Return the error for a stretch between the poses of a sweep that cannot be assembled."""
     ((name, values),) = motion.strokes.items()
     plan, unit = motion.plan, stroke_unit(motion.plan, name)
-    there = motion.moved({name: np.array([halt.deepest])})
-    step = next((each for each, mask in failures(plan, there.reading, (1,)) if mask.any()), halt.step)
+    there = motion.moved({name: np.array([first.deepest])})
+    step = next((each for each, mask in failures(plan, there.reading, (1,)) if mask.any()), first.step)
     words, shortfall = missing_words(plan, step, there.reading, np.ones(1, bool))
-    far = np.asarray(values > halt.low if np.ravel(values)[0] <= halt.low else values < halt.high)
+    far = np.asarray(values > first.low if np.ravel(values)[0] <= first.low else values < first.high)
     edges = [float(values.min()), *(edge for each in found if each.is_gap for edge in (each.low, each.high)), float(values.max())]
     spans = [f"from {name} = {low:.6g} to {high:.6g} {unit}" for low, high in zip(edges[::2], edges[1::2], strict=True)]
     return AssemblyError(
-        f"{opening(plan, step)} cannot be assembled between {name} = {halt.low:.9g} and {halt.high:.9g} {unit}, though at all poses asked "
-        f"for:\n{words} It goes {', and '.join(spans)}.",
+        f"{opening(plan, step)} cannot be assembled between two poses, from {name} = {first.low:.9g} to {first.high:.9g} {unit}:\n"
+        f"{words} It goes {', and '.join(spans)}.",
         point=step, mask=far, shortfall=shortfall,
     )  # fmt: skip
 
 
-def crossing(motion: Motion, loop: str, name: str, value: float) -> SingularError:
-    """Return the error that names a change point."""
+def crossing(motion: Motion, found: Interruption) -> SingularError:
+    """Return the error that names a change point, or where guides are parallel."""
+    loop, name, value = found.step, found.stroke, found.deepest
     unit = stroke_unit(motion.plan, name)
     where = f"{name} = {value:.6g} {unit}" + (f" ({value / deg:.4g} deg)" if unit == "rad" else "")
     member = motion.plan.members[loop]
     named = f"{loop} = {member}" if isinstance(member, Point) else loop
+    if found.kind == "guides":
+        what, why = f"parallel guides at {where}", f"{named} runs to infinity there and comes back from the other side"
+    elif found.kind == "meeting":
+        what = f"a pose without a direction at {where}"
+        why = f"{named} takes a direction between two points that come together there"
+    else:
+        what = f"a change point at {where}"
+        line = f"{named} has its links in line there and its two branches cross"
+        why = f"{line}, so which way the mechanism goes on is not settled by its geometry"
     return SingularError(
-        f"{motion.plan.title} passes a change point at {where}: {named} has its links in line there and its two branches cross, "
-        "so which way the mechanism goes on is not settled by its geometry. Stop the sweep before it, take the poses on each side "
+        f"{motion.plan.title} passes {what}: {why}. Stop the sweep before it, take the poses on each side "
         'in sweeps of their own, or ask with unreachable="nan".',
         point=loop, mask=np.asarray(motion.strokes[name] >= value), motion=motion,
     )  # fmt: skip

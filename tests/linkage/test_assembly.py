@@ -82,7 +82,7 @@ def test_random_dyads(first):
     assert kept >= 0.9 * BLOCK
 
 
-@pytest.mark.parametrize("first", blocks(200, daily=25))
+@pytest.mark.parametrize("first", blocks(1000, daily=25))
 def test_random_groups(first):
     kept = 0
     for seed in range(first, first + BLOCK):

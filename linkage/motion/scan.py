@@ -44,7 +44,7 @@ def stroke_limits(motion: Motion, name: str, held: Mapping[str, float]) -> Strok
     span = end - start
     turn = max(0.0, np.pi - 0.5 * span)
     low, high = (start - span, end + span) if unit == "m" else (start - turn, end + turn)
-    between = Course(motion.plan, motion.flat, name, held).interruptions(low, high)
+    between = Course(motion.plan, motion.grid.flat, name, held).interruptions(low, high)
     found = search(scanner(motion.moved, name, held), low, high, [each.deepest for each in between if each.is_gap])
     crossings = tuple((each.deepest, called(motion.plan, each.step)) for each in between if not each.is_gap)
     others = tuple(Held(each, value, stroke_unit(motion.plan, each)) for each, value in held.items() if each != name)

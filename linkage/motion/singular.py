@@ -123,7 +123,7 @@ class Judged:
         if near.get(loop, 0.0) >= close.get(direction, 0.0):
             size = "infinite" if np.isinf(near[loop]) else f"{near[loop]:.1e}"
             return loop, f"(condition {size}, refused above {REFUSE:.0e})"
-        apart = f"are {1.0 / close[direction]:.1e} of the machine's size apart" if close[direction] < 1e300 else "coincide"
+        apart = f"are {1.0 / close[direction]:.1e} of the machine's size apart" if close[direction] < 1e299 else "coincide"
         return direction, f"takes a direction between points that {apart}"
 
 

@@ -22,10 +22,10 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError, unknown
+from linkage.errors import DefinitionError, known_name
 from linkage.units import MPa, kN, mm
 
-from .inputs import Array, in_metres, over_poses, positive
+from .inputs import Array, in_metres, one, over_poses, positive
 from .sizes import next_rod
 from .verdict import Verdict
 
@@ -49,12 +49,11 @@ class Buckling:
 
     def __post_init__(self) -> None:
         for value, what in ((self.rod, "Rod"), (self.modulus, "Modulus"), (self.yield_strength, "Yield strength")):
-            positive(value, what)
+            positive(one(value, what), what)
         in_metres(self.rod, "Rod")
-        if positive(self.safety, "Buckling safety") < 1.0:
+        if positive(one(self.safety, "Buckling safety"), "Buckling safety") < 1.0:
             raise DefinitionError(f"Buckling safety = {self.safety:g} is below 1; 3.5 is usual for hydraulic cylinders.")
-        if self.mounting not in MOUNTINGS:
-            raise unknown("Mounting", self.mounting, MOUNTINGS)
+        known_name("Mounting", self.mounting, MOUNTINGS)
 
     @property
     def area(self) -> float:
@@ -122,5 +121,6 @@ class Buckling:
 
 def _length(length: ArrayLike) -> Array:
     long = over_poses(length, "Length between the ends")
-    positive(long[~np.isnan(long)], "Length between the ends")
+    if not np.all(np.isnan(long)) or not long.size:
+        positive(long[~np.isnan(long)], "Length between the ends")
     return long

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, TypeAlias, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError
+from linkage.errors import DefinitionError, cited
 from linkage.loads import AT_REST, ForceElement, Load, Poses, Push, Rates
 from linkage.loads.two_point import end_forces
 from linkage.motion import Motion
@@ -58,8 +58,13 @@ class FloatCircuit(Circuit):
         for name in ("charge_pressure", "seal_friction"):
             if not follows(getattr(self, name)):
                 in_pascals(getattr(self, name), name.replace("_", " ").capitalize())
-        if not (isinstance(self.block, AccumulatorBlock) or callable(self.block)):
-            raise DefinitionError(f"{self}: block={self.block!r} is no AccumulatorBlock; write AccumulatorBlock([Accumulator(...)]).")
+        if not is_named(self.cylinder) and not isinstance(self.cylinder, Cylinder):
+            raise DefinitionError(f"FloatCircuit: {cited(self.cylinder)} is no Cylinder; name one.")
+        if not follows(self.exponent) and np.any(finite(self.exponent, "Exponent") < 1.0):
+            raise DefinitionError(f"FloatCircuit: exponent={cited(self.exponent)} is below 1; 1 is a slow movement, 1.4 a fast one.")
+        if not isinstance(self.block, AccumulatorBlock) and (not callable(self.block) or isinstance(self.block, type)):
+            said = f"block={cited(self.block)} is no AccumulatorBlock"
+            raise DefinitionError(f"FloatCircuit: {said}; write AccumulatorBlock([Accumulator(...)]).")
 
     def parts(self) -> tuple[Reference, ...]:
         followed = self.block.following if isinstance(self.block, AccumulatorBlock) else ()

@@ -18,7 +18,7 @@ from typing import Any, ClassVar, TypeAlias, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError
+from linkage.errors import DefinitionError, cited
 from linkage.loads import Force, ForceElement, Load, Poses
 from linkage.motion import Motion
 from linkage.motion.reach import Mask
@@ -26,7 +26,7 @@ from linkage.quantities import Reference, label, name_of
 from linkage.statics import Case, Loads, elements_of
 
 from .cylinder import CylinderSize
-from .inputs import Array, finite, in_cubic_metres, in_pascals, positive
+from .inputs import Array, efficient, finite, in_cubic_metres, in_pascals, one, positive
 from .member import Circuit, Cylinder, found_in, is_named, the_cylinder
 from .settings import follows, number_set
 
@@ -54,21 +54,31 @@ class LiftCircuit(Circuit):
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
         {"pressure": "bar", "flow": "", "mechanical_efficiency": "", "hydraulic_efficiency": "", "back_pressure": "bar", "relief": "bar"}
     )
-    not_negative: ClassVar[frozenset[str]] = frozenset({"flow", "back_pressure"})
+    not_negative: ClassVar[frozenset[str]] = frozenset(parameters)
     optional: ClassVar[frozenset[str]] = frozenset({"relief"})
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        for each in self.references:
+            if not is_named(each) and not isinstance(each, Cylinder):
+                raise DefinitionError(f"LiftCircuit: {cited(each)} is no Cylinder; name one.")
         for name in ("pressure", "relief", "back_pressure"):
             if name in self.numbers and not follows(getattr(self, name)):
-                in_pascals(getattr(self, name), f"{name.replace('_', ' ').capitalize()} of the circuit")
+                what = f"{name.replace('_', ' ').capitalize()} of the circuit"
+                given = in_pascals(getattr(self, name), what)
+                if name != "back_pressure":
+                    positive(given, what)
+        for kind in ("mechanical", "hydraulic"):
+            if not follows(getattr(self, f"{kind}_efficiency")):
+                efficient(getattr(self, f"{kind}_efficiency"), f"LiftCircuit: {kind}_efficiency")
         if not follows(self.flow):
             in_cubic_metres(self.flow, "Flow of the pump")
 
     @property
     def references(self) -> tuple[Reference, ...]:
         """Its cylinders, as they were given."""
-        return (self.cylinder,) if isinstance(self.cylinder, (str, ForceElement)) else tuple(self.cylinder)  # type: ignore[arg-type]
+        given: Any = self.cylinder
+        return tuple(given) if isinstance(given, (list, tuple)) else (given,)
 
     def parts(self) -> tuple[Reference, ...]:
         return (*(each for each in self.references if is_named(each)), *super().parts())
@@ -140,10 +150,7 @@ class LiftCircuit(Circuit):
     def efficiency(self, motion: Poses, kind: str) -> Array:
         """Return the "mechanical" or "hydraulic" efficiency; DefinitionError unless it is above 0 and not above 1."""
         what = f"{self.name or 'LiftCircuit'}.{kind}_efficiency"
-        value = positive(self.number(motion, f"{kind}_efficiency"), what, "an efficiency lies between 0 and 1")
-        if np.any(value > 1.0):
-            raise DefinitionError(f"{what} = {np.max(value):.6g} is above 1; an efficiency lies between 0 and 1.")
-        return value
+        return efficient(self.number(motion, f"{kind}_efficiency"), what)
 
     def back(self, motion: Poses) -> Array:
         """Return the pressure of the returning oil [Pa]; DefinitionError where it is negative."""
@@ -242,7 +249,7 @@ class LiftCircuit(Circuit):
         none). NaN where the load drives or does nothing: not limited by this cylinder; 0 where the machine alone is too heavy. Declared
         friction counts with the load's own share. Source: Dyuzhev, Kotov, Chuprynin (2008), (28).
         """
-        if not 0.0 < share <= 1.0:
+        if not 0.0 < one(share, "share") <= 1.0:
             raise DefinitionError(f"share = {share:.6g} of the pressure is not in 0 to 1; 0.9 is how tractors are tested.")
         unit = direction_of(along)
         own: list[Any] = [name for name, _ in elements_of(motion.plan, None)] if loads is None else listed(loads)

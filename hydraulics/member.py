@@ -17,17 +17,17 @@ from typing import Any, ClassVar, Literal, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, unknown, unwarned
+from linkage.errors import DefinitionError, cited, unknown, unwarned
 from linkage.loads import AT_REST, DrawnAs, ForceElement, LoadCase, Poses, Push, Rates, TwoPoint
 from linkage.motion import Column, Motion, Tabled, greatest, lowest
-from linkage.quantities import Reference, label, name_of
+from linkage.quantities import Member, Reference, label, name_of
 from linkage.statics import Case, Loads, elements_of, member_thrust
 from linkage.statics.holding import same
 from linkage.units import mm
 
 from .buckling import Buckling
 from .cylinder import CylinderSize
-from .inputs import Array, positive, stroke_in_metres
+from .inputs import Array, one, positive, stroke_in_metres
 from .settings import follows, number_set
 from .sizes import BORES_MM, RODS_MM, standard_rods
 from .verdict import Verdict
@@ -58,6 +58,7 @@ class Cylinder(TwoPoint, Tabled):
     safety: float = 3.5
     drawn_as: ClassVar[DrawnAs] = "cylinder"
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"bore", "rod"})
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -66,7 +67,7 @@ class Cylinder(TwoPoint, Tabled):
         Buckling(1.0, self.mounting, self.safety)
         for value, what in ((self.stroke, "Stroke of the cylinder"), (self.closed, "Closed length of the cylinder")):
             if value is not None:
-                positive(stroke_in_metres(value, what, None if self._follows else self.bore), what)
+                positive(stroke_in_metres(one(value, what), what, None if self._follows else self.bore), what)
 
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:
         """Return nothing: it has no law of its own."""
@@ -296,7 +297,9 @@ def one_area(size: CylinderSize, thrust: float) -> float:
 
 
 def is_named(reference: Reference) -> bool:
-    """Return whether a reference to a cylinder goes by its name in a class."""
+    """Return whether a reference to a cylinder goes by its name in a class; DefinitionError for what is no reference."""
+    if not isinstance(reference, (str, Member)):
+        raise DefinitionError(f"{cited(reference)} stands where a cylinder or its name is expected.")
     return isinstance(reference, str) or bool(reference.name)
 
 

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 
-from .errors import DefinitionError, unknown
+from .errors import DefinitionError, known_name, unknown
 
 m = 1.0
 mm = 1e-3
@@ -79,6 +80,11 @@ def finite(value: float, text: str) -> float:
     if not math.isfinite(value):
         raise DefinitionError(f"{text!r} is not a finite number.")
     return value
+
+
+def unit_or_none(unit: object, where: str, among: Iterable[str] = UNITS) -> str:
+    """Return a unit, or "" for none; DefinitionError, with the units there are, for anything else."""
+    return "" if isinstance(unit, str) and not unit else known_name("Unit", unit, among, where=where)
 
 
 def show(value: float, unit: str, digits: int = 6) -> str:

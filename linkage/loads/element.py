@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Protocol, Self
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited
 from ..quantities import Holding, Member, Number, Quantity, Reference, label, name_of, quantity, real, spelled
 from ..quantities.numbers import plain
 from ..steps import Point
@@ -185,11 +185,11 @@ class ForceElement(Holding):
         try:
             value = real(given)
         except ValueError:
-            raise DefinitionError(f"{self._opening()}: {name}={given!r} is not a number; give it in SI.") from None
+            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is not a number; give it in SI.") from None
         if not np.all(np.isfinite(value)):
-            raise DefinitionError(f"{self._opening()}: {name}={given!r} is not a finite number; give it in SI.")
+            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is not a finite number; give it in SI.")
         if name in self.not_negative and np.any(value < 0.0):
-            raise DefinitionError(f"{self._opening()}: {name}={given!r} is negative; give zero or more.")
+            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is negative; give zero or more.")
 
     def _opening(self) -> str:
         """Return the element as it is written; its kind alone where its points have no names yet, as in a class."""

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Literal, TypeAlias, final, get_args
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited
 from ..quantities import Distance, Joint, Reference, name_of, pinned
 from .element import AT_REST, ForceElement, Poses, Rates
 from .load import Array, Load, Push
@@ -174,8 +174,8 @@ class Between(TwoPoint):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not callable(self.law):
-            raise DefinitionError(f"{self._opening()}: law={self.law!r} is no function; give one of length [m] and rate [m/s].")
+        if not callable(self.law) or isinstance(self.law, type):
+            raise DefinitionError(f"{self._opening()}: law={cited(self.law)} is no function; give one of length [m] and rate [m/s].")
 
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:
         return self.law(length, rate)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..assembly import Solved, solve_groups
-from ..errors import DefinitionError
+from ..errors import DefinitionError, one_word
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Kernel
 from .reach import Mask
@@ -21,8 +21,7 @@ class Grid:
     """Designs times strokes: shapes and inputs. Arrays are component-first, designs before strokes."""
 
     def __init__(self, plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray], unreachable: str = "raise") -> None:
-        if unreachable not in ("raise", "nan"):
-            raise DefinitionError(f'unreachable={unreachable!r}: say "raise" or "nan".')
+        one_word("unreachable", unreachable, ("raise", "nan"))
         self.plan, self.designs, self.strokes, self.unreachable = plan, dict(designs), dict(strokes), unreachable
         arrays = [np.shape(value) for value in self.designs.values() if varies(value)]
         try:

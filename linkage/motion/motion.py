@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -31,6 +31,9 @@ class Motion(Outputs):
     """
 
     def __init__(self, plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray], unreachable: str = "raise") -> None:
+        parts = (plan, Plan), (designs, Mapping), (strokes, Mapping)
+        if not all(isinstance(given, kind) for given, kind in parts) or strokes.keys() != plan.strokes.keys():
+            raise DefinitionError("Motion(...) is made by a design: machine.sweep(...) or machine.at(...).")
         super().__init__(plan, designs, strokes, unreachable)
         self._ratios: dict[Any, FloatArray] = {}
         if unreachable == "raise" and scan.is_watched(self):
@@ -41,6 +44,21 @@ class Motion(Outputs):
         poses = f"{', '.join(spans) or 'no stroke'}; shape {self.shape}"
         reached = "all reached" if self.reached.all() else f"{int(self.reached.sum())} of {self.reached.size} reached"
         return f"<Motion of {self.plan.title}: {poses}, {reached}>"
+
+    def __getattr__(self, name: str) -> Any:
+        """Raise AttributeError, with what may have been meant: a point, a vector or an output goes by `motion["G"]`."""
+        is_member = "plan" in vars(self) and name in self.plan.members
+        remedy = f'what the class calls {name} is motion["{name}"]' if is_member else "a point or an output goes by motion[name]"
+        raise AttributeError(f"A motion has no attribute {name!r}; {remedy}.", name=name, obj=self)
+
+    def __contains__(self, name: object) -> bool:
+        """Whether a name is that of a point, a vector or a quantity: what `motion[name]` gives."""
+        return isinstance(name, str) and isinstance(self.plan.members.get(name), (Point, Arrow, Quantity))
+
+    def __iter__(self) -> NoReturn:
+        """Raise DefinitionError: its poses are the last axes of what it gives."""
+        text = f"{self.plan.title}: a motion is not gone through pose by pose"
+        raise DefinitionError(f'{text}; its poses are the last axis of what it gives, such as motion["G"].')
 
     def refusal(self) -> AssemblyError:
         """Return the error for the poses that are not reached: out of reach, or behind a change point."""
@@ -181,7 +199,7 @@ class Motion(Outputs):
     def acceleration(self, target: Target, rates: Mapping[str, Any], accelerations: Mapping[str, Any] | None = None) -> FloatArray:
         """Return the acceleration of a point [m/s2], shape (2, ...), from stroke rates and accelerations."""
         given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title)
-        driven = rates_of("accelerations", accelerations or {}, self.strokes, self.shape, self.plan.title)
+        driven = rates_of("accelerations", {} if accelerations is None else accelerations, self.strokes, self.shape, self.plan.title)
         member = self._member(target)
         refused = self.refused(member, f"The acceleration of {member.name or member}", 2)
         total = sum((self.ratio(target, wrt=name) * value for name, value in driven.items()), self._still(target))

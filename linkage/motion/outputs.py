@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import DefinitionError, SingularError
 from ..plan import ArrayReading
 from ..program import FloatArray
-from ..quantities import Angle, Distance, Member, Quantity
+from ..quantities import Angle, Distance, Member, Quantity, needs
 from ..steps import Arrow, Point
 from ..vectors import Vec
 from . import reach
@@ -123,7 +123,11 @@ class Outputs(Places):
             return self.plan.points[name].meeting(self._outputs)
 
     def _member(self, target: Target) -> Member:
-        return target if isinstance(target, Quantity) and not target.name else self._known(target)
+        if not isinstance(target, Quantity) or target.name:
+            return self._known(target)
+        for name in needs(target):
+            named("Name", name, self.plan.members, self.plan.title)
+        return target
 
 
 class OutputReading(ArrayReading):

@@ -9,7 +9,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from ..errors import AssemblyError
+from ..errors import AssemblyError, DefinitionError, cited
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray
 from . import reach, singular
@@ -84,5 +84,13 @@ class Places(Grid):
 
     def moved(self, strokes: Mapping[str, Any]) -> Self:
         """Return the same design at other strokes [SI], unreachable poses as NaN."""
-        arrays = np.broadcast_arrays(*(np.asarray(strokes[name], float) for name in self.strokes))
+        given = strokes if isinstance(strokes, Mapping) else {}
+        if given.keys() != self.strokes.keys():
+            known = ", ".join(f"{name}=..." for name in self.strokes)
+            raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): a value for each stroke is expected, dict({known}).")
+        try:
+            arrays = np.broadcast_arrays(*(np.asarray(given[name], float) for name in self.strokes))
+        except (TypeError, ValueError, OverflowError):
+            said = "numbers or arrays that fit each other are expected"
+            raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): {said}.") from None
         return type(self)(self.plan, self.designs, dict(zip(self.strokes, arrays, strict=True)), "nan")

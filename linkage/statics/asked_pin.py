@@ -9,7 +9,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import unknown
+from ..errors import known_name
 from ..motion import Asked, Motion
 from ..plan import Plan
 from ..program import Node
@@ -40,8 +40,7 @@ class PinForce(Asked):
     case: Case = None
 
     def settled(self, plan: Plan) -> PinForceOf:
-        if self.component not in COMPONENTS:
-            raise unknown("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
+        known_name("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
         law = Law.of(plan, self.loads, self.case)
         structure = Structure(plan, law.loaded.elements, law.loaded.pushing)
         asked = replace(self, on=structure.called(self.on))

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
 from ..plan import Plan
 from ..program import FloatArray
@@ -88,12 +88,16 @@ def spoken(plan: Plan, name: str, value: Any, place: int) -> str:
 def range_of(name: str, given: Any) -> tuple[float, float]:
     """Return a range; DefinitionError unless it is (low, high)."""
     if not isinstance(given, (tuple, list)) or len(given) != 2 or not all(is_number(end) for end in given) or given[0] > given[1]:
-        raise DefinitionError(f"{name}={given!r} is no range; write (low, high) in SI, or a list [first, second] of choices.")
+        raise DefinitionError(f"{name}={cited(given)} is no range; write (low, high) in SI, or a list [first, second] of choices.")
     return float(given[0]), float(given[1])
 
 
 def choices_of(name: str, given: Any) -> list[Any]:
     """Return a list of choices; DefinitionError for anything else."""
-    if isinstance(given, str) or not isinstance(given, Sequence) or not given:
-        raise DefinitionError(f"{name}={given!r}: write a range (low, high) or a list of choices such as [(0.22, 1.05), (0.22, 0.95)].")
+    if not isinstance(given, (list, tuple, range)) or not given:
+        said = "write a range (low, high) or a list of choices such as [(0.22, 1.05), (0.22, 0.95)]"
+        raise DefinitionError(f"{name}={cited(given)}: {said}.")
+    for each in given:
+        if not (is_number(each) or (isinstance(each, (list, tuple)) and len(each) == 2 and all(map(is_number, each)))):
+            raise DefinitionError(f"{name}: {cited(each)} is no choice; write a number, or (x, y) of a point.")
     return list(given)

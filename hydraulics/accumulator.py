@@ -27,7 +27,7 @@ from linkage.units import UNITS, cm3, litre, show, unit_or_none
 
 from .bank import GasBank, effective
 from .gas import Gas, Polytropic, isothermal
-from .inputs import Array, above_vacuum, absolute, finite, in_pascals, not_negative, over_poses, positive
+from .inputs import Array, above_vacuum, absolute, finite, in_pascals, not_negative, one_number, over_poses, positive
 from .rules import WorkingRange
 from .settings import following, follows, setting
 from .verdict import Verdict
@@ -189,7 +189,9 @@ class AccumulatorBlock:
         the block's own.
         DefinitionError for `p_min` above `p_max`, an unknown unit.
         """
-        low, high, limit = (float(self._absolute(pressure)) - self.atmosphere for pressure in (p_min, p_max, allowed))
+        unit_or_none(unit, "checks(unit=...)", PRESSURES)
+        given = (one_number(pressure, "Pressure") for pressure in (p_min, p_max, allowed))
+        low, high, limit = (float(self._absolute(pressure)) - self.atmosphere for pressure in given)
         line = WorkingRange(low, high, limit, self.atmosphere, unit or self._unit)
         charges = {number: there(charge, vessel) for number, (charge, vessel) in enumerate(self._bank, 1) if np.any(vessel > 0.0)}
         return [

@@ -15,7 +15,7 @@ from typing import Any, ClassVar, TypeAlias, final
 import numpy as np
 
 from linkage.errors import DefinitionError, cited
-from linkage.loads import AT_REST, ForceElement, Load, Poses, Push, Rates
+from linkage.loads import AT_REST, ForceElement, Load, Poses, Push, Rates, require_poses
 from linkage.loads.two_point import end_forces
 from linkage.motion import Motion
 from linkage.plan import ArrayReading
@@ -96,6 +96,7 @@ class FloatCircuit(Circuit):
 
     def accumulators(self, motion: Poses) -> AccumulatorBlock:
         """Return its block as the motion's designs have it, before a movement: settled at the charge pressure, by its own gas law."""
+        require_poses(motion)
         return self.block(motion) if callable(self.block) else self.block.sized(motion)
 
     # -- over the stroke -----------------------------------------------------------------------------------
@@ -119,6 +120,8 @@ class FloatCircuit(Circuit):
 
     def thrust(self, motion: Poses, rates: Mapping[str, Any] = AT_REST) -> Array:
         """Return the thrust [N], shape (...): frictionless at rest, or while strokes move at rates, with the seals' friction. (37), (39)"""
+        if not isinstance(rates, Mapping):
+            raise DefinitionError(f"FloatCircuit: rates={cited(rates)}: a speed for each stroke is expected, such as dict(S=0.05).")
         ram = self.ram(motion)
         size = ram.sized(motion)
         free = size.thrust(self.pressure(motion))

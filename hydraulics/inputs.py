@@ -38,7 +38,7 @@ def finite(value: ArrayLike, what: str) -> Array:
     return array
 
 
-def one(value: ArrayLike, what: str) -> float:
+def one_number(value: ArrayLike, what: str) -> float:
     """Return one finite number; DefinitionError for several, and for what is none."""
     array = finite(value, what)
     if array.ndim:

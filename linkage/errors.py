@@ -6,6 +6,7 @@ import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
+from traceback import extract_tb
 from typing import Any
 
 import numpy as np
@@ -52,6 +53,19 @@ def unwarned() -> Iterator[None]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", SingularWarning)
         yield
+
+
+@contextmanager
+def told(what: str) -> Iterator[None]:
+    """Tell whatever goes wrong in a function of the user's own as a DefinitionError: what it is, and the line."""
+    try:
+        yield
+    except (LinkageError, MemoryError):
+        raise
+    except Exception as error:
+        last = extract_tb(error.__traceback__)[-1]
+        where = f"{last.filename}, line {last.lineno}"
+        raise DefinitionError(f"{what} raises {type(error).__name__}: {error} ({where}); mend it there.") from error
 
 
 class FileError(LinkageError):

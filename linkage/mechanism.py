@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from functools import wraps
+from inspect import isfunction
 from types import MethodType
 from typing import Any, ClassVar, NoReturn, Self, TypeVar, cast
 
 import numpy as np
 
 from .assembly import Assembly, assembled, assemblies
-from .errors import DefinitionError, cited, unknown
+from .errors import DefinitionError, cited, told, unknown
 from .graph import Body
 from .mobility import FourBar, Mobility, check, four_bars, mobility
 from .motion import (
@@ -62,6 +63,22 @@ class OfADesign:
         return self.unbound if design is None else MethodType(self.method, design)
 
 
+def of_own_motion(method: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
+    """Return a machine's own `columns` or `verdicts`, which refuses in words what is no motion of the machine."""
+
+    @wraps(method)
+    def checked(machine: Any, motion: Any) -> Any:
+        require_motion(motion)
+        missing = [name for name in machine.plan.members if name not in motion.plan.members]
+        if missing:
+            said = f"{method.__name__}(...) is given a motion of {motion.plan.title}, which has no {missing[0]}"
+            raise DefinitionError(f"{machine.plan.title}: {said}; give one of {machine.plan.title}.")
+        with told(f"{machine.plan.title}.{method.__name__}(motion)"):
+            return method(machine, motion)
+
+    return checked
+
+
 class Mechanism:
     """The base of every mechanism. A subclass declares points, links and strokes, one line each, in any order.
 
@@ -73,6 +90,9 @@ class Mechanism:
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
+        for name in ("columns", "verdicts"):
+            if isfunction(vars(cls).get(name)):
+                setattr(cls, name, of_a_design(of_own_motion(vars(cls)[name])))
         cls.plan = Plan(assembled(declared(cls), cls.__name__), cls.__name__)
         for name in cls.plan.strokes:
             if not any(name in cls.plan.reaches(point) for point in cls.plan.moving) and cls.plan.points:

@@ -9,7 +9,7 @@ import math
 import re
 from collections.abc import Iterable
 
-from .errors import DefinitionError, known_name, unknown
+from .errors import DefinitionError, cited, known_name, unknown
 
 m = 1.0
 mm = 1e-3
@@ -57,6 +57,8 @@ def parse(text: str, kind: str = "") -> float:
     A bare number is SI. With `kind` ("length", "angle", ...) a unit of another kind is refused.
     Raises DefinitionError naming the text and the valid units.
     """
+    if not isinstance(text, str) or not isinstance(kind, str):
+        raise DefinitionError(f"{cited(text if isinstance(kind, str) else kind)} is no text; write a number and a unit in quotes, '180mm'.")
     match = _QUANTITY.match(text)
     if _COMMA.match(text):
         raise DefinitionError(f"{text!r}: decimals are written with a point, {text.replace(',', '.')!r}.")
@@ -89,6 +91,8 @@ def unit_or_none(unit: object, where: str, among: Iterable[str] = UNITS) -> str:
 
 def show(value: float, unit: str, digits: int = 6) -> str:
     """Return an SI value as text in a unit: `show(0.18, "mm")` is `180 mm`."""
-    if unit not in UNITS:
-        raise unknown("Unit", unit, UNITS)
+    known_name("Unit", unit, UNITS)
+    is_one = isinstance(value, (float, int)) or getattr(value, "shape", None) == ()
+    if not is_one or isinstance(value, bool) or not isinstance(digits, int) or isinstance(digits, bool) or not 0 < digits < 20:
+        raise DefinitionError(f"show({cited(value)}, {unit!r}, {cited(digits)}): a number and its digits are expected.")
     return f"{value / UNITS[unit][0]:.{digits}g} {unit}"

@@ -161,6 +161,7 @@ class ForceElement(Holding):
 
     def number(self, motion: Poses, name: str) -> Array:
         """Return a parameter over the motion [SI]: as the machine has it set, or as it is written here."""
+        require_poses(motion)
         given, key = getattr(self, name), f"{self.name}.{name}"
         member = motion.plan.members.get(self.name)
         if key in motion.inputs and type(member) is type(self) and getattr(member, name) is given:
@@ -221,3 +222,9 @@ class ForceElement(Holding):
 def written(value: Any) -> str:
     """Return a parameter as it is written: a number, an expression, a name."""
     return spelled(quantity(value)) if isinstance(value, (str, Quantity)) else repr(plain(value))
+
+
+def require_poses(given: Any) -> None:
+    """Raise DefinitionError for what holds no poses: anything but a motion, or what stands for one while a law is traced."""
+    if isinstance(given, type) or not callable(getattr(given, "ratio", None)):
+        raise DefinitionError(f"{cited(given)} is no motion; give machine.sweep(...) or machine.at(...).")

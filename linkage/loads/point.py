@@ -11,7 +11,7 @@ from typing import Any, ClassVar, final
 import numpy as np
 
 from ..errors import DefinitionError, cited
-from ..quantities import Reference, is_number, label, name_of
+from ..quantities import Reference, is_number, label, name_of, real
 from ..quantities.numbers import plain
 from ..units import g0
 from .element import ForceElement, Poses, written
@@ -130,7 +130,11 @@ class Support(ForceElement):
     def __post_init__(self) -> None:
         super().__post_init__()
         x, y = two(self.direction, "Support")
-        if not (is_number(x) and is_number(y) and (x or y)):
+        try:
+            size = np.hypot(real(x), real(y))
+        except ValueError:
+            size = np.zeros(())
+        if not (np.all(np.isfinite(size)) and np.all(size > 0.0)):
             said = f"the direction {cited(self.direction)} has no finite length above zero"
             raise DefinitionError(f"Support: {said}; write one such as (0, 1).")
 

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Literal, TypeAlias, final, get_args
 
 import numpy as np
 
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, cited, told
 from ..quantities import Distance, Joint, Reference, name_of, pinned
 from .element import AT_REST, ForceElement, Poses, Rates
 from .load import Array, Load, Push
@@ -70,7 +70,9 @@ class TwoPoint(ForceElement):
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
         length = motion.distance(self.A, self.B)
-        thrust = self.push(motion, length, self.growth(motion, rates if rates.is_timed else AT_REST))
+        rate = self.growth(motion, rates if rates.is_timed else AT_REST)
+        with told(f"{self.name or type(self).__name__}: its law of length and rate"):
+            thrust = self.push(motion, length, rate)
         refuse_coincidence(self, length, thrust)
         return [Push(self, thrust)]
 

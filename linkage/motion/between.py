@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, unwarned
+from ..errors import DefinitionError, cited, told, unwarned
 from ..program import FloatArray
 from .along import Along
 from .motion import Motion, require_motion
@@ -27,7 +27,7 @@ def require_function(motion: Any, f: Any) -> None:
 
 def values_of(f: Function, motion: Motion) -> FloatArray:
     """Return what a function gives at every pose, shape (..., *motion.shape), NaN out of reach. Nearness to a dead point is not told."""
-    with unwarned(), np.errstate(all="ignore"):
+    with unwarned(), np.errstate(all="ignore"), told(f"{motion.plan.title}: a function of a motion"):
         found = np.asarray(f(motion), float)
     axes = len(motion.shape)
     if found.ndim < axes or found.shape[found.ndim - axes :] != motion.shape:

@@ -32,7 +32,9 @@ class Motion(Outputs):
 
     def __init__(self, plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray], unreachable: str = "raise") -> None:
         parts = (plan, Plan), (designs, Mapping), (strokes, Mapping)
-        if not all(isinstance(given, kind) for given, kind in parts) or strokes.keys() != plan.strokes.keys():
+        if not all(isinstance(given, kind) for given, kind in parts) or (designs.keys(), strokes.keys()) != (
+            plan.table.entries.keys(), plan.strokes.keys()
+        ):  # fmt: skip
             raise DefinitionError("Motion(...) is made by a design: machine.sweep(...) or machine.at(...).")
         super().__init__(plan, designs, strokes, unreachable)
         self._ratios: dict[Any, FloatArray] = {}
@@ -108,6 +110,7 @@ class Motion(Outputs):
         order, method = order_of(order), method_of(method, step)
         member = self._member(target)
         refused = self.refused(member, f"The ratio of {member.name or member}", order)
+        step = None if step is None else float(step)
         found = self._exact(member, (stroke,) * order) if method == "exact" else self._numeric(member, stroke, order, step)
         found = np.where(refused, np.nan, found) if refused.any() else found
         return self.finite(found, refused, f"The ratio of {member.name or member} by {stroke}")

@@ -8,7 +8,7 @@ from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError, cited, known_name, unknown
+from ..errors import DefinitionError, SingularError, cited, known_name, told, unknown
 from ..loads import Damper, ForceElement, Friction, Load, LoadCase, Rates, TwoPoint
 from ..loads import Poses as Moved
 from ..motion import Motion
@@ -164,7 +164,8 @@ def factor_of(case: LoadCase, name: str, element: ForceElement) -> float:
 
 def called(element: ForceElement, motion: Moved, rates: Rates, name: str) -> list[Load]:
     """Return an element's loads; DefinitionError where they are no list of loads."""
-    found = element.moving(motion, rates) if rates else element.loads(motion)
+    with told(f"{motion.plan.title}: loads(motion) of {name}"):
+        found = element.moving(motion, rates) if rates else element.loads(motion)
     if not isinstance(found, (list, tuple)) or not all(isinstance(each, Load) for each in found):
         raise DefinitionError(f"{motion.plan.title}: {name}: loads(motion) gives {found!r}; a list of Load(point, force) is expected.")
     return list(found)

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from traceback import extract_tb
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, LinkageError, cited, unwarned
+from ..errors import DefinitionError, cited, told, unwarned
 from ..mechanism import Mechanism
 from ..motion import Motion, Paired
 from ..plan import Plan
@@ -56,16 +55,9 @@ def paired(machine: Mechanism, settings: Mapping[str, Any], base: Motion, place:
 
 def called(asked: Callable[[Motion], Any], motion: Motion) -> Any:
     """Return what a function of a motion gives; DefinitionError, with the line, for whatever goes wrong in it."""
-    try:
+    name = getattr(asked, "__name__", cited(asked))
+    with told(f"{motion.plan.title}: the function {name} of a motion of many settings"):
         return asked(motion)
-    except LinkageError:
-        raise
-    except Exception as error:
-        last = extract_tb(error.__traceback__)[-1]
-        where = f"{last.filename}, line {last.lineno}"
-        said = f"the function {getattr(asked, '__name__', cited(asked))} raises {type(error).__name__}: {error} ({where})"
-        remedy = "it is given a motion of many settings and returns a number for each pose"
-        raise DefinitionError(f"{motion.plan.title}: {said}; {remedy}.") from error
 
 
 def values(motion: Motion, asked: Asked) -> FloatArray:

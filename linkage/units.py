@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable
+from typing import Any
 
 from .errors import DefinitionError, cited, known_name, unknown
 
@@ -92,7 +93,8 @@ def unit_or_none(unit: object, where: str, among: Iterable[str] = UNITS) -> str:
 def show(value: float, unit: str, digits: int = 6) -> str:
     """Return an SI value as text in a unit: `show(0.18, "mm")` is `180 mm`."""
     known_name("Unit", unit, UNITS)
-    is_one = isinstance(value, (float, int)) or getattr(value, "shape", None) == ()
-    if not is_one or isinstance(value, bool) or not isinstance(digits, int) or isinstance(digits, bool) or not 0 < digits < 20:
+    given: Any = value
+    is_one = isinstance(given, (float, int)) or getattr(given, "shape", None) == ()
+    if not is_one or isinstance(given, bool) or not isinstance(digits, int) or isinstance(digits, bool) or not 0 < digits < 20:
         raise DefinitionError(f"show({cited(value)}, {unit!r}, {cited(digits)}): a number and its digits are expected.")
     return f"{value / UNITS[unit][0]:.{digits}g} {unit}"

@@ -182,12 +182,13 @@ class ForceElement(Holding):
     def _check_number(self, name: str) -> None:
         given = getattr(self, name)
         if isinstance(given, (str, Quantity)):
+            quantity(given)
             return
         try:
             value = real(given)
         except ValueError:
             raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is not a number; give it in SI.") from None
-        if not np.all(np.isfinite(value)):
+        if not value.size or not np.all(np.isfinite(value)):
             raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is not a finite number; give it in SI.")
         if name in self.not_negative and np.any(value < 0.0):
             raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is negative; give zero or more.")

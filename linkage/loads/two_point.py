@@ -73,6 +73,7 @@ class TwoPoint(ForceElement):
         rate = self.growth(motion, rates if rates.is_timed else AT_REST)
         with told(f"{self.name or type(self).__name__}: its law of length and rate"):
             thrust = self.push(motion, length, rate)
+        check_fits(self, thrust, motion)
         refuse_coincidence(self, length, thrust)
         return [Push(self, thrust)]
 
@@ -81,6 +82,18 @@ class TwoPoint(ForceElement):
 
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
         return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
+
+
+def check_fits(member: TwoPoint, thrust: Any, motion: Poses) -> None:
+    """Raise DefinitionError for a thrust that is no number, or does not fit the poses."""
+    if isinstance(thrust, (np.ndarray, float, int)):
+        axes = zip(np.shape(thrust)[::-1], motion.shape[::-1], strict=False)
+        fits = np.ndim(thrust) <= len(motion.shape) and all(own in (1, poses) for own, poses in axes)
+    else:  # a number of the program, while the law is traced
+        fits = hasattr(thrust, "__array_ufunc__")
+    if not fits:
+        what = f"{member.name or type(member).__name__}: its law gives {cited(thrust)}"
+        raise DefinitionError(f"{what}; a thrust [N] for each pose is expected, of the shape {motion.shape}.")
 
 
 def end_forces(push: Push, motion: Poses) -> list[Load]:

@@ -105,6 +105,8 @@ class Bulk:
                 f"{grid.plan.title}: out= is {given}; expected is a contiguous float64 array of the shape {shape}: "
                 "one row a component of what is asked for."
             )
+        if not out.flags.writeable:
+            raise DefinitionError(f"{grid.plan.title}: out= cannot be written into; give an array of your own, np.empty({shape}).")
         return out.reshape(rows, *grid.size)
 
     # -- poses at a dead point or out of reach ---------------------------------------------------------

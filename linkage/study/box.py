@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, cited, unknown
 from ..mechanism import Mechanism
 from ..plan import Plan
 from ..program import FloatArray
@@ -38,6 +38,9 @@ class Box:
         a_mechanism(machine)
         if not isinstance(over, Mapping):
             raise DefinitionError(f"{machine.plan.title}: over={over!r:.60}: a dictionary of ranges and choices by name is expected.")
+        for name in over:
+            if not isinstance(name, str):
+                raise unknown("Dimension", name, machine.plan.table.names(), where=machine.plan.title)
         ranges = {name: range_of(name, value) for name, value in over.items() if isinstance(value, tuple)}
         lists = {name: choices_of(name, value) for name, value in over.items() if not isinstance(value, tuple)}
         if len(ranges) > MOST:

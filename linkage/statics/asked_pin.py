@@ -9,7 +9,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import known_name
+from ..errors import DefinitionError, cited, known_name
 from ..motion import Asked, Motion
 from ..plan import Plan
 from ..program import Node
@@ -56,6 +56,9 @@ def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = 
     It is that of the frictionless `pin_forces(motion, loads, case=case).force(point, on)`: on the body `on` from the other one.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
+    if not isinstance(point, str) or not isinstance(on, str):
+        said = "the names of a point and of a body are expected"
+        raise DefinitionError(f'pin_force({cited(point)}, {cited(on)}): {said}, such as pin_force("G", "arm").')
     return PinForce(point, on, component, loads, case)
 
 

@@ -1,16 +1,14 @@
 """The machines, the motions and the helpers that the wrong uses are made with."""
 
-import pickle
+import pickle  # noqa: F401
 from dataclasses import dataclass
 
 import numpy as np
 
-import hydraulics
-import linkage
 from hydraulics import *  # noqa: F403
 from hydraulics import Accumulator, AccumulatorBlock, Buckling, Cylinder, CylinderSize, FloatCircuit, LiftCircuit
 from linkage import *  # noqa: F403
-from linkage import (
+from linkage import (  # noqa: F401
     LEFT,
     RIGHT,
     Column,
@@ -35,11 +33,14 @@ from linkage import (
     Weight,
     angle,
     deg,
+    draw,
+    files,
     mm,
     pin_forces,
     ref,
+    report,
+    study,
 )
-from linkage import draw, files, report, study  # noqa: F401
 from linkage.animate import animate  # noqa: F401
 from linkage.equations import equations  # noqa: F401
 from linkage.motion import below_zero, greatest, lowest  # noqa: F401

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterator, Mapping
 from functools import lru_cache
 from inspect import Parameter, Signature, signature
+from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeAlias
 
 from ..errors import DefinitionError, cited
@@ -89,16 +90,24 @@ Reference: TypeAlias = str | Member
 
 
 @lru_cache(maxsize=256)
-def signature_of(kind: Hashable) -> Signature:
-    """Return what a kind of member is given."""
-    return signature(kind.__init__)  # type: ignore[misc]
+def signature_of(kind: Hashable) -> tuple[Signature, int, float]:
+    """Return what a kind of member is given, and how many arguments in order will do by themselves, least and most."""
+    taken = signature(kind.__init__)  # type: ignore[misc]
+    _, *parameters = taken.parameters.values()
+    needed = [each for each in parameters if each.default is Parameter.empty and each.kind is not Parameter.VAR_KEYWORD]
+    ordered = [each for each in parameters if each.kind is Parameter.POSITIONAL_OR_KEYWORD]
+    least = sum(each.kind is Parameter.POSITIONAL_OR_KEYWORD for each in needed)
+    most = inf if any(each.kind is Parameter.VAR_POSITIONAL for each in parameters) else len(ordered)
+    return taken, least, -1 if any(each.kind is Parameter.KEYWORD_ONLY for each in needed) else most
 
 
 def check_arguments(kind: type[Member], given: tuple[Any, ...], options: Mapping[str, Any]) -> None:
     """Raise DefinitionError for arguments that a kind of member does not take, or that are missing."""
     if kind.__init__ is object.__init__:
         raise DefinitionError(f"{kind.__name__} takes no arguments; give it an __init__, or make it a frozen dataclass.")
-    taken = signature_of(kind)  # type: ignore[arg-type]  # a class with a class for its type
+    taken, least, most = signature_of(kind)  # type: ignore[arg-type]  # a class with a class for its type
+    if not options and least <= len(given) <= most:
+        return
     try:
         taken.bind(None, *given, **options)
     except TypeError as error:

@@ -56,7 +56,8 @@ def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = 
     It is that of the frictionless `pin_forces(motion, loads, case=case).force(point, on)`: on the body `on` from the other one.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
-    if not isinstance(point, str) or not isinstance(on, str):
+    names: tuple[Any, ...] = point, on
+    if not all(isinstance(each, str) for each in names):
         said = "the names of a point and of a body are expected"
         raise DefinitionError(f'pin_force({cited(point)}, {cited(on)}): {said}, such as pin_force("G", "arm").')
     return PinForce(point, on, component, loads, case)

@@ -19,15 +19,15 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError, unknown
+from linkage.errors import DefinitionError, cited
 from linkage.loads import Poses
 from linkage.loads.element import written
 from linkage.quantities import Dimension, Quantity, spelled
-from linkage.units import UNITS, cm3, litre, show
+from linkage.units import UNITS, cm3, litre, show, unit_or_none
 
 from .bank import GasBank, effective
 from .gas import Gas, Polytropic, isothermal
-from .inputs import Array, above_vacuum, absolute, finite, in_pascals, not_negative, over_poses, positive
+from .inputs import Array, above_vacuum, absolute, finite, in_pascals, not_negative, one_number, over_poses, positive
 from .rules import WorkingRange
 from .settings import following, follows, setting
 from .verdict import Verdict
@@ -61,16 +61,17 @@ class AccumulatorBlock:
     unit: str = ""
 
     def __post_init__(self) -> None:
+        if not isinstance(self.accumulators, (list, tuple)):
+            raise DefinitionError(f"{cited(self.accumulators)} is no list of accumulators; write AccumulatorBlock([Accumulator(...)]).")
         object.__setattr__(self, "accumulators", tuple(self.accumulators))
         if not self.accumulators:
             raise DefinitionError("The accumulator block is empty; give it at least one Accumulator(volume, charge).")
         for one in self.accumulators:
             if not isinstance(one, Accumulator):
-                raise DefinitionError(f"{one!r} is no Accumulator; write Accumulator(volume, charge).")
+                raise DefinitionError(f"{cited(one)} is no Accumulator; write Accumulator(volume, charge).")
         if not isinstance(self.gas, Gas):
-            raise DefinitionError(f"gas = {self.gas!r} is no gas law; take isothermal, adiabatic, polytropic(1.2) or real_nitrogen().")
-        if self.unit and self.unit not in PRESSURES:
-            raise unknown("Unit", self.unit, PRESSURES, where="The accumulator block")
+            raise DefinitionError(f"gas = {cited(self.gas)} is no gas law; take isothermal, adiabatic, polytropic(1.2) or real_nitrogen().")
+        unit_or_none(self.unit, "The accumulator block", PRESSURES)
         if not follows(self.atmosphere) and np.any(single(self.atmosphere) < 0.0):
             raise DefinitionError(f"Atmosphere = {self.atmosphere:.6g} Pa is below zero; give 101325, or 0 for the paper's way.")
         if not follows(self.atmosphere):
@@ -188,7 +189,9 @@ class AccumulatorBlock:
         the block's own.
         DefinitionError for `p_min` above `p_max`, an unknown unit.
         """
-        low, high, limit = (float(self._absolute(pressure)) - self.atmosphere for pressure in (p_min, p_max, allowed))
+        unit_or_none(unit, "checks(unit=...)", PRESSURES)
+        given = (one_number(pressure, "Pressure") for pressure in (p_min, p_max, allowed))
+        low, high, limit = (float(self._absolute(pressure)) - self.atmosphere for pressure in given)
         line = WorkingRange(low, high, limit, self.atmosphere, unit or self._unit)
         charges = {number: there(charge, vessel) for number, (charge, vessel) in enumerate(self._bank, 1) if np.any(vessel > 0.0)}
         return [

@@ -22,10 +22,10 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError, unknown
+from linkage.errors import DefinitionError, known_name
 from linkage.units import MPa, kN, mm
 
-from .inputs import Array, in_metres, over_poses, positive
+from .inputs import LONGEST, Array, in_metres, one_number, over_poses, positive
 from .sizes import next_rod
 from .verdict import Verdict
 
@@ -49,12 +49,11 @@ class Buckling:
 
     def __post_init__(self) -> None:
         for value, what in ((self.rod, "Rod"), (self.modulus, "Modulus"), (self.yield_strength, "Yield strength")):
-            positive(value, what)
+            positive(one_number(value, what), what)
         in_metres(self.rod, "Rod")
-        if positive(self.safety, "Buckling safety") < 1.0:
+        if positive(one_number(self.safety, "Buckling safety"), "Buckling safety") < 1.0:
             raise DefinitionError(f"Buckling safety = {self.safety:g} is below 1; 3.5 is usual for hydraulic cylinders.")
-        if self.mounting not in MOUNTINGS:
-            raise unknown("Mounting", self.mounting, MOUNTINGS)
+        known_name("Mounting", self.mounting, MOUNTINGS)
 
     @property
     def area(self) -> float:
@@ -100,8 +99,9 @@ class Buckling:
         """Return the verdict at one length [m] and thrust of one cylinder [N], at a place in words; `unbounded`: it grows from there."""
         if unbounded:
             return Verdict("buckling", False, f"the thrust grows without bounds {where}: no rod holds there; keep away from that pose.")
-        if not thrust > 0.0:
+        if not one_number(thrust, "Thrust") > 0.0:
             return Verdict("buckling", True, "the rod is never pushed.")
+        one_number(length, "Length between the ends")
         limit, ok = float(self.critical(length)), thrust <= float(self.allowed(length))
         at = f" {where}" if where else ""
         says = (
@@ -122,5 +122,7 @@ class Buckling:
 
 def _length(length: ArrayLike) -> Array:
     long = over_poses(length, "Length between the ends")
-    positive(long[~np.isnan(long)], "Length between the ends")
+    in_metres(long[~np.isnan(long)] if np.any(~np.isnan(long)) else 1.0, "Length between the ends", 2.0 * LONGEST)
+    if not np.all(np.isnan(long)) or not long.size:
+        positive(long[~np.isnan(long)], "Length between the ends")
     return long

@@ -23,11 +23,14 @@ from typing import Any, Literal, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError, unknown
+from linkage.errors import DefinitionError, cited, known_name
 from linkage.units import kN, mm
 
-from .inputs import Array, finite, in_metres, over_poses, positive
+from .inputs import Array, in_metres, one_number, over_poses, positive
 from .sizes import next_bore, standard_bores
+
+MOST = 10_000
+"""More cylinders side by side than any machine has."""
 
 SIDES = ("piston", "rod", "both")
 
@@ -55,10 +58,10 @@ class CylinderSize:
             thick = rod >= bore
             rods, bores = f"Rod {rod[thick][0] / mm:.6g} mm", f"bore {bore[thick][0] / mm:.6g} mm"
             raise DefinitionError(f"{rods} is not smaller than {bores}; exchange them or take a thinner rod.")
-        if finite(self.count, "Count of cylinders") < 1 or self.count != int(self.count):
-            raise DefinitionError(f"Count of cylinders = {self.count}; give a whole number from 1 on.")
-        if self.works not in SIDES:
-            raise unknown("Side", self.works, SIDES, where="works")
+        count = one_number(self.count, "Count of cylinders")
+        if not 1.0 <= count <= MOST or count != int(count):
+            raise DefinitionError(f"Count of cylinders = {cited(self.count)}; give a whole number from 1 on.")
+        known_name("Side", self.works, SIDES, where="works")
 
     def __str__(self) -> str:
         many = "1 cylinder" if self.count == 1 else f"{self.count} cylinders"
@@ -153,8 +156,8 @@ class CylinderSize:
 
         The thrust counts by its size. DefinitionError where no standard bore is enough, for a pressure not above zero.
         """
-        force = abs(float(finite(thrust, "Thrust")))
-        limit = float(positive(pressure, "Pressure"))
+        force = abs(one_number(thrust, "Thrust"))
+        limit = float(positive(one_number(pressure, "Pressure"), "Pressure"))
         pulls = self.works == "both" and thrust < 0.0
         for bore in standard_bores():
             size = replace(self, bore=bore) if bore > self.rod else None

@@ -14,8 +14,8 @@ from typing import Any, ClassVar, TypeAlias, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError
-from linkage.loads import AT_REST, ForceElement, Load, Poses, Push, Rates
+from linkage.errors import DefinitionError, cited
+from linkage.loads import AT_REST, ForceElement, Load, Poses, Push, Rates, require_poses
 from linkage.loads.two_point import end_forces
 from linkage.motion import Motion
 from linkage.plan import ArrayReading
@@ -58,8 +58,13 @@ class FloatCircuit(Circuit):
         for name in ("charge_pressure", "seal_friction"):
             if not follows(getattr(self, name)):
                 in_pascals(getattr(self, name), name.replace("_", " ").capitalize())
-        if not (isinstance(self.block, AccumulatorBlock) or callable(self.block)):
-            raise DefinitionError(f"{self}: block={self.block!r} is no AccumulatorBlock; write AccumulatorBlock([Accumulator(...)]).")
+        if not is_named(self.cylinder) and not isinstance(self.cylinder, Cylinder):
+            raise DefinitionError(f"FloatCircuit: {cited(self.cylinder)} is no Cylinder; name one.")
+        if not follows(self.exponent) and np.any(finite(self.exponent, "Exponent") < 1.0):
+            raise DefinitionError(f"FloatCircuit: exponent={cited(self.exponent)} is below 1; 1 is a slow movement, 1.4 a fast one.")
+        if not isinstance(self.block, AccumulatorBlock) and (not callable(self.block) or isinstance(self.block, type)):
+            said = f"block={cited(self.block)} is no AccumulatorBlock"
+            raise DefinitionError(f"FloatCircuit: {said}; write AccumulatorBlock([Accumulator(...)]).")
 
     def parts(self) -> tuple[Reference, ...]:
         followed = self.block.following if isinstance(self.block, AccumulatorBlock) else ()
@@ -91,6 +96,7 @@ class FloatCircuit(Circuit):
 
     def accumulators(self, motion: Poses) -> AccumulatorBlock:
         """Return its block as the motion's designs have it, before a movement: settled at the charge pressure, by its own gas law."""
+        require_poses(motion)
         return self.block(motion) if callable(self.block) else self.block.sized(motion)
 
     # -- over the stroke -----------------------------------------------------------------------------------
@@ -114,6 +120,8 @@ class FloatCircuit(Circuit):
 
     def thrust(self, motion: Poses, rates: Mapping[str, Any] = AT_REST) -> Array:
         """Return the thrust [N], shape (...): frictionless at rest, or while strokes move at rates, with the seals' friction. (37), (39)"""
+        if not isinstance(rates, Mapping):
+            raise DefinitionError(f"FloatCircuit: rates={cited(rates)}: a speed for each stroke is expected, such as dict(S=0.05).")
         ram = self.ram(motion)
         size = ram.sized(motion)
         free = size.thrust(self.pressure(motion))

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from linkage.errors import DefinitionError
+from linkage.errors import DefinitionError, cited
 from linkage.program import Traced
 
 Array: TypeAlias = NDArray[np.float64]
@@ -31,9 +31,19 @@ STRONGEST = 1.0
 def finite(value: ArrayLike, what: str) -> Array:
     """Return the value as floats, its shape kept; DefinitionError if it is text, NaN or infinite."""
     array = _floats(value, what)
+    if not is_traced(array) and not array.size:
+        raise DefinitionError(f"{what} = {cited(value)} holds no number; give one at least, in SI units.")
     if not is_traced(array) and not np.all(np.isfinite(array)):
         raise DefinitionError(f"{what} = {array[~np.isfinite(array)][0]} is not finite; give a number in SI units.")
     return array
+
+
+def one_number(value: ArrayLike, what: str) -> float:
+    """Return one finite number; DefinitionError for several, and for what is none."""
+    array = finite(value, what)
+    if array.ndim:
+        raise DefinitionError(f"{what} = {cited(value)}: one number is expected, in SI units.")
+    return float(array)
 
 
 def positive(value: ArrayLike, what: str, remedy: str = "give a positive number in SI units") -> Array:
@@ -96,6 +106,14 @@ def over_poses(value: ArrayLike, what: str) -> Array:
     return array
 
 
+def efficient(value: ArrayLike, what: str) -> Array:
+    """Return an efficiency, its shape kept; DefinitionError unless every one is above 0 and not above 1."""
+    array = positive(value, what, "an efficiency lies between 0 and 1")
+    if np.any(array > 1.0):
+        raise DefinitionError(f"{what} = {np.max(array):.6g} is above 1; an efficiency lies between 0 and 1.")
+    return array
+
+
 def absolute(gauge: ArrayLike, atmosphere: float, what: str) -> Array:
     """Return gauge + atmosphere [Pa]; DefinitionError where that would be below zero."""
     return above_vacuum(finite(gauge, what) + atmosphere, atmosphere, what)
@@ -124,9 +142,12 @@ def is_traced(value: Any) -> bool:
 
 
 def _floats(value: ArrayLike, what: str) -> Array:
-    array = np.asarray(value)
+    try:
+        array = np.asarray(value)
+    except ValueError:
+        raise DefinitionError(f"{what} = {cited(value)} is not a number; give a number in SI units.") from None
     if is_traced(array[()]):
         return array[()]
-    if array.dtype.kind not in "iuf":
-        raise DefinitionError(f"{what} = {value!r} is not a number; give a number in SI units.")
+    if array.dtype.kind not in "iuf" or np.ma.is_masked(value):
+        raise DefinitionError(f"{what} = {cited(value)} is not a number; give a number in SI units.")
     return array.astype(np.float64)

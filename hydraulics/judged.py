@@ -12,14 +12,14 @@ from typing import Any, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, unknown
+from linkage.errors import DefinitionError, known_name, unknown
 from linkage.motion import Motion, Span, below_zero, greatest, lowest, reached, require_motion
 from linkage.statics import Case, Loads, elements_of
 from linkage.statics.holding import same
-from linkage.units import litre, mm, show
+from linkage.units import UNITS, litre, mm, show
 
 from .cylinder import CylinderSize
-from .inputs import Array
+from .inputs import Array, not_negative, one_number
 from .lift import LiftCircuit, Lowering, Work
 from .member import Cylinder, one_design, one_size
 from .sizes import standard_bores
@@ -35,6 +35,8 @@ def lift_verdicts(
     several strokes, `at(S1=..., S2=...)` with arrays of one axis, it is judged along the path. Of a line of several cylinders each is.
     """
     circuit = the_circuit(circuit, motion)
+    not_negative(one_number(resistance, "Return resistance"), "Return resistance")
+    known_name("Unit", unit, UNITS, where="lift_verdicts(unit=...)")
     one_design(motion, "A lift")
     if len(motion.stroke_shape) > 1:
         raise DefinitionError("A lift is judged along one stroke or one path; this motion is a grid of several strokes. Give at() arrays.")

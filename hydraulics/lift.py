@@ -18,16 +18,16 @@ from typing import Any, ClassVar, TypeAlias, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError
+from linkage.errors import DefinitionError, cited, known_name, one_word
 from linkage.loads import Force, ForceElement, Load, Poses
-from linkage.motion import Motion
+from linkage.motion import Motion, require_motion
 from linkage.motion.reach import Mask
-from linkage.quantities import Reference, label, name_of
+from linkage.quantities import Reference, label, name_of, real
 from linkage.statics import Case, Loads, elements_of
 
 from .cylinder import CylinderSize
-from .inputs import Array, finite, in_cubic_metres, in_pascals, positive
-from .member import Circuit, Cylinder, found_in, is_named, the_cylinder
+from .inputs import Array, efficient, finite, in_cubic_metres, in_pascals, is_traced, not_negative, one_number, positive
+from .member import DIRECTIONS, Circuit, Cylinder, found_in, is_named, the_cylinder
 from .settings import follows, number_set
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
@@ -54,21 +54,31 @@ class LiftCircuit(Circuit):
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
         {"pressure": "bar", "flow": "", "mechanical_efficiency": "", "hydraulic_efficiency": "", "back_pressure": "bar", "relief": "bar"}
     )
-    not_negative: ClassVar[frozenset[str]] = frozenset({"flow", "back_pressure"})
+    not_negative: ClassVar[frozenset[str]] = frozenset(parameters)
     optional: ClassVar[frozenset[str]] = frozenset({"relief"})
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        for each in self.references:
+            if not is_named(each) and not isinstance(each, Cylinder):
+                raise DefinitionError(f"LiftCircuit: {cited(each)} is no Cylinder; name one.")
         for name in ("pressure", "relief", "back_pressure"):
             if name in self.numbers and not follows(getattr(self, name)):
-                in_pascals(getattr(self, name), f"{name.replace('_', ' ').capitalize()} of the circuit")
+                what = f"{name.replace('_', ' ').capitalize()} of the circuit"
+                given = in_pascals(getattr(self, name), what)
+                if name != "back_pressure":
+                    positive(given, what)
+        for kind in ("mechanical", "hydraulic"):
+            if not follows(getattr(self, f"{kind}_efficiency")):
+                efficient(getattr(self, f"{kind}_efficiency"), f"LiftCircuit: {kind}_efficiency")
         if not follows(self.flow):
             in_cubic_metres(self.flow, "Flow of the pump")
 
     @property
     def references(self) -> tuple[Reference, ...]:
         """Its cylinders, as they were given."""
-        return (self.cylinder,) if isinstance(self.cylinder, (str, ForceElement)) else tuple(self.cylinder)  # type: ignore[arg-type]
+        given: Any = self.cylinder
+        return tuple(given) if isinstance(given, (list, tuple)) else (given,)
 
     def parts(self) -> tuple[Reference, ...]:
         return (*(each for each in self.references if is_named(each)), *super().parts())
@@ -139,11 +149,9 @@ class LiftCircuit(Circuit):
 
     def efficiency(self, motion: Poses, kind: str) -> Array:
         """Return the "mechanical" or "hydraulic" efficiency; DefinitionError unless it is above 0 and not above 1."""
+        one_word("kind", kind, ("mechanical", "hydraulic"))
         what = f"{self.name or 'LiftCircuit'}.{kind}_efficiency"
-        value = positive(self.number(motion, f"{kind}_efficiency"), what, "an efficiency lies between 0 and 1")
-        if np.any(value > 1.0):
-            raise DefinitionError(f"{what} = {np.max(value):.6g} is above 1; an efficiency lies between 0 and 1.")
-        return value
+        return efficient(self.number(motion, f"{kind}_efficiency"), what)
 
     def back(self, motion: Poses) -> Array:
         """Return the pressure of the returning oil [Pa]; DefinitionError where it is negative."""
@@ -158,6 +166,8 @@ class LiftCircuit(Circuit):
         self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None, direction: str | None = None
     ) -> Work:
         """Return what a cylinder has to do while it moves in its working direction, or in the one named."""
+        if direction is not None:
+            known_name("Direction", direction, DIRECTIONS)
         ram = self.one(motion, cylinder)
         size = ram.sized(motion)
         if size.works != "both":
@@ -196,6 +206,7 @@ class LiftCircuit(Circuit):
 
     def largest(self, motion: Motion, loads: Loads = None, *, share: float = 1.0, **choice: Any) -> Array:
         """Return the greatest rod force in the working direction [N]: k_h p area, less the back pressure's share."""
+        proper_share(share)
         work = self.work(motion, loads, **choice)
         return self.most(motion, work, share)
 
@@ -242,8 +253,8 @@ class LiftCircuit(Circuit):
         none). NaN where the load drives or does nothing: not limited by this cylinder; 0 where the machine alone is too heavy. Declared
         friction counts with the load's own share. Source: Dyuzhev, Kotov, Chuprynin (2008), (28).
         """
-        if not 0.0 < share <= 1.0:
-            raise DefinitionError(f"share = {share:.6g} of the pressure is not in 0 to 1; 0.9 is how tractors are tested.")
+        require_motion(motion)
+        proper_share(share)
         unit = direction_of(along)
         own: list[Any] = [name for name, _ in elements_of(motion.plan, None)] if loads is None else listed(loads)
         return least_of([self._capacity(motion, point, own, unit, share, ram, case) for ram in self.meant(motion, cylinder)])
@@ -312,7 +323,7 @@ class LiftCircuit(Circuit):
             each = [self.lowering(motion, loads, resistance=resistance, cylinder=ram, case=case) for ram in self.rams(motion)]
             push, free = np.max([one.push for one in each], axis=0), np.all([one.by_itself for one in each], axis=0)
             return Lowering(np.min([one.working for one in each], axis=0), push, free)
-        against = positive(np.asarray(resistance) + 1.0, "Return resistance + 1 Pa") - 1.0
+        against = fitted(motion, not_negative(resistance, "Return resistance"))
         ram, k_m = self.one(motion, cylinder), self.efficiency(motion, "mechanical")
         size = ram.sized(motion)
         if size.works == "both":
@@ -411,13 +422,33 @@ def sense_in(direction: str, thrust: Array) -> Array:
     return np.full(np.shape(thrust), 1.0 if direction == "extending" else -1.0)
 
 
+def proper_share(share: Any) -> None:
+    """Raise DefinitionError for a share of the pressure that is not above 0 and up to 1."""
+    if not 0.0 < one_number(share, "share") <= 1.0:
+        raise DefinitionError(f"share = {share:.6g} of the pressure is not in 0 to 1; 0.9 is how tractors are tested.")
+
+
 def direction_of(along: Any) -> Array:
     """Return a direction of length one, shape (2,); DefinitionError where it has no length."""
-    unit = np.asarray(along, float)
+    try:
+        unit = real(along)
+    except ValueError:
+        unit = np.zeros(2)
     size = float(np.hypot(*unit)) if unit.shape == (2,) else 0.0
     if not (np.isfinite(size) and size > 0.0):
-        raise DefinitionError(f"along={along!r} has no length; write one such as (0, 1).")
+        raise DefinitionError(f"along={cited(along)} has no length; write one such as (0, 1).")
     return unit / size
+
+
+def fitted(motion: Motion, value: Array) -> Array:
+    """Return a value over the poses; DefinitionError where it does not fit their shape."""
+    if is_traced(value) or np.ndim(value) == 0:
+        return value
+    try:
+        np.broadcast_to(value, motion.shape)
+    except ValueError:
+        raise DefinitionError(f"resistance of the shape {np.shape(value)} does not fit the poses {motion.shape}.") from None
+    return value
 
 
 def listed(loads: Any) -> list[Any]:

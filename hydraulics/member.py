@@ -17,17 +17,17 @@ from typing import Any, ClassVar, Literal, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, unknown, unwarned
-from linkage.loads import AT_REST, DrawnAs, ForceElement, LoadCase, Poses, Push, Rates, TwoPoint
-from linkage.motion import Column, Motion, Tabled, greatest, lowest
-from linkage.quantities import Reference, label, name_of
+from linkage.errors import DefinitionError, cited, unknown, unwarned
+from linkage.loads import AT_REST, DrawnAs, ForceElement, LoadCase, Poses, Push, Rates, TwoPoint, require_poses
+from linkage.motion import Column, Motion, Tabled, greatest, lowest, require_motion
+from linkage.quantities import Member, Reference, label, name_of
 from linkage.statics import Case, Loads, elements_of, member_thrust
 from linkage.statics.holding import same
 from linkage.units import mm
 
 from .buckling import Buckling
 from .cylinder import CylinderSize
-from .inputs import Array, positive, stroke_in_metres
+from .inputs import Array, one_number, positive, stroke_in_metres
 from .settings import follows, number_set
 from .sizes import BORES_MM, RODS_MM, standard_rods
 from .verdict import Verdict
@@ -58,6 +58,7 @@ class Cylinder(TwoPoint, Tabled):
     safety: float = 3.5
     drawn_as: ClassVar[DrawnAs] = "cylinder"
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"bore", "rod"})
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -66,7 +67,7 @@ class Cylinder(TwoPoint, Tabled):
         Buckling(1.0, self.mounting, self.safety)
         for value, what in ((self.stroke, "Stroke of the cylinder"), (self.closed, "Closed length of the cylinder")):
             if value is not None:
-                positive(stroke_in_metres(value, what, None if self._follows else self.bore), what)
+                positive(stroke_in_metres(one_number(value, what), what, None if self._follows else self.bore), what)
 
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:
         """Return nothing: it has no law of its own."""
@@ -113,6 +114,8 @@ class Cylinder(TwoPoint, Tabled):
 
         With a `length` between the pins [m] only rods that do not buckle under a positive thrust. DefinitionError where no bore is enough.
         """
+        if length is not None:
+            one_number(length, "Length between the ends")
         thin = CylinderSize(self.size.bore, min(self.size.rod, RODS_MM[0] * mm), self.count, self.works)
         bore = float(thin.sized_for(thrust, pressure).bore)
         sizes = [CylinderSize(bore, rod, self.count, self.works) for rod in standard_rods(bore)]
@@ -245,6 +248,7 @@ class Cylinder(TwoPoint, Tabled):
 
 def pressure_of(cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
     """Return a cylinder's pressure by the circuit that has it; without one, of a pump without losses."""
+    require_poses(motion)
     members, mine = motion.plan.members, circuits_of(cylinder, motion)
     feeding = [each for each in mine if any(same(cylinder, one) for one in each.feeds(members))]
     if feeding:
@@ -261,6 +265,7 @@ def pressure_of(cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, di
 
 def circuits_of(cylinder: Cylinder, motion: Motion) -> list[Circuit]:
     """Return the circuits of a class that have a cylinder."""
+    require_poses(motion)
     members = motion.plan.members
     return [each for each in motion.plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(members))]
 
@@ -285,7 +290,8 @@ def rubs(motion: Motion, loads: Loads) -> bool:
 
 
 def one_design(motion: Motion, what: str) -> None:
-    """Raise DefinitionError for a motion of several designs."""
+    """Raise DefinitionError for a motion of several designs, and for what is no motion."""
+    require_motion(motion)
     if motion.design_shape:
         raise DefinitionError(f"{what} is judged for one design at a time; this motion has {motion.design_shape}. Take one.")
 
@@ -296,12 +302,15 @@ def one_area(size: CylinderSize, thrust: float) -> float:
 
 
 def is_named(reference: Reference) -> bool:
-    """Return whether a reference to a cylinder goes by its name in a class."""
+    """Return whether a reference to a cylinder goes by its name in a class; DefinitionError for what is no reference."""
+    if not isinstance(reference, (str, Member)):
+        raise DefinitionError(f"{cited(reference)} stands where a cylinder or its name is expected.")
     return isinstance(reference, str) or bool(reference.name)
 
 
 def the_cylinder(motion: Poses, reference: Reference) -> Cylinder:
     """Return the cylinder a reference stands for, as the motion's class has it; DefinitionError where there is none."""
+    require_poses(motion)
     if is_named(reference):
         return found_in(motion.plan.members, reference, motion.plan.title)
     return _cylinder(reference, "The circuit")

@@ -8,7 +8,7 @@ from __future__ import annotations
 from linkage.errors import DefinitionError
 from linkage.units import mm
 
-from .inputs import positive
+from .inputs import in_metres, one_number, positive
 
 BORES_MM = (
     8, 10, 12, 16, 20, 25, 32, 40, 50, 63, 80, 90, 100, 110, 125, 140, 160, 180, 200, 220, 250, 280, 320, 360, 400, 450, 500,
@@ -33,7 +33,7 @@ def standard_rods(bore: float) -> tuple[float, ...]:
 
     DefinitionError for a bore not above zero.
     """
-    positive(bore, "Bore")
+    in_metres(positive(one_number(bore, "Bore"), "Bore"), "Bore")
     return tuple(rod * mm for rod in RODS_MM if rod * mm < bore and RATIOS[0] <= bore**2 / (bore**2 - (rod * mm) ** 2) <= RATIOS[1])
 
 
@@ -48,7 +48,7 @@ def next_rod(rod: float) -> float:
 
 
 def _next(size: float, series: tuple[float, ...], what: str) -> float:
-    positive(size, what.capitalize())
+    positive(one_number(size, what.capitalize()), what.capitalize())
     larger = [standard for standard in series if standard > size * SAME]
     if not larger:
         raise DefinitionError(

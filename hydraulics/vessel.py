@@ -8,12 +8,15 @@ from typing import Any, final
 
 import numpy as np
 
+from linkage.errors import DefinitionError
 from linkage.loads.element import written
 
 from .inputs import finite, in_pascals, not_negative
 from .settings import follows
 
 VOLUME = ("Accumulator volume", "give 0 for a vessel that is absent")
+LARGEST = 3.0
+"""m3; the volume of a larger accumulator was given in litres."""
 CHARGE = "Accumulator charge"
 
 
@@ -31,6 +34,9 @@ class Accumulator:
 
     def __post_init__(self) -> None:
         volume = np.ones(()) if follows(self.volume) else not_negative(self.volume, *VOLUME)
+        if np.any(volume > LARGEST):
+            large = f"{np.max(volume):.6g}"
+            raise DefinitionError(f"{VOLUME[0]} = {large} m3 is more than any has; write {large} * litre if these are litres.")
         if not follows(self.charge):
             in_pascals(np.where(volume > 0.0, finite(self.charge, CHARGE), 0.0), CHARGE)
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
+from traceback import extract_tb
 from typing import Any
 
 import numpy as np
@@ -58,6 +59,19 @@ def unwarned() -> Iterator[None]:
         yield
 
 
+@contextmanager
+def told(what: str) -> Iterator[None]:
+    """Tell whatever goes wrong in a function of the user's own as a DefinitionError: what it is, and the line."""
+    try:
+        yield
+    except (LinkageError, MemoryError):
+        raise
+    except Exception as error:
+        last = extract_tb(error.__traceback__)[-1]
+        where = f"{last.filename}, line {last.lineno}"
+        raise DefinitionError(f"{what} raises {type(error).__name__}: {error} ({where}); mend it there.") from error
+
+
 class FileError(LinkageError):
     """A file that cannot be understood: the line or the key, and the remedy."""
 
@@ -73,11 +87,37 @@ class StudyError(LinkageError):
         self.designs = designs
 
 
+def cited(value: object, most: int = 60) -> str:
+    """Return what was given as it stands in a message: on one line, and cut where it is long."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= most else f"{text[: most - 3]}..."
+
+
+def known_name(kind: str, name: object, names: Iterable[str], where: str = "") -> str:
+    """Return a name that is there; raise the error of `unknown` for any other one, and for what is no name at all."""
+    listed = list(names)
+    if not isinstance(name, str) or name not in listed:
+        raise unknown(kind, name, listed, where)
+    return name
+
+
+def quoted(word: str) -> str:
+    """Return a word in the quotes that it is written with."""
+    return f'"{word}"'
+
+
+def one_word(what: str, word: object, words: Sequence[str]) -> str:
+    """Return a word that is one of a few; DefinitionError, with the words there are, for any other and for what is no word."""
+    if not isinstance(word, str) or word not in words:
+        raise DefinitionError(f"{what}={cited(word)}: say {' or '.join(map(quoted, words))}.")
+    return word
+
+
 def unknown(kind: str, name: object, known: Iterable[str], where: str = "") -> DefinitionError:
     """Return the error for a name that is not there: it lists the valid names and the nearest one."""
     names = list(known)
-    near = get_close_matches(str(name), names, n=1, cutoff=0.5)
+    near = get_close_matches(name, names, n=1, cutoff=0.5) if isinstance(name, str) else []
     hint = f" Did you mean {near[0]}?" if near else ""
     place = f" in {where}" if where else ""
     listing = ", ".join(names) if names else "none"
-    return DefinitionError(f"{kind} {name!r} is unknown{place}.{hint} Known: {listing}.")
+    return DefinitionError(f"{kind} {cited(name)} is unknown{place}.{hint} Known: {listing}.")

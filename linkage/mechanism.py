@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import copy
-from typing import Any, ClassVar, Self
+from functools import wraps
+from inspect import isfunction
+from types import MethodType
+from typing import Any, ClassVar, NoReturn, Self, TypeVar, cast
 
 import numpy as np
 
 from .assembly import Assembly, assembled, assemblies
-from .errors import DefinitionError, unknown
+from .errors import DefinitionError, cited, told, unknown
 from .graph import Body
 from .mobility import FourBar, Mobility, check, four_bars, mobility
 from .motion import (
@@ -20,15 +23,60 @@ from .motion import (
     Request,
     as_given,
     at_values,
+    check_any,
     columns_of,
     evaluate,
-    function_of,
+    require_motion,
     source_of,
     sweep_values,
 )
 from .plan import Plan
 from .program import FloatArray, Way
 from .quantities import Member, Stroke
+
+Method = TypeVar("Method", bound=Callable[..., Any])
+
+
+def of_a_design(method: Method) -> Method:
+    """Return a method of a design that says so in words where it is called on the class, which is the structure."""
+    return cast(Method, OfADesign(method))
+
+
+class OfADesign:
+    """A method that is bound to a design as any other; on the class it takes a design as its first argument, or refuses in words."""
+
+    def __init__(self, method: Callable[..., Any]) -> None:
+        self.method = method
+        self.__doc__ = method.__doc__
+
+        @wraps(method)
+        def unbound(*given: Any, **options: Any) -> Any:
+            if not (given and isinstance(given[0], Mechanism)):
+                name = method.__name__
+                said = f"{name}(...) is asked of a design, and this is the class, which is the structure; make one first"
+                raise DefinitionError(f"{said}, FourBar().{name}(...) for a class FourBar.")
+            return method(*given, **options)
+
+        self.unbound = unbound
+
+    def __get__(self, design: Any, owner: type | None = None) -> Any:
+        return self.unbound if design is None else MethodType(self.method, design)
+
+
+def of_own_motion(method: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
+    """Return a machine's own `columns` or `verdicts`, which refuses in words what is no motion of the machine."""
+
+    @wraps(method)
+    def checked(machine: Any, motion: Any) -> Any:
+        require_motion(motion)
+        missing = [name for name in machine.plan.members if name not in motion.plan.members]
+        if missing:
+            said = f"{method.__name__}(...) is given a motion of {motion.plan.title}, which has no {missing[0]}"
+            raise DefinitionError(f"{machine.plan.title}: {said}; give one of {machine.plan.title}.")
+        with told(f"{machine.plan.title}.{method.__name__}(motion)"):
+            return method(machine, motion)
+
+    return checked
 
 
 class Mechanism:
@@ -42,6 +90,9 @@ class Mechanism:
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
+        for name in ("columns", "verdicts"):
+            if isfunction(vars(cls).get(name)):
+                setattr(cls, name, of_a_design(of_own_motion(vars(cls)[name])))
         cls.plan = Plan(assembled(declared(cls), cls.__name__), cls.__name__)
         for name in cls.plan.strokes:
             if not any(name in cls.plan.reaches(point) for point in cls.plan.moving) and cls.plan.points:
@@ -49,11 +100,36 @@ class Mechanism:
         check(cls.plan)
 
     def __init__(self, **dimensions: Any) -> None:
+        self._values = self._settings(dimensions)
+
+    def _settings(self, dimensions: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the values of all dimensions, some of them set; DefinitionError for what is none, and for what it cannot be."""
         for name in dimensions:
             if name in self.plan.strokes:
                 error = unknown("Dimension", name, self.plan.table.names(), where=self.plan.title)
                 raise DefinitionError(f"{error} {name} is a stroke; give it to sweep({name}=...) or at({name}=...).")
-        self._values = self.plan.table.settings(dimensions)
+        return self.plan.table.settings(dimensions)
+
+    def __getattr__(self, name: str) -> Any:
+        """Raise AttributeError, with what may have been meant: a dimension goes by `machine["OB"]`."""
+        title = type(self).__name__
+        if name == "_values":
+            raise DefinitionError(f"{title}: its own __init__ does not call super().__init__(**dimensions); let it do that first.")
+        if not name.startswith("_") and (name in self.plan.table.spellings or f"{name}.x" in self.plan.table.spellings):
+            raise AttributeError(f'{title} has no attribute {name!r}; the dimension is machine["{name}"].', name=name, obj=self)
+        raise AttributeError(f"{title} has no attribute {name!r}.", name=name, obj=self)
+
+    def __contains__(self, name: object) -> bool:
+        """Whether a name is that of a dimension: `"OB" in machine`."""
+        return isinstance(name, str) and (name in self.plan.table.spellings or f"{name}.x" in self.plan.table.spellings)
+
+    def __iter__(self) -> NoReturn:
+        """Raise DefinitionError: a design is no row of things."""
+        raise DefinitionError(f"{type(self).__name__}: a design is gone through by its dimensions; take machine.dimensions.")
+
+    def __class_getitem__(cls, name: Any) -> NoReturn:
+        """Raise DefinitionError: a class has members, its designs have values."""
+        raise DefinitionError(f"{cls.__name__}[{name!r}]: {cls.__name__} is a class; ask a design of it, {cls.__name__}()[{name!r}].")
 
     def __setattr__(self, name: str, value: Any) -> None:
         if not name.startswith("_"):
@@ -77,11 +153,13 @@ class Mechanism:
             self.plan.table.settings({name: 0.0})
         return sign * self._values[owner]
 
+    @of_a_design
     def replaced(self, **dimensions: Any) -> Self:
         """Return the same design with some dimensions changed."""
-        changed = type(self)(**dimensions)
-        touched = {owner for name, value in dimensions.items() for owner in changed._owners(name)}
-        changed._values = {name: changed._values[name] if name in touched else value for name, value in self._values.items()}
+        given = self._settings(dimensions)
+        touched = {owner for name in dimensions for owner in self._owners(name)}
+        changed = copy(self)
+        changed._values = {name: given[name] if name in touched else value for name, value in self._values.items()}
         return changed
 
     def _part(self, start: int, stop: int) -> Self:
@@ -94,6 +172,7 @@ class Mechanism:
         spellings = self.plan.table.spellings
         return {spellings[each][0] for each in (name, f"{name}.x", f"{name}.y") if each in spellings}
 
+    @of_a_design
     def sweep(self, count: int | None = None, /, *, unreachable: str = "raise", **strokes: Any) -> Motion:
         """Return the motion over the whole stroke, at `count` poses.
 
@@ -107,13 +186,17 @@ class Mechanism:
         """
         return Motion(self.plan, self._values, sweep_values(count, strokes, self.plan), unreachable)
 
+    @of_a_design
     def at(self, *, unreachable: str = "raise", **strokes: Any) -> Motion:
         """Return the motion at chosen strokes [SI]: `at(S=[0.0, 0.1])`. They may lie beyond the declared range.
 
         The way from the least to the greatest of several is looked at as that of a sweep.
         """
-        return Motion(self.plan, self._values, at_values(strokes, self.plan), unreachable)
+        values = at_values(strokes, self.plan)
+        check_any(values, self.plan)
+        return Motion(self.plan, self._values, values, unreachable)
 
+    @of_a_design
     def evaluate(
         self,
         of: Sequence[Request],
@@ -135,14 +218,16 @@ class Mechanism:
         grid = Grid(self.plan, self._values, at_values(strokes, self.plan, as_given))
         return evaluate(grid, of, out, Way(backend, threads), unreachable)
 
+    @of_a_design
     def function(self, of: Sequence[Request]) -> PoseFunction:
         """Return values, ratios and forces of this design as a function of the strokes, in floats: `f = function(["G", ratio("G")])`.
 
         `f(0.1)` returns all components one after the other, here (G_x, G_y, dG_x, dG_y), in some microseconds: for root
         finders and other loops that take one pose at a time. It raises what `evaluate` raises.
         """
-        return function_of(self.plan, self._values, of)
+        return PoseFunction(self.plan, self._values, of)
 
+    @of_a_design
     def source(self, of: Sequence[Request], *, language: str = "c", name: str = "poses") -> str:
         """Return values and ratios as the text of a function in "c" or "javascript", for a controller or a page of one's own.
 
@@ -151,12 +236,15 @@ class Mechanism:
         """
         return source_of(self.plan, self._values, of, language, name)
 
+    @of_a_design
     def columns(self, motion: Motion) -> list[Column]:
         """Return the table of results: strokes, moving points, named outputs. A machine replaces it by its own."""
         return columns_of(motion)
 
+    @of_a_design
     def verdicts(self, motion: Motion) -> list[str]:
         """Return what an engineer should know of this motion, in sentences. A machine replaces it by its own."""
+        require_motion(motion)
         return []
 
     @property
@@ -164,6 +252,7 @@ class Mechanism:
         """The strokes by name."""
         return dict(self.plan.strokes)
 
+    @of_a_design
     def assemblies(self, **strokes: float) -> list[Assembly]:
         """Return all assembly modes of the dyads that exist at a stroke, `assemblies(S=0.1)`; default the start of each.
 
@@ -177,6 +266,8 @@ class Mechanism:
     @property
     def four_bars(self) -> list[FourBar]:
         """The four-bars on the frame, each with its Grashof class."""
+        if any(np.ndim(value) for value in self._values.values()):
+            raise DefinitionError(f"{self.plan.title}: four-bars are classed for one design, this is a batch; choose one of them.")
         return four_bars(self.plan, self.at(unreachable="nan", **self.plan.sketch_strokes).inputs)
 
     @property
@@ -209,6 +300,8 @@ def declared(cls: type) -> dict[str, Member]:
     members: dict[str, Member] = {}
     for base in reversed(cls.__mro__):
         for name, value in vars(base).items():
+            if not isinstance(value, Member):
+                check_no_member(cls.__name__, name, value)
             if isinstance(value, Member):
                 if name in vars(Mechanism) or name in ("plan",):
                     raise DefinitionError(f"{cls.__name__}: {name} is a word of the framework; give the member another name.")
@@ -216,3 +309,22 @@ def declared(cls: type) -> dict[str, Member]:
             elif name in members:
                 del members[name]
     return members
+
+
+def check_no_member(title: str, name: str, value: Any) -> None:
+    """Raise DefinitionError for what was meant as a member and is none: its class, or members in a list or behind a comma too many."""
+    if isinstance(value, type) and issubclass(value, Member):
+        raise DefinitionError(f"{title}.{name} = {value.__name__} is the class, no member; write {name} = {value.__name__}(...).")
+    parts = value.values() if isinstance(value, dict) else value if isinstance(value, (list, tuple, set, frozenset)) else ()
+    lost = [each for each in parts if isinstance(each, Member) and not each.name]
+    if lost:
+        what = f"{title}.{name} holds {len(lost)} member{'s' if len(lost) > 1 else ''} in a {type(value).__name__}, which declares nothing"
+        raise DefinitionError(f"{what}; bind each to a name of its own, and look for a comma too many at the end of the line.")
+
+
+def require_mechanism(given: Any) -> None:
+    """Raise DefinitionError for what is no design of a mechanism."""
+    if isinstance(given, type) and issubclass(given, Mechanism):
+        raise DefinitionError(f"{given.__name__} is a class, the structure; give a design of it, {given.__name__}().")
+    if not isinstance(given, Mechanism):
+        raise DefinitionError(f"{cited(given)} is no mechanism; give a design such as FourBar().")

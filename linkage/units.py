@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
+from typing import Any
 
-from .errors import DefinitionError, unknown
+from .errors import DefinitionError, cited, known_name, unknown
 
 m = 1.0
 mm = 1e-3
@@ -56,6 +58,8 @@ def parse(text: str, kind: str = "") -> float:
     A bare number is SI. With `kind` ("length", "angle", ...) a unit of another kind is refused.
     Raises DefinitionError naming the text and the valid units.
     """
+    if not isinstance(text, str) or not isinstance(kind, str):
+        raise DefinitionError(f"{cited(text if isinstance(kind, str) else kind)} is no text; write a number and a unit in quotes, '180mm'.")
     match = _QUANTITY.match(text)
     if _COMMA.match(text):
         raise DefinitionError(f"{text!r}: decimals are written with a point, {text.replace(',', '.')!r}.")
@@ -81,8 +85,16 @@ def finite(value: float, text: str) -> float:
     return value
 
 
+def unit_or_none(unit: object, where: str, among: Iterable[str] = UNITS) -> str:
+    """Return a unit, or "" for none; DefinitionError, with the units there are, for anything else."""
+    return "" if isinstance(unit, str) and not unit else known_name("Unit", unit, among, where=where)
+
+
 def show(value: float, unit: str, digits: int = 6) -> str:
     """Return an SI value as text in a unit: `show(0.18, "mm")` is `180 mm`."""
-    if unit not in UNITS:
-        raise unknown("Unit", unit, UNITS)
+    known_name("Unit", unit, UNITS)
+    given: Any = value
+    is_one = isinstance(given, (float, int)) or getattr(given, "shape", None) == ()
+    if not is_one or isinstance(given, bool) or not isinstance(digits, int) or isinstance(digits, bool) or not 0 < digits < 20:
+        raise DefinitionError(f"show({cited(value)}, {unit!r}, {cited(digits)}): a number and its digits are expected.")
     return f"{value / UNITS[unit][0]:.{digits}g} {unit}"

@@ -8,11 +8,14 @@ from typing import Any
 import numpy as np
 
 from ..draw import strokes
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, cited, known_name
 from ..mechanism import Mechanism
 from ..motion import Column, Motion
 from ..program import FloatArray
 from ..report import NOTHING, At, Run, results, run_of
+
+MANY = 1_000_000
+"""Poses of an animation: more are no film."""
 
 RATE = 25
 """Frames a second."""
@@ -52,8 +55,8 @@ def course(machine: Mechanism, count: int, column: str | None = None, *, at: At 
 
 def whole(count: Any) -> int:
     """Return a number of poses; DefinitionError unless it is a whole number of at least 2."""
-    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 2:
-        raise DefinitionError(f"count={count!r}: an animation has at least 2 poses; give a whole number such as 60.")
+    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not 2 <= count <= MANY:
+        raise DefinitionError(f"count={cited(count)}: an animation has at least 2 poses; give a whole number such as 60.")
     return int(count)
 
 
@@ -82,6 +85,4 @@ def followed(machine: Mechanism, motion: Motion, name: str | None) -> Column:
     if name is None and columns:
         moving = [each for each, column in columns.items() if changes(column.drawn)]
         return columns[(moving or list(columns))[-1]]
-    if name not in columns:
-        raise unknown("Column", str(name), columns, where=machine.plan.title)
-    return columns[name]
+    return columns[known_name("Column", name, columns, where=machine.plan.title)]

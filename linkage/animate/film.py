@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -9,8 +10,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import DefinitionError, FileError, unknown
-from ..mechanism import Mechanism
+from ..draw.limits import limit as limit_of
+from ..draw.poses import named_points
+from ..errors import DefinitionError, FileError, cited
+from ..mechanism import Mechanism, require_mechanism
 from ..page import page
 from ..report import NOTHING, At
 from .course import Course, course, whole
@@ -44,13 +47,18 @@ def animate(
     drawn; `limit` is the column's limit, `(value [SI], text, "above" or "below")`. `progress(done, total)` is called
     as it goes. Raises DefinitionError for another kind of file, a batch of designs or an unknown name.
     """
+    require_mechanism(machine)
+    if not isinstance(path, (str, os.PathLike)):
+        raise DefinitionError(f"{cited(path)} is no path of a file; give one that ends in .gif, .mp4 or .html.")
+    if progress is not None and (not callable(progress) or isinstance(progress, type)):
+        raise DefinitionError(f"progress={cited(progress)} is no function; give one of (done, total).")
     target, poses = Path(path), whole(count)
     kind = target.suffix.lower()
     if kind not in KINDS:
         raise DefinitionError(f"{target.name}: an animation is written as .gif, .mp4 or .html; give a name with one of these endings.")
-    for name in trace:
-        if name not in machine.plan.points:
-            raise unknown("Point", name, machine.plan.points, where=machine.plan.title)
+    trace = named_points(machine, trace, "trace")
+    if limit is not None:
+        limit_of(limit)
     if not target.parent.is_dir():
         raise FileError(f"{target}: the folder {target.parent} is not there; make it first or choose another.")
     write, fineness = KINDS[kind]

@@ -5,6 +5,9 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 
+MOST = 100_000_000
+"""Poses of a command."""
+
 
 class Command(ABC):
     """A command of `hydrolinkage`: its words for the help, its arguments, and what it does."""
@@ -51,4 +54,6 @@ def counted(text: str) -> int:
         count = 0
     if count < 1:
         raise ArgumentTypeError(f"{text!r} is not a count; give a whole number from 1 on")
+    if count > MOST:
+        raise ArgumentTypeError(f"{text} poses do not fit into memory; give fewer, such as 1001")
     return count

@@ -99,7 +99,9 @@ def guarded(load: Callable[[], Any], what: str) -> Any:
         raise DefinitionError(f"{what} cannot be loaded: {error.filename}, line {error.lineno}: {error.msg}.") from error
     except LinkageError as error:
         raise DefinitionError(f"{what} cannot be loaded: {error}") from error
-    except Exception as error:
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # a script that leaves by sys.exit is one as well
         last = traceback.extract_tb(error.__traceback__)[-1]
         where = "" if last.filename.startswith("<") else f" ({last.filename}, line {last.lineno})"
         raise DefinitionError(f"{what} cannot be loaded: {type(error).__name__}: {error}{where}.") from error

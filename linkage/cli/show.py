@@ -5,7 +5,9 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Iterator
 from inspect import cleandoc
+from typing import Any
 
+from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
 from ..plan import printed
 from ..quantities import Dimension
@@ -35,7 +37,7 @@ class Show(Command):
         if options.equations:
             section("Equations", equations(machine).splitlines())
         poses = POSES.get(len(machine.strokes), MANY)
-        section("Verdict", machine.verdicts(motion(machine, [], poses)))
+        section("Verdict", said(machine, machine.verdicts(motion(machine, [], poses))))
         return 0
 
 
@@ -69,6 +71,13 @@ def equations(machine: Mechanism) -> str:
     from ..equations import equations as worked_out
 
     return str(worked_out(machine))
+
+
+def said(machine: Mechanism, verdicts: Any) -> list[str]:
+    """Return a machine's verdicts; DefinitionError where its own `verdicts` gives something else than sentences."""
+    if not isinstance(verdicts, (list, tuple)) or not all(isinstance(each, str) for each in verdicts):
+        raise DefinitionError(f"{machine.plan.title}: verdicts(motion) gives {cited(verdicts)}; a list of sentences is expected.")
+    return list(verdicts)
 
 
 def section(title: str, lines: Iterable[str]) -> None:

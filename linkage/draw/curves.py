@@ -9,7 +9,7 @@ from typing import Any
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, cited, unknown
 from ..motion import Column, Motion, columns_of
 from . import strokes, style
 from .panel import panel
@@ -26,6 +26,8 @@ def curves(motion: Motion, columns: Sequence[Column | str], *, limits: Mapping[s
     side that fails, above unless said, is shaded. Raises DefinitionError for a batch, a grid, or an unknown name.
     """
     moving, columns = strokes.driven(motion), named(motion, columns)
+    if limits is not None and not isinstance(limits, Mapping):
+        raise DefinitionError(f"limits={cited(limits)}: a limit for each column by its name is expected, dict(tilt=(0.1, 'max')).")
     given = dict(limits or {})
     wanted = [column for column in columns if column.name not in motion.strokes]
     for name in given:
@@ -44,6 +46,8 @@ def curves(motion: Motion, columns: Sequence[Column | str], *, limits: Mapping[s
 
 def named(motion: Motion, columns: Sequence[Column | str]) -> list[Column]:
     """Return columns, those that go by their names from the motion's own table; DefinitionError for an unknown name."""
+    if not isinstance(columns, (list, tuple)) or not all(isinstance(each, (str, Column)) for each in columns):
+        raise DefinitionError(f'{motion.plan.title}: {cited(columns)}: a list of columns or their names is expected, such as ["tilt"].')
     names = [each for each in columns if isinstance(each, str)]
     own = {column.name: column for column in columns_of(motion)} if names else {}
     for name in names:

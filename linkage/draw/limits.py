@@ -7,8 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited
 from ..program import FloatArray
+from ..quantities import is_number
 
 
 class Limit(NamedTuple):
@@ -25,7 +26,10 @@ class Limit(NamedTuple):
 
 def limit(given: Sequence[Any]) -> Limit:
     """Return a limit from a tuple of its parts; DefinitionError for a side that is neither above nor below."""
-    found = Limit(*given)
+    parts = tuple(given) if isinstance(given, (list, tuple)) else ()
+    if not 1 <= len(parts) <= 3 or not is_number(parts[0]) or not all(isinstance(each, str) for each in parts[1:]):
+        raise DefinitionError(f'{cited(given)} is no limit; write (value [SI], text) or (value, text, "below").')
+    found = Limit(*parts)
     if found.fails not in ("above", "below"):
         raise DefinitionError(f'the limit {found.text or found.value!r} fails {found.fails!r}: say "above" or "below".')
     return found

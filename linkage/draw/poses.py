@@ -11,10 +11,11 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from ..errors import unknown
-from ..mechanism import Mechanism
+from ..errors import DefinitionError, cited, known_name, unknown
+from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion
 from ..program import FloatArray
+from ..quantities import is_whole, real
 from ..report import Run, first, middle
 from . import strokes, style
 from .drawing import Drawing
@@ -29,6 +30,9 @@ LEAST, MOST = 4.2, 10.0
 LEFT, RIGHT, BOTTOM, TOP = 0.75, 0.2, 0.6, 0.7
 """The figure's width, the range of its height, and the room around the sheet [inch]."""
 
+MANY = 1_000_000
+"""Poses of a path: more do not fit into a picture."""
+
 
 def poses(machine: Mechanism, at: Any = None, path: Sequence[str] = (), count: int = 101) -> Figure:
     """Return a figure of a mechanism at chosen strokes: the last one bold, the others faint.
@@ -39,10 +43,11 @@ def poses(machine: Mechanism, at: Any = None, path: Sequence[str] = (), count: i
     drawn over that stroke, at `count` poses. Poses out of reach are left out, and the picture says so; where none is in reach this raises
     AssemblyError.
     """
+    require_mechanism(machine)
+    path = named_points(machine, path, "path")
+    if not is_whole(count) or not 2 <= count <= MANY:
+        raise DefinitionError(f"count={cited(count)}: a path is drawn through 2 poses or more; give a whole number such as 101.")
     moving, shown, swept = motions(machine, at, count)
-    for name in path:
-        if name not in machine.plan.points:
-            raise unknown("Point", name, machine.plan.points, where=machine.plan.title)
     whole = Scene(swept)
     figure, ax = page(whole.box())
     for name in path:
@@ -61,7 +66,7 @@ def motions(machine: Mechanism, at: Any, count: int) -> tuple[str, Motion, Motio
         raise unknown("Stroke", moving, machine.strokes, where=machine.plan.title)
     start, end = machine.strokes[moving].start, machine.strokes[moving].end
     usual = (0.5 * (start + end), start) if strokes.is_turn(machine, Run(moving, start, end, {})) else (start, end)
-    chosen = {name: np.atleast_1d(np.array(usual if value is None else value, float)) for name, value in given.items()}
+    chosen = {name: np.atleast_1d(drawn_at(machine, name, usual if value is None else value)) for name, value in given.items()}
     held: dict[str, Any] = middle(machine) | chosen
     shown = machine.at(unreachable="nan", **held)
     if not shown.reached.any():
@@ -70,6 +75,24 @@ def motions(machine: Mechanism, at: Any, count: int) -> tuple[str, Motion, Motio
     still = {name: float(np.ravel(value)[-1]) for name, value in held.items()}
     swept = machine.at(unreachable="nan", **still | {moving: np.linspace(reach.min(), reach.max(), count)})
     return moving, shown, swept
+
+
+def drawn_at(machine: Mechanism, name: str, value: Any) -> FloatArray:
+    """Return a stroke's values; DefinitionError for anything but finite numbers, one at least."""
+    try:
+        values = real(value)
+    except ValueError:
+        values = np.empty(0)
+    if not values.size or not np.isfinite(values).all():
+        raise DefinitionError(f"{machine.plan.title}: at={cited(value)}: values of {name} are expected, such as at=[0.0, 0.1].")
+    return values
+
+
+def named_points(machine: Mechanism, names: Any, what: str) -> tuple[str, ...]:
+    """Return the names of points whose paths are drawn; DefinitionError for anything but a list of such names."""
+    if not isinstance(names, (list, tuple)):
+        raise DefinitionError(f'{machine.plan.title}: {what}={cited(names)}: a list of points is expected, such as {what}=["G"].')
+    return tuple(known_name("Point", name, machine.plan.points, where=machine.plan.title) for name in names)
 
 
 def page(box: Box) -> tuple[Figure, Axes]:

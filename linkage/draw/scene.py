@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..loads import TwoPoint
-from ..motion import Motion
+from ..motion import Motion, require_motion
 from ..program import FloatArray
 from ..steps import Offset
 from .outlines import APART, HALF, OUTLINES, Outline, yokes
@@ -77,6 +77,7 @@ class Scene:
     places: Places = field(init=False)
 
     def __post_init__(self) -> None:
+        require_motion(self.motion)
         plan = self.motion.plan
         if self.motion.design_shape:
             raise DefinitionError(

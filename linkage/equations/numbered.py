@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, unknown
-from ..mechanism import Mechanism, declared
-from ..quantities import Stroke
+from ..errors import DefinitionError, cited, unknown
+from ..mechanism import Mechanism, declared, require_mechanism
+from ..quantities import Stroke, is_whole
 from .equation import Equation, shown
 from .legend import latex_legend, legend
 from .listing import Listing
@@ -165,7 +165,8 @@ def equations(
     outputs whose derivatives by the stroke `wrt` are added. Source of notation and order: Dyuzhev, Kotov, Chuprynin,
     "Universality of the hitch of the power vehicle UES-2-250A" (Minsk, 2008), equations (4) to (27).
     """
-    design = machine() if isinstance(machine, type) else machine
+    design = machine() if isinstance(machine, type) and issubclass(machine, Mechanism) else machine
+    check_asked(design, start, at)
     listing = Listing(design.plan)
     listing.write(declared(type(design)))
     lines = list(listing.lines)
@@ -173,6 +174,15 @@ def equations(
         added = differentiated(design, listing, target, wrt)
         lines += [line for line in added if line.lhs not in {each.lhs for each in lines}]
     return Equations(design, lines, listing, start, {} if numbers and at is None else at if numbers or at else None)
+
+
+def check_asked(design: Any, start: Any, at: Any) -> None:
+    """Raise DefinitionError for what is no mechanism, no number to begin with, or no pose."""
+    require_mechanism(design)
+    if not is_whole(start):
+        raise DefinitionError(f"start={cited(start)}: the first equation's number is expected, such as 1.")
+    if at is not None and not isinstance(at, Mapping):
+        raise DefinitionError(f"{design.plan.title}: at={cited(at)}: values of strokes by name are expected, such as at=dict(S=0.1).")
 
 
 def differentiated(design: Mechanism, listing: Listing, target: str, wrt: str | None) -> list[Written]:

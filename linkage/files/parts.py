@@ -60,7 +60,7 @@ class GuideEntry(Entry):
     @classmethod
     def direction(cls, member: Guide, design: Design) -> dict[str, Any]:
         """Return the guide's angle."""
-        value = design.variable(f"{member.name}.angle", quantity(member.angle or 0.0))
+        value = design.variable(f"{member.name}.angle", quantity(0.0 if member.angle is None else member.angle))
         return {"angle": value if isinstance(value, str) else in_degrees(value)}
 
 

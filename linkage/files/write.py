@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import DefinitionError, FileError
-from ..mechanism import Mechanism, declared
+from ..mechanism import Mechanism, declared, require_mechanism
 from .design import Design, measured, members_of
 from .json_text import json_text
 from .names import Names, shortened
@@ -58,7 +58,9 @@ def head(machine: Machine, order: list[str]) -> dict[str, Any]:
 
 def left_out(machine: Machine) -> tuple[str, ...]:
     """Return the names of what a class has beside its members, which a file does not hold: functions, checks, values of its own."""
-    cls = type(machine) if isinstance(machine, Mechanism) else machine
+    cls: Any = type(machine) if isinstance(machine, Mechanism) else machine
+    if not (isinstance(cls, type) and issubclass(cls, Mechanism)):
+        require_mechanism(cls)
     own = [base for base in cls.__mro__ if issubclass(base, Mechanism) and base is not Mechanism]
     names = {name for base in own for name in vars(base) if name == "__init__" or not name.startswith("__")}
     return tuple(sorted(names - {"plan", *declared(cls)}))

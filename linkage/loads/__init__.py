@@ -13,6 +13,7 @@ from .element import ForceElement as ForceElement
 from .element import Friction as Friction
 from .element import Poses as Poses
 from .element import Rates as Rates
+from .element import require_poses as require_poses
 from .friction import GuideFriction as GuideFriction
 from .friction import PinFriction as PinFriction
 from .load import Load as Load

@@ -9,8 +9,8 @@ from typing import Any, ClassVar, TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError, unknown
-from ..quantities import Member, Reference, label, name_of
+from ..errors import DefinitionError, cited, unknown
+from ..quantities import Member, Reference, is_number, label, name_of
 from ..steps import Link, Point
 from .element import ForceElement, Poses
 from .load import Array, Load, couple
@@ -107,9 +107,8 @@ class LinkMass(OnBody):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        centre = np.asarray((0.0, 0.0) if self.at is None else two(self.at, "LinkMass(at=...)"))
-        if centre.dtype.kind not in "fiu" or not np.all(np.isfinite(centre)):
-            raise DefinitionError(f"{self}: at={self.at!r} is not a place; write (along, across) in m.")
+        if self.at is not None and not all(map(is_number, two(self.at, "LinkMass(at=...)"))):
+            raise DefinitionError(f"LinkMass: at={cited(self.at)} is not a place; write (along, across) in m.")
         object.__setattr__(self, "gravity", gravity_of(self.gravity, "LinkMass"))
 
     def loads(self, motion: Poses) -> list[Load]:

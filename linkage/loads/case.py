@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import pi
-from typing import ClassVar, final
+from typing import Any, ClassVar, final
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, cited, unknown
 from ..quantities import Member, Reference, in_degrees, is_number, name_of
 from ..quantities.numbers import plain
 from ..units import deg
@@ -35,16 +35,15 @@ class LoadCase(Member):
     gravity: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
+        check_words(self.title, self.scale, self.only)
         for name, value in {**self.scale, "slope": self.slope}.items():
             if not is_number(value):
-                raise DefinitionError(f"{self}: {name}={value!r} is not a finite number.")
+                raise DefinitionError(f"LoadCase({self.title!r}): {name}={cited(value)} is not a finite number.")
         if abs(self.slope) > STEEPEST:
             said = f"slope={plain(self.slope)!r} rad is {self.slope / deg:.4g} deg, steeper than a wall"
             raise DefinitionError(f"{self.label}: {said}; write slope={plain(self.slope)!r} * deg if these are degrees.")
         if self.gravity is not None:
             object.__setattr__(self, "gravity", gravity_of(self.gravity, self.label))
-        if isinstance(self.only, str):
-            raise DefinitionError(f"{self}: only={self.only!r} is not a list of loads; write [{self.only!r}].")
 
     @property
     def label(self) -> str:
@@ -83,3 +82,21 @@ class LoadCase(Member):
         words += [f"slope={in_degrees(float(self.slope))}"] if is_number(self.slope) and self.slope else []
         words += [f"gravity={self.gravity!r}"] if self.gravity is not None else []
         return f"LoadCase({', '.join(words)})"
+
+
+def check_words(title: Any, scale: Any, only: Any) -> None:
+    """Raise DefinitionError for a title that is no text, and for what is no choice of loads."""
+    if not isinstance(title, str):
+        example = 'LoadCase("transport", scale={"load": 2.0})'
+        raise DefinitionError(f"LoadCase({cited(title)}): its title is expected first, {example}.")
+    opening = f"LoadCase({title!r})"
+    if not isinstance(scale, Mapping):
+        said = f"scale={cited(scale)} does not say what is scaled"
+        raise DefinitionError(f'{opening}: {said}; write a factor for each load by name, scale={{"load": 2.0}}.')
+    if isinstance(only, str):
+        raise DefinitionError(f"{opening}: only={only!r} is not a list of loads; write [{only!r}].")
+    if only is not None and not isinstance(only, (list, tuple)):
+        raise DefinitionError(f'{opening}: only={cited(only)} is not a list of loads; write their names, only=["load"].')
+    for each in (*scale, *(only or ())):
+        if not isinstance(each, (str, Member)):
+            raise DefinitionError(f"{opening}: {cited(each)} is neither a load nor the name of one.")

@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Protocol, Self
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited
 from ..quantities import Holding, Member, Number, Quantity, Reference, label, name_of, quantity, real, spelled
 from ..quantities.numbers import plain
 from ..steps import Point
@@ -161,6 +161,7 @@ class ForceElement(Holding):
 
     def number(self, motion: Poses, name: str) -> Array:
         """Return a parameter over the motion [SI]: as the machine has it set, or as it is written here."""
+        require_poses(motion)
         given, key = getattr(self, name), f"{self.name}.{name}"
         member = motion.plan.members.get(self.name)
         if key in motion.inputs and type(member) is type(self) and getattr(member, name) is given:
@@ -185,15 +186,16 @@ class ForceElement(Holding):
     def _check_number(self, name: str) -> None:
         given = getattr(self, name)
         if isinstance(given, (str, Quantity)):
+            quantity(given)
             return
         try:
             value = real(given)
         except ValueError:
-            raise DefinitionError(f"{self._opening()}: {name}={given!r} is not a number; give it in SI.") from None
-        if not np.all(np.isfinite(value)):
-            raise DefinitionError(f"{self._opening()}: {name}={given!r} is not a finite number; give it in SI.")
+            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is not a number; give it in SI.") from None
+        if not value.size or not np.all(np.isfinite(value)):
+            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is not a finite number; give it in SI.")
         if name in self.not_negative and np.any(value < 0.0):
-            raise DefinitionError(f"{self._opening()}: {name}={given!r} is negative; give zero or more.")
+            raise DefinitionError(f"{self._opening()}: {name}={cited(given)} is negative; give zero or more.")
 
     def _opening(self) -> str:
         """Return the element as it is written; its kind alone where its points have no names yet, as in a class."""
@@ -225,3 +227,9 @@ class ForceElement(Holding):
 def written(value: Any) -> str:
     """Return a parameter as it is written: a number, an expression, a name."""
     return spelled(quantity(value)) if isinstance(value, (str, Quantity)) else repr(plain(value))
+
+
+def require_poses(given: Any) -> None:
+    """Raise DefinitionError for what holds no poses: anything but a motion, or what stands for one while a law is traced."""
+    if isinstance(given, type) or not callable(getattr(given, "ratio", None)):
+        raise DefinitionError(f"{cited(given)} is no motion; give machine.sweep(...) or machine.at(...).")

@@ -7,9 +7,13 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, final
 
-from ..quantities import Reference, label, name_of
+from ..errors import DefinitionError, cited
+from ..quantities import Member, Reference, is_number, label, name_of
 from .element import ForceElement, Friction, Poses
 from .load import Load
+
+THICKEST = 3.0
+"""m; the radius of a larger pin was given in millimetres."""
 
 
 @final
@@ -25,6 +29,12 @@ class PinFriction(ForceElement):
     coefficient: Any
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"radius": "mm", "coefficient": ""})
     not_negative: ClassVar[frozenset[str]] = frozenset({"radius", "coefficient"})
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if is_number(self.radius) and self.radius > THICKEST:
+            large = f"{self.radius:.6g}"
+            raise DefinitionError(f"PinFriction: radius={large} m is more than any pin has; write {large} * mm if these are millimetres.")
 
     def loads(self, motion: Poses) -> list[Load]:
         return []
@@ -47,8 +57,13 @@ class GuideFriction(ForceElement):
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"coefficient": ""})
     not_negative: ClassVar[frozenset[str]] = frozenset({"coefficient"})
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if not isinstance(self.guide, (str, Member)):
+            raise DefinitionError(f"GuideFriction: guide={cited(self.guide)} is neither a guide nor the name of one.")
+
     def parts(self) -> tuple[Reference, ...]:
-        return (*super().parts(), *([self.guide] if self.guide else []))
+        return (*super().parts(), *([self.guide] if self.guide != "" else []))
 
     def words(self) -> list[str]:
         return [f"guide={label(self.guide)}" if word.startswith("guide=") else word for word in super().words()]

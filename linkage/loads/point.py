@@ -10,8 +10,8 @@ from typing import Any, ClassVar, final
 
 import numpy as np
 
-from ..errors import DefinitionError
-from ..quantities import Reference, is_number, label, name_of
+from ..errors import DefinitionError, cited
+from ..quantities import Reference, is_number, label, name_of, real
 from ..quantities.numbers import plain
 from ..units import g0
 from .element import ForceElement, Poses, written
@@ -51,7 +51,7 @@ def gravity_of(given: Any, what: str) -> tuple[float, float]:
         raise DefinitionError(f"{what}: gravity={given!r} has no direction; write the vector gravity=(0, {-abs(plain(given))!r}).")
     x, y = (plain(part) for part in two(given, f"{what}(gravity=...)"))
     if not (is_number(x) and is_number(y)):
-        raise DefinitionError(f"{what}: gravity={given!r} is not two finite numbers; write (x, y) in m/s2, such as (0, -9.81).")
+        raise DefinitionError(f"{what}: gravity={cited(given)} is not two finite numbers; write (x, y) in m/s2, such as (0, -9.81).")
     return x, y
 
 
@@ -81,10 +81,10 @@ class Pair(ForceElement):
 
 def two(given: Any, what: str) -> tuple[Any, Any]:
     """Return a vector's parts; DefinitionError unless there are two."""
-    try:
-        x, y = given
-    except (TypeError, ValueError):
-        raise DefinitionError(f"{what}: {given!r} is not a vector; write (x, y).") from None
+    parts = list(given) if isinstance(given, (list, tuple)) or (isinstance(given, np.ndarray) and given.ndim) else []
+    if len(parts) != 2 or np.ma.is_masked(given):
+        raise DefinitionError(f"{what}: {cited(given)} is not a vector; write (x, y).")
+    x, y = parts
     return x, y
 
 
@@ -130,9 +130,13 @@ class Support(ForceElement):
     def __post_init__(self) -> None:
         super().__post_init__()
         x, y = two(self.direction, "Support")
-        size = np.hypot(*(np.asarray(part, float) for part in (x, y)))
+        try:
+            size = np.hypot(real(x), real(y))
+        except ValueError:
+            size = np.zeros(())
         if not (np.all(np.isfinite(size)) and np.all(size > 0.0)):
-            raise DefinitionError(f"Support: the direction {self.direction!r} has no finite length above zero; write one such as (0, 1).")
+            said = f"the direction {cited(self.direction)} has no finite length above zero"
+            raise DefinitionError(f"Support: {said}; write one such as (0, 1).")
 
     @property
     def unit(self) -> Array:

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Literal, TypeAlias, final, get_args
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited, told
 from ..quantities import Distance, Joint, Reference, name_of, pinned
 from .element import AT_REST, ForceElement, Poses, Rates
 from .load import Array, Load, Push
@@ -70,7 +70,10 @@ class TwoPoint(ForceElement):
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
         length = motion.distance(self.A, self.B)
-        thrust = self.push(motion, length, self.growth(motion, rates if rates.is_timed else AT_REST))
+        rate = self.growth(motion, rates if rates.is_timed else AT_REST)
+        with told(f"{self.name or type(self).__name__}: its law of length and rate"):
+            thrust = self.push(motion, length, rate)
+        check_fits(self, thrust, motion)
         refuse_coincidence(self, length, thrust)
         return [Push(self, thrust)]
 
@@ -79,6 +82,18 @@ class TwoPoint(ForceElement):
 
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
         return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
+
+
+def check_fits(member: TwoPoint, thrust: Any, motion: Poses) -> None:
+    """Raise DefinitionError for a thrust that is no number, or does not fit the poses."""
+    if isinstance(thrust, (np.ndarray, float, int)):
+        axes = zip(np.shape(thrust)[::-1], motion.shape[::-1], strict=False)
+        fits = np.ndim(thrust) <= len(motion.shape) and all(own in (1, poses) for own, poses in axes)
+    else:  # a number of the program, while the law is traced
+        fits = hasattr(thrust, "__array_ufunc__")
+    if not fits:
+        what = f"{member.name or type(member).__name__}: its law gives {cited(thrust)}"
+        raise DefinitionError(f"{what}; a thrust [N] for each pose is expected, of the shape {motion.shape}.")
 
 
 def end_forces(push: Push, motion: Poses) -> list[Load]:
@@ -174,8 +189,8 @@ class Between(TwoPoint):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not callable(self.law):
-            raise DefinitionError(f"{self._opening()}: law={self.law!r} is no function; give one of length [m] and rate [m/s].")
+        if not callable(self.law) or isinstance(self.law, type):
+            raise DefinitionError(f"{self._opening()}: law={cited(self.law)} is no function; give one of length [m] and rate [m/s].")
 
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:
         return self.law(length, rate)

@@ -6,8 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited
 from ..plan import Plan, Reading
+from ..quantities import is_number
 from ..steps import Dyad
 
 EQUAL = 1e-9
@@ -39,9 +40,9 @@ def grashof(ground: float, crank: float, coupler: float, follower: float) -> str
     point. More: a triple rocker. Source: Grashof 1883; Barker's names in brackets.
     """
     lengths = {"ground": ground, "crank": crank, "coupler": coupler, "follower": follower}
-    bad = [name for name, length in lengths.items() if not 0.0 < length < float("inf")]
-    if bad:
-        raise DefinitionError(f"grashof: the length of the {bad[0]} is {lengths[bad[0]]!r}; a positive number of metres is expected.")
+    for name, length in lengths.items():
+        if not (is_number(length) and length > 0.0):
+            raise DefinitionError(f"grashof: the length of the {name} is {cited(length)}; a positive number of metres is expected.")
     shortest, longest = min(lengths.values()), max(lengths.values())
     if 2.0 * longest >= sum(lengths.values()):
         return "cannot be assembled: the longest link is as long as the other three"

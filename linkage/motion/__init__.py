@@ -24,6 +24,7 @@ from .request import ratio as ratio
 from .source import source_of as source_of
 from .strokes import as_given as as_given
 from .strokes import at_values as at_values
+from .strokes import check_any as check_any
 from .strokes import sweep_values as sweep_values
 from .table import columns_of as columns_of
 from .tabled import Tabled as Tabled

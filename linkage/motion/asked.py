@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import DefinitionError, unknown
 from ..program import FloatArray
-from ..quantities import Member, is_number, real
+from ..quantities import Member, is_number, is_whole, real
 
 
 def named(kind: str, target: Any, known: Iterable[str], title: str) -> str:
@@ -43,7 +43,7 @@ def rate_of(what: str, value: Any, shape: tuple[int, ...], title: str) -> FloatA
 
 def order_of(order: Any) -> int:
     """Return the order of a derivative; DefinitionError unless it is 1 or 2."""
-    if not isinstance(order, (int, np.integer)) or order not in (1, 2):
+    if not is_whole(order) or order not in (1, 2):
         raise DefinitionError(f"order={order!r}: derivatives of order 1 and 2 are provided.")
     return int(order)
 

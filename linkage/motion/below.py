@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..program import FloatArray
-from .between import Between, Function
+from .between import Between, Function, require_function
 from .motion import Motion
 from .peaks import CLOSE, Index, Mask, bisected, level, peaks, zoomed
 from .reach import place_read, stroke_unit
@@ -42,6 +42,7 @@ def below_zero(motion: Motion, f: Function) -> tuple[Span, ...]:
     The ends are right to 1e-12 of the way: roots, jumps, the last poses with a value. A part of 1/2000 of the range is found, and one that
     dips below zero between two of 4097 samples like an extreme is, see `peaks`.
     """
+    require_function(motion, f)
     if motion.design_shape or len(motion.stroke_shape) > 1:
         raise DefinitionError(f"{motion.plan.title}: ranges are told for one design along one stroke or one path; this is {motion.shape}.")
     between = Between(motion, f)

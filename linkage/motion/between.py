@@ -7,10 +7,10 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, unwarned
+from ..errors import DefinitionError, cited, told, unwarned
 from ..program import FloatArray
 from .grid import Beside, in_order
-from .motion import Motion
+from .motion import Motion, require_motion
 from .peaks import Index, Mask, samples
 from .route import Route
 
@@ -18,9 +18,16 @@ Function: TypeAlias = Callable[[Motion], Any]
 """A function of a motion: a number for each pose, shape (...), or several, shape (k, ...); NaN where it has none."""
 
 
+def require_function(motion: Any, f: Any) -> None:
+    """Raise DefinitionError for what is no motion, and for what is no function of one."""
+    require_motion(motion)
+    if not callable(f) or isinstance(f, type):
+        raise DefinitionError(f"{motion.plan.title}: {cited(f)} is no function of a motion; give one, such as lambda each: each.y('G').")
+
+
 def values_of(f: Function, motion: Motion) -> FloatArray:
     """Return what a function gives at every pose, shape (..., *motion.shape), NaN out of reach. Nearness to a dead point is not told."""
-    with unwarned(), np.errstate(all="ignore"):
+    with unwarned(), np.errstate(all="ignore"), told(f"{motion.plan.title}: a function of a motion"):
         found = np.asarray(f(motion), float)
     axes = len(motion.shape)
     if found.ndim < axes or found.shape[found.ndim - axes :] != motion.shape:

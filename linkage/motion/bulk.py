@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError
+from ..errors import DefinitionError, SingularError, one_word
 from ..plan import Plan
 from ..program import FloatArray, Kernel, Node, Way, interpret
 from . import reach, singular
 from .angles import Angles, angles_of
 from .grid import Grid
-from .motion import Motion, checked_unreachable
+from .motion import Motion
 from .reach import Mask
 from .request import Request, all_wanted
 from .singular import Judged
@@ -26,7 +26,7 @@ PIECE = 1 << 18
 
 def evaluate(grid: Grid, requests: Sequence[Request], out: FloatArray | None, way: Way, unreachable: str) -> list[FloatArray]:
     """Return the values of requests over a grid; see Mechanism.evaluate."""
-    checked_unreachable(unreachable)
+    one_word("unreachable", unreachable, ("raise", "nan"))
     return Bulk(grid, all_wanted(grid.plan, requests), way, unreachable).run(out)
 
 
@@ -108,6 +108,8 @@ class Bulk:
                 f"{grid.plan.title}: out= is {given}; expected is a contiguous float64 array of the shape {shape}: "
                 "one row a component of what is asked for."
             )
+        if not out.flags.writeable:
+            raise DefinitionError(f"{grid.plan.title}: out= cannot be written into; give an array of your own, np.empty({shape}).")
         return out.reshape(rows, *grid.size)
 
     # -- poses at a dead point or out of reach ---------------------------------------------------------

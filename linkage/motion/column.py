@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from ..errors import DefinitionError, cited
 from ..program import FloatArray
-from ..units import UNITS
+from ..units import UNITS, unit_or_none
 
 NOISE = 1e-12
 LEAST = 1e-9
@@ -22,6 +24,14 @@ class Column:
     values: FloatArray
     unit: str = ""
     digits: int = 4
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str) or not self.name:
+            raise DefinitionError(f'Column({cited(self.name)}): its name is expected first, Column("pressure", values, "bar").')
+        if not are_numbers(self.values):
+            what = f"Column {self.name}: {cited(self.values)} holds no numbers"
+            raise DefinitionError(f"{what}; give one for each pose, NaN where it has none.")
+        unit_or_none(self.unit, where=f"the column {self.name}")
 
     @property
     def shown(self) -> FloatArray:
@@ -39,3 +49,11 @@ class Column:
     def heading(self) -> str:
         """The name with its unit: `pd, kgf/cm2`."""
         return f"{self.name}, {self.unit}" if self.unit else self.name
+
+
+def are_numbers(values: Any) -> bool:
+    """Return whether values are real numbers or truth values, all of them known."""
+    try:
+        return np.asarray(values).dtype.kind in "fiub" and not np.ma.is_masked(values)
+    except ValueError:
+        return False

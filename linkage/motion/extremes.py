@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import DefinitionError
-from .between import Between, Function
+from .between import Between, Function, require_function
 from .boxes import Box, highest_in, moving
 from .motion import Motion
 from .peaks import highest
@@ -66,6 +66,7 @@ def lowest(motion: Motion, f: Function) -> Extremum:
 
 def extremum(motion: Motion, f: Function, sense: float) -> Extremum:
     """Return the greatest (sense 1.0) or the lowest (-1.0) value of f over all that a motion covers."""
+    require_function(motion, f)
     if not motion.strokes:
         raise DefinitionError(f"{motion.plan.title} has no stroke, so there is nothing between its poses.")
     units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from math import isfinite
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
@@ -17,10 +17,27 @@ from .grid import Grid
 from .request import Request, all_wanted
 from .strokes import known_strokes
 
-PoseFunction: TypeAlias = Callable[..., tuple[float, ...]]
+Poses: TypeAlias = Callable[..., tuple[float, ...]]
 
 
-def function_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request]) -> PoseFunction:
+@final
+class PoseFunction:
+    """Requests of one design as a function of the strokes, in floats; it can be sent to other processes."""
+
+    def __init__(self, plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request]) -> None:
+        listed = tuple(requests) if isinstance(requests, Iterator) else requests
+        self._made_of = plan, dict(designs), listed
+        self._at = function_of(plan, designs, listed)
+
+    def __call__(self, *strokes: float, **named: float) -> tuple[float, ...]:
+        """Return all components one after the other at strokes [SI], in their order or by name."""
+        return self._at(*strokes, **named)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return PoseFunction, self._made_of
+
+
+def function_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request]) -> Poses:
     """Return requests as a function of the strokes; see Mechanism.function."""
     if any(np.ndim(value) for value in designs.values()):
         raise DefinitionError(f"{plan.title}: a function of floats is of one design; use evaluate for several.")
@@ -58,16 +75,22 @@ def rest(plan: Plan, count: int, named: Mapping[str, float]) -> list[float]:
     return [named[name] for name in list(plan.strokes)[count:]]
 
 
-def quick(plan: Plan, designs: Mapping[str, Any], kernel: Kernel, careful: PoseFunction, watched: bool) -> PoseFunction:
+def quick(plan: Plan, designs: Mapping[str, Any], kernel: Kernel, careful: Poses, watched: bool) -> Poses:
     """Return the pose part with its design worked out; a pose where a guard or a failing operation tells is taken carefully."""
     floats, count = kernel.floats, len(kernel.plan.outputs)
     passed = floats.design([float(designs[node.value]) for node in kernel.plan.design_inputs])
     pose = floats.quick["pose"]
     places = [list(plan.strokes).index(node.value) for node in kernel.plan.pose_inputs]
-    together = places == list(range(len(plan.strokes)))
+    many = len(plan.strokes)
+    together = places == list(range(many))
+    spare = [place for place in range(many) if place not in places]
+
+    def are_fit(strokes: Sequence[float]) -> bool:
+        """Return whether as many strokes are given as there are, those too that nothing here hangs on."""
+        return len(strokes) == many and all(type(strokes[place]) is float and isfinite(strokes[place]) for place in spare)
 
     def at(*strokes: float, **named: float) -> tuple[float, ...]:
-        if named:
+        if named or not (together or are_fit(strokes)):
             return careful(*strokes, **named)
         try:
             found: tuple[float, ...] = pose(*passed, *(strokes if together else [strokes[place] for place in places]))

@@ -5,15 +5,15 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import Any, Self, TypeAlias
+from typing import Any, NoReturn, Self, TypeAlias
 
 import numpy as np
 
 from ..assembly import parted
-from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, unwarned
+from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, cited, one_word, unwarned
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Kernel
-from ..quantities import Angle, Distance, Member, Quantity
+from ..quantities import Angle, Distance, Member, Quantity, needs
 from ..steps import Arrow, Point
 from ..vectors import Vec
 from . import numeric, reach, scan, singular
@@ -48,7 +48,12 @@ class Motion:
         joining: Joining | None = None,
         tangent: Mapping[str, FloatArray] | None = None,
     ) -> None:
-        checked_unreachable(unreachable)
+        parts = (plan, Plan), (designs, Mapping), (strokes, Mapping)
+        if not all(isinstance(given, kind) for given, kind in parts) or (designs.keys(), strokes.keys()) != (
+            plan.table.entries.keys(), plan.strokes.keys()
+        ):  # fmt: skip
+            raise DefinitionError("Motion(...) is made by a design: machine.sweep(...) or machine.at(...).")
+        one_word("unreachable", unreachable, ("raise", "nan"))
         self.grid = Grid(plan, designs, strokes, own=own, joining=joining)
         self.plan, self.unreachable = plan, unreachable
         self.shape, self.design_shape = self.grid.shape, self.grid.design_shape
@@ -124,6 +129,21 @@ class Motion:
                 "side of it, take a whole multiple of the angle, or drive it by a Stroke.",
                 mask=np.ones(self.shape, bool), motion=self,
             )  # fmt: skip
+
+    def __getattr__(self, name: str) -> Any:
+        """Raise AttributeError, with what may have been meant: a point, a vector or an output goes by `motion["G"]`."""
+        is_member = "plan" in vars(self) and name in self.plan.members
+        remedy = f'what the class calls {name} is motion["{name}"]' if is_member else "a point or an output goes by motion[name]"
+        raise AttributeError(f"A motion has no attribute {name!r}; {remedy}.", name=name, obj=self)
+
+    def __contains__(self, name: object) -> bool:
+        """Whether a name is that of a point, a vector or a quantity: what `motion[name]` gives."""
+        return isinstance(name, str) and isinstance(self.plan.members.get(name), (Point, Arrow, Quantity))
+
+    def __iter__(self) -> NoReturn:
+        """Raise DefinitionError: its poses are the last axes of what it gives."""
+        text = f"{self.plan.title}: a motion is not gone through pose by pose"
+        raise DefinitionError(f'{text}; its poses are the last axis of what it gives, such as motion["G"].')
 
     def refusal(self) -> AssemblyError:
         """Return the error for the poses that are not reached: out of reach, or behind a change point."""
@@ -204,7 +224,15 @@ class Motion:
 
     def moved(self, strokes: Mapping[str, Any]) -> Self:
         """Return the same designs at other strokes [SI], each at its own where the arrays begin with the designs; NaN out of reach."""
-        arrays = np.broadcast_arrays(*(np.asarray(strokes[name], float) for name in self.strokes))
+        given = strokes if isinstance(strokes, Mapping) else {}
+        if given.keys() != self.strokes.keys():
+            known = ", ".join(f"{name}=..." for name in self.strokes)
+            raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): a value for each stroke is expected, dict({known}).")
+        try:
+            arrays = np.broadcast_arrays(*(np.asarray(given[name], float) for name in self.strokes))
+        except (TypeError, ValueError, OverflowError):
+            said = "numbers or arrays that fit each other are expected"
+            raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): {said}.") from None
         own = self.grid.own and arrays[0].shape[: len(self.design_shape)] == self.design_shape
         joining = in_order if self.grid.is_special else None
         with unwarned():
@@ -311,7 +339,11 @@ class Motion:
             return self.plan.points[name].meeting(self._placed)
 
     def _member(self, target: Target) -> Member:
-        return target if isinstance(target, Quantity) and not target.name else self._known(target)
+        if not isinstance(target, Quantity) or target.name:
+            return self._known(target)
+        for name in needs(target):
+            named("Name", name, self.plan.members, self.plan.title)
+        return target
 
     @property
     def tangent(self) -> Mapping[str, FloatArray] | None:
@@ -349,6 +381,7 @@ class Motion:
         order, method = order_of(order), method_of(method, step)
         member = self._member(target)
         refused = self.refused(Value(member, (stroke,) * order), f"The ratio of {member.name or member}")
+        step = None if step is None else float(step)
         found = self._evaluated(member, (stroke,) * order) if method == "exact" else self._numeric(member, stroke, order, step)
         found = np.where(refused, np.nan, found) if refused.any() else found
         return self.finite(found, refused, f"The ratio of {member.name or member} by {stroke}")
@@ -461,7 +494,7 @@ class Motion:
     def acceleration(self, target: Target, rates: Mapping[str, Any], accelerations: Mapping[str, Any] | None = None) -> FloatArray:
         """Return the acceleration of a point [m/s2], shape (2, ...), from stroke rates and accelerations."""
         given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title)
-        driven = rates_of("accelerations", accelerations or {}, self.strokes, self.shape, self.plan.title)
+        driven = rates_of("accelerations", {} if accelerations is None else accelerations, self.strokes, self.shape, self.plan.title)
         member = self._member(target)
         along = [tuple(sorted((first, second))) for first in given for second in given]
         masks = [self.refused(Value(member, each), f"The acceleration of {member.name or member}") for each in dict.fromkeys(along)]
@@ -489,12 +522,6 @@ def paired(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], l
     at_each = {name: np.broadcast_to(np.asarray(value, float), size) for name, value in strokes.items()}
     joining = as_they_are if like is None else Beside(like.grid, at)
     return Motion(plan, of_each, at_each, "nan", own=True, joining=joining)
-
-
-def checked_unreachable(word: str) -> None:
-    """Raise DefinitionError unless it says what is done about poses out of reach."""
-    if word not in ("raise", "nan"):
-        raise DefinitionError(f'unreachable={word!r}: say "raise" or "nan".')
 
 
 def require_motion(given: Any) -> None:

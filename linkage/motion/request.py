@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Node
 from ..quantities import Member, Quantity
@@ -196,8 +196,8 @@ def all_wanted(plan: Plan, requests: Sequence[Request]) -> tuple[Wanted, ...]:
     """Return a list of requests settled; DefinitionError for a lone one, whose letters would be taken for names."""
     if isinstance(requests, (str, Member, Asked)):
         raise DefinitionError(f"{plan.title}: {requests!r}: a list of what is asked for is expected, [{requests!r}].")
-    if not isinstance(requests, Iterable):
-        raise DefinitionError(f'{plan.title}: {requests!r}: a list of what is asked for is expected, such as ["G"].')
+    if not isinstance(requests, Iterable) or isinstance(requests, (Mapping, Set, np.ndarray)):
+        raise DefinitionError(f'{plan.title}: {cited(requests)}: a list of what is asked for is expected, such as ["G"].')
     return tuple(wanted(plan, request) for request in requests)
 
 
@@ -210,12 +210,13 @@ def stroke_of(plan: Plan, name: str | None) -> str:
     return named("Stroke", name, plan.strokes, plan.title)
 
 
-def dimensions_of(plan: Plan, names: Sequence[str]) -> list[tuple[str, int]]:
+def dimensions_of(plan: Plan, names: Any) -> list[tuple[str, int]]:
     """Return design variables by any of their spellings, with signs; DefinitionError for what is none of them."""
     if isinstance(names, str):
         raise DefinitionError(f'{plan.title}: wrt="{names}": a list of dimensions is expected, wrt=["{names}"].')
-    if not isinstance(names, Iterable):
-        raise DefinitionError(f"{plan.title}: wrt={names!r}: a list of dimensions is expected.")
+    if not isinstance(names, Iterable) or isinstance(names, np.ndarray):
+        raise DefinitionError(f"{plan.title}: wrt={cited(names)}: a list of dimensions is expected.")
+    names = [named("Dimension", name, (*plan.table.spellings, *plan.table.following, *plan.points), plan.title) for name in names]
     for name in names:
         if f"{name}.x" in plan.table.spellings or f"{name}.y" in plan.table.spellings:
             raise DefinitionError(f'{plan.title}: wrt="{name}": a point has two coordinates; say "{name}.x" or "{name}.y".')

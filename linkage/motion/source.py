@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, one_word
 from ..plan import Plan
 from ..program import Kernel, Node, c_text, javascript_text
 from .request import Request, all_wanted
@@ -34,8 +34,7 @@ TAKEN: Mapping[str, str] = {
 
 def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request], language: str, name: str) -> str:
     """Return requests as text in a language; see Mechanism.source."""
-    if language not in WRITERS:
-        raise DefinitionError(f"language={language!r}: say one of {', '.join(WRITERS)}.")
+    one_word("language", language, tuple(WRITERS))
     if not (isinstance(name, str) and name.isascii() and name.isidentifier()):
         raise DefinitionError(f"name={name!r}: a function's name is expected, such as poses.")
     if name in TAKEN[language].split():

@@ -52,6 +52,13 @@ def at_values(given: Mapping[str, Any], plan: Plan, take: Callable[[Any], FloatA
         raise DefinitionError(f"{title}: the strokes' shapes do not fit each other: {shapes}.") from None
 
 
+def check_any(values: Mapping[str, FloatArray], plan: Plan) -> None:
+    """Raise DefinitionError where the strokes hold no value, so that there is no pose."""
+    empty = [name for name, value in values.items() if not value.size]
+    if empty:
+        raise DefinitionError(f"{plan.title}: {empty[0]} holds no value, so that there is no pose; give one at least, {empty[0]}=[0.0].")
+
+
 def check_unit(name: str, values: tuple[float, ...], plan: Plan) -> None:
     """Raise DefinitionError for a stroke's value so far beyond its declared range that degrees or millimetres were meant."""
     stroke = plan.strokes[name]

@@ -8,8 +8,11 @@ from html import escape
 from importlib.resources import files
 from typing import Any
 
+import numpy as np
+
 from ..draw import strokes, style
 from ..draw.scene import Scene
+from ..errors import DefinitionError, cited, known_name
 from ..motion import Column, Motion
 from .chart import chart
 from .scenery import scenery
@@ -24,11 +27,19 @@ def page(motion: Motion, column: Column, paths: Sequence[str] = (), limit: Seque
     round, anything else there and back.
     """
     scene = Scene(motion)
+    if not isinstance(column, Column):
+        raise DefinitionError(f"{cited(column)} is no column; give one of machine.columns(motion).")
+    if not isinstance(paths, (list, tuple)):
+        raise DefinitionError(f'paths={cited(paths)}: a list of points is expected, such as ["G"].')
+    for name in paths:
+        known_name("Point", name, motion.plan.points, where=motion.plan.title)
+    if not isinstance(is_turn, (bool, np.bool_)):
+        raise DefinitionError(f"is_turn={cited(is_turn)}: say True for a full turn, else False.")
     curve = chart(motion, column, limit)
     moving = curve["stroke"]["name"]
     data = {
         "title": motion.plan.heading,
-        "turn": is_turn,
+        "turn": bool(is_turn),
         "held": strokes.held(motion.plan, motion.strokes, moving),
         "remark": strokes.unreached(motion, moving),
         "reached": scene.reached,

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import unknown
+from ..errors import DefinitionError, unknown
 from ..quantities import Member, Quantity, Reference, Stroke, Turning, name_of
 from ..steps import Ground, Point
 from ..vectors import Line, Scalar, Vec
@@ -51,7 +51,11 @@ class Reading:
 
     def _once(self, kind: str, reference: Reference, rule: str) -> Any:
         named = reference if isinstance(reference, str) else reference.name
+        if named and named not in self.members:
+            raise unknown("Name", named, self.members)
         member: Any = self.members[named] if named else reference
+        if not hasattr(member, rule):
+            raise DefinitionError(f"{named} = {member} stands where a {kind} is expected.")
         key = (kind, member.name or id(member))
         if key not in self._values:
             if member.name:

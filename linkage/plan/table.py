@@ -113,6 +113,9 @@ class Table:
         return list(dict.fromkeys(name.removesuffix(".x").removesuffix(".y") for name in self.entries))
 
 
+FARTHEST = 1e11
+"""m; no mechanism is larger, and the squares of such lengths no longer add."""
+
 TURN = 2.0 * np.pi * (1.0 + 1e-9)
 
 
@@ -135,6 +138,9 @@ def checked(entry: Entry, value: Any) -> Any:
         large = float(np.ravel(value)[np.argmax(np.abs(value))])
         said = f"the angle {entry.name}={large:.6g} rad ({large / deg:.6g} deg) is more than a full turn"
         raise DefinitionError(f"{entry.where}: {said}; write {large:.6g} * deg if these are degrees, or take whole turns off.")
+    if entry.kind in ("length", "coordinate") and np.any(np.abs(value) > FARTHEST):
+        far = float(np.ravel(value)[np.argmax(np.abs(value))])
+        raise DefinitionError(f"{entry.where}: {entry.name}={far:.6g} m is farther than the sun; give it in m.")
     if entry.kind == "length" and np.any(np.asarray(value) <= 0.0):
         what = "has no length" if np.all(np.asarray(value) >= 0.0) else "is negative"
         raise DefinitionError(f"{entry.where}: the length {entry.name}={np.min(value):.6g} m {what}; give a positive one.")

@@ -42,9 +42,9 @@ class Way:
     threads: int = 1
 
     def __post_init__(self) -> None:
-        if self.backend not in (None, "floats", "numpy", "numba"):
+        if self.backend is not None and not (isinstance(self.backend, str) and self.backend in ("floats", "numpy", "numba")):
             raise DefinitionError(f'backend={self.backend!r}: say "numpy", "numba" or "floats", or nothing for the quickest.')
-        if not isinstance(self.threads, int) or self.threads < 1:
+        if not isinstance(self.threads, int) or isinstance(self.threads, bool) or self.threads < 1:
             raise DefinitionError(f"threads={self.threads!r}: a whole number of at least 1 is expected.")
 
 

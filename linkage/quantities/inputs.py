@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import ClassVar
 
-from ..errors import DefinitionError, unknown
-from ..units import UNITS
+from ..errors import DefinitionError, cited
+from ..units import UNITS, unit_or_none
 from ..vectors import Scalar
 from .numbers import is_number, plain
 from .quantity import Quantity
@@ -20,11 +21,12 @@ class Stroke(Quantity):
 
     start: float
     end: float
+    needs_name: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         for value in (self.start, self.end):
             if not is_number(value):
-                raise DefinitionError(f"Stroke({self.start}, {self.end}): both ends must be finite numbers.")
+                raise DefinitionError(f"Stroke({cited(self.start)}, {cited(self.end)}): both ends must be finite numbers.")
         object.__setattr__(self, "start", plain(self.start))
         object.__setattr__(self, "end", plain(self.end))
         if self.start == self.end:
@@ -60,13 +62,13 @@ class Dimension(Quantity):
 
     default: float
     unit: str = ""
+    needs_name: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
         if not is_number(self.default):
-            raise DefinitionError(f"Dimension({self.default!r}): a finite number is expected.")
+            raise DefinitionError(f"Dimension({cited(self.default)}): a finite number is expected.")
         object.__setattr__(self, "default", plain(self.default))
-        if self.unit and self.unit not in UNITS:
-            raise unknown("Unit", self.unit, UNITS, where=str(self))
+        unit_or_none(self.unit, where=f"Dimension({self.default!r}, unit=...)")
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:
         return ((self.name, self.default, "number", self.unit),)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any, ClassVar, Self, TypeAlias
+from collections.abc import Hashable, Iterator, Mapping
+from functools import lru_cache
+from inspect import Parameter, Signature, signature
+from math import inf
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeAlias
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited
 
 
 class Member:
@@ -21,7 +24,15 @@ class Member:
     expects: ClassVar[tuple[tuple[str, str], ...]] = ()
     """Its attributes that refer to others, with the kind each must be."""
 
+    needs_name: ClassVar[bool] = False
+    """Whether its value goes by its name, so that it cannot stand in an expression without one."""
+
     _name: str = ""
+
+    def __new__(cls, *given: Any, **options: Any) -> Self:
+        if given or options:  # without any it may come from pickle
+            check_arguments(cls, given, options)
+        return super().__new__(cls)
 
     def __set_name__(self, owner: type, name: str) -> None:
         if not self._name:
@@ -66,7 +77,43 @@ class Member:
         return ()
 
 
+    def _no_arithmetic(self, *others: object) -> NoReturn:
+        kind = "an" if self.kind[0] in "aeiou" else "a"
+        says = f"{type(self).__name__}: {kind} {self.kind} does not add or multiply"
+        raise DefinitionError(f"{says}; take distance(P, Q), angle(P, Q), x(P), y(P), or Vector(P, Q) of points.")
+
+    if not TYPE_CHECKING:  # a checker of types is to complain of it by itself; quantities have operators of their own
+        __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = __neg__ = _no_arithmetic
+
+
 Reference: TypeAlias = str | Member
+
+
+@lru_cache(maxsize=256)
+def signature_of(kind: Hashable) -> tuple[Signature, int, float]:
+    """Return what a kind of member is given, and how many arguments in order will do by themselves, least and most."""
+    taken = signature(kind.__init__)  # type: ignore[misc]
+    _, *parameters = taken.parameters.values()
+    needed = [each for each in parameters if each.default is Parameter.empty and each.kind is not Parameter.VAR_KEYWORD]
+    ordered = [each for each in parameters if each.kind is Parameter.POSITIONAL_OR_KEYWORD]
+    least = sum(each.kind is Parameter.POSITIONAL_OR_KEYWORD for each in needed)
+    most = inf if any(each.kind is Parameter.VAR_POSITIONAL for each in parameters) else len(ordered)
+    return taken, least, -1 if any(each.kind is Parameter.KEYWORD_ONLY for each in needed) else most
+
+
+def check_arguments(kind: type[Member], given: tuple[Any, ...], options: Mapping[str, Any]) -> None:
+    """Raise DefinitionError for arguments that a kind of member does not take, or that are missing."""
+    if kind.__init__ is object.__init__:
+        raise DefinitionError(f"{kind.__name__} takes no arguments; give it an __init__, or make it a frozen dataclass.")
+    taken, least, most = signature_of(kind)  # type: ignore[arg-type]  # a class with a class for its type
+    if not options and least <= len(given) <= most:
+        return
+    try:
+        taken.bind(None, *given, **options)
+    except TypeError as error:
+        _, *parameters = taken.parameters.values()
+        words = [f"{each.name} such as AB=0.3" if each.kind is Parameter.VAR_KEYWORD else each.name for each in parameters]
+        raise DefinitionError(f"{kind.__name__}(...): {error}; it takes {', '.join(words) or 'nothing'}.") from None
 
 
 def name_of(reference: Reference) -> str:
@@ -74,7 +121,7 @@ def name_of(reference: Reference) -> str:
     if isinstance(reference, str):
         return reference
     if not isinstance(reference, Member):
-        raise DefinitionError(f"{reference!r} stands where a point or its name is expected.")
+        raise DefinitionError(f"{cited(reference)} stands where a point or its name is expected.")
     if not reference.name:
         said = f"{reference} is used before it has a name, or its name is bound twice"
         raise DefinitionError(f"{said}: bind it to a name of its own in the class, or write the name as a string.")
@@ -82,7 +129,9 @@ def name_of(reference: Reference) -> str:
 
 
 def needs(member: Member) -> Iterator[str]:
-    """Yield the names that a member needs, through its unnamed parts."""
+    """Yield the names that a member needs, through its unnamed parts; DefinitionError for a part that has to have a name."""
+    if member.needs_name and not member.name:
+        raise DefinitionError(f"{member} stands here without a name of its own: bind it in the class, L0 = {member}, and write L0 here.")
     for part in member.parts():
         if isinstance(part, Member) and not part.name:
             yield from needs(part)

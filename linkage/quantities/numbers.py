@@ -8,6 +8,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+EXACT = 2**53
+"""Up to this every whole number is a float."""
+
 
 def is_number(value: Any) -> bool:
     """Return whether a value is one finite real number."""
@@ -25,12 +28,16 @@ def is_whole(value: Any) -> bool:
 
 
 def plain(value: Any) -> Any:
-    """Return NumPy's number as Python's own, which prints as it is written in a class."""
+    """Return NumPy's number as Python's own, which prints as it is written in a class; a whole one that no float holds as a float."""
+    if isinstance(value, int) and abs(value) > EXACT and is_number(value):
+        return float(value)
     return value.item() if isinstance(value, np.generic) else value
 
 
 def real(value: Any) -> npt.NDArray[np.float64]:
-    """Return a value as a new array of floats; raise ValueError for anything but real numbers."""
+    """Return a value as a new array of floats; raise ValueError for anything but real numbers, and for values that are masked."""
+    if np.ma.is_masked(value):
+        raise ValueError("some of the values are masked")
     array = np.asarray(value)
     if array.dtype.kind not in "fiu":
         raise ValueError(f"{value!r} is not a real number")

@@ -7,16 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..vectors import Scalar
-from .member import Reference, name_of
+from .member import Member, Reference, name_of
 from .quantity import Quantity
 from .where import Turning, Where
 
 
 def label(reference: Reference) -> str:
     """Return a reference as it is written: its name, or its own text."""
-    if isinstance(reference, str):
-        return reference
-    return reference.name or str(reference)
+    return (reference.name or str(reference)) if isinstance(reference, Member) else str(reference)
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,11 +8,11 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, NoReturn, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited
 from ..vectors import Scalar, Vec
 from .arithmetic import BINDS, FUNCTIONS, OPERATORS, UFUNCS
 from .member import Member, Reference
@@ -34,6 +34,9 @@ def joined(symbol: str, a: Quantity, b: Quantity) -> Quantity:
     if symbol in ("+", "-"):
         return Sum(a, b if symbol == "+" else Negative(b))
     return Operation(symbol, a, b)
+
+
+CHOICE = "choose by np.maximum or np.minimum, or make two classes of it"
 
 
 class Quantity(Member):
@@ -70,6 +73,22 @@ class Quantity(Member):
     __truediv__, __rtruediv__ = both("/")
     __pow__, __rpow__ = both("**")
 
+    def __bool__(self) -> NoReturn:
+        raise DefinitionError(f"{self}: a quantity has no value in a class, so that `if`, `and`, `or` cannot choose by it; {CHOICE}.")
+
+    def _compared(self, other: object) -> NoReturn:
+        raise DefinitionError(f"{self}: a quantity has no value in a class, so that it cannot be compared; {CHOICE}.")
+
+    __lt__ = __le__ = __gt__ = __ge__ = _compared
+
+    def __float__(self) -> NoReturn:
+        raise DefinitionError(f"{self}: a quantity has no value in a class; take NumPy's functions of it, np.sin(...), not math's.")
+
+    def _not_provided(self, *others: object) -> NoReturn:
+        raise DefinitionError(f"{self}: quantities take + - * / ** and NumPy's functions: {', '.join(FUNCTIONS)}.")
+
+    __mod__ = __rmod__ = __floordiv__ = __rfloordiv__ = __matmul__ = __rmatmul__ = __divmod__ = __rdivmod__ = __round__ = _not_provided
+
     def __neg__(self) -> Quantity:
         return Negative(self)
 
@@ -101,8 +120,8 @@ def quantity(value: Operand) -> Quantity:
     if is_number(value):
         return Number(float(value))
     if isinstance(value, (float, int)) and not isinstance(value, bool):
-        raise DefinitionError(f"{value!r} is not a finite number; give a value in SI.")
-    raise DefinitionError(f"{value!r} stands where a number, a quantity or its name is expected.")
+        raise DefinitionError(f"{cited(value)} is not a finite number; give a value in SI.")
+    raise DefinitionError(f"{cited(value)} stands where a number, a quantity or its name is expected.")
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,6 +6,7 @@ import csv
 from collections.abc import Callable, Sequence
 from typing import TextIO
 
+from ..errors import DefinitionError, cited
 from ..motion import Column
 from .table import flat
 
@@ -18,6 +19,8 @@ def write_csv(columns: Sequence[Column], stream: TextIO, progress: Callable[[int
     Lines end with CR LF, so a file is to be opened with newline="". `progress(done, total)` hears of the rows written.
     """
     values = flat(columns)
+    if not callable(getattr(stream, "write", None)) or isinstance(stream, type):
+        raise DefinitionError(f'{cited(stream)} is no open file; write into open("table.csv", "w", newline="").')
     total = len(values[0])
     writer = csv.writer(stream)
     writer.writerow(column.heading for column in columns)

@@ -8,11 +8,21 @@ from typing import TypeAlias
 import numpy as np
 
 from .. import motion as between
-from ..motion import Motion
+from ..errors import DefinitionError, cited
+from ..motion import Motion, require_motion
 from ..program import FloatArray
+from ..quantities import is_number
 
 Range: TypeAlias = tuple[float, float]
 Spare: TypeAlias = Callable[[Motion], FloatArray]
+
+
+def one_stroke(motion: Motion) -> str:
+    """Return the only stroke of a motion; DefinitionError for what is no motion, and where there are several."""
+    require_motion(motion)
+    if len(motion.strokes) != 1:
+        raise DefinitionError(f"{motion.plan.title}: ranges are told along one stroke, here are {len(motion.strokes)}.")
+    return next(iter(motion.strokes))
 
 
 def reached_span(motion: Motion) -> Range:
@@ -28,18 +38,21 @@ def reached_span(motion: Motion) -> Range:
 
 def closely(motion: Motion, values: FloatArray | None = None) -> Motion:
     """Return the same design at chosen strokes [SI], else at 513 poses over the reached range; NaN where out of reach."""
-    (name,) = motion.strokes
-    return Motion(motion.plan, motion.designs, {name: np.linspace(*reached_span(motion), 513) if values is None else values}, "nan")
+    name = one_stroke(motion)
+    return motion.moved({name: np.linspace(*reached_span(motion), 513) if values is None else values})
 
 
 def below_zero(motion: Motion, spare: Spare) -> list[Range]:
     """Return the stroke ranges [SI] where `spare` of a motion, shape (poses,), is below zero; their ends are roots."""
-    (name,) = motion.strokes
+    name = one_stroke(motion)
     return [(each.start[name], each.end[name]) for each in between.below_zero(motion, spare)]
 
 
 def spans_in_words(spans: Sequence[Range], stroke: str, unit: str = "m") -> str:
     """Return stroke ranges as text: `from S = 0.5500 to 0.5660 m and at S = 0.7000 m`."""
+    for span in spans if isinstance(spans, (list, tuple)) else [spans]:
+        if not (isinstance(span, (list, tuple)) and len(span) == 2 and all(map(is_number, span))):
+            raise DefinitionError(f"{cited(span)} is no range; give a list of (start, end) [m or rad].")
     return " and ".join(
         f"from {stroke} = {low:.4f} to {high:.4f} {unit}" if low < high else f"at {stroke} = {low:.4f} {unit}" for low, high in spans
     )

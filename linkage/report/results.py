@@ -6,9 +6,10 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 
+from ..errors import DefinitionError, cited
 from ..loads import ForceElement
-from ..mechanism import Mechanism
-from ..motion import Column, Motion, Tabled, stroke_unit
+from ..mechanism import Mechanism, require_mechanism
+from ..motion import Column, Motion, Tabled, require_motion, stroke_unit
 from ..statics import driving_force
 
 
@@ -17,7 +18,9 @@ def results(machine: Mechanism, motion: Motion) -> list[Column]:
 
     They are the generalised forces of its strokes, and what its members show: of a cylinder its thrust and its pressure.
     """
-    columns = machine.columns(motion)
+    require_mechanism(machine)
+    require_motion(motion)
+    columns = columns_by(machine, motion)
     if type(machine).columns is not Mechanism.columns:
         return columns
     if not any(element.loads(motion) for element in motion.plan.of_kind(ForceElement).values()):
@@ -25,6 +28,15 @@ def results(machine: Mechanism, motion: Motion) -> list[Column]:
     whole = motion.moved(motion.strokes)
     taken = {column.name for column in columns}
     return columns + [column for column in (*drives(whole), *shown(whole)) if column.name not in taken]
+
+
+def columns_by(machine: Mechanism, motion: Motion) -> list[Column]:
+    """Return the columns that a machine makes; DefinitionError where its own `columns` gives something else."""
+    found = machine.columns(motion)
+    if not isinstance(found, (list, tuple)) or not all(isinstance(each, Column) for each in found):
+        said = f"columns(motion) gives {cited(found)}; a list of Column(name, values, unit) is expected"
+        raise DefinitionError(f"{machine.plan.title}: {said}.")
+    return list(found)
 
 
 def drives(motion: Motion) -> Iterator[Column]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from ..motion import Column
-from .table import blocks, cells, flat
+from .table import blocks, cells, checked_width, flat
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -20,7 +20,8 @@ def rich_tables(columns: Sequence[Column], width: int | None = None) -> Iterator
     from rich.table import Table
 
     texts = [cells(column, values) for column, values in zip(columns, flat(columns), strict=True)]
-    for block in blocks(columns, texts, None if width is None else width + 1, PADDING):
+    room = checked_width(width)
+    for block in blocks(columns, texts, None if room is None else room + 1, PADDING):
         table = Table(box=SIMPLE_HEAD, header_style="bold", show_edge=False)
         for index in block:
             table.add_column(columns[index].heading, justify="right", no_wrap=True)

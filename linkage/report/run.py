@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, cited, unknown
 from ..mechanism import Mechanism
 from ..quantities import real
 
@@ -36,10 +36,13 @@ def run_of(machine: Mechanism, at: At = NOTHING) -> Run:
 
     Strokes that are not given stand in their middle. DefinitionError where nothing is left to move.
     """
+    one = first(machine)
+    title = machine.plan.title
+    if not isinstance(at, Mapping):
+        raise DefinitionError(f"{title}: at={cited(at)}: values of strokes by name are expected, such as at=dict({one}=0.1).")
     given = {name: values_of(machine, name, value) for name, value in at.items()}
     runs = [name for name in machine.strokes if len(given.get(name, ())) == 2]
     free = [name for name in machine.strokes if name not in given]
-    title, one = machine.plan.title, first(machine)
     if len(runs) > 1:
         raise DefinitionError(f"{title}: {' and '.join(runs)} have two values each; one stroke runs, hold the others at one value.")
     if not (runs or free):

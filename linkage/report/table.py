@@ -6,8 +6,10 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ..errors import DefinitionError, cited
 from ..motion import Column
 from ..program import FloatArray
+from ..quantities import is_whole
 
 GAP = "  "
 NOTHING = "-"  # stands for NaN: not reached, or not limited
@@ -15,12 +17,25 @@ NOTHING = "-"  # stands for NaN: not reached, or not limited
 
 def flat(columns: Sequence[Column]) -> list[FloatArray]:
     """Return the columns' values in their units, one row a pose: broadcast to one shape, the designs outermost."""
-    return [each.ravel() for each in np.broadcast_arrays(*(column.shown for column in columns))]
+    if not isinstance(columns, (list, tuple)) or not columns or not all(isinstance(each, Column) for each in columns):
+        raise DefinitionError(f"{cited(columns)} is no table; give a list of columns, such as machine.columns(motion).")
+    try:
+        return [each.ravel() for each in np.broadcast_arrays(*(column.shown for column in columns))]
+    except ValueError:
+        shapes = ", ".join(f"{column.name} {np.shape(column.values)}" for column in columns)
+        raise DefinitionError(f"The columns' shapes do not fit each other: {shapes}.") from None
 
 
 def cells(column: Column, values: FloatArray) -> list[str]:
     """Return a column's numbers as text, with its number of decimals."""
     return [NOTHING if np.isnan(value) else f"{value:z.{column.digits}f}" for value in values.tolist()]
+
+
+def checked_width(width: int | None) -> int | None:
+    """Return a width; DefinitionError unless it is a number of characters, or none."""
+    if width is not None and not (is_whole(width) and width > 0):
+        raise DefinitionError(f"width={cited(width)}: a number of characters is expected, such as 80.")
+    return width
 
 
 def blocks(columns: Sequence[Column], texts: Sequence[Sequence[str]], width: int | None, edge: int) -> Iterator[list[int]]:
@@ -44,7 +59,7 @@ def text_table(columns: Sequence[Column], width: int | None = None) -> Iterator[
     With a `width` [characters] a table that is too wide is cut into blocks, the first column repeated in each.
     """
     texts = [cells(column, values) for column, values in zip(columns, flat(columns), strict=True)]
-    for number, block in enumerate(blocks(columns, texts, width, len(GAP))):
+    for number, block in enumerate(blocks(columns, texts, checked_width(width), len(GAP))):
         if number:
             yield ""
         yield from _lines([columns[index].heading for index in block], [texts[index] for index in block])

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ..mechanism import Mechanism
+from ..mechanism import Mechanism, require_mechanism
 from ..motion import stroke_unit
 from ..plan import Plan
 from ..units import UNITS, show
@@ -39,6 +39,7 @@ def in_unit(value: float, unit: str) -> str:
 
 def design_rows(machine: Mechanism) -> Iterator[tuple[str, str, str]]:
     """Yield, for each design variable, its name, its value with unit, and the step that has it; a batch shows its range."""
+    require_mechanism(machine)
     for name, value in machine.dimensions.items():
         entry = machine.plan.table.entries[name]
         unit = entry.unit or SHOWN_IN.get(measure(machine.plan, name), "")
@@ -48,6 +49,7 @@ def design_rows(machine: Mechanism) -> Iterator[tuple[str, str, str]]:
 
 def stroke_rows(machine: Mechanism) -> Iterator[tuple[str, str]]:
     """Yield, for each stroke, its name and its range with unit."""
+    require_mechanism(machine)
     for name, stroke in machine.strokes.items():
         unit = SHOWN_IN["angle" if stroke_unit(machine.plan, name) == "rad" else "length"]
         factor = UNITS[unit][0]

@@ -9,7 +9,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import unknown
+from ..errors import DefinitionError, cited, known_name
 from ..motion import Asked, Motion
 from ..plan import Plan
 from ..program import Node
@@ -40,8 +40,7 @@ class PinForce(Asked):
     case: Case = None
 
     def settled(self, plan: Plan) -> PinForceOf:
-        if self.component not in COMPONENTS:
-            raise unknown("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
+        known_name("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
         law = Law.of(plan, self.loads, self.case)
         structure = Structure(plan, law.loaded.elements, law.loaded.pushing)
         asked = replace(self, on=structure.called(self.on))
@@ -57,6 +56,10 @@ def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = 
     It is that of the frictionless `pin_forces(motion, loads, case=case).force(point, on)`: on the body `on` from the other one.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
+    names: tuple[Any, ...] = point, on
+    if not all(isinstance(each, str) for each in names):
+        said = "the names of a point and of a body are expected"
+        raise DefinitionError(f'pin_force({cited(point)}, {cited(on)}): {said}, such as pin_force("G", "arm").')
     return PinForce(point, on, component, loads, case)
 
 

@@ -47,7 +47,7 @@ def driven(system: System) -> Iterator[tuple[Quantity, Form]]:
     structure = system.structure
     for strut in structure.struts:
         if strut.drives:
-            yield strut.quantity or Distance(strut.P, strut.Q), system.thrust(strut)
+            yield Distance(strut.P, strut.Q) if strut.quantity is None else strut.quantity, system.thrust(strut)
     for contact in structure.contacts:
         for quantity, letter, sign in structure.driven(contact):
             yield quantity, system.unknown(contact, letter, sign)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import DefinitionError
-from ..motion import Motion
+from ..motion import Motion, require_motion
 from ..program import FloatArray
 from ..quantities import is_number
 from .forces import equilibrium, locked_words
@@ -37,6 +37,7 @@ def driving_force(
     `dict(S=0.05)` [1/s], are what dampers ask for. Given as an `efficiency` k, the force is F / k where the load resists and F k where
     it drives. Raises SingularError at a dead point and where friction locks the mechanism.
     """
+    require_motion(motion)
     stroke = drive_of(motion.plan, drive)
     movement = movement_of(motion, direction, rates, stroke)
     loaded = gathered(motion, loads, case, movement)

@@ -8,7 +8,7 @@ from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError, unknown
+from ..errors import DefinitionError, SingularError, cited, known_name, told, unknown
 from ..loads import Damper, ForceElement, Friction, Load, LoadCase, Rates, TwoPoint
 from ..loads import Poses as Moved
 from ..motion import Motion
@@ -164,7 +164,8 @@ def factor_of(case: LoadCase, name: str, element: ForceElement) -> float:
 
 def called(element: ForceElement, motion: Moved, rates: Rates, name: str) -> list[Load]:
     """Return an element's loads; DefinitionError where they are no list of loads."""
-    found = element.moving(motion, rates) if rates else element.loads(motion)
+    with told(f"{motion.plan.title}: loads(motion) of {name}"):
+        found = element.moving(motion, rates) if rates else element.loads(motion)
     if not isinstance(found, (list, tuple)) or not all(isinstance(each, Load) for each in found):
         raise DefinitionError(f"{motion.plan.title}: {name}: loads(motion) gives {found!r}; a list of Load(point, force) is expected.")
     return list(found)
@@ -178,9 +179,7 @@ def case_of(plan: Plan, case: Case) -> LoadCase:
         return case
     cases = plan.of_kind(LoadCase)
     titled = {each.label: each for each in cases.values()}
-    if case not in titled | cases:
-        raise unknown("Load case", case, dict(cases) | titled, where=plan.title)
-    return (titled | cases)[case]
+    return (titled | cases)[known_name("Load case", case, dict(cases) | titled, where=plan.title)]
 
 
 def elements_of(plan: Plan, loads: Loads) -> list[tuple[str, ForceElement]]:
@@ -209,7 +208,10 @@ def fitted(load: Load, motion: Motion, name: str) -> FloatArray:
     """Return a load's force in the motion's shape (2, ...); DefinitionError where it does not fit or is no number."""
     title = motion.plan.title
     known_points(load, motion.plan, name)
-    force = np.asarray(load.force)
+    try:
+        force = np.asarray(load.force)
+    except ValueError:
+        raise DefinitionError(f"{title}: {name}: its force at {load.point} is {cited(load.force)}; (2, ...) in N is expected.") from None
     if force.dtype.kind not in "fiu" or force.shape[:1] != (2,):
         what = f"has the shape {force.shape}" if force.dtype.kind in "fiu" else f"holds {force.dtype.name}, no real numbers"
         raise DefinitionError(f"{title}: {name}: its force at {load.point} {what}; (2, ...) in N is expected.")
@@ -227,6 +229,10 @@ def fitted(load: Load, motion: Motion, name: str) -> FloatArray:
 
 def known_points(load: Load, plan: Plan, name: str) -> None:
     """Raise DefinitionError for a load at a point that there is not."""
+    on: Any = load.on
+    if not isinstance(on, (tuple, list)):
+        what = f"on={cited(load.on)} is expected as names of points or of an element"
+        raise DefinitionError(f'{plan.title}: {name}: {what}, on=("O", "B").')
     for point in (load.point, *(load.on if len(load.on) > 1 else ())):
         if name_of(point) not in plan.points:
             raise unknown("Point", point, plan.points, where=f"{plan.title}: {name}")

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, known_name
 from ..loads import Rates
 from ..motion import Motion, rates_of, require_motion
 from ..plan import Plan
@@ -48,9 +48,7 @@ AT_REST = Movement()
 
 def sense_of(direction: str) -> int:
     """Return 1, -1 or 0 for a direction of motion."""
-    if direction not in SENSES:
-        raise unknown("Direction", direction, SENSES)
-    return SENSES[direction]
+    return SENSES[known_name("Direction", direction, SENSES)]
 
 
 def drive_of(plan: Plan, drive: str | None) -> str:
@@ -59,9 +57,7 @@ def drive_of(plan: Plan, drive: str | None) -> str:
         return next(iter(plan.strokes))
     if drive is None:
         raise DefinitionError(f"{plan.title} has {len(plan.strokes)} strokes: say drive= one of {', '.join(plan.strokes)}.")
-    if drive not in plan.strokes:
-        raise unknown("Stroke", drive, plan.strokes, where=plan.title)
-    return drive
+    return known_name("Stroke", drive, plan.strokes, where=plan.title)
 
 
 def movement_of(motion: Motion, direction: str, rates: Mapping[str, Any] | None, drive: str | None) -> Movement:

@@ -9,8 +9,8 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
-from ..errors import DefinitionError, unknown
-from ..motion import Motion, stroke_unit
+from ..errors import DefinitionError, known_name, unknown
+from ..motion import Motion, require_motion, stroke_unit
 from ..motion.reach import Mask
 from ..program import FloatArray
 from ..units import kN
@@ -47,6 +47,7 @@ class PinForces:
 
     def again(self, motion: Motion) -> PinForces:
         """Return the same of another motion of the machine: the same loads, case, direction and rates; NaN where they are refused."""
+        require_motion(motion)
         return self._again(motion)
 
     def at(self, point: str) -> tuple[JointForce, ...]:
@@ -150,10 +151,8 @@ J = TypeVar("J", bound=Joint)
 
 def joints_at(joints: Sequence[J], point: str, title: str) -> tuple[J, ...]:
     """Return the joints at a point; DefinitionError where there is none."""
-    found = tuple(each for each in joints if each.point == point)
-    if not found:
-        raise unknown("Joint", point, dict.fromkeys(each.point for each in joints), where=title)
-    return found
+    name = known_name("Joint", point, dict.fromkeys(each.point for each in joints), where=title)
+    return tuple(each for each in joints if each.point == name)
 
 
 def met(joints: Sequence[J], point: str, on: str, title: str) -> tuple[J, float]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, known_name, unknown
 from ..loads import ForceElement, Load
 from ..plan import Plan
 from ..quantities import Joint, JointSide, Quantity
@@ -95,6 +95,8 @@ class Structure:
 
     def called(self, name: str) -> str:
         """Return a body's name for what it goes by: its own, its link's, its points, or two or more of them (`O B`); else as given."""
+        if not isinstance(name, str):
+            raise unknown("Body", name, self.names, where=self.plan.title)
         if name in self.names:
             return self.names[name]
         points = set(name.split())
@@ -103,8 +105,7 @@ class Structure:
 
     def index(self, name: str) -> int:
         """Return a body by its name, its link's or its points; DefinitionError for any other."""
-        if name not in self.names:
-            raise unknown("Body", name, self.names, where=self.plan.title)
+        known_name("Body", name, self.names, where=self.plan.title)
         indices = {self.name(index): index for index in range(FRAME, len(self.parts) + len(self.lone))}
         return indices[self.names[name]]
 

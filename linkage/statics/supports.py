@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, known_name
 from ..loads import Support
-from ..motion import Motion
+from ..motion import Motion, require_motion
 from ..program import FloatArray
 from ..quantities import name_of, real
 from .balance import Equations
@@ -42,6 +42,7 @@ def reaction(
     not count. With several strokes `drive` names the one that the support balances; the others stand still. Raises SingularError
     where the support's point does not move along its direction with the drive.
     """
+    require_motion(motion)
     name, held = support_of(motion, support)
     stroke = drive_of(motion.plan, drive)
     loaded = gathered(motion, loads, case, movement_of(motion, direction, rates, stroke), without=name)
@@ -62,9 +63,8 @@ def support_of(motion: Motion, support: Support | str | None) -> tuple[str, Supp
         return next(iter(own.items()))
     if support is None:
         raise DefinitionError(f"{motion.plan.title} has {len(own)} supports: say which one, such as Support('R', (0, 1)).")
-    if support not in own:
-        raise unknown("Support", support, own, where=motion.plan.title)
-    return support, own[support]
+    name = known_name("Support", support, own, where=motion.plan.title)
+    return name, own[name]
 
 
 def known_force(motion: Motion, drive_force: Any) -> FloatArray:

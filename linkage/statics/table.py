@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from math import pi
 from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, unwarned
+from ..errors import DefinitionError, cited, unwarned
 from ..motion import greatest
 from ..units import deg, kN
 from .joint_force import JointForce
@@ -52,7 +52,7 @@ def max_table(results: PinForces | Iterable[PinForces]) -> tuple[PinLoad, ...]:
     It is looked for between their poses, whatever the number of these, and up to the poses that are refused: a force that grows
     without bounds towards one of them is infinite. Loads that are given as arrays over the poses are known at these alone.
     """
-    each_of = [results] if isinstance(results, PinForces) else list(results)
+    each_of = results_of(results)
     best: dict[tuple[str, str, str, str], PinLoad] = {}
     for one in each_of:
         with unwarned():  # what comes of a dead point is said by the row
@@ -64,6 +64,15 @@ def max_table(results: PinForces | Iterable[PinForces]) -> tuple[PinLoad, ...]:
     if not best:
         raise DefinitionError("There are no joint forces to tabulate: no pose is reached.")
     return tuple(best.values())
+
+
+def results_of(given: PinForces | Iterable[PinForces]) -> list[PinForces]:
+    """Return results of `pin_forces`, one or several, as a list; DefinitionError for anything else."""
+    found: list[Any] = [given] if isinstance(given, PinForces) else list(given) if isinstance(given, (list, tuple, Iterator)) else [given]
+    for each in found:
+        if not isinstance(each, PinForces):
+            raise DefinitionError(f"max_table: {cited(each)} is no result of pin_forces; give pin_forces(motion), or a list of such.")
+    return found
 
 
 def largest(result: PinForces) -> list[PinLoad]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited
 from ..quantities import Number, Quantity, Reference, Where, quantity, spelled
 from ..vectors import Vec
 from .labels import Claims
@@ -15,7 +15,9 @@ from .step import Point
 class Ground(Point):
     """A fixed point [m]. Its coordinates are design variables: `M.x`, `M.y`, or `M=(x, y)` at once."""
 
-    def __init__(self, x: Any, y: Any) -> None:
+    def __init__(self, x: Any, y: Any = None) -> None:
+        if y is None:
+            raise DefinitionError(f"Ground({cited(x)}): say both coordinates one after the other [m], Ground(0.7, 0.0).")
         self.x, self.y = quantity(x), quantity(y)
         for value in (self.x, self.y):
             if isinstance(value, Number) and not abs(value.number) < float("inf"):

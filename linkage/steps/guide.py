@@ -85,7 +85,7 @@ class Guide(Holding):
 
     def __str__(self) -> str:
         start = label(self.P) if self.P is not None else str(self.fixed_at)
-        end = label(self.Q) if self.Q is not None else f"angle={spelled(quantity(self.angle or 0.0), 0, 'angle')}"
+        end = label(self.Q) if self.Q is not None else f"angle={spelled(quantity(0.0 if self.angle is None else self.angle), 0, 'angle')}"
         return f"Guide({start}, {end})"
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..errors import DefinitionError
-from ..quantities import Member, Quantity, Reference, Where, name_of, quantity
+from ..errors import DefinitionError, cited
+from ..quantities import Member, Quantity, Reference, Where, is_number, name_of, quantity
 from ..vectors import Scalar, Vec
 from .guide import Guide, Slide
 from .labels import Claims, Slot
@@ -72,6 +72,8 @@ class Group(Member):
     """
 
     def __init__(self, pins: str) -> None:
+        if not isinstance(pins, str) or not pins.split():
+            raise DefinitionError(f'Group({cited(pins)}): the names of its pins are expected in one text, Group("D E F").')
         self.pins = tuple(pins.split())
         self.given: tuple[tuple[str, str, Quantity], ...] = ()
         self.attached: tuple[tuple[str, OnLink], ...] = ()
@@ -128,4 +130,7 @@ class Drawn(Member):
 
 def drawn(**strokes: float) -> Drawn:
     """Return the statement at which strokes [SI] the positions `near` and `at` hold; default: the start of each."""
+    for name, value in strokes.items():
+        if not is_number(value):
+            raise DefinitionError(f"drawn({name}={cited(value)}): a finite number is expected, in m or rad.")
     return Drawn(strokes)

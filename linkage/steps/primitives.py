@@ -11,7 +11,7 @@ from ..errors import DefinitionError
 from ..quantities import Length, Member, Quantity, Reference, Turning, Where, label, name_of, quantity, spelled
 from ..vectors import Scalar, Vec
 from .dyad import triangle
-from .step import Point
+from .step import Point, direction
 
 
 class Arrow(Member):
@@ -58,7 +58,7 @@ class Turn(Arrow):
     expects = (("base", "vector"), ("angle", "quantity"))
 
     def __init__(self, vector: Reference, angle: Any, length: Any = None) -> None:
-        self.base, self.angle = vector, quantity(angle)
+        self.base, self.angle = vector, direction(angle, "Turn")
         self.scaled_to = None if length is None else quantity(length)
 
     def parts(self) -> tuple[Reference, ...]:

@@ -7,7 +7,7 @@ from typing import Any
 from ..quantities import Joint, JointSide, Number, Quantity, Reference, Where, guided, quantity, spelled
 from ..vectors import Line, Scalar, Side, Vec
 from .labels import Slot
-from .step import UNBOUND, Bar, Step
+from .step import UNBOUND, Bar, Step, direction
 
 
 class SliderDyad(Step):
@@ -208,7 +208,7 @@ class YokeDyad(Step):
 
     def __init__(self, P: Reference, guide: Reference, *, angle: Any = 1.5707963267948966) -> None:
         super().__init__(P, guide, labels={})
-        self.angle = quantity(angle)
+        self.angle = direction(angle, "YokeDyad")
 
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), self.angle)

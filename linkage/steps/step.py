@@ -6,10 +6,14 @@ from abc import abstractmethod
 from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass
+from math import pi
 from typing import Any, Self
 
-from ..errors import DefinitionError
-from ..quantities import Holding, Number, Quantity, Reference, Where, name_of, quantity
+import numpy as np
+
+from ..errors import DefinitionError, cited
+from ..quantities import Holding, Number, Quantity, Reference, Where, is_number, name_of, quantity
+from ..units import deg
 from ..vectors import Scalar, Side, Vec
 from .labels import Claims, Slot, match, relabelled, written_labels
 
@@ -22,6 +26,8 @@ class Unbound(Number):
 
 
 UNBOUND = Unbound(float("nan"))
+
+TURN = 2.0 * pi * (1.0 + 1e-9)
 
 
 @dataclass(frozen=True)
@@ -200,7 +206,16 @@ def side_of(side: Any, what: str) -> Side:
     """Return the side; raise DefinitionError for anything but LEFT and RIGHT, or these words."""
     found = Side.said(side)
     if found is None:
-        raise DefinitionError(f"{what}: side={side!r}; say side=LEFT or side=RIGHT.")
+        raise DefinitionError(f"{what}: side={cited(side)}; say side=LEFT or side=RIGHT.")
+    return found
+
+
+def direction(given: Any, what: str) -> Quantity:
+    """Return an angle as a quantity; DefinitionError for a number of more than a full turn, which was given in degrees."""
+    found = quantity(given)
+    if isinstance(found, Number) and abs(found.number) > TURN:
+        said = f"the angle {found.number:.6g} rad ({found.number / deg:.6g} deg) is more than a full turn"
+        raise DefinitionError(f"{what}: {said}; write {found.number:.6g} * deg if these are degrees, or take whole turns off.")
     return found
 
 
@@ -208,12 +223,11 @@ def position(value: Any, what: str) -> tuple[float, float] | None:
     """Return a sketch position as two floats; raise DefinitionError unless it is a pair of finite numbers."""
     if value is None:
         return None
-    try:
-        x, y = (float(part) for part in value)
-    except (TypeError, ValueError):
-        raise DefinitionError(f"{what}: {value!r} is not a position; write (x, y) in m.") from None
-    if not (abs(x) < float("inf") and abs(y) < float("inf")):
-        raise DefinitionError(f"{what}: {value!r} is not a finite position.")
-    return x, y
+    pair = tuple(value) if isinstance(value, (list, tuple)) or (isinstance(value, np.ndarray) and value.ndim == 1) else ()
+    if len(pair) != 2 or not all(isinstance(part, (int, float, np.integer, np.floating)) and not isinstance(part, bool) for part in pair):
+        raise DefinitionError(f"{what}: {cited(value)} is not a position; write (x, y) in m.")
+    if not all(map(is_number, pair)):
+        raise DefinitionError(f"{what}: {cited(value)} is not a finite position.")
+    return float(pair[0]), float(pair[1])
 
 

@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, unwarned
+from ..errors import DefinitionError, cited, told, unwarned
 from ..mechanism import Mechanism
 from ..motion import Motion, paired
 from ..plan import Plan
@@ -53,11 +53,24 @@ def poses_of(machine: Mechanism, settings: Mapping[str, Any], base: Motion, plac
     return paired(machine.plan, machine.replaced(**settings).dimensions, strokes, base, place)
 
 
+def called(asked: Callable[[Motion], Any], motion: Motion) -> Any:
+    """Return what a function of a motion gives; DefinitionError, with the line, for whatever goes wrong in it."""
+    name = getattr(asked, "__name__", cited(asked))
+    with told(f"{motion.plan.title}: the function {name} of a motion of many settings"):
+        return asked(motion)
+
+
 def values(motion: Motion, asked: Asked) -> FloatArray:
     """Return what is asked for at every pose of a motion, NaN where it has no value; nearness to a dead point is told by the study."""
+    title = motion.plan.title
+    if isinstance(asked, type) or not (callable(asked) or isinstance(asked, (str, Quantity))):
+        raise DefinitionError(f"{title}: {cited(asked)} is no output, quantity or function of a motion; give one, such as 'tilt'.")
     with unwarned(), np.errstate(all="ignore"):
-        found = asked(motion) if callable(asked) else motion.value(asked) if isinstance(asked, Quantity) else motion[asked]
-    result = np.asarray(found, float)
+        found = called(asked, motion) if callable(asked) else motion.value(asked) if isinstance(asked, Quantity) else motion[asked]
+    try:
+        result = np.asarray(found, float)
+    except (TypeError, ValueError):
+        raise DefinitionError(f"{title}: {title_of(asked)} gives {cited(found)}; a number for each pose is expected.") from None
     if result.shape != motion.shape:
         what = f"{title_of(asked)} has the shape {result.shape} where {motion.shape} is expected"
         raise DefinitionError(f"{motion.plan.title}: {what}; ask for a number such as an output, or lambda motion: motion.y('G').")

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited, unknown
 from ..mechanism import Mechanism
 from ..plan import Plan
 from ..program import FloatArray
@@ -38,6 +38,9 @@ class Box:
         a_mechanism(machine)
         if not isinstance(over, Mapping):
             raise DefinitionError(f"{machine.plan.title}: over={over!r:.60}: a dictionary of ranges and choices by name is expected.")
+        for name in over:
+            if not isinstance(name, str):
+                raise unknown("Dimension", name, machine.plan.table.names(), where=machine.plan.title)
         ranges = {name: range_of(name, value) for name, value in over.items() if isinstance(value, tuple)}
         lists = {name: choices_of(name, value) for name, value in over.items() if not isinstance(value, tuple)}
         if len(ranges) > MOST:
@@ -88,12 +91,16 @@ def spoken(plan: Plan, name: str, value: Any, place: int) -> str:
 def range_of(name: str, given: Any) -> tuple[float, float]:
     """Return a range; DefinitionError unless it is (low, high)."""
     if not isinstance(given, (tuple, list)) or len(given) != 2 or not all(is_number(end) for end in given) or given[0] > given[1]:
-        raise DefinitionError(f"{name}={given!r} is no range; write (low, high) in SI, or a list [first, second] of choices.")
+        raise DefinitionError(f"{name}={cited(given)} is no range; write (low, high) in SI, or a list [first, second] of choices.")
     return float(given[0]), float(given[1])
 
 
 def choices_of(name: str, given: Any) -> list[Any]:
     """Return a list of choices; DefinitionError for anything else."""
-    if isinstance(given, str) or not isinstance(given, Sequence) or not given:
-        raise DefinitionError(f"{name}={given!r}: write a range (low, high) or a list of choices such as [(0.22, 1.05), (0.22, 0.95)].")
+    if not isinstance(given, (list, tuple, range)) or not given:
+        said = "write a range (low, high) or a list of choices such as [(0.22, 1.05), (0.22, 0.95)]"
+        raise DefinitionError(f"{name}={cited(given)}: {said}.")
+    for each in given:
+        if not (is_number(each) or (isinstance(each, (list, tuple)) and len(each) == 2 and all(map(is_number, each)))):
+            raise DefinitionError(f"{name}: {cited(each)} is no choice; write a number, or (x, y) of a point.")
     return list(given)

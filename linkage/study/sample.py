@@ -6,9 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited, one_word
 from ..program import FloatArray
 from ..quantities import is_whole
+
+MOST = 1 << 30
+"""Designs of one sample."""
 
 METHODS = ("sobol", "latin")
 
@@ -16,9 +19,10 @@ METHODS = ("sobol", "latin")
 def unit_points(count: int, k: int, method: str, seed: int) -> FloatArray:
     """Return points (count, k) of [0, 1); the same for the same seed. A Sobol sequence is evenest where count is a power of two."""
     if not is_whole(count) or count < 1:
-        raise DefinitionError(f"count={count!r}: a whole number of designs is expected, at least 1.")
-    if method not in METHODS:
-        raise DefinitionError(f'method={method!r}: say "sobol" or "latin".')
+        raise DefinitionError(f"count={cited(count)}: a whole number of designs is expected, at least 1.")
+    if count > MOST:
+        raise DefinitionError(f"count={cited(count)}: so many designs do not fit into memory; ask for fewer.")
+    one_word("method", method, METHODS)
     if not is_whole(seed) or seed < 0:
         raise DefinitionError(f"seed={seed!r}: a whole number is expected, at least 0.")
     if not k:

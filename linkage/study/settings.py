@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, cited, known_name
 from ..mechanism import Mechanism
 from ..program import FloatArray
 from ..quantities import is_number
-from ..units import show
+from ..units import show, unit_or_none
 from .asked import Asked, one_design, poses_of, title_of, unit_of, values
 from .box import range_of
 
@@ -44,11 +44,13 @@ def settings_for(
     thousandth of the range may be missed. Settings that cannot be assembled are passed over. `unit` is the quantity's in the sentence.
     """
     one_design(machine)
+    known_name("Dimension", name, machine.plan.table.spellings, where=machine.plan.title)
+    unit_or_none(unit, where="settings_for(unit=...)")
     low, high = range_of("between", between)
     if set(strokes) != set(machine.strokes):
         raise DefinitionError(f"{machine.plan.title}: say the pose, {', '.join(f'{each}=...' for each in machine.strokes)}.")
-    if not is_number(target) or any(np.ndim(value) for value in strokes.values()):
-        given = ", ".join(f"{each}={value!r}" for each, value in {"target": target, **strokes}.items())
+    if not is_number(target) or not all(map(is_one, strokes.values())):
+        given = ", ".join(f"{each}={cited(value)}" for each, value in {"target": target, **strokes}.items())
         raise DefinitionError(f"{machine.plan.title}: {given}: one number is expected for each, in SI.")
 
     base = machine.at(unreachable="nan", **{each: [value] for each, value in strokes.items()})
@@ -63,6 +65,11 @@ def settings_for(
     unique = [root for place, root in enumerate(sorted(found)) if not place or root - sorted(found)[place - 1] > 1e-9 * (high - low)]
     words = Words(name, unit_of(machine.plan, name), title_of(quantity), unit)
     return Settings(name, tuple(unique), words.roots(unique, target) if unique else words.none(at, off + target, target))
+
+
+def is_one(value: Any) -> bool:
+    """Return whether a stroke's value is one finite number."""
+    return is_number(value.item() if isinstance(value, np.ndarray) and value.ndim == 0 and not np.ma.is_masked(value) else value)
 
 
 def ends_of_reach(curve: Curve, at: FloatArray) -> FloatArray:
@@ -106,6 +113,7 @@ def touchings(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
     size = np.abs(off)
     with np.errstate(invalid="ignore"):
         dips = (size[1:-1] <= size[:-2]) & (size[1:-1] <= size[2:]) & (np.sign(off[2:]) == np.sign(off[:-2]))
+        dips &= (size[1:-1] < size[:-2]) | (size[1:-1] < size[2:])  # along a level stretch it comes no nearer
     return [nearest(curve, float(at[place]), float(at[place + 2])) for place in np.flatnonzero(dips)]
 
 

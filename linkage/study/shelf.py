@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, FileError
+from ..errors import DefinitionError, FileError, cited
 from .batch import Batch, Task
 from .designs import Designs
 from .fingerprint import fingerprint, plan_text, word
@@ -37,8 +37,8 @@ class Shelf:
     @classmethod
     def of(cls, folder: str | os.PathLike[str], task: Task, designs: Designs) -> Shelf:
         """Return the shelf of a study; DefinitionError where the folder holds another one, with what differs."""
-        if not folder or not isinstance(folder, (str, os.PathLike)):
-            raise DefinitionError(f"folder={folder!r}: the path of a folder is expected.")
+        if not isinstance(folder, (str, os.PathLike)) or folder == "":
+            raise DefinitionError(f"folder={cited(folder)}: the path of a folder is expected.")
         place, facts = Path(folder), facts_of(task, designs)
         note = place / NOTE
         if note.exists():

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, cited, known_name, one_word
 from ..mechanism import Mechanism
 from ..quantities import is_whole
 from .asked import one_design
@@ -33,12 +33,10 @@ class Survey(Mapping[str, Array]):
     batches: tuple[Batch, ...]
 
     def __getitem__(self, name: str) -> Array:
-        if name not in self.results:
-            raise unknown("Result", name, self.results, where=f"the survey of {self.machine.plan.title}")
-        return self.results[name]
+        return self.results[known_name("Result", name, self.results, where=f"the survey of {self.machine.plan.title}")]
 
     def __contains__(self, name: object) -> bool:
-        return name in self.results
+        return isinstance(name, str) and name in self.results
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.results)
@@ -102,6 +100,8 @@ def survey(
     if executor is not None and (isinstance(executor, type) or not callable(getattr(executor, "submit", None))):
         what = "is a class" if isinstance(executor, type) else "has no submit"
         raise DefinitionError(f"executor={executor!r:.60} {what}; give a pool of concurrent.futures or client.get_executor().")
+    if not isinstance(progress, bool) and (not callable(progress) or isinstance(progress, type)):
+        raise DefinitionError(f"progress={cited(progress)}: say True for a bar, or give a function of (done, total) designs.")
     shelf = None if folder is None else Shelf.of(folder, task, designs)
     with shown(progress, machine.plan.heading) as tell:
         run = Run(task, designs, executor or Here(), shelf, tell)
@@ -120,6 +120,4 @@ def piece_of(machine: Mechanism, count: int, given: int | None) -> int:
 
 def backend_of(name: str) -> str:
     """Return the back end by its name; DefinitionError where it is none that many designs can be left to."""
-    if name not in ("numpy", "numba"):
-        raise DefinitionError(f'backend={name!r}: say "numpy" or "numba".')
-    return name
+    return one_word("backend", name, ("numpy", "numba"))

@@ -14,7 +14,7 @@ from ..errors import DefinitionError, SingularWarning
 from ..mechanism import Mechanism
 from ..motion import Motion, at_values
 from ..program import FloatArray
-from .asked import Asked, one_design, poses_of, title_of, values
+from .asked import Asked, called, one_design, poses_of, title_of, values
 from .box import Box, setting_words
 from .search import Index, extremes, grid_of
 
@@ -111,5 +111,5 @@ def near_dead_points(motion: Motion, quantity: Asked) -> list[str]:
     with warnings.catch_warnings(record=True) as heard:
         warnings.simplefilter("always", SingularWarning)
         if callable(quantity):
-            quantity(motion)
+            called(quantity, motion)
     return list(dict.fromkeys(str(each.message) for each in heard if issubclass(each.category, SingularWarning)))

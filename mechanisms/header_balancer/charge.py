@@ -11,8 +11,10 @@ import numpy as np
 from hydraulics import AccumulatorBlock, adiabatic, isothermal
 from hydraulics.gas import Gas
 from linkage import DefinitionError, Motion
+from linkage.errors import cited
 from linkage.motion import lowest
 from linkage.program import FloatArray
+from linkage.quantities import is_number
 from linkage.units import kgf_cm2, mm, show
 
 from .following import Balance, at_horizon, over_following
@@ -46,6 +48,8 @@ def charge_for(motion: Motion, wanted: float) -> float:
 
     DefinitionError where it is below zero: so much reaction the weights do not give.
     """
+    if not is_number(wanted):
+        raise DefinitionError(f"wanted={cited(wanted)}: one reaction of all shoes is expected, in N.")
     balance = Balance(at_horizon(motion))
     pressure = float(balance.cylinder.sized(balance.motion).pressure_for(balance.thrust_without_line(pressed=wanted))[0])
     if pressure < 0.0:

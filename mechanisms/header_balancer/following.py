@@ -10,10 +10,11 @@ import numpy as np
 
 from hydraulics import Cylinder, FloatCircuit
 from linkage import Column, DefinitionError, ForceElement, Motion
+from linkage.errors import cited
 from linkage.loads import PinFriction, Support
-from linkage.motion import greatest
+from linkage.motion import greatest, require_motion
 from linkage.program import FloatArray
-from linkage.quantities import Coordinate, Distance
+from linkage.quantities import Coordinate, Distance, is_number, is_whole
 from linkage.statics import driving_force, reaction
 from linkage.statics.movement import SENSES
 from linkage.units import kgf_cm2, mm
@@ -27,6 +28,7 @@ PLAIN = 0.15
 """Friction coefficient of the plain bearing at O that the paper looks at; a rolling bearing has none worth counting."""
 
 REACHED = 1e-9  # m
+MANY = 10_000_000  # poses
 
 
 def stroke_at(height: Any, O_y: Any, OA: Any, to_A: Any, L_OB: Any, L_OR: Any, BOR: Any, L_min: Any) -> Any:
@@ -42,6 +44,9 @@ def stroke_at(height: Any, O_y: Any, OA: Any, to_A: Any, L_OB: Any, L_OR: Any, B
 
 def stroke_of(motion: Motion, height: float) -> float:
     """Return the stroke [m] at which the shoe of one design stands at a height [m]; DefinitionError where it never does."""
+    require_header(motion)
+    if not is_number(height):
+        raise DefinitionError(f"height={cited(height)}: one number in m is expected, above the horizon.")
     if motion.design_shape:
         raise DefinitionError("The following range is found for one design at a time; this motion has a batch of them.")
     given = motion.inputs
@@ -58,14 +63,25 @@ def stroke_of(motion: Motion, height: float) -> float:
     return h
 
 
+def require_header(motion: Motion) -> None:
+    """Raise DefinitionError for what is no motion of a balanced header."""
+    require_motion(motion)
+    if "follows" not in motion.inputs or "h" not in motion.strokes:
+        raise DefinitionError(f"{motion.plan.title} is no balanced header; give a motion of a HeaderBalancer.")
+
+
 def over_following(motion: Motion, count: int = 101) -> Motion:
     """Return the same design over the following range, from the shoe's lowest place to its highest, equally spaced in h."""
+    require_header(motion)
+    if not is_whole(count) or not 1 <= count <= MANY:
+        raise DefinitionError(f"count={cited(count)}: a whole number of poses is expected, such as 101.")
     range_ = float(motion.inputs["follows"])
     return motion.moved({"h": np.linspace(stroke_of(motion, -range_), stroke_of(motion, range_), count)})
 
 
 def at_horizon(motion: Motion) -> Motion:
     """Return the same design at the horizon, one pose."""
+    require_header(motion)
     return motion.moved({"h": np.array([stroke_of(motion, 0.0)])})
 
 

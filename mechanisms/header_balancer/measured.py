@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from hydraulics import Verdict
-from linkage import FileError, Motion
+from linkage import DefinitionError, FileError, Motion
+from linkage.errors import cited
 from linkage.program import FloatArray
 from linkage.units import UNITS, mm
 
@@ -59,7 +60,10 @@ def read_measured(path: str | Path) -> Mapping[str, FloatArray]:
     A heading is a name and its unit: `"R_y, mm"` or `R_y [mm]`. Fields are parted by commas, or by semicolons (then a
     comma may be the decimal sign). An empty field is a value not measured. FileError names the line.
     """
-    text = Path(path).read_text(encoding="utf-8-sig")
+    try:
+        text = Path(path).read_text(encoding="utf-8-sig")
+    except (OSError, ValueError, TypeError) as error:
+        raise FileError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}.") from None
     lines = text.splitlines()
     delimiter = ";" if lines and ";" in lines[0] else ","
     rows = [row for row in csv.reader(lines, delimiter=delimiter, skipinitialspace=True) if row]
@@ -102,6 +106,8 @@ def _number(row: Sequence[str], index: int, where: str, delimiter: str) -> float
 
 def deviations(motion: Motion, measured: Mapping[str, FloatArray]) -> list[Deviation]:
     """Return every measured curve against the calculated one of a design, at the measured places."""
+    if not isinstance(measured, Mapping) or not set(measured) & set(PLACES):
+        raise DefinitionError(f"{cited(measured)} holds no measured curves with their places, R_y or h; take read_measured(path).")
     return list(_each(motion, measured))
 
 

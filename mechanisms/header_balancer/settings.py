@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 
 from linkage import Column, DefinitionError
+from linkage.errors import cited
+from linkage.quantities import is_whole, real
 
 from .charge import SLOW, Way, charge_for, largest_charge
 from .following import Balance, over_following
@@ -17,8 +19,8 @@ from .machine import HeaderBalancer
 
 def with_header(number: int, **changes: Any) -> HeaderBalancer:
     """Return the machine with header 1, 2 or 3 at its published setting, other design variables [SI] changed as said."""
-    if number not in HEADERS:
-        raise DefinitionError(f"Header {number!r} is unknown; the paper has {', '.join(map(str, HEADERS))}.")
+    if not is_whole(number) or number not in HEADERS:
+        raise DefinitionError(f"Header {cited(number)} is unknown; the paper has {', '.join(map(str, HEADERS))}.")
     return HeaderBalancer(**{**HEADERS[number], **changes})
 
 
@@ -30,7 +32,12 @@ def setting_table(wanted: Sequence[float], changes: Mapping[str, Any] | None = N
     the weights do not give so much reaction, or the line would be charged below every gas charge and be rigid.
     `changes` are design variables [SI] of all headers.
     """
-    forces, changed = np.asarray(wanted, float), dict(changes or {})
+    try:
+        forces, changed = np.atleast_1d(real(wanted)), dict(changes or {})
+    except ValueError:
+        raise DefinitionError(f"wanted={cited(wanted)}: a list of reactions [N] is expected, such as [0.0, 100 * kgf].") from None
+    if not forces.size or forces.ndim > 1 or not np.isfinite(forces).all():
+        raise DefinitionError(f"wanted={cited(wanted)}: a list of finite reactions [N] is expected, such as [0.0, 100 * kgf].")
     design = HeaderBalancer(**changed)
     shoes, way = float(design["shoes"]), SLOW if design["n"] == 1.0 else Way(f"n = {design['n']:g}", exponent=float(design["n"]))
     columns = [Column("F_R", forces, "kgf", 0), Column("per shoe", forces / shoes, "kgf", 0)]

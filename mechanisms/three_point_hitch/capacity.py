@@ -5,8 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from hydraulics import LiftCircuit
-from linkage import Force, ForceElement, Motion
+from linkage import DefinitionError, Force, ForceElement, Motion
+from linkage.errors import cited
+from linkage.motion import require_motion
 from linkage.program import FloatArray
+from linkage.quantities import is_number
 from linkage.units import deg, mm
 
 BEHIND = 610 * mm
@@ -20,8 +23,10 @@ NOT_OWN = ("load", "lift", "circuit")
 
 def circuit_of(motion: Motion) -> LiftCircuit:
     """Return the motion's lift circuit."""
-    found = motion.plan.members["circuit"]
-    assert isinstance(found, LiftCircuit)
+    require_motion(motion)
+    found = motion.plan.members.get("circuit")
+    if not isinstance(found, LiftCircuit):
+        raise DefinitionError(f"{motion.plan.title} has no lift circuit of the name circuit; give the motion of a three-point hitch.")
     return found
 
 
@@ -45,6 +50,9 @@ def at_hitch_points(motion: Motion, share: float = SHARE) -> FloatArray:
 
 def behind(motion: Motion, distance: float = BEHIND, share: float = SHARE) -> FloatArray:
     """Return the capacity with the load's centre a distance [m] behind the hitch points, square to the upright [N], shape (...)."""
+    require_motion(motion)
+    if not is_number(distance):
+        raise DefinitionError(f"distance={cited(distance)}: one number in m is expected, such as 0.61.")
     tested = {"FG": distance, "KFG": 90 * deg}
     moved = Motion(motion.plan, motion.designs | tested, motion.strokes, motion.unreachable)
     return circuit_of(moved).capacity(moved, "G", own_loads(motion), share=share)

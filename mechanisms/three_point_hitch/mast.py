@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from linkage import Mechanism
+from linkage.mechanism import require_mechanism
 from linkage.study import Settings, settings_for
 from linkage.units import mm
 
@@ -17,8 +18,9 @@ def vertical_mast(hitch: Mechanism, S: float, between: tuple[float, float] | Non
 
     Without a range it looks from 0.3 to 3 times MK.
     """
-    low, high = between if between is not None else (WIDE[0] * hitch["MK"], WIDE[1] * hitch["MK"])
-    return settings_for(hitch, "MK", "tilt", 0.0, between=(low, high), unit="deg", S=S)
+    require_mechanism(hitch)
+    wide = between if between is not None else (WIDE[0] * hitch["MK"], WIDE[1] * hitch["MK"])
+    return settings_for(hitch, "MK", "tilt", 0.0, between=wide, unit="deg", S=S)
 
 
 def mast_words(hitch: Mechanism, S: float) -> str:

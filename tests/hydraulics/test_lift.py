@@ -204,9 +204,10 @@ def test_holding_is_judged_against_the_relief_valve_and_lifting_against_the_pump
     ids=str,
 )  # fmt: skip
 def test_bad_numbers_are_refused_in_words(given, words):
-    motion = Lift(**{f"circuit.{name}": value for name, value in given.items()}).sweep(3)
     with pytest.raises(DefinitionError, match=words):
-        circuit.reserve(motion, pushing(10 * kN))
+        circuit.reserve(Lift(**{f"circuit.{name}": value for name, value in given.items()}).sweep(3), pushing(10 * kN))
+    with pytest.raises(DefinitionError, match=words.replace("pressure", "Pressure")):
+        LiftCircuit("lift", **({"pressure": 1e7} | given))
 
 
 @pytest.mark.parametrize("given", [{"flow": -1.0}, {"back_pressure": -1.0}, {"pressure": float("nan")}], ids=str)

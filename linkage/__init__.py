@@ -28,6 +28,7 @@ from .mechanism import Mechanism as Mechanism
 from .mobility import grashof as grashof
 from .motion import Column as Column
 from .motion import Motion as Motion
+from .motion import condition as condition
 from .motion import ratio as ratio
 from .quantities import Dimension as Dimension
 from .quantities import Stroke as Stroke

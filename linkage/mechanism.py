@@ -20,7 +20,7 @@ from .motion import (
     Grid,
     Motion,
     PoseFunction,
-    Request,
+    RequestLike,
     as_given,
     at_values,
     check_any,
@@ -199,7 +199,7 @@ class Mechanism:
     @of_a_design
     def evaluate(
         self,
-        of: Sequence[Request],
+        of: Sequence[RequestLike],
         *,
         out: FloatArray | None = None,
         unreachable: str = "raise",
@@ -219,7 +219,7 @@ class Mechanism:
         return evaluate(grid, of, out, Way(backend, threads), unreachable)
 
     @of_a_design
-    def function(self, of: Sequence[Request]) -> PoseFunction:
+    def function(self, of: Sequence[RequestLike]) -> PoseFunction:
         """Return values, ratios and forces of this design as a function of the strokes, in floats: `f = function(["G", ratio("G")])`.
 
         `f(0.1)` returns all components one after the other, here (G_x, G_y, dG_x, dG_y), in some microseconds: for root
@@ -228,7 +228,7 @@ class Mechanism:
         return PoseFunction(self.plan, self._values, of)
 
     @of_a_design
-    def source(self, of: Sequence[Request], *, language: str = "c", name: str = "poses") -> str:
+    def source(self, of: Sequence[RequestLike], *, language: str = "c", name: str = "poses") -> str:
         """Return values and ratios as the text of a function in "c" or "javascript", for a controller or a page of one's own.
 
         Dimensions and strokes are its arguments, in the order that its first comment gives, SI and radians; NaN out of reach. Pins

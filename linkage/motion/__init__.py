@@ -1,11 +1,11 @@
 """Where everything is over the stroke: positions, ratios, angles, distances."""
 
-from .asked import rates_of as rates_of
 from .below import Span as Span
 from .below import below_zero as below_zero
 from .below import reached as reached
-from .bulk import evaluate as evaluate
+from .checks import rates_of as rates_of
 from .column import Column as Column
+from .evaluation import evaluate as evaluate
 from .extremes import Extremum as Extremum
 from .extremes import greatest as greatest
 from .extremes import lowest as lowest
@@ -17,10 +17,13 @@ from .motion import Target as Target
 from .motion import paired as paired
 from .motion import require_motion as require_motion
 from .reach import stroke_unit as stroke_unit
-from .request import Ratio as Ratio
-from .request import Request as Request
-from .request import Value as Value
-from .request import ratio as ratio
+from .requests import BoundRequest as BoundRequest
+from .requests import Ratio as Ratio
+from .requests import Request as Request
+from .requests import RequestLike as RequestLike
+from .requests import Value as Value
+from .requests import condition as condition
+from .requests import ratio as ratio
 from .source import source_of as source_of
 from .strokes import as_given as as_given
 from .strokes import at_values as at_values
@@ -28,5 +31,3 @@ from .strokes import check_any as check_any
 from .strokes import sweep_values as sweep_values
 from .table import columns_of as columns_of
 from .tabled import Tabled as Tabled
-from .wanted import Asked as Asked
-from .wanted import Wanted as Wanted

@@ -12,9 +12,9 @@ from ..errors import DefinitionError
 from ..plan import Plan
 from ..program import NO_VALUE, QUICKEST, FloatArray, Kernel
 from ..quantities import real
-from .bulk import Bulk
+from .evaluation import Evaluation
 from .grid import Grid
-from .request import Request, all_wanted
+from .requests import RequestLike, all_bound
 from .strokes import known_strokes
 
 Poses: TypeAlias = Callable[..., tuple[float, ...]]
@@ -24,7 +24,7 @@ Poses: TypeAlias = Callable[..., tuple[float, ...]]
 class PoseFunction:
     """Requests of one design as a function of the strokes, in floats; it can be sent to other processes."""
 
-    def __init__(self, plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request]) -> None:
+    def __init__(self, plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike]) -> None:
         listed = tuple(requests) if isinstance(requests, Iterator) else requests
         self._made_of = plan, dict(designs), listed
         self._at = function_of(plan, designs, listed)
@@ -37,17 +37,17 @@ class PoseFunction:
         return PoseFunction, self._made_of
 
 
-def function_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request]) -> Poses:
+def function_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike]) -> Poses:
     """Return requests as a function of the strokes; see Mechanism.function."""
     if any(np.ndim(value) for value in designs.values()):
         raise DefinitionError(f"{plan.title}: a function of floats is of one design; use evaluate for several.")
-    asked = all_wanted(plan, requests)
+    asked = all_bound(plan, requests)
 
-    def bulk(strokes: Sequence[float]) -> Bulk:
+    def bulk(strokes: Sequence[float]) -> Evaluation:
         if len(strokes) != len(plan.strokes):
             raise DefinitionError(f"{plan.title}: one value for each stroke is expected: {', '.join(plan.strokes)}.")
         values = {name: lone(value, name, plan.title) for name, value in zip(plan.strokes, strokes, strict=True)}
-        return Bulk(Grid(plan, designs, values), asked, QUICKEST)
+        return Evaluation(Grid(plan, designs, values), asked, QUICKEST)
 
     def careful(*strokes: float, **named: float) -> tuple[float, ...]:
         return tuple(float(part) for values in bulk((*strokes, *rest(plan, len(strokes), named))).run(None) for part in np.ravel(values))

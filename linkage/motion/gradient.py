@@ -13,8 +13,7 @@ from ..plan import Plan
 from ..program import FloatArray, Kernel, Node, ancestors, gradient
 from .angles import Angles, angles_of
 from .reach import Mask
-from .request import Request, dimensions_of, wanted
-from .wanted import Wanted, astray
+from .requests import BoundRequest, RequestLike, astray, bound, dimensions_of
 
 if TYPE_CHECKING:
     from .motion import Motion
@@ -32,10 +31,10 @@ class Slopes:
 
 @final
 @dataclass(frozen=True)
-class Slope(Wanted):
+class Slope(BoundRequest):
     """The derivatives of a request by some dimensions, as a request that is looked at near singular poses."""
 
-    what: Wanted
+    what: BoundRequest
     by: tuple[str, ...]
 
     @property
@@ -60,7 +59,7 @@ class Slope(Wanted):
         return f"the gradient of {self.what}"
 
 
-def slopes_of(plan: Plan, what: Wanted, names: Sequence[str]) -> Slopes:
+def slopes_of(plan: Plan, what: BoundRequest, names: Sequence[str]) -> Slopes:
     """Return the derivatives of a request by dimensions, as a kernel."""
     inputs = [plan.trace.inputs[name] for name in names]
     shares, notes = Slope(what, tuple(names)).nodes(plan), what.notes(plan)
@@ -74,10 +73,10 @@ def slopes_of(plan: Plan, what: Wanted, names: Sequence[str]) -> Slopes:
     return Slopes(kernel, angles_of(plan, shares), len(notes.assumed), tuple(words for _, words in touched))
 
 
-def gradient_of(motion: Motion, of: Request, wrt: Sequence[str]) -> FloatArray:
+def gradient_of(motion: Motion, of: RequestLike, wrt: Sequence[str]) -> FloatArray:
     """Return the derivatives of a request by dimensions, shape (len(wrt), ...), of a point (len(wrt), 2, ...); see Motion.gradient."""
     plan = motion.plan
-    what, dimensions = wanted(plan, of), dimensions_of(plan, wrt)
+    what, dimensions = bound(plan, of), dimensions_of(plan, wrt)
     names, title = tuple(name for name, _ in dimensions), f"The gradient of {what}"
     refused = motion.refused(Slope(what, names), title)
     good = motion.reached & ~refused
@@ -94,7 +93,7 @@ def gradient_of(motion: Motion, of: Request, wrt: Sequence[str]) -> FloatArray:
     return np.stack(np.split(rows, what.rows), axis=1) if what.rows > 1 else rows
 
 
-def check(motion: Motion, what: Wanted, good: Mask, assumed: FloatArray, switches: Iterable[tuple[str, FloatArray]]) -> None:
+def check(motion: Motion, what: BoundRequest, good: Mask, assumed: FloatArray, switches: Iterable[tuple[str, FloatArray]]) -> None:
     """Raise the error of poses where a law is another than the one traced, or changes to another with a dimension."""
     if np.any(good & ~np.all(assumed > 0.0, axis=0)):
         what.refuse(motion)

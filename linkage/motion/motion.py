@@ -16,14 +16,13 @@ from ..program import FloatArray, Kernel
 from ..quantities import Angle, Distance, Member, Quantity, needs
 from ..steps import Arrow, Point
 from ..vectors import Vec
-from . import numeric, reach, scan, singular
+from . import conditions, numeric, reach, scan
 from .angles import angles_of, to_rounding
-from .asked import method_of, named, order_of, rates_of
+from .checks import method_of, named, order_of, rates_of
 from .gradient import gradient_of
 from .grid import Beside, Grid, Joining, as_they_are, in_order
 from .reach import Mask
-from .request import Everywhere, Request, Value
-from .wanted import Wanted, examined, near_of, watched
+from .requests import BoundRequest, Everywhere, RequestLike, Value, examined, near_of, watched
 
 Target: TypeAlias = str | Member
 
@@ -109,7 +108,7 @@ class Motion:
         """What interrupts the way between the least and the greatest stroke, in order: stretches out of reach and change points.
 
         Empty where nothing does; it then leads from every pose to every other. None where it is not looked for: of batches and
-        of several strokes. Asked with unreachable="raise", a motion that is interrupted is refused.
+        of several strokes. Request with unreachable="raise", a motion that is interrupted is refused.
         """
         if not scan.is_watched(self):
             return None
@@ -191,13 +190,13 @@ class Motion:
         lost, doubtful = np.zeros(self.shape, bool), np.zeros(self.shape, bool)
         lost[near], doubtful[near] = found.refused, found.doubtful
         if lost.any() and self.unreachable == "raise":
-            raise singular.lost(found.at(found.refused), lost, self.strokes)
+            raise conditions.lost(found.at(found.refused), lost, self.strokes)
         if lost.any():
             self._places = np.where(lost, np.nan, self._places)
             self.reached &= ~lost
         if doubtful.any():
             where = reach.where_words(self.plan, doubtful, self.strokes)
-            singular.warn(found.at(found.doubtful), f"The places of {self.plan.title} {where}", 6)
+            conditions.warn(found.at(found.doubtful), f"The places of {self.plan.title} {where}", 6)
 
     # -- looked at again ---------------------------------------------------------------------------------
 
@@ -220,7 +219,7 @@ class Motion:
     @cached_property
     def loop_sines(self) -> dict[str, Any]:
         """The sine of the angle between the two links of every moving loop; zero at a dead point."""
-        return singular.loops(self.plan, self.reading)
+        return conditions.loops(self.plan, self.reading)
 
     def moved(self, strokes: Mapping[str, Any]) -> Self:
         """Return the same designs at other strokes [SI], each at its own where the arrays begin with the designs; NaN out of reach."""
@@ -451,7 +450,7 @@ class Motion:
             warnings.warn(SingularWarning(text, estimate=lost), stacklevel=3)
         return np.where(useless, np.nan, found)
 
-    def refused(self, what: Wanted, words: str) -> Mask:
+    def refused(self, what: BoundRequest, words: str) -> Mask:
         """Return the mask of poses where a result is refused; raise or warn as asked. `words` begin a sentence about it."""
         none = np.zeros(self.shape, bool)
         if not self._is_near(what):
@@ -463,19 +462,19 @@ class Motion:
         refused, doubtful = none, none.copy()
         refused[near], doubtful[near] = found.refused, found.doubtful
         if refused.any() and self.unreachable == "raise":
-            raise singular.refusal(found.at(found.refused), refused, self.strokes, words, self)
+            raise conditions.refusal(found.at(found.refused), refused, self.strokes, words, self)
         if doubtful.any():
-            singular.warn(found.at(found.doubtful), f"{words} {reach.where_words(self.plan, doubtful, self.strokes)}", 4)
+            conditions.warn(found.at(found.doubtful), f"{words} {reach.where_words(self.plan, doubtful, self.strokes)}", 4)
         return refused
 
-    def _is_near(self, what: Wanted) -> bool:
+    def _is_near(self, what: BoundRequest) -> bool:
         """Return whether some pose has to be looked at closely: for points that is known, for other values it is told with these."""
         if isinstance(what, Value) and not isinstance(what.member, Point):
             self._evaluated(what.member, what.along)
             return self._watched[what.key]
         return self.is_near_singular
 
-    def gradient(self, of: Request, wrt: Sequence[str]) -> FloatArray:
+    def gradient(self, of: RequestLike, wrt: Sequence[str]) -> FloatArray:
         """Return the exact derivatives of a position, an output, a ratio or a force by dimensions, all in one reverse pass.
 
         `gradient("tilt", wrt=["OB", "CD", "M.x"])` has the shape (3, ...), that of a point (3, 2, ...); `gradient(ratio("G"), ...)` is

@@ -11,8 +11,7 @@ import numpy as np
 from ..errors import DefinitionError, one_word
 from ..plan import Plan
 from ..program import Kernel, Node, c_text, javascript_text
-from .request import Request, all_wanted
-from .wanted import Wanted
+from .requests import BoundRequest, RequestLike, all_bound
 
 WRITERS: Mapping[str, Callable[[Sequence[Node], str, Mapping[str, float]], str]] = {"c": c_text, "javascript": javascript_text}
 
@@ -32,7 +31,7 @@ TAKEN: Mapping[str, str] = {
 """The words of each language, and the names of what the text uses: a function called so would not compile, or would hide them."""
 
 
-def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request], language: str, name: str) -> str:
+def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike], language: str, name: str) -> str:
     """Return requests as text in a language; see Mechanism.source."""
     one_word("language", language, tuple(WRITERS))
     if not (isinstance(name, str) and name.isascii() and name.isidentifier()):
@@ -41,14 +40,14 @@ def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request
         raise DefinitionError(f"name={name!r} has a meaning in {language} already; give the function another name, such as poses.")
     if any(np.ndim(value) for value in designs.values()):
         raise DefinitionError(f"{plan.title}: source() states one design; its dimensions are arguments of the text, which serves all.")
-    asked = all_wanted(plan, requests)
+    asked = all_bound(plan, requests)
     key = ("source", tuple(each.key for each in asked))
     nodes = plan.made(key, lambda twin: [node for each in asked for node in held(twin, each)])
     closed_form(plan, nodes)
     return WRITERS[language](nodes, name, {name: float(value) for name, value in designs.items()})
 
 
-def held(plan: Plan, what: Wanted) -> list[Node]:
+def held(plan: Plan, what: BoundRequest) -> list[Node]:
     """Return a request's nodes, NaN where what they are true under does not hold: the text can look nothing up."""
     nodes = list(what.nodes(plan))
     for truth in what.notes(plan).assumed:

@@ -14,6 +14,7 @@ from .reading import Reading as Reading
 from .table import Entry as Entry
 from .table import Table as Table
 from .trace import NEAR as NEAR
+from .trace import REGULAR as REGULAR
 from .trace import Guard as Guard
 from .trace import Loop as Loop
 from .trace import Measure as Measure

@@ -18,8 +18,8 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..motion import Motion
-from ..motion.bulk import cut as cut_out
-from ..motion.bulk import pieces
+from ..motion.evaluation import cut as cut_out
+from ..motion.evaluation import pieces
 from ..motion.reach import Mask
 from ..plan import Plan
 from ..program import FloatArray, Kernel, Level, Node, Tangent

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..loads import TwoPoint
-from ..motion.singular import condition
+from ..motion.conditions import condition
 from ..program import FloatArray
 from .holding import Line, same
 from .poses import Poses

@@ -10,9 +10,9 @@ import numpy as np
 
 from ..errors import unwarned
 from ..loads import Poses as ForElements
-from ..motion import Wanted
+from ..motion import BoundRequest
 from ..motion.reach import Mask
-from ..motion.request import Ratios
+from ..motion.requests import Ratios
 from ..plan import Plan
 from ..program import FloatArray
 from ..vectors import Line
@@ -32,7 +32,7 @@ class Posed(ForElements, Protocol):
     def reached(self) -> Any:
         """The mask of the poses that are reached."""
 
-    def refused(self, what: Wanted, words: str) -> Mask:
+    def refused(self, what: BoundRequest, words: str) -> Mask:
         """Return the mask of poses where a result is refused; raise or warn as asked."""
 
     @property

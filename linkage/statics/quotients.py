@@ -7,8 +7,8 @@ import warnings
 import numpy as np
 
 from ..errors import SingularError, SingularWarning
+from ..motion.conditions import REFUSE, WARN, be, condition
 from ..motion.reach import where_words
-from ..motion.singular import REFUSE, WARN, be, condition
 from ..program import FloatArray
 from .poses import Poses
 

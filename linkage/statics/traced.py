@@ -9,8 +9,8 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError
-from ..motion.asked import named
-from ..motion.request import stroke_of
+from ..motion.checks import named
+from ..motion.requests import stroke_of
 from ..plan import ArrayReading, Plan, Trace
 from ..program import FloatArray, Level, Node, Notes, Tangent, Traced, node_of
 from ..quantities import Angle, Distance, Quantity, Reference

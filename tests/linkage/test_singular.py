@@ -25,7 +25,7 @@ from linkage import (
     Stroke,
     distance,
 )
-from linkage.motion import numeric, singular
+from linkage.motion import conditions, numeric
 
 
 class Lever(Mechanism):
@@ -59,16 +59,16 @@ def test_exact_ratio_keeps_to_its_estimate_next_to_a_dead_point(x, y, OB, away, 
     motion = Lever(O=(x, y), OB=OB).at(S=AB, unreachable="nan")
     wanted = exact((x, y), AB, OB)
     assume(wanted is not None and motion.reached)
-    found = singular.conditions(motion.plan, motion.reading, {"B"})["B"]
+    found = conditions.conditions(motion.plan, motion.reading, {"B"})["B"]
     for order in (1, 2):
         with warnings.catch_warnings(record=True) as told:
             warnings.simplefilter("always")
             ratio = motion.ratio("B", order=order)
-        assert (len(told) == 1) == (singular.WARN < found <= singular.REFUSE)
-        assert np.isnan(ratio).all() == (found > singular.REFUSE)
-        if found <= singular.REFUSE:
+        assert (len(told) == 1) == (conditions.WARN < found <= conditions.REFUSE)
+        assert np.isnan(ratio).all() == (found > conditions.REFUSE)
+        if found <= conditions.REFUSE:
             error = np.linalg.norm(ratio - wanted[order - 1]) / np.linalg.norm(wanted[order - 1])
-            assert error < (3.0 * told[0].message.estimate if told else singular.DOUBTFUL)
+            assert error < (3.0 * told[0].message.estimate if told else conditions.DOUBTFUL)
 
 
 @pytest.mark.parametrize("order", [1, 2])

@@ -1,7 +1,12 @@
-"""What is asked of a mechanism: a point, a vector or a quantity, or its derivative by strokes."""
+"""Requests: what is asked of a mechanism, and what it is once it is bound to a plan.
+
+A position, an output, a ratio, a force, a condition is one request: nodes of the program, the members it is built from, what is said
+where it has no value, and the error that rounding leaves of it. Kernels, functions, texts and gradients know nothing else.
+"""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias, final
@@ -9,32 +14,147 @@ from typing import TYPE_CHECKING, Any, TypeAlias, final
 import numpy as np
 
 from ..errors import DefinitionError, cited
-from ..plan import ArrayReading, Plan
-from ..program import FloatArray, Node
+from ..plan import NEAR, REGULAR, ArrayReading, Plan
+from ..program import FloatArray, Kernel, Node, Notes
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
-from .asked import named, order_of
-from .singular import LEAST, Left
-from .wanted import SMALL, Asked, Wanted
+from .checks import named, order_of
+from .conditions import LEAST, PLACES, Judged, Left, Rounding, judged
+from .grid import Grid
+from .reach import Mask
 
 if TYPE_CHECKING:
     from .motion import Motion
 
+SMALL = 1e-9
+"""A result of no known size [SI] that is smaller counts as so large where its relative error is told."""
 
+
+class BoundRequest(ABC):
+    """A request settled on a plan. A subclass says of which nodes it consists, and by what key it is told from others."""
+
+    @property
+    @abstractmethod
+    def key(self) -> Any:
+        """What tells this request from others of the same plan."""
+
+    @abstractmethod
+    def nodes(self, plan: Plan) -> tuple[Node, ...]:
+        """Return its nodes in a plan's program, one a component."""
+
+    @abstractmethod
+    def names(self, plan: Plan) -> set[str]:
+        """Return the members that it is built from."""
+
+    @abstractmethod
+    def refuse(self, motion: Motion) -> None:
+        """Raise the error of a motion's poses where it has no value; nothing where it has one at all of them."""
+
+    @abstractmethod
+    def __str__(self) -> str:
+        """Return what it is, in words: `the ratio of G by S`."""
+
+    def notes(self, plan: Plan) -> Notes:
+        """Return what its nodes are true under."""
+        return Notes()
+
+    @property
+    def rows(self) -> int:
+        """The number of its components: 2 for a point."""
+        return 1
+
+    @property
+    def order(self) -> int:
+        """How often it is differentiated."""
+        return 0
+
+    def steep(self, plan: Plan) -> set[str]:
+        """Return the members at whose singular poses it is refused: those it is differentiated through."""
+        return self.names(plan) if self.order else set()
+
+    def note(self, reading: ArrayReading) -> None:  # noqa: B027
+        """Work out in an eager reading what is its own, so that its directions are noted; of most there is nothing."""
+
+    @property
+    def regular(self) -> float:
+        """The product of squared parts (Trace.nearness) above which rounding leaves at least nine digits of it."""
+        return NEAR**2 if self.order else PLACES
+
+    def error(self, plan: Plan, left: Left) -> FloatArray:
+        """Return the relative error to expect, shape (n,), from what rounding leaves of its nodes."""
+        return left.over(SMALL)
+
+    @property
+    def may_fail(self) -> bool:
+        """Whether it may have no value where all points it is built from have a place."""
+        return False
+
+    @property
+    def turns(self) -> bool:
+        """Whether it follows angles, which are continued along the stroke."""
+        return False
+
+
+class Request(ABC):
+    """Something to ask of a mechanism that is no member of it: a ratio, a thrust, a pin force."""
+
+    @abstractmethod
+    def bound(self, plan: Plan) -> BoundRequest:
+        """Return the request settled on a plan; DefinitionError where there is no such thing."""
+
+
+def watch_of(plan: Plan, what: BoundRequest) -> Kernel:
+    """Return the kernel of what is above zero where a request is far from every singular pose."""
+    return plan.made(("watch", what.key), lambda twin: Kernel(watched(twin, what)))
+
+
+def watched(plan: Plan, what: BoundRequest) -> list[Node]:
+    """Return the nodes that are above zero where a request is far from every singular pose."""
+    what.nodes(plan)  # directions of its own are noted then
+    return plan.trace.watched(what.names(plan), what.regular)
+
+
+def near_of(grid: Grid, what: BoundRequest) -> Mask:
+    """Return the mask of poses at which a request has to be looked at closely."""
+    watch = watch_of(grid.plan, what)
+    if not watch.plan.outputs:
+        return np.zeros(grid.shape, bool)
+    with np.errstate(invalid="ignore"):
+        return np.asarray(~np.all(grid.full(watch(grid.flat).values) > 0.0, axis=0))
+
+
+def examined(plan: Plan, what: BoundRequest, inputs: Mapping[str, Any], reading: ArrayReading) -> Judged:
+    """Return how far poses are from singular ones for a request: inputs as floats or (n,), and the eager reading there."""
+    what.note(reading)
+    rounding = plan.made(("rounding", what.key), lambda twin: Rounding.of(twin, what.nodes(twin)))
+    return judged(plan, reading, what.steep(plan), what.names(plan), what.error(plan, rounding.at(inputs)))
+
+
+def astray(plan: Plan, what: BoundRequest) -> DefinitionError:
+    """Return the error for poses where a law goes another way than the one that was traced."""
+    laws = ", ".join(dict.fromkeys(what.notes(plan).assumed.values()))
+    return DefinitionError(
+        f"{plan.title}: {what}: at some of these poses {f'the law of {laws}' if laws else 'a law'} goes another way than the one traced, "
+        "or has no finite value. Leave them out, choose by np.where in the law, or take finite differences of the forces."
+    )
+
+
+WORST = 1e16
+"""The largest condition over 2 / 0.3 that is told."""
 MINOR = 1e-3
 """Of the fastest point's ratio: what a slower one's error is compared with where both go into a force."""
 
 
 @final
 @dataclass(frozen=True)
-class Ratio(Asked):
+class Ratio(Request):
     """The derivative of a point or a quantity by a stroke: the transfer ratio, as something to ask for."""
 
     target: str | Member
     wrt: str | None = None
     order: int = 1
 
-    def settled(self, plan: Plan) -> Value:
+    def bound(self, plan: Plan) -> Value:
         along = (stroke_of(plan, self.wrt),) * self.order if self.order else ()
         if isinstance(self.target, Quantity) and not self.target.name:
             plan.reaches(self.target)  # raises for a name in it that there is not
@@ -42,7 +162,7 @@ class Ratio(Asked):
         return Value(plan.members[named("Name", self.target, plan.named(), plan.title)], along)
 
 
-Request: TypeAlias = str | Member | Asked
+RequestLike: TypeAlias = str | Member | Request
 
 
 def ratio(target: str | Member, wrt: str | None = None, order: int = 1) -> Ratio:
@@ -55,7 +175,7 @@ def ratio(target: str | Member, wrt: str | None = None, order: int = 1) -> Ratio
 
 @final
 @dataclass(frozen=True)
-class Value(Wanted):
+class Value(BoundRequest):
     """A member, and the strokes that it is differentiated by, one after the other."""
 
     member: Member
@@ -87,6 +207,8 @@ class Value(Wanted):
     def refuse(self, motion: Motion) -> None:
         if self.along:
             motion.ratio(self.target, wrt=self.along[0], order=self.order)
+        elif isinstance(self.member, Quantity):
+            motion.value(self.member)
 
     @property
     def turns(self) -> bool:
@@ -119,7 +241,61 @@ def natural(member: Any, size: FloatArray) -> Any:
 
 @final
 @dataclass(frozen=True)
-class Ratios(Wanted):
+class Condition(Request):
+    """How near a pose is to a singular one for what is built from a point or a quantity, as something to ask for."""
+
+    target: str | Member | None = None
+
+    def bound(self, plan: Plan) -> ConditionOf:
+        if self.target is None:
+            return ConditionOf(frozenset(plan.members), plan.title)
+        value = bound(plan, self.target)
+        return ConditionOf(frozenset(value.names(plan)), str(value))
+
+
+def condition(target: str | Member | None = None) -> Condition:
+    """Return the request for the condition of a pose, in `evaluate`, `function` and `source`: a number, 2 / 0.3 at regular poses.
+
+    Next to a singular pose it is 2 over the sine of the loop in line, and the product of such where several follow one another or a
+    direction is taken between points that come close: above 1e4 a ratio is off by some 0.3 eps cond^2, above 1e6 it is refused.
+    `condition("G")` is of what G is built from, `condition()` of the whole machine.
+    """
+    return Condition(target)
+
+
+@final
+@dataclass(frozen=True)
+class ConditionOf(BoundRequest):
+    """The condition of some members, bound to a plan; never refused."""
+
+    members: frozenset[str]
+    of: str
+
+    @property
+    def key(self) -> Any:
+        return "condition", self.members
+
+    @property
+    def regular(self) -> float:
+        return -1.0
+
+    def nodes(self, plan: Plan) -> tuple[Node, ...]:
+        near = plan.trace.nearness(self.members)
+        return ((2.0 / REGULAR) / np.sqrt(near.graph.apply("maximum", near, WORST**-2)),)
+
+    def names(self, plan: Plan) -> set[str]:
+        return set(self.members)
+
+    def refuse(self, motion: Motion) -> None:
+        """It has a value at every pose that is reached."""
+
+    def __str__(self) -> str:
+        return f"the condition of {self.of}"
+
+
+@final
+@dataclass(frozen=True)
+class Ratios(BoundRequest):
     """The ratios of all moving points among some members by all strokes: what forces go through."""
 
     members: frozenset[str]
@@ -160,7 +336,7 @@ class Ratios(Wanted):
 
 @final
 @dataclass(frozen=True)
-class Everywhere(Wanted):
+class Everywhere(BoundRequest):
     """The places of some points together: what a motion works out first."""
 
     points: tuple[str, ...]
@@ -187,18 +363,18 @@ class Everywhere(Wanted):
         return "the places"
 
 
-def wanted(plan: Plan, request: Request) -> Wanted:
+def bound(plan: Plan, request: RequestLike) -> BoundRequest:
     """Return a request settled; DefinitionError where there is nothing of that name, or no saying by which stroke."""
-    return (request if isinstance(request, Asked) else Ratio(request, order=0)).settled(plan)
+    return (request if isinstance(request, Request) else Ratio(request, order=0)).bound(plan)
 
 
-def all_wanted(plan: Plan, requests: Sequence[Request]) -> tuple[Wanted, ...]:
+def all_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[BoundRequest, ...]:
     """Return a list of requests settled; DefinitionError for a lone one, whose letters would be taken for names."""
-    if isinstance(requests, (str, Member, Asked)):
+    if isinstance(requests, (str, Member, Request)):
         raise DefinitionError(f"{plan.title}: {requests!r}: a list of what is asked for is expected, [{requests!r}].")
     if not isinstance(requests, Iterable) or isinstance(requests, (Mapping, Set, np.ndarray)):
         raise DefinitionError(f'{plan.title}: {cited(requests)}: a list of what is asked for is expected, such as ["G"].')
-    return tuple(wanted(plan, request) for request in requests)
+    return tuple(bound(plan, request) for request in requests)
 
 
 def stroke_of(plan: Plan, name: str | None) -> str:

@@ -11,38 +11,37 @@ import numpy as np
 from ..errors import DefinitionError, SingularError, one_word
 from ..plan import Plan
 from ..program import FloatArray, Kernel, Node, Way, interpret
-from . import reach, singular
+from . import conditions, reach
 from .angles import Angles, angles_of
+from .conditions import Judged
 from .grid import Grid
 from .motion import Motion
 from .reach import Mask
-from .request import Request, all_wanted
-from .singular import Judged
-from .wanted import Wanted, astray, examined
+from .requests import BoundRequest, RequestLike, all_bound, astray, examined
 
 PIECE = 1 << 18
 """Poses that are looked at again at a time."""
 
 
-def evaluate(grid: Grid, requests: Sequence[Request], out: FloatArray | None, way: Way, unreachable: str) -> list[FloatArray]:
+def evaluate(grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: Way, unreachable: str) -> list[FloatArray]:
     """Return the values of requests over a grid; see Mechanism.evaluate."""
     one_word("unreachable", unreachable, ("raise", "nan"))
-    return Bulk(grid, all_wanted(grid.plan, requests), way, unreachable).run(out)
+    return Evaluation(grid, all_bound(grid.plan, requests), way, unreachable).run(out)
 
 
 @dataclass(frozen=True)
-class Bulk:
+class Evaluation:
     """Requests over a grid of poses, and how they are worked out."""
 
     grid: Grid
-    wanted: tuple[Wanted, ...]
+    requests: tuple[BoundRequest, ...]
     way: Way
     unreachable: str = "raise"
 
     @property
     def names(self) -> set[str]:
         """The members that the requests are built from."""
-        return set().union(*(each.names(self.grid.plan) for each in self.wanted))
+        return set().union(*(each.names(self.grid.plan) for each in self.requests))
 
     @property
     def kernel(self) -> Kernel:
@@ -52,16 +51,16 @@ class Bulk:
     @property
     def _program(self) -> tuple[Kernel, list[Angles | None]]:
         """The kernel, and for each request that follows angles these, made once."""
-        return self.grid.plan.made(("bulk", tuple(each.key for each in self.wanted)), self._make)
+        return self.grid.plan.made(("bulk", tuple(each.key for each in self.requests)), self._make)
 
     @property
     def may_fail(self) -> bool:
         """Whether there may be poses without a value that no guard tells of."""
-        return self.grid.plan.may_overflow or any(each.may_fail for each in self.wanted)
+        return self.grid.plan.may_overflow or any(each.may_fail for each in self.requests)
 
     def run(self, out: FloatArray | None) -> list[FloatArray]:
         """Return one array a request, in the usual shapes; rows of `out` where it is given."""
-        grid, rows = self.grid, sum(each.rows for each in self.wanted)
+        grid, rows = self.grid, sum(each.rows for each in self.requests)
         result = self.kernel(grid.flat, self._place(rows, out), self.way, grid.size)
         if not np.all(result.guards > 0.0) or (self.may_fail and not np.isfinite(result.values).all()):
             self._settle(result.values)
@@ -70,17 +69,17 @@ class Bulk:
             self._unwrap(found)
         return [found[first : first + 2] if each.rows > 1 else found[first] for first, each in self._starts()]
 
-    def _starts(self) -> Iterator[tuple[int, Wanted]]:
+    def _starts(self) -> Iterator[tuple[int, BoundRequest]]:
         """Yield each request with its first row."""
         first = 0
-        for each in self.wanted:
+        for each in self.requests:
             yield first, each
             first += each.rows
 
     def _make(self, plan: Plan) -> tuple[Kernel, list[Angles | None]]:
-        nodes = [each.nodes(plan) for each in self.wanted]
+        nodes = [each.nodes(plan) for each in self.requests]
         kernel = Kernel([node for each in nodes for node in each], [*self._assumed(plan), *self._guards(plan)])
-        return kernel, [angles_of(plan, each) if request.turns else None for request, each in zip(self.wanted, nodes, strict=True)]
+        return kernel, [angles_of(plan, each) if request.turns else None for request, each in zip(self.requests, nodes, strict=True)]
 
     def _guards(self, plan: Plan) -> list[Node]:
         """Return the guards of what the requests are built from."""
@@ -88,12 +87,12 @@ class Bulk:
 
     def _assumed(self, plan: Plan) -> list[Node]:
         """Return what the requests take to be above zero."""
-        return [node for each in self.wanted for node in each.notes(plan).assumed]
+        return [node for each in self.requests for node in each.notes(plan).assumed]
 
     def _watch(self, plan: Plan) -> tuple[int, Kernel]:
         """Return how many of its outputs are assumptions, and the kernel of these, of the guards, then of how near each request is."""
         assumed = self._assumed(plan)
-        near = [plan.trace.nearness(each.names(plan)) - each.regular for each in self.wanted]
+        near = [plan.trace.nearness(each.names(plan)) - each.regular for each in self.requests]
         return len(assumed), Kernel([*assumed, *self._guards(plan), *near])
 
     def _place(self, rows: int, out: FloatArray | None) -> FloatArray | None:
@@ -117,7 +116,7 @@ class Bulk:
     def _settle(self, place: FloatArray) -> None:
         """Put right the poses where a guard tells: place them to rounding, refuse or mask those out of reach or singular."""
         plan = self.grid.plan
-        assumed, kernel = plan.made(("guards", tuple(each.key for each in self.wanted)), self._watch)
+        assumed, kernel = plan.made(("guards", tuple(each.key for each in self.requests)), self._watch)
         worst: dict[int, Judged] = {}
         for band, part in pieces(*self.grid.size):
             inputs = {name: cut(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
@@ -125,13 +124,13 @@ class Bulk:
             least = np.broadcast_to(kernel(inputs, way=self.way).values, (len(kernel.plan.outputs), *block.shape[1:]))
             with np.errstate(invalid="ignore"):
                 above = least > 0.0
-                bad = ~np.all(above[: len(above) - len(self.wanted)], axis=0) | ~np.isfinite(block).all(axis=0)
+                bad = ~np.all(above[: len(above) - len(self.requests)], axis=0) | ~np.isfinite(block).all(axis=0)
             if bad.any():
                 paired = {name: spread(value, name in plan.table.entries, bad) for name, value in inputs.items()}
                 flagged = above[:, bad]
-                self._put_right(block, bad, paired, worst, ~flagged[:assumed].all(axis=0), ~flagged[len(above) - len(self.wanted) :])
+                self._put_right(block, bad, paired, worst, ~flagged[:assumed].all(axis=0), ~flagged[len(above) - len(self.requests) :])
         for k, found in worst.items():
-            singular.warn(found, f"{plan.title}: {self.wanted[k]}", 5, "comes")
+            conditions.warn(found, f"{plan.title}: {self.requests[k]}", 5, "comes")
 
     def _put_right(
         self, block: FloatArray, bad: Mask, inputs: dict[str, Any], worst: dict[int, Judged], broken: Any, near: Any
@@ -147,8 +146,8 @@ class Bulk:
             for name, mask in reach.failures(plan, reading, shape):
                 if name in self.names:
                     lost |= mask
-        refused = [np.zeros(shape, bool) for _ in self.wanted]
-        for k, each in enumerate(self.wanted):
+        refused = [np.zeros(shape, bool) for _ in self.requests]
+        for k, each in enumerate(self.requests):
             here = near[k] & ~lost
             if here.any():
                 at = {name: value[here] for name, value in inputs.items()}
@@ -186,12 +185,12 @@ class Bulk:
         """Raise the error of these poses, in the words of a motion."""
         grid = self.grid
         motion = Motion(grid.plan, grid.designs, grid.strokes, self.unreachable)
-        for each in self.wanted:
+        for each in self.requests:
             each.refuse(motion)
-        for each in self.wanted:
+        for each in self.requests:
             if each.may_fail:
                 raise astray(grid.plan, each)
-        names = ", ".join(map(str, self.wanted))
+        names = ", ".join(map(str, self.requests))
         text = f'{grid.plan.title}: {names} has no value at some of these poses. Leave them out, or ask with unreachable="nan".'
         raise SingularError(text, motion=motion)
 

@@ -99,8 +99,6 @@ def interruptions(motion: Motion) -> tuple[Interruption, ...]:
 
 def between_words(motion: Motion) -> str:
     """Return what is known of the way between the poses, in words: nothing where it is clear."""
-    if motion.shape in ((), (1,)):
-        return ""
     found = motion.interruptions
     if found is None:
         return ", not looked at between the poses"

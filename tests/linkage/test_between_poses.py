@@ -132,7 +132,8 @@ def test_a_motion_tells_of_what_it_did_not_refuse():
     assert repr(crossing).endswith("all reached, interrupted: a change point of B at phi = 180 deg>")
     batch = FourBar(CB=np.array([2.5, 2.6])).sweep(3)
     assert batch.interruptions is None and "not looked at between the poses" in repr(batch)
-    assert repr(FourBar().at(phi=1.0)).endswith("all reached>")
+    for lone in (FourBar().at(phi=1.0), FourBar(CB=np.array([2.5, 2.6])).at(phi=1.0), FourBar().at(phi=[1.0])):
+        assert repr(lone).endswith("all reached>") and lone.interruptions == ()
 
 
 class Driven(FourBar):

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
@@ -197,25 +196,6 @@ class Track:
 
     # -- between the places ----------------------------------------------------------------------------
 
-    @cached_property
-    def slopes(self) -> FloatArray:
-        """How the coordinates change with the place, at each: from both sides."""
-        slopes = np.zeros_like(self.u)
-        if len(self.places) < 2:
-            return slopes
-        h = np.diff(self.places)
-        own = np.ones(len(h), bool)
-        own[self.last[:-1]] = False
-        with np.errstate(all="ignore"):
-            chord = np.where(own, np.diff(self.u, axis=1) / h, 0.0)
-        weight = np.where(own, 1.0 / np.where(own, h, 1.0), 0.0)
-        total = np.zeros(len(self.places))
-        total[1:] += weight
-        total[:-1] += weight
-        slopes[:, 1:] += chord * weight
-        slopes[:, :-1] += chord * weight
-        return slopes / np.where(total > 0.0, total, 1.0)
-
     def at(self, lane: Index, place: FloatArray) -> FloatArray:
         """Return the pins at places of lanes, shape (coordinates, n) [m]; NaN behind the end of a way."""
         parts = [self._between(lane[k : k + BLOCK], place[k : k + BLOCK]) for k in range(0, len(lane), BLOCK)]
@@ -231,17 +211,22 @@ class Track:
             found = np.searchsorted(owner + self.places / top, lane + np.minimum(place / top, 0.9999), side="right") - 1
         return np.clip(found, self.first[lane], np.maximum(self.last[lane] - 1, self.first[lane]))
 
+    def _bend(self, lane: Index, left: Index, right: Index) -> FloatArray:
+        """Return the second divided difference of the pins at two places and the one before, so that what comes later changes nothing."""
+        before = np.maximum(left - 1, self.first[lane])
+        h, back = self.places[right] - self.places[left], self.places[left] - self.places[before]
+        known = (h > 0.0) & (back > 0.0)
+        h, back = np.where(known, h, 1.0), np.where(known, back, 1.0)
+        chords = (self.u[:, right] - self.u[:, left]) / h - (self.u[:, left] - self.u[:, before]) / back
+        return np.asarray(np.where(known, chords / (h + back), 0.0))
+
     def _between(self, lane: Index, place: FloatArray) -> FloatArray:
         left = self._left(lane, place)
         right = np.minimum(left + 1, self.last[lane])
         width = self.places[right] - self.places[left]
         t = np.where(width > 0.0, (place - self.places[left]) / np.where(width > 0.0, width, 1.0), 0.0)
-        rise, fall = self.slopes[:, left] * width, self.slopes[:, right] * width
-        first, second = self.u[:, left], self.u[:, right]
-        guess = (
-            (2.0 * t**3 - 3.0 * t**2 + 1.0) * first + (t**3 - 2.0 * t**2 + t) * rise
-            + (3.0 * t**2 - 2.0 * t**3) * second + (t**3 - t**2) * fall
-        )  # fmt: skip
+        first = self.u[:, left]
+        guess = first + (self.u[:, right] - first) * t + self._bend(lane, left, right) * (t * (t - 1.0) * width * width)
         within = place <= self.ended[lane]
         found, done = self.newton.correct(self.inputs(lane, place), np.where(within, guess, np.nan))
         limit = (NEAR * np.minimum(self.clear[left], self.clear[right]) + ROUNDING) * np.minimum(self.size[left], self.size[right])

@@ -77,10 +77,9 @@ class Clearances:
         """Return those of a plan; pins of groups are followed on their own."""
         trace = plan.trace
         moving = dict.fromkeys(loop for loop in trace.loops if loop.terms[0].level is Level.POSE)
-        own = [loop for loop in moving if not isinstance(plan.members[loop.step], Pin)]
-        lengths = {loop.step for loop in own if loop.kind == "length"}
-        # the side that a slot's line is taken along may vanish; those of links that are driven are watched as lengths
-        sides = [Loop(loop.step, "meeting", loop.terms[1:2]) for loop in own if loop.kind == "links" and loop.step not in lengths]
+        own = [loop for loop in moving if loop.step not in plan.of_kind(Pin)]
+        # a root's scale that is a root itself is the distance of two points, along which a slot's line is taken; it may vanish
+        sides = [Loop(loop.step, "meeting", loop.terms[1:2]) for loop in own if loop.kind == "links" and loop.terms[1].op == "sqrt"]
         own += [loop for loop in sides if loop.terms[0].level is Level.POSE]
         clear = [loop.terms[0] / (loop.terms[1] * loop.terms[1]) if loop.kind == "links" else loop.terms[0] for loop in own]
         size = [loop.terms[2] / (loop.terms[1] * loop.terms[1]) if loop.kind == "links" else trace.graph.constant(1.0) for loop in own]

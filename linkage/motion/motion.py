@@ -110,6 +110,8 @@ class Motion:
         Empty where nothing does; it then leads from every pose to every other. None where it is not looked for: of batches and
         of several strokes. Request with unreachable="raise", a motion that is interrupted is refused.
         """
+        if self.size[1] < 2:
+            return ()
         if not scan.is_watched(self):
             return None
         return scan.interruptions(self) if self.unreachable == "nan" else ()

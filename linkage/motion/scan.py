@@ -23,6 +23,9 @@ from .turns import open_turn
 if TYPE_CHECKING:
     from .motion import Motion
 
+KEPT = 64
+"""The designs of a plan whose clear stretches are kept."""
+
 Moved = Callable[[Mapping[str, Any]], "Motion"]
 """The motion at other strokes, unreachable poses as NaN."""
 
@@ -75,15 +78,27 @@ def is_watched(motion: Motion) -> bool:
 
 
 def interruptions(motion: Motion) -> tuple[Interruption, ...]:
-    """Return what interrupts the way of one design along its one stroke, between the least and the greatest of its poses."""
+    """Return what interrupts the way of one design along its one stroke, between the least and the greatest of its poses.
+
+    A stretch where nothing does is kept, of the last designs that were asked for, so that poses in it are not looked at again.
+    """
     ((name, values),) = motion.strokes.items()
-    return Course(motion.plan, motion.grid.flat, name, {}).interruptions(float(values.min()), float(values.max()))
+    low, high = float(values.min()), float(values.max())
+    clear: dict[Any, tuple[float, float]] = motion.plan.made("clear", lambda _: {})
+    key = tuple(map(float, motion.designs.values()))
+    known = clear.get(key)
+    if known is not None and known[0] <= low and high <= known[1]:
+        return ()
+    found = Course(motion.plan, motion.grid.flat, name, {}).interruptions(low, high)
+    if not found and (known is None or (low <= known[0] and known[1] <= high)):
+        clear[key] = low, high
+        for old in list(clear)[:-KEPT]:
+            clear.pop(old, None)
+    return found
 
 
 def between_words(motion: Motion) -> str:
     """Return what is known of the way between the poses, in words: nothing where it is clear."""
-    if motion.shape in ((), (1,)):
-        return ""
     found = motion.interruptions
     if found is None:
         return ", not looked at between the poses"

@@ -116,6 +116,14 @@ def test_a_change_point_at_an_end_is_not_passed(values):
     assert told(FourBar(CB=2.0), np.array(values)) == ("clear", "")
 
 
+def test_what_was_found_clear_says_nothing_of_what_was_not_looked_at():
+    machine = FourBar(CB=2.0)
+    for low, high, what in ((0, 3, "clear"), (1, 2, "clear"), (1, 6, "change"), (0, 3, "clear"), (3.5, 6, "clear"), (0, 6, "change")):
+        assert told(machine, np.array([low, high]))[0] == what
+    assert told(FourBar(CB=2.5), np.array([0.0, 6.0]))[0] == "clear"
+    assert told(FourBar(CB=1.9), np.array([0.0, 6.0]))[0] == "gap"
+
+
 def test_a_motion_tells_of_what_it_did_not_refuse():
     clear, gap = FourBar().sweep(5), FourBar(CB=1.999).sweep(5, unreachable="nan")
     assert repr(clear).endswith("all reached>") and clear.interruptions == ()
@@ -124,7 +132,8 @@ def test_a_motion_tells_of_what_it_did_not_refuse():
     assert repr(crossing).endswith("all reached, interrupted: a change point of B at phi = 180 deg>")
     batch = FourBar(CB=np.array([2.5, 2.6])).sweep(3)
     assert batch.interruptions is None and "not looked at between the poses" in repr(batch)
-    assert repr(FourBar().at(phi=1.0)).endswith("all reached>")
+    for lone in (FourBar().at(phi=1.0), FourBar(CB=np.array([2.5, 2.6])).at(phi=1.0), FourBar().at(phi=[1.0])):
+        assert repr(lone).endswith("all reached>") and lone.interruptions == ()
 
 
 class Driven(FourBar):

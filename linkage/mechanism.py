@@ -23,7 +23,6 @@ from .motion import (
     Request,
     as_given,
     at_values,
-    check_any,
     columns_of,
     evaluate,
     require_motion,
@@ -184,9 +183,7 @@ class Mechanism:
     @of_a_design
     def at(self, *, unreachable: str = "raise", **strokes: Any) -> Motion:
         """Return the motion at chosen strokes [SI]: `at(S=[0.0, 0.1])`. They may lie beyond the declared range."""
-        values = at_values(strokes, self.plan)
-        check_any(values, self.plan)
-        return Motion(self.plan, self._values, values, unreachable)
+        return Motion(self.plan, self._values, at_values(strokes, self.plan), unreachable)
 
     @of_a_design
     def evaluate(

@@ -73,8 +73,12 @@ USES = [
     ("made(c=LiftCircuit(@, pressure=1.6e7))", '"A"', ("Made.c: Ground(0.0, 0.0) is no Cylinder; name one.",)),
     (
         'LiftCircuit("lift", pressure=1.6e7, @)',
-        "flow=-1; hydraulic_efficiency=-0.5; back_pressure=-1; relief=-1",
-        ("LiftCircuit(lift, pressure=16000000.0,", "mechanical_efficiency=1.0,", "is negative; give zero or more."),
+        "flow=-1; back_pressure=-1; relief=-1",
+        (
+            "LiftCircuit(lift, pressure=16000000.0,",
+            "mechanical_efficiency=1.0, hydraulic_efficiency=1.0,",
+            "is negative; give zero or more.",
+        ),
     ),
     ('LiftCircuit("lift", pressure=1.6e7, @)', "flow=60", ("Flow of the pump = 60 m3/s is", "litre / minute if it is in l/min.")),
     (
@@ -84,8 +88,8 @@ USES = [
     ),
     (
         'LiftCircuit("lift", pressure=1.6e7, @)',
-        "mechanical_efficiency=0; mechanical_efficiency=1.1; mechanical_efficiency=90",
-        ("LiftCircuit: mechanical_efficiency =", "an efficiency lies between 0 and 1."),
+        "mechanical_efficiency=0; mechanical_efficiency=1.1; mechanical_efficiency=90; hydraulic_efficiency=-0.5",
+        ("LiftCircuit:", "an efficiency lies between 0 and 1."),
     ),
     (
         'LiftCircuit("lift", pressure=1.6e7, @)',

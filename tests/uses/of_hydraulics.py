@@ -135,7 +135,7 @@ USES = [
         ("FloatCircuit:", "is below 1; 1 is a slow movement, 1.4 a fast one."),
     ),
     ("Accumulator(@, 2e6)", "-1", ("Accumulator volume = -1 is below zero; give 0 for a vessel that is absent.",)),
-    ("Accumulator(@, 2e6)", "4", ("Accumulator volume = 4 m3 is more than any has; write 4 * litre if these are litres.",)),
+    ("Accumulator(@, 2e6)", "40", ("Accumulator volume = 40 m3 is more than any has; write 40 * litre if these are litres.",)),
     ("Accumulator(@, 2e6)", 'None; nan; "4 l"; 1j; masked; []; True', ("Accumulator volume =", "in SI units.")),
     ("Accumulator(4e-3, @)", "20", ("Accumulator charge = 20 Pa is next to", "if these are bar, or 20 * kgf_cm2.")),
     ("Accumulator(4e-3, @)", 'None; nan; "20 bar"; 1j; []', ("Accumulator charge =", "in SI units.")),

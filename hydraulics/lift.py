@@ -54,7 +54,7 @@ class LiftCircuit(Circuit):
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
         {"pressure": "bar", "flow": "", "mechanical_efficiency": "", "hydraulic_efficiency": "", "back_pressure": "bar", "relief": "bar"}
     )
-    not_negative: ClassVar[frozenset[str]] = frozenset(parameters)
+    not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow", "back_pressure", "relief"})
     optional: ClassVar[frozenset[str]] = frozenset({"relief"})
 
     def __post_init__(self) -> None:

@@ -15,7 +15,7 @@ from .inputs import finite, in_pascals, not_negative
 from .settings import follows
 
 VOLUME = ("Accumulator volume", "give 0 for a vessel that is absent")
-LARGEST = 3.0
+LARGEST = 10.0
 """m3; the volume of a larger accumulator was given in litres."""
 CHARGE = "Accumulator charge"
 

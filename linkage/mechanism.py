@@ -23,7 +23,6 @@ from .motion import (
     RequestLike,
     as_given,
     at_values,
-    check_any,
     columns_of,
     evaluate,
     require_motion,
@@ -192,9 +191,7 @@ class Mechanism:
 
         The way from the least to the greatest of several is looked at as that of a sweep.
         """
-        values = at_values(strokes, self.plan)
-        check_any(values, self.plan)
-        return Motion(self.plan, self._values, values, unreachable)
+        return Motion(self.plan, self._values, at_values(strokes, self.plan), unreachable)
 
     @of_a_design
     def evaluate(

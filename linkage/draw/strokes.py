@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..mechanism import Mechanism
-from ..motion import Motion, require_motion, stroke_unit
+from ..motion import Motion, check_any, require_motion, stroke_unit
 from ..plan import Plan
 from ..report import Run
 from ..units import UNITS
@@ -34,6 +34,7 @@ def words(plan: Plan, name: str, value: float, *, fixed: bool = False) -> str:
 def driven(motion: Motion) -> str:
     """Return the stroke that a motion runs along; DefinitionError for a grid of strokes or a batch of designs."""
     require_motion(motion)
+    check_any(motion.strokes, motion.plan)
     plan = motion.plan
     if motion.design_shape or len(motion.stroke_shape) != 1:
         raise DefinitionError(

@@ -13,6 +13,7 @@ from .grid import Beside, in_order
 from .motion import Motion, require_motion
 from .peaks import Index, Mask, samples
 from .route import Route
+from .strokes import check_any
 
 Function: TypeAlias = Callable[[Motion], Any]
 """A function of a motion: a number for each pose, shape (...), or several, shape (k, ...); NaN where it has none."""
@@ -21,6 +22,7 @@ Function: TypeAlias = Callable[[Motion], Any]
 def require_function(motion: Any, f: Any) -> None:
     """Raise DefinitionError for what is no motion, and for what is no function of one."""
     require_motion(motion)
+    check_any(motion.strokes, motion.plan)
     if not callable(f) or isinstance(f, type):
         raise DefinitionError(f"{motion.plan.title}: {cited(f)} is no function of a motion; give one, such as lambda each: each.y('G').")
 

@@ -17,6 +17,7 @@ from .limits import Held, Scanned, StrokeLimits, intervals, search
 from .limits import Limits as Limits
 from .reach import called, failures, missing_words, opening, stroke_unit, where_words
 from .still import dead_points
+from .strokes import check_any
 from .transmission import transmission
 from .turns import open_turn
 
@@ -35,6 +36,7 @@ def limits(motion: Motion) -> Limits:
     if motion.design_shape:
         title, shape = motion.plan.title, motion.design_shape
         raise DefinitionError(f"{title}: limits are worked out for one design at a time; this motion has {shape}.")
+    check_any(motion.strokes, motion.plan)
     held = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
     return Limits({name: stroke_limits(motion, name, held) for name in motion.strokes})
 

@@ -102,5 +102,5 @@ def choices_of(name: str, given: Any) -> list[Any]:
         raise DefinitionError(f"{name}={cited(given)}: {said}.")
     for each in given:
         if not (is_number(each) or (isinstance(each, (list, tuple)) and len(each) == 2 and all(map(is_number, each)))):
-            raise DefinitionError(f"{name}: {cited(each)} is no choice; write a number, or (x, y) of a point.")
+            raise DefinitionError(f"{name}: {cited(each)} is no choice; write a number, or the two coordinates (x, y) of a point.")
     return list(given)

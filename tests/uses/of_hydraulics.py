@@ -73,8 +73,12 @@ USES = [
     ("made(c=LiftCircuit(@, pressure=1.6e7))", '"A"', ("Made.c: Ground(0.0, 0.0) is no Cylinder; name one.",)),
     (
         'LiftCircuit("lift", pressure=1.6e7, @)',
-        "flow=-1; hydraulic_efficiency=-0.5; back_pressure=-1; relief=-1",
-        ("LiftCircuit(lift, pressure=16000000.0,", "mechanical_efficiency=1.0,", "is negative; give zero or more."),
+        "flow=-1; back_pressure=-1; relief=-1",
+        (
+            "LiftCircuit(lift, pressure=16000000.0,",
+            "mechanical_efficiency=1.0, hydraulic_efficiency=1.0,",
+            "is negative; give zero or more.",
+        ),
     ),
     ('LiftCircuit("lift", pressure=1.6e7, @)', "flow=60", ("Flow of the pump = 60 m3/s is", "litre / minute if it is in l/min.")),
     (
@@ -84,8 +88,8 @@ USES = [
     ),
     (
         'LiftCircuit("lift", pressure=1.6e7, @)',
-        "mechanical_efficiency=0; mechanical_efficiency=1.1; mechanical_efficiency=90",
-        ("LiftCircuit: mechanical_efficiency =", "an efficiency lies between 0 and 1."),
+        "mechanical_efficiency=0; mechanical_efficiency=1.1; mechanical_efficiency=90; hydraulic_efficiency=-0.5",
+        ("LiftCircuit:", "an efficiency lies between 0 and 1."),
     ),
     (
         'LiftCircuit("lift", pressure=1.6e7, @)',
@@ -131,7 +135,7 @@ USES = [
         ("FloatCircuit:", "is below 1; 1 is a slow movement, 1.4 a fast one."),
     ),
     ("Accumulator(@, 2e6)", "-1", ("Accumulator volume = -1 is below zero; give 0 for a vessel that is absent.",)),
-    ("Accumulator(@, 2e6)", "4", ("Accumulator volume = 4 m3 is more than any has; write 4 * litre if these are litres.",)),
+    ("Accumulator(@, 2e6)", "40", ("Accumulator volume = 40 m3 is more than any has; write 40 * litre if these are litres.",)),
     ("Accumulator(@, 2e6)", 'None; nan; "4 l"; 1j; masked; []; True', ("Accumulator volume =", "in SI units.")),
     ("Accumulator(4e-3, @)", "20", ("Accumulator charge = 20 Pa is next to", "if these are bar, or 20 * kgf_cm2.")),
     ("Accumulator(4e-3, @)", 'None; nan; "20 bar"; 1j; []', ("Accumulator charge =", "in SI units.")),

@@ -1,8 +1,22 @@
 """Wrong uses of the framework: a call, what stands in it for @ (parted by ;), and what its message must say."""
 
 USES = [
-    ("lifting.at(S=[])", "", ("Lift: S holds no value, so that there is no pose; give one at least, S=[0.0].",)),
-    ("bar4.at(phi=[])", "", ("FourBar: phi holds no value, so that there is no pose; give one at least, phi=[0.0].",)),
+    ("lifting.at(S=[]).limits()", "", ("Lift: S holds no value, so that there is no pose; give one at least, S=[0.0].",)),
+    ("bar4.at(phi=[]).limits()", "", ("FourBar: phi holds no value, so that there is no pose; give one at least, phi=[0.0].",)),
+    (
+        'greatest(bar4.at(phi=[]), lambda each: each.y("B"))',
+        "",
+        ("FourBar: phi holds no value, so that there is no pose; give one at least, phi=[0.0].",),
+    ),
+    (
+        'below_zero(bar4.at(phi=[]), lambda each: each.y("B"))',
+        "",
+        ("FourBar: phi holds no value, so that there is no pose; give one at least, phi=[0.0].",),
+    ),
+    ("max_table(pin_forces(lifting.at(S=[])))", "", ("There are no joint forces to tabulate: no pose is reached.",)),
+    ('draw.curves(lifting.at(S=[]), ["tilt"])', "", ("Lift: S holds no value, so that there is no pose; give one at least, S=[0.0].",)),
+    ("page(lifting.at(S=[]), column)", "", ("Lift: S holds no value, so that there is no pose; give one at least, S=[0.0].",)),
+    ("report.reached_span(lifting.at(S=[]))", "", ("Lift: S holds no value, so that there is no pose; give one at least, S=[0.0].",)),
     (
         'lifting.evaluate(["tilt"], S=[0.1, 0.2], out=read_only)',
         "",
@@ -739,7 +753,7 @@ USES = [
     (
         'study.zone(lifting, "tilt", {"OB": @}, S=0.1)',
         "[[0.3], [0.3, 0.31]]",
-        ("OB: [0.3] is no choice; write a number, or (x, y) of a point.",),
+        ("OB: [0.3] is no choice; write a number, or the two coordinates (x, y) of a point.",),
     ),
     (
         'study.zone(lifting, "tilt", {"OB": @}, S=0.1)',

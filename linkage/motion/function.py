@@ -64,14 +64,18 @@ def quick(plan: Plan, designs: Mapping[str, Any], kernel: Kernel, careful: PoseF
     passed = floats.design([float(designs[node.value]) for node in kernel.plan.design_inputs])
     pose = floats.quick["pose"]
     places = [list(plan.strokes).index(node.value) for node in kernel.plan.pose_inputs]
-    together = places == list(range(len(plan.strokes)))
+    expected = len(plan.strokes)
+    together = places == list(range(expected))
 
     def at(*strokes: float, **named: float) -> tuple[float, ...]:
-        if named:
+        if named or len(strokes) != expected:
             return careful(*strokes, **named)
         try:
             found: tuple[float, ...] = pose(*passed, *(strokes if together else [strokes[place] for place in places]))
-        except (*NO_VALUE, TypeError, IndexError):
+            finite = bool(sum(strokes) * 0.0 == 0.0)  # those that the requests do not follow included
+        except (*NO_VALUE, TypeError):
+            return careful(*strokes)
+        if not finite:
             return careful(*strokes)
         for guard in found[count:]:
             if not guard > 0.0:

@@ -268,8 +268,8 @@ def survey(copy: Copy, found: dict[str, dict[str, Any]], options: argparse.Names
         lots = matching(mutant, found, options.seconds)
         fate = verdict(copy, mutant, lots, folder)
         results.append((mutant, fate))
-        tests = sum(map(len, lots))
-        print(f"{number:4d} {fate} {mutant.path}:{mutant.line} {mutant.kind}, {tests} tests, {time.monotonic() - started:.0f} s", flush=True)
+        cost = f"{sum(map(len, lots))} tests, {time.monotonic() - started:.0f} s"
+        print(f"{number:4d} {fate} {mutant.path}:{mutant.line} {mutant.kind}, {cost}", flush=True)
         if fate == SURVIVED:
             print(mutant.diff(), flush=True)
     print(report(results))

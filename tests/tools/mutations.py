@@ -37,7 +37,8 @@ COMBINED: dict[type[ast.operator], tuple[type[ast.operator], ...]] = {
     ast.LShift: (ast.RShift,),
     ast.RShift: (ast.LShift,),
 }
-OTHER_NAME = {"min": "max", "max": "min", "any": "all", "all": "any", "minimum": "maximum", "maximum": "minimum", "sin": "cos", "cos": "sin"}
+PAIRS = {"min": "max", "any": "all", "minimum": "maximum", "sin": "cos"}
+OTHER_NAME = PAIRS | {other: name for name, other in PAIRS.items()}
 SILENT = {"__repr__", "__str__"}
 """Functions that only make words."""
 

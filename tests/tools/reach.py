@@ -17,6 +17,8 @@ CALLS = 12
 """A function's lines are watched in its first so many calls by a test; later ones seldom run another line."""
 LOOKS = 10_000
 """A test that has called so many functions without a new line is watched no longer."""
+ENOUGH = 12.0
+"""So many seconds of processor time are given to a file; tests after that are not watched, and no mutant meets them."""
 COLLECTION = ""
 """The name under which what runs while a file is read is kept: classes of mechanisms are bound there."""
 
@@ -84,9 +86,11 @@ class Reach:
         finally:
             self.end(item.nodeid)
             self.seconds[item.nodeid] = time.process_time() - started
+            if sum(self.seconds.values()) > ENOUGH:
+                item.session.shouldstop = "enough seen"
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        if report.when == "call" and not report.passed or report.failed:
+        if report.failed or (report.when == "call" and not report.passed):
             self.bad.add(report.nodeid)
 
     def found(self) -> dict[str, Any]:

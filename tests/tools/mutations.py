@@ -60,11 +60,11 @@ class Mutant:
 
 
 def mutants(path: str, text: str) -> list[Mutant]:
-    """Return all mutants of a source, in the order of its lines; those that no parser reads are not there."""
+    """Return all mutants of a source, in the order of its lines."""
     found = []
     for node, kind, spelled in changes(ast.parse(text)):
         new = replaced(text, node, spelled)
-        if new != text and is_python(new):
+        if new != text:
             found.append(Mutant(path, node.lineno, kind, text, new))
     return found
 
@@ -177,12 +177,3 @@ def replaced(text: str, node: ast.expr | ast.stmt, spelled: str) -> str:
     first, last = node.lineno - 1, (node.end_lineno or node.lineno) - 1
     left, right = lines[first][: node.col_offset], lines[last][node.end_col_offset :]
     return b"".join([*lines[:first], left, spelled.encode(), right, *lines[last + 1 :]]).decode()
-
-
-def is_python(text: str) -> bool:
-    """Return whether a source can be read."""
-    try:
-        ast.parse(text)
-    except SyntaxError:
-        return False
-    return True

@@ -80,7 +80,7 @@ def test_what_is_missing_at_the_sketch_is_said_as_it_is():
 
 @pytest.mark.slow
 def test_end_of_a_group_is_where_the_three_rods_meet_in_a_point():
-    """Kinematics by hand: at the end that `limits` tells, the wrenches of the three rods on the plate have no inverse; before, they have."""
+    """Kinematics by hand: at the end that `limits` tells, the wrenches of the rods on the plate have no inverse; before, they have."""
     (inside,) = (each for each in StephensonThreeFar().sweep(3).limits()["psi"].intervals if 1.3 in each)
     assert inside.low_stop or inside.high_stop
 

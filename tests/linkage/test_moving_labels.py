@@ -8,6 +8,7 @@ from linkage import (
     LEFT,
     RIGHT,
     Crank,
+    DefinitionError,
     Dyad,
     Ground,
     Guide,
@@ -115,3 +116,23 @@ def test_gradients_are_differences(machine):
     apart = machine(**{name: base[name] + shift for name, shift in zip(names, shifts.T, strict=True)}).at(S=S)["X"]
     central = (apart[:, : len(names)] - apart[:, len(names) :]) / (2.0 * h)
     assert_allclose(np.moveaxis(machine().at(S=S).gradient("X", wrt=names), 0, 1), central, rtol=0, atol=3e-8)
+
+
+@pytest.mark.parametrize(
+    ("step", "words"),
+    [
+        (Dyad("A", "D", AX=0.9, side=LEFT), "DX"),
+        (Dyad("A", "D", DX=0.9, side=LEFT), "AX"),
+        (SliderDyad("A", "rail", side=LEFT), "AX"),
+        (PinSlotDyad("C", "A"), "CX"),
+        (OnLink("A", "D"), "AX"),
+        (OnLink("A", "D", AX=0.3, DX=0.9), "side"),
+        (OnLink("A", "D", AX=0.3, DX=0.9, DAX=0.2, side=LEFT), "not both"),
+        (SliderDyad("A", "rail", AX=1.0), "side"),
+        (Dyad("A", "D", AX=0.9, DX=0.9), "side"),
+        (Crank("O", angle=0.3), "OX"),
+    ],
+)
+def test_step_that_lacks_a_number_says_which(step, words):
+    with pytest.raises(DefinitionError, match=words):
+        made(X=step)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from linkage import AssemblyError, Link, Pin
+from linkage import AssemblyError, Crank, Ground, Guide, Link, Mechanism, Pin, Slide, Stroke, drawn
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
 from tests.linkage.test_groups import Platform, platform
 
@@ -97,3 +97,47 @@ def test_end_of_a_group_is_where_the_three_rods_meet_in_a_point():
             assert lost(end + 1e-8 * (1.3 - end)) < 1e-2 * lost(end + 0.5 * (1.3 - end))
             with pytest.raises(AssemblyError):
                 StephensonThreeFar().at(psi=end + 1e-5 * (end - 1.3))
+
+
+class TwoDrives(StephensonThreeFar):
+    """A second stroke: the rod DF is a cylinder."""
+
+    s = Stroke(-0.001, 0.001)
+    sketch = drawn(psi=np.radians(75.0), s=0.0)
+    rod = Link("D F", DF=0.1006 + s)
+
+
+def test_many_poses_of_two_strokes_are_the_few():
+    """1100 poses, more than are sampled along one stroke: each as alone, its loops closed."""
+    random = np.random.default_rng(8)
+    psi, s = random.uniform(LOW + 0.05, HIGH - 0.05, 1100), random.uniform(-0.001, 0.001, 1100)
+    motion = TwoDrives().at(psi=psi, s=s)
+    assert_allclose(motion.distance("D", "F"), 0.1006 + s, rtol=1e-11)
+    for place in (0, 511, 1099):
+        assert_allclose(motion["B"][:, place], TwoDrives().at(psi=psi[place], s=s[place])["B"], rtol=0, atol=1e-13)
+    assert_allclose(motion["B"][:, :1], StephensonThreeFar(DF=0.1006 + s[0]).at(psi=psi[:1])["B"], rtol=0, atol=1e-12)
+
+
+class Slotted(Mechanism):
+    """A slot between two pins of a group glides over a crank's pin: nothing else joins the group to its drive."""
+
+    phi = Stroke(1.2, 1.9)
+    sketch = drawn(phi=np.pi / 2)
+    O, P, Q = Ground(0.4, 0.3), Ground(-0.5, 0.3), Ground(0.9, 0.0)
+    A = Crank(O, OA=0.1, angle=phi)
+    slot = Guide("E", "F")
+    block = Slide(A, slot)
+    plate, r1, r2 = Link("E F", EF=np.hypot(0.8, 0.2)), Link("P E", PE=0.5), Link("Q F", QF=np.hypot(0.1, 0.5))
+    E, F = Pin(near=(0.0, 0.3)), Pin(near=(0.8, 0.5))
+
+
+def test_group_hangs_on_what_slides_in_its_slot():
+    assert "phi" in Slotted.plan.reaches("E") & Slotted.plan.reaches("F")
+    motion = Slotted().sweep(9)
+    along, away = motion["F"] - motion["E"], motion["A"] - motion["E"]
+    assert_allclose(along[0] * away[1] - along[1] * away[0], 0.0, rtol=0, atol=1e-13)
+    for P, Q, length in (("E", "F", np.hypot(0.8, 0.2)), ("P", "E", 0.5), ("Q", "F", np.hypot(0.1, 0.5))):
+        assert_allclose(motion.distance(P, Q), length, rtol=1e-12)
+    for point in "EF":
+        assert np.all(np.hypot(*motion.ratio(point)) > 1e-3)
+        assert_allclose(motion.ratio(point), motion.ratio(point, method="central"), rtol=1e-7, atol=1e-9)

@@ -17,7 +17,7 @@ CALLS = 12
 """A function's lines are watched in its first so many calls by a test; later ones seldom run another line."""
 LOOKS = 10_000
 """A test that has called so many functions without a new line is watched no longer."""
-ENOUGH = 12.0
+ENOUGH = 6.0
 """So many seconds of processor time are given to a file; tests after that are not watched, and no mutant meets them."""
 COLLECTION = ""
 """The name under which what runs while a file is read is kept: classes of mechanisms are bound there."""

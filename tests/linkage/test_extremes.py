@@ -558,3 +558,12 @@ def test_function_may_look_at_the_same_poses_again(settings):
     again = greatest(motion, lambda each: each.distance("A", "B") - 4.0 * (each.moved(each.strokes)["psi"] - 2.5) ** 2)
     assert_allclose(again.value, direct.value, rtol=1e-12)
     assert_allclose(again.strokes["S"], direct.strokes["S"], rtol=1e-6)
+
+
+def test_function_may_be_infinite():
+    """Infinite everywhere, of either sign, it is so at its greatest and its lowest; where it is finite somewhere that counts."""
+    for sign in (1.0, -1.0):
+        for ask in (greatest, lowest):
+            assert ask(Lift().sweep(5), lambda motion, sign=sign: np.full(motion.shape, sign * np.inf)).value == sign * np.inf
+    partly = greatest(Lift().sweep(5), lambda motion: np.where(motion.strokes["S"] > 0.6, -np.inf, motion.strokes["S"]))
+    assert partly.value == pytest.approx(0.6, abs=1e-6)

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import Crank, DefinitionError, Ground, Link, Mechanism, Pin, Stroke, deg, drawn
+from linkage import Crank, DefinitionError, Dimension, Ground, Link, Mechanism, Pin, Stroke, deg, drawn
+from mechanisms.classics.stephenson_three import StephensonThreeFar
 from tests.linkage.random_parts import dyad_sheet, group_sheet, minus, sine
 
 LEAST = 0.35
@@ -205,3 +206,14 @@ def test_contrary_angle_is_the_mirrored_link():
     cross = [along[0] * c[1] - along[1] * c[0] for c in away]
     assert np.all(cross[0] > 0.0)
     assert_allclose(cross[1], -cross[0], rtol=1e-12)
+
+
+FLAT = {name: Pin(near=(place, 0.1)) for name, place in {"A": 0.0, "B": 0.1, "D": 0.2}.items()}
+
+
+@pytest.mark.parametrize("lengths", [(0.2, 0.09, 0.25), (0.2, 0.09, 0.12), (0.2, Dimension(0.09), 0.11), (0.05, 0.09, 0.13)], ids=str)
+def test_flat_sketch_of_a_group_has_no_side(lengths):
+    """Three pins drawn in one line, their lengths a triangle or not known as numbers: no side is guessed."""
+    AB, AD, BD = lengths
+    with pytest.raises(DefinitionError, match="has no side; move a near"):
+        type("Flat", (StephensonThreeFar,), {**FLAT, "L": Dimension(0.09), "coupler": Link("A B D", AB=AB, AD=AD, BD=BD)})

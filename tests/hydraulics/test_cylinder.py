@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from hydraulics import CylinderSize, next_bore, next_rod, standard_bores, standard_rods
+from hydraulics import Cylinder, CylinderSize, next_bore, next_rod, standard_bores, standard_rods
 from linkage.errors import DefinitionError
 from linkage.units import MPa, bar, kN, mm
 
@@ -139,3 +139,25 @@ def test_rods_of_common_cylinders_are_offered():
 def test_refusals(call, message):
     with pytest.raises(DefinitionError, match=message):
         call()
+
+
+@pytest.mark.parametrize("works", ["piston", "rod", "both"])
+def test_pressure_for_a_thrust_is_that_of_the_forces_on_the_piston(works):
+    """By hand: what pushes less what pulls is the thrust, whichever side works and however many share it, against a back pressure."""
+    size = CylinderSize(bore=80 * mm, rod=45 * mm, count=3, works=works)
+    push, pull = 3 * np.pi / 4 * 0.080**2, 3 * np.pi / 4 * (0.080**2 - 0.045**2)
+    for back in (0.0, 7 * bar):
+        for force in (25e3, -25e3):
+            pressure = size.pressure_for(force, back)
+            working = {"piston": 1, "rod": -1, "both": 1 if force >= 0.0 else -1}[works]
+            sides = (pressure, back) if working > 0 else (back, pressure)
+            assert_allclose(sides[0] * push - sides[1] * pull, force, rtol=1e-13)
+            if works != "both":
+                assert_allclose(size.thrust(pressure, back), force, rtol=1e-13)
+                assert size.sense == working
+
+
+def test_standard_size_may_miss_by_a_rounded_digit():
+    """Sizes out of a file or a sum of lengths: a tenth of a micrometre is no other rod."""
+    for off, ok in ((0.0, True), (1e-10, True), (1e-6, False)):
+        assert bool(Cylinder("A", "B", bore=80 * mm, rod=45 * mm + off).standard()) == ok

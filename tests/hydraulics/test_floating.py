@@ -5,10 +5,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
-from linkage import RIGHT, Crank, DefinitionError, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke
+from linkage import RIGHT, Crank, DefinitionError, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, distance, drawn
 from linkage.loads import Weight
 from linkage.statics import driving_force
 from linkage.units import bar, deg, kN, litre, mm
+from mechanisms.classics.stephenson_three import StephensonThreeFar
 
 BLOCK = AccumulatorBlock([Accumulator(4 * litre, 50 * bar), Accumulator(4 * litre, 25 * bar)], isothermal)
 
@@ -204,3 +205,83 @@ def test_what_cannot_be_is_refused(make, words):
 def test_it_carries_about_half_of_the_load():
     motion = Carried().at(S=0.1)
     assert 5 * kN < Carried.line.thrust(motion) < 50 * kN
+
+
+# -- the charging stroke -------------------------------------------------------------------------------------
+
+
+class TwoStrokes(Mechanism):
+    """An arm that S lifts, a crank on it that phi turns; one ram by a driven length, one by points alone, one across both."""
+
+    S, phi = Stroke(0.05, 0.20), Stroke(0.2, 1.4)
+    sketch = drawn(S=0.08, phi=0.9)
+    A, O, H = Ground(0.20, 0.55), Ground(0.30, 1.15), Ground(-0.4, 0.6)
+    B = Dyad(A, O, AB=0.50 + S, OB=0.30, side=RIGHT)
+    G = OnLink(O, B, OG=0.9)
+    P = Crank(G, GP=0.2, angle=phi)
+    driven, apart, across = (Cylinder(*ends, bore=63 * mm, rod=40 * mm) for ends in ((A, B), (H, G), (H, P)))
+    line_driven, line_apart, line_across = (
+        FloatCircuit(ram, BLOCK, charge_pressure=60 * bar, at=0.12, seal_friction=3 * bar) for ram in ("driven", "apart", "across")
+    )
+
+
+@pytest.mark.parametrize("name", ["driven", "apart", "across"])
+def test_line_has_its_charge_where_its_stroke_is_at_and_others_at_the_sketch(name):
+    """Charged at S = 0.12 with phi as sketched, wherever the motion is: what has left is the change of length since then."""
+    line, ram = getattr(TwoStrokes, f"line_{name}"), getattr(TwoStrokes, name)
+    charged = TwoStrokes().at(S=0.12, phi=0.9).distance(ram.A.name, ram.B.name)
+    motion = TwoStrokes().sweep(S=4, phi=3)
+    withdrawn = (motion.distance(ram.A.name, ram.B.name) - charged) * ram.size.area
+    assert_allclose(line.withdrawn(motion), withdrawn, rtol=0, atol=1e-16)
+    assert_allclose(line.pressure(motion), BLOCK.pressure(60 * bar, withdrawn), rtol=1e-12)
+    assert_allclose(line.pressure(TwoStrokes().at(S=0.12, phi=0.9)), 60 * bar, rtol=1e-13)
+
+
+def test_each_design_is_charged_with_its_own_lengths():
+    batch = TwoStrokes(GP=np.array([0.1, 0.2, 0.3]), OG=np.array([0.8, 0.9, 1.0])).at(S=np.array([0.06, 0.15]), phi=1.0)
+    for row, (GP, OG) in enumerate(((0.1, 0.8), (0.2, 0.9), (0.3, 1.0))):
+        alone = TwoStrokes(GP=GP, OG=OG).at(S=np.array([0.06, 0.15]), phi=1.0)
+        assert_allclose(TwoStrokes.line_across.pressure(batch)[row], TwoStrokes.line_across.pressure(alone), rtol=1e-14)
+
+
+class OnGroup(StephensonThreeFar):
+    """A ram between the frame and a pin that only a group of links places."""
+
+    ram = Cylinder("O", "B", bore=25 * mm, rod=16 * mm)
+    line = FloatCircuit(ram, BLOCK, charge_pressure=60 * bar, at=1.3, seal_friction=3 * bar)
+
+
+def test_line_on_a_group_of_links():
+    motion, charged = OnGroup().sweep(7), OnGroup().at(psi=1.3).distance("O", "B")
+    withdrawn = (motion.distance("O", "B") - charged) * OnGroup.ram.size.area
+    assert np.ptp(withdrawn) > 1e-6
+    assert_allclose(OnGroup.line.withdrawn(motion), withdrawn, rtol=0, atol=1e-16)
+    batch = OnGroup(DF=np.array([0.1006, 0.1010])).sweep(5)
+    for row, DF in enumerate((0.1006, 0.1010)):
+        assert_allclose(OnGroup.line.withdrawn(batch)[row], OnGroup.line.withdrawn(OnGroup(DF=DF).sweep(5)), rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("machine", "settings", "words"),
+    [
+        (TwoStrokes, {"line_apart.at": 0.9}, r"cannot be assembled at the charging stroke S = 0\.9\."),
+        (OnGroup, {"line.at": 3.0}, r"cannot be assembled at the charging stroke psi = 3\."),
+        (OnGroup, {"line.at": np.array([1.2, 1.3])}, "one charging stroke for all designs"),
+    ],
+)
+def test_charging_stroke_out_of_reach_is_refused(machine, settings, words):
+    line = machine.line if machine is OnGroup else machine.line_apart
+    with pytest.raises(DefinitionError, match=words):
+        line.withdrawn(machine(**settings).at(**dict(machine.plan.sketch_strokes)))
+
+
+def test_seals_act_against_the_growth_of_the_length():
+    """Whichever stroke moves it, and not at all at rest: with rates of both strokes the sign is that of the length's rate."""
+    motion = TwoStrokes().sweep(S=3, phi=3)
+    size, line = TwoStrokes.across.size, TwoStrokes.line_across
+    free = line.thrust(motion)
+    assert_allclose(free, line.pressure(motion) * size.area, rtol=1e-14)
+    for rates in ({"S": 0.02, "phi": -0.3}, {"S": -0.02, "phi": 0.1}, {"phi": 1.0}):
+        grows = sum(motion.ratio(distance("H", "P"), wrt=name) * rate for name, rate in rates.items())
+        assert np.ptp(np.sign(grows)) == 2.0 or len(rates) == 2
+        assert_allclose(free - line.thrust(motion, rates), np.sign(grows) * 3 * bar * size.area, rtol=1e-9)

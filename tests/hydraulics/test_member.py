@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import Buckling, Cylinder
+from hydraulics import Buckling, Cylinder, LiftCircuit, lift_verdicts
 from linkage import RIGHT, Actuator, DefinitionError, Dimension, Dyad, Ground, LoadCase, Mechanism, PinFriction, Stroke, Weight
 from linkage.statics import driving_force
 from linkage.units import bar, kN, mm
@@ -147,3 +147,31 @@ def test_it_is_written_as_it_can_be_pasted_back():
 def test_sizes_of_a_batch_are_not_judged():
     with pytest.raises(DefinitionError, match="one design at a time"):
         Arm.lift.standard(Arm(**{"lift.bore": np.array([0.10, 0.11])}).sweep(3))
+
+
+@pytest.mark.parametrize(
+    ("closed", "stroke", "remedy"),
+    [
+        (0.40, 0.20, "150.0 mm are missing open: take a longer stroke"),
+        (0.375, 0.20, "175.0 mm are missing open: take a longer stroke"),
+        (0.30, 0.20, "250.0 mm are missing open: no cylinder comes out by more than it is long closed: move its pins"),
+        (0.30, 0.46, "it cannot come out by 460.0 mm, more than it is long closed: move its pins"),
+    ],
+)
+def test_remedy_is_one_that_helps(closed, stroke, remedy):
+    """The pins part to 750 mm: a cylinder with a single stage reaches them if half of that is enough for it closed."""
+    (verdict,) = Cylinder("A", "B", bore=0.1, rod=0.05, closed=closed, stroke=stroke).fits(Arm().sweep(11))
+    assert not verdict
+    assert remedy in verdict.sentence
+
+
+def test_nothing_is_judged_where_no_pose_is_reached():
+    lost = Arm().at(S=np.array([3.0, 4.0]), unreachable="nan")
+    with pytest.raises(DefinitionError, match="no length to check"):
+        Arm.lift.fits(lost)
+    machine = type("Lifted", (Arm,), {"circuit": LiftCircuit("lift", pressure=160 * bar), "load": Weight("B", mass=500.0)})
+    with pytest.raises(DefinitionError, match="nothing to judge"):
+        lift_verdicts("circuit", machine().at(S=np.array([3.0, 4.0]), unreachable="nan"))
+    for wrong in ("lift", "circus", None):
+        with pytest.raises(DefinitionError, match="LiftCircuit"):
+            lift_verdicts(wrong, machine().sweep(3))

@@ -99,3 +99,68 @@ def test_unreached_poses_stay_unreached():
 def test_refusals(call, message):
     with pytest.raises(DefinitionError, match=message):
         call()
+
+
+# -- the equation with itself: one function of state, so that its derivatives must agree ----------------------
+
+
+def slope_by_difference(f, x, step):
+    """Return f' by a central difference of fourth order; step relative."""
+    h = step * x
+    return (8.0 * (f(x + h) - f(x - h)) - (f(x + 2.0 * h) - f(x - 2.0 * h))) / (12.0 * h)
+
+
+@pytest.mark.parametrize("temperature", [250.0, 293.15, 335.0])
+def test_slope_is_that_of_the_volume(temperature):
+    gas, p = real_nitrogen(temperature), np.array([0.5, 5.0, 60.0, 200.0, 450.0]) * bar
+    assert_allclose(gas.slope(p), slope_by_difference(gas.specific, p, 1e-3), rtol=1e-8)
+    assert np.all(gas.slope(p) < 0.0)
+
+
+@pytest.mark.parametrize("temperature", [260.0, 293.15, 320.0])
+def test_isentropic_exponent_follows_from_the_pressure_alone(temperature):
+    """(rho/p) [(dp/drho)_T + T (dp/dT)^2 / (rho^2 cv)], cv = 5/2 R - T int (d2p/dT2) / rho^2 drho: differences and a quadrature."""
+    R, T, h = 8.314462618, temperature, 1.0
+    nodes, weights = np.polynomial.legendre.leggauss(24)
+
+    def pressure(rho, T):
+        return real_nitrogen(T).pressure_of(1.0 / rho)
+
+    p = np.array([5.0, 80.0, 250.0, 400.0]) * bar
+    for each in p:
+        rho = 1.0 / real_nitrogen(T).specific(np.array(each))
+        along = 0.5 * rho * (nodes + 1.0)
+        curved = (pressure(along, T + h) - 2.0 * pressure(along, T) + pressure(along, T - h)) / h**2
+        cv = 2.5 * R - T * 0.5 * rho * float(weights @ (curved / along**2))
+        heating = slope_by_difference(lambda T: pressure(rho, T), T, 1e-3)  # noqa: B023
+        stiffness = slope_by_difference(lambda rho: pressure(rho, T), rho, 1e-3)
+        exponent = rho / each * (stiffness + T * heating**2 / (rho**2 * cv))
+        assert_allclose(real_nitrogen(T).fast_exponent(each), exponent, rtol=2e-5)
+
+
+def test_the_ends_of_the_range_belong_to_it():
+    """245 K, 340 K and 500 bar are said to be in range, and a last digit lost on the way back from a volume is no error."""
+    for T in (245.0, 340.0):
+        gas = real_nitrogen(T)
+        assert_allclose(gas.pressure_of(gas.specific(np.array(500 * bar))), 500 * bar, rtol=1e-13)
+    gas = real_nitrogen()
+    assert_allclose(gas.specific(500 * bar * (1.0 + 1e-10)), gas.specific(500 * bar), rtol=1e-9)
+    for T in (245.0 - 1e-6, 340.0 + 1e-6):
+        with pytest.raises(DefinitionError, match=r"outside 245\.\.340 K"):
+            real_nitrogen(T)
+    with pytest.raises(DefinitionError, match="500 bar"):
+        gas.specific(np.array([1.0, 500.01]) * bar)
+    with pytest.raises(DefinitionError, match="500 bar"):
+        gas.fast_exponent(500.01 * bar)
+
+
+def test_charge_of_the_own_temperature_is_itself():
+    charges = np.array([1.0, 40.0, 250.0, 480.0]) * bar
+    for T in (250.0, 293.15, 330.0):
+        assert_allclose(real_nitrogen(T).charge_at(charges, T), charges, rtol=1e-13)
+        assert real_nitrogen().at(T).temperature == T
+
+
+def test_it_is_spelled_as_it_is_written():
+    assert real_nitrogen().spelled == "real_nitrogen()"
+    assert eval(real_nitrogen(280.0).spelled, {"real_nitrogen": real_nitrogen}).temperature == 280.0

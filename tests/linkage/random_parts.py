@@ -254,8 +254,8 @@ def made(sheet, name):
     return type(name, (Mechanism,), {each: sheet.members[each] for each in order})
 
 
-def dyad_parts(seed):
-    """Return a mechanism of pins, links and slides that dyads place, with up to 12 links, and its sheet."""
+def dyad_sheet(seed):
+    """Return a sheet of pins, links and slides that dyads place, with up to 12 links."""
     sheet = Sheet(seed)
     sheet.drive()
     most = int(sheet.random.integers(4, 13))
@@ -263,11 +263,17 @@ def dyad_parts(seed):
         if sheet.links + 2 > most:
             break
         getattr(sheet, str(sheet.random.choice(DYADS, p=(0.4, 0.2, 0.2, 0.08, 0.12))))()
+    return sheet
+
+
+def dyad_parts(seed):
+    """Return the mechanism of a sheet that dyads place, and the sheet."""
+    sheet = dyad_sheet(seed)
     return made(sheet, f"Dyads{seed}"), sheet
 
 
-def group_parts(seed):
-    """Return a mechanism with a group of class III or IV, and its sheet."""
+def group_sheet(seed):
+    """Return a sheet with a group of class III or IV."""
     sheet = Sheet(10_000 + seed)
     sheet.drive()
     if sheet.random.random() < 0.5:
@@ -276,6 +282,12 @@ def group_parts(seed):
         sheet.triad()
     else:
         sheet.tetrad()
+    return sheet
+
+
+def group_parts(seed):
+    """Return the mechanism of a sheet with a group of class III or IV, and the sheet."""
+    sheet = group_sheet(seed)
     return made(sheet, f"Group{seed}"), sheet
 
 

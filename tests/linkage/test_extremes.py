@@ -533,3 +533,37 @@ def test_the_least_transmission_angle_at_an_end_of_the_reach():
     mu = lambda S: np.arccos((S**2 + 0.20**2 - 0.60**2) / (2 * S * 0.20))  # noqa: E731
     assert least.angle == pytest.approx(min(mu(0.75), np.pi - mu(0.5)), abs=1e-12)
     assert least.stroke == (0.75 if mu(0.75) < np.pi - mu(0.5) else 0.5)
+
+
+# -- the function itself -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("shape", [(3,), (2, 3), (4, 1)])
+def test_function_gives_a_number_for_each_pose(shape):
+    for ask in (greatest, lowest, below_zero):
+        with pytest.raises(DefinitionError, match=r"a function of a motion gives the shape .* return a number for each pose"):
+            ask(Lift().sweep(5), lambda motion: np.zeros(shape))
+
+
+def test_function_may_be_one_number_for_all_poses():
+    assert greatest(Lift().sweep(5), lambda motion: 3.0).value == 3.0
+    assert lowest(Lift(OB=np.array([0.2, 0.21])).sweep(5), lambda motion: -2.0).value.tolist() == [-2.0, -2.0]
+
+
+@pytest.mark.parametrize("settings", [{}, {"OB": np.array([0.20, 0.21, 0.22])}], ids=["one", "several"])
+def test_function_may_look_at_the_same_poses_again(settings):
+    """A motion moved to its own strokes is itself, also where every design is looked at in places of its own."""
+    motion = Lift(**settings).sweep(5)
+    direct = greatest(motion, lambda each: each.distance("A", "B") - 4.0 * (each["psi"] - 2.5) ** 2)
+    again = greatest(motion, lambda each: each.distance("A", "B") - 4.0 * (each.moved(each.strokes)["psi"] - 2.5) ** 2)
+    assert_allclose(again.value, direct.value, rtol=1e-12)
+    assert_allclose(again.strokes["S"], direct.strokes["S"], rtol=1e-6)
+
+
+def test_function_may_be_infinite():
+    """Infinite everywhere, of either sign, it is so at its greatest and its lowest; where it is finite somewhere that counts."""
+    for sign in (1.0, -1.0):
+        for ask in (greatest, lowest):
+            assert ask(Lift().sweep(5), lambda motion, sign=sign: np.full(motion.shape, sign * np.inf)).value == sign * np.inf
+    partly = greatest(Lift().sweep(5), lambda motion: np.where(motion.strokes["S"] > 0.6, -np.inf, motion.strokes["S"]))
+    assert partly.value == pytest.approx(0.6, abs=1e-6)

@@ -315,3 +315,13 @@ def test_weights_by_hand_on_a_ladder():
     motion = Ladder().at(S=0.3 * cos(radians(50)))
     assert_allclose(driving_force(motion), -100.0 * G0 / tan(radians(50)), rtol=1e-12)
     assert_allclose(pin_forces(motion).at("B")[0].size, 100.0 * G0 * cos(radians(50)) / sin(radians(50)), rtol=1e-12)
+
+
+@pytest.mark.parametrize("machine", [Ladder, Screw])
+@pytest.mark.parametrize("direction", ["extending", "retracting"])
+def test_forces_scale_with_the_loads_and_the_words_stay(machine, direction):
+    """Dry friction has no size of its own: a load of a gram gives the same remarks as a tonne, and forces in proportion."""
+    found = {mass: pin_forces(machine(**{"load.mass": mass}).sweep(9), direction=direction) for mass in (1e-3, 100.0, 1e6)}
+    for mass, each in found.items():
+        assert each.remarks == found[100.0].remarks, mass
+        assert_allclose(each.drives["S"], found[100.0].drives["S"] * mass / 100.0, rtol=1e-9)

@@ -83,14 +83,9 @@ def quick(plan: Plan, designs: Mapping[str, Any], kernel: Kernel, careful: Poses
     places = [list(plan.strokes).index(node.value) for node in kernel.plan.pose_inputs]
     many = len(plan.strokes)
     together = places == list(range(many))
-    spare = [place for place in range(many) if place not in places]
-
-    def are_fit(strokes: Sequence[float]) -> bool:
-        """Return whether as many strokes are given as there are, those too that nothing here hangs on."""
-        return len(strokes) == many and all(type(strokes[place]) is float and isfinite(strokes[place]) for place in spare)
 
     def at(*strokes: float, **named: float) -> tuple[float, ...]:
-        if named or not (together or are_fit(strokes)):
+        if named or len(strokes) != many:
             return careful(*strokes, **named)
         try:
             found: tuple[float, ...] = pose(*passed, *(strokes if together else [strokes[place] for place in places]))

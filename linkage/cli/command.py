@@ -55,5 +55,5 @@ def counted(text: str) -> int:
     if count < 1:
         raise ArgumentTypeError(f"{text!r} is not a count; give a whole number from 1 on")
     if count > MOST:
-        raise ArgumentTypeError(f"{text} poses do not fit into memory; give fewer, such as 1001")
+        raise ArgumentTypeError(f"{text} poses do not fit into memory; lower --count, such as to 1001")
     return count

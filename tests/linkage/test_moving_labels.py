@@ -136,3 +136,15 @@ def test_gradients_are_differences(machine):
 def test_step_that_lacks_a_number_says_which(step, words):
     with pytest.raises(DefinitionError, match=words):
         made(X=step)
+
+
+@pytest.mark.parametrize("kind", ["dyad", "slider {} rail", "slider {} tilting", "slot {} 0.0", "slot {} 0.2"])
+def test_both_sides_are_the_assembly_modes(kind):
+    """The declared side first, the other one where its own class would stand."""
+    name = kind if "{}" in kind else kind + " {}"
+    classes = {side: made(**STEPS[name.format(side)]) for side in SIDES}
+    for side, other in (SIDES, SIDES[::-1]):
+        modes = classes[side]().assemblies(S=0.4)
+        assert [dict(mode.sides) for mode in modes] == [{"X": side}, {"X": other}]
+        for mode, each in zip(modes, (side, other), strict=True):
+            assert_allclose(mode.places["X"], classes[each]().at(S=0.4)["X"], rtol=0, atol=1e-14)

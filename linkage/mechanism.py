@@ -29,6 +29,7 @@ from .motion import (
 from .plan import Plan
 from .program import FloatArray, Way
 from .quantities import Member, Stroke
+from .steps import Drawn
 
 
 class Mechanism:
@@ -46,6 +47,11 @@ class Mechanism:
         for name in cls.plan.strokes:
             if not any(name in cls.plan.reaches(point) for point in cls.plan.moving) and cls.plan.points:
                 raise DefinitionError(f"{cls.__name__}: the stroke {name} moves nothing; use it in a length or an angle, or take it out.")
+        for name, sketch in cls.plan.of_kind(Drawn).items():
+            try:
+                at_values(cls.plan.sketch_strokes, cls.plan)
+            except DefinitionError as error:
+                raise DefinitionError(f"{cls.__name__}: {name} = {sketch}: {error}") from None
         check(cls.plan)
 
     def __init__(self, **dimensions: Any) -> None:

@@ -7,6 +7,8 @@ from functools import cached_property
 from typing import Any, TypeVar
 from uuid import uuid4
 
+import numpy as np
+
 from ..errors import DefinitionError, unknown
 from ..program import Kernel, Level, Node, Tangent
 from ..quantities import Member, Quantity
@@ -42,8 +44,9 @@ class Plan(Members):
         """The program's nodes: every point placed."""
         levels = dict.fromkeys((*self.strokes, *self.solved), Level.POSE) | dict.fromkeys(self.table.entries, Level.DESIGN)
         trace = Trace(self.members, self.table.lengths, levels)
-        for name in self.points:
-            trace.at(name)
+        with np.errstate(all="ignore"):  # what is divided by zero in a constant is told as the place that has no value
+            for name in self.points:
+                trace.at(name)
         for name, length in self.following:
             trace.watch_length(name, length)
         return trace

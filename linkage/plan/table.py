@@ -127,7 +127,7 @@ def signed(value: Any, sign: int, entry: Entry) -> Any:
 
 def checked(entry: Entry, value: Any) -> Any:
     """Return a value that the variable may take; raise DefinitionError for NaN, infinity and lengths not above zero."""
-    if not np.all(np.isfinite(value)):
+    if not np.all(np.isfinite(np.asarray(value, float))):
         raise DefinitionError(f"{entry.where}: {entry.name}={value!r} is not a finite number; give a value in SI.")
     if entry.kind == "not negative" and np.any(np.asarray(value) < 0.0):
         raise DefinitionError(f"{entry.where}: {entry.name}={np.min(value):.6g} is negative; give zero or more.")

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..errors import DefinitionError
 from ..program import Graph, Level, Node
 from ..quantities import Member, Quantity, Turning
 from ..steps import Point
@@ -59,6 +60,9 @@ class Trace(Reading):
         if isinstance(sine, Node):
             self.guards.append(Guard(self.owner, np.abs(sine) - NEAR))
             self.noted[self.owner] = sine
+        elif sine == 0.0:
+            step = self.members[self.owner]
+            raise DefinitionError(f"{self.owner} = {step}: the lines that meet in it are parallel at every pose; change an angle.")
         return sine
 
     def angle_of(self, vector: Vec) -> Scalar:

@@ -12,6 +12,7 @@ import numpy as np
 
 from hydraulics import Verdict
 from linkage import FileError, Motion
+from linkage.disk import read
 from linkage.program import FloatArray
 from linkage.units import UNITS, mm
 
@@ -59,8 +60,10 @@ def read_measured(path: str | Path) -> Mapping[str, FloatArray]:
     A heading is a name and its unit: `"R_y, mm"` or `R_y [mm]`. Fields are parted by commas, or by semicolons (then a
     comma may be the decimal sign). An empty field is a value not measured. FileError names the line.
     """
-    text = Path(path).read_text(encoding="utf-8-sig")
-    lines = text.splitlines()
+    try:
+        lines = read(path).decode("utf-8-sig").splitlines()
+    except UnicodeDecodeError:
+        raise FileError(f"{path}: the file is not UTF-8 text; save it in that encoding.") from None
     delimiter = ";" if lines and ";" in lines[0] else ","
     rows = [row for row in csv.reader(lines, delimiter=delimiter, skipinitialspace=True) if row]
     if len(rows) < 2:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkage.errors import DefinitionError
+from linkage.frozen import unmasked
 from linkage.program import Traced
 
 Array: TypeAlias = NDArray[np.float64]
@@ -124,7 +125,7 @@ def is_traced(value: Any) -> bool:
 
 
 def _floats(value: ArrayLike, what: str) -> Array:
-    array = np.asarray(value)
+    array = np.asarray(unmasked(value))
     if is_traced(array[()]):
         return array[()]
     if array.dtype.kind not in "iuf":

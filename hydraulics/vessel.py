@@ -8,6 +8,7 @@ from typing import Any, final
 
 import numpy as np
 
+from linkage.frozen import keep_own, refuses_changes
 from linkage.loads.element import written
 
 from .inputs import finite, in_pascals, not_negative
@@ -18,6 +19,7 @@ CHARGE = "Accumulator charge"
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Accumulator:
     """A vessel of `volume` [m3] charged with gas to `charge` [Pa gauge], the fluid out, at the gas's temperature.
@@ -30,6 +32,7 @@ class Accumulator:
     charge: Any
 
     def __post_init__(self) -> None:
+        keep_own(self)
         volume = np.ones(()) if follows(self.volume) else not_negative(self.volume, *VOLUME)
         if not follows(self.charge):
             in_pascals(np.where(volume > 0.0, finite(self.charge, CHARGE), 0.0), CHARGE)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABCMeta
 from collections.abc import Mapping, Sequence
 from copy import copy
 from typing import Any, ClassVar, Self
@@ -32,7 +33,30 @@ from .quantities import Member, Stroke
 from .steps import Drawn
 
 
-class Mechanism:
+class Structure(ABCMeta):
+    """The class of the classes of mechanism: what a class is made of does not change once it is made."""
+
+    plan: Plan
+
+    def __setattr__(cls, name: str, value: Any) -> None:
+        if isinstance(value, Member) or cls._is_made_of(name):
+            raise cls._unchanging(name, "= ...")
+        super().__setattr__(name, value)
+
+    def __delattr__(cls, name: str) -> None:
+        if cls._is_made_of(name):
+            raise cls._unchanging(name, "is deleted")
+        super().__delattr__(name)
+
+    def _is_made_of(cls, name: str) -> bool:
+        return name == "plan" or isinstance(getattr(cls, name, None), Member) or name in cls.plan.members
+
+    def _unchanging(cls, name: str, what: str) -> DefinitionError:
+        remedy = f"write a subclass, class Other({cls.__name__}): {name} = ..."
+        return DefinitionError(f"{cls.__name__}.{name} {what}: {cls.__name__} is worked out already and would not follow; {remedy}.")
+
+
+class Mechanism(metaclass=Structure):
     """The base of every mechanism. A subclass declares points, links and strokes, one line each, in any order.
 
     An instance is a design: `ThreePointHitch(OB=0.32)`; every keyword is a dimension by its name [SI], a float or
@@ -43,7 +67,8 @@ class Mechanism:
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        cls.plan = Plan(assembled(declared(cls), cls.__name__), cls.__name__)
+        members = declared(cls)
+        type.__setattr__(cls, "plan", Plan(assembled(members, cls.__name__), cls.__name__))
         for name in cls.plan.strokes:
             if not any(name in cls.plan.reaches(point) for point in cls.plan.moving) and cls.plan.points:
                 raise DefinitionError(f"{cls.__name__}: the stroke {name} moves nothing; use it in a length or an angle, or take it out.")
@@ -53,6 +78,8 @@ class Mechanism:
             except DefinitionError as error:
                 raise DefinitionError(f"{cls.__name__}: {name} = {sketch}: {error}") from None
         check(cls.plan)
+        for member in (*members.values(), *cls.plan.members.values()):
+            member.settle(cls.__name__)
 
     def __init__(self, **dimensions: Any) -> None:
         for name in dimensions:

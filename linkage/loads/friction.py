@@ -7,12 +7,14 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, final
 
+from ..frozen import refuses_changes
 from ..quantities import Reference, label, name_of
 from .element import ForceElement, Friction, Poses
 from .load import Load
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class PinFriction(ForceElement):
     """Friction in a pin of a radius [m]: the moment coefficient * radius * pin force, against the relative turning.
@@ -34,6 +36,7 @@ class PinFriction(ForceElement):
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class GuideFriction(ForceElement):
     """Friction of a point on the guides and slots it runs on: coefficient * normal force, against the relative sliding.

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..assembly import Solved, solve_groups
 from ..errors import DefinitionError
+from ..frozen import FrozenDict, read_only
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Kernel
 from .reach import Mask
@@ -23,7 +24,9 @@ class Grid:
     def __init__(self, plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray], unreachable: str = "raise") -> None:
         if unreachable not in ("raise", "nan"):
             raise DefinitionError(f'unreachable={unreachable!r}: say "raise" or "nan".')
-        self.plan, self.designs, self.strokes, self.unreachable = plan, dict(designs), dict(strokes), unreachable
+        self.plan, self.unreachable = plan, unreachable
+        self.designs: FrozenDict[str, Any] = FrozenDict(designs)
+        self.strokes: FrozenDict[str, FloatArray] = FrozenDict({name: read_only(value) for name, value in strokes.items()})
         arrays = [np.shape(value) for value in self.designs.values() if varies(value)]
         try:
             self.design_shape = np.broadcast_shapes(*arrays)
@@ -67,7 +70,8 @@ class Grid:
         shaped = {name: np.reshape(value, np.shape(value) + tail) if varies(value) else value for name, value in self.designs.items()}
         solved = {name: self.full(value[None])[0] for name, value in self.solved.inputs.items()}
         shaped = {name: np.float64(value) if np.ndim(value) == 0 else value for name, value in shaped.items()}
-        return shaped | dict(self.strokes) | solved
+        found = {**shaped, **self.strokes, **solved}
+        return FrozenDict({name: read_only(value) if isinstance(value, np.ndarray) else value for name, value in found.items()})
 
     def array(self, values: Any) -> FloatArray:
         """Return numbers as arrays of floats."""

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..assembly import Solved, solve_groups
+from ..frozen import FrozenDict, read_only
 from ..plan import Plan
 from ..program import FloatArray, Kernel
 from ..quantities import Angle, Reference
@@ -31,12 +32,12 @@ class Paired(Motion):
         self._each = {name: np.broadcast_to(np.asarray(value, float), size) for name, value in strokes.items()}
         full = {name: np.broadcast_to(np.asarray(value, float), size) for name, value in designs.items()}
         super().__init__(plan, full, {name: np.zeros(()) for name in strokes}, "nan")
-        self.strokes = dict(self._each)
+        self.strokes = FrozenDict({name: read_only(value) for name, value in self._each.items()})
 
     @cached_property
     def flat(self) -> dict[str, Any]:
         """The inputs as a kernel takes them: designs (m,), one pose of each (m, 1)."""
-        return self.designs | {name: value[:, None] for name, value in self._each.items()} | dict(self.solved.inputs)
+        return {**self.designs} | {name: value[:, None] for name, value in self._each.items()} | dict(self.solved.inputs)
 
     @cached_property
     def solved(self) -> Solved:
@@ -55,7 +56,7 @@ class Paired(Motion):
     @cached_property
     def inputs(self) -> dict[str, Any]:
         """The inputs, shape (m,)."""
-        return self.designs | self._each | {name: self.full(value[None])[0] for name, value in self.solved.inputs.items()}
+        return {**self.designs} | self._each | {name: self.full(value[None])[0] for name, value in self.solved.inputs.items()}
 
     def joined(self, angles: FloatArray, kernel: Kernel) -> FloatArray:
         """Return the angles that a kernel gives [rad], within 180 deg of the other motion's: there is no stroke to continue them along."""

@@ -32,6 +32,7 @@ class Places(Grid):
         if self.is_near_singular or plan.may_overflow:
             self._settle_unreached()
         self._places.flags.writeable = False
+        self.reached.flags.writeable = False
 
     @abstractmethod
     def refusal(self) -> AssemblyError:
@@ -84,5 +85,5 @@ class Places(Grid):
 
     def moved(self, strokes: Mapping[str, Any]) -> Self:
         """Return the same design at other strokes [SI], unreachable poses as NaN."""
-        arrays = np.broadcast_arrays(*(np.asarray(strokes[name], float) for name in self.strokes))
+        arrays = np.broadcast_arrays(*(np.array(strokes[name], float) for name in self.strokes))
         return type(self)(self.plan, self.designs, dict(zip(self.strokes, arrays, strict=True)), "nan")

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..errors import DefinitionError, unknown
+from ..frozen import refuses_changes
 from ..units import UNITS
 from ..vectors import Scalar
 from .numbers import is_number, plain
@@ -14,6 +15,7 @@ from .spelling import in_degrees
 from .where import Where
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Stroke(Quantity):
     """A driven coordinate with its range: a cylinder's stroke [m] or a crank's angle [rad]."""
@@ -41,6 +43,7 @@ class Stroke(Quantity):
         return self.text()
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Variable(Quantity):
     """A design variable that a label or a coordinate made: `OB`, `M.x`."""
@@ -54,6 +57,7 @@ class Variable(Quantity):
         return self.variable
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Dimension(Quantity):
     """A number of the design that has a name of its own [SI]; `unit` is the one it is shown and checked in, such as "kgf"."""

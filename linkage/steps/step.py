@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from ..errors import DefinitionError
+from ..frozen import refuses_changes
 from ..quantities import Holding, Number, Quantity, Reference, Where, name_of, quantity
 from ..vectors import Scalar, Side, Vec
 from .labels import Claims, Slot, match, relabelled, written_labels
@@ -24,6 +25,7 @@ class Unbound(Number):
 UNBOUND = Unbound(float("nan"))
 
 
+@refuses_changes
 @dataclass(frozen=True)
 class Bar:
     """Two points at a distance: a link, or a cylinder where the length follows a stroke."""

@@ -1,3 +1,4 @@
+# ruff: noqa: B023, E501 - tables of odd words
 """Files of sound mechanisms with a few things put wrong, each reproducible by its number; and what became of reading one."""
 
 from __future__ import annotations

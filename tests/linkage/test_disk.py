@@ -1,3 +1,4 @@
+# ruff: noqa: E501, RUF043
 """Whatever writes a file writes it whole or leaves the old one, with nothing beside it; what cannot be is told in words."""
 
 import errno

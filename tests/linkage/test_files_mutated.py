@@ -16,6 +16,6 @@ def test_files_with_a_few_things_put_wrong(tmp_path, monkeypatch):
 @pytest.mark.slow
 def test_a_hundred_thousand_files(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    counts, wrong = tried(range(100_000), tmp_path)
+    _, wrong = tried(range(100_000), tmp_path)
     assert not wrong, "\n".join(wrong)
     assert {each.name for each in tmp_path.iterdir()} <= {"file.toml", "file.json"}, "something was run"

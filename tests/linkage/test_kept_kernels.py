@@ -1,3 +1,4 @@
+# ruff: noqa: E501, SIM102
 """Compiled kernels on disk are code: only a folder that nobody else can write is used, and only what is as it was put there."""
 
 import json

@@ -1,4 +1,4 @@
-# ruff: noqa: E501, SIM102
+# ruff: noqa: E501
 """Nothing that is handed out, given in or declared changes under the hand: read-only, a copy, or refused in words."""
 
 import copy

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited
+from linkage.frozen import keep_own, refuses_changes
 from linkage.loads import Poses
 from linkage.loads.element import written
 from linkage.quantities import Dimension, Quantity, spelled
@@ -43,6 +44,7 @@ SMALLEST = 1e-9
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class AccumulatorBlock:
     """Accumulators on one line, any number and any charges; pressures are gauge [Pa].
@@ -64,6 +66,7 @@ class AccumulatorBlock:
         if not isinstance(self.accumulators, (list, tuple)):
             raise DefinitionError(f"{cited(self.accumulators)} is no list of accumulators; write AccumulatorBlock([Accumulator(...)]).")
         object.__setattr__(self, "accumulators", tuple(self.accumulators))
+        keep_own(self)
         if not self.accumulators:
             raise DefinitionError("The accumulator block is empty; give it at least one Accumulator(volume, charge).")
         for one in self.accumulators:

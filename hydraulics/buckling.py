@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, known_name
+from linkage.frozen import refuses_changes
 from linkage.units import MPa, kN, mm
 
 from .inputs import LONGEST, Array, in_metres, one_number, over_poses, positive
@@ -34,6 +35,7 @@ MOUNTINGS = MappingProxyType({"pin-pin": 1.0, "fixed-pin": 0.699156, "fixed-fixe
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True)
 class Buckling:
     """A rod of a diameter [m], how it is held and the safety asked for; `modulus` and `yield_strength` [Pa], steel by default.

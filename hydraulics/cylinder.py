@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, known_name
+from linkage.frozen import keep_own, refuses_changes
 from linkage.units import kN, mm
 
 from .inputs import Array, in_metres, one_number, over_poses, positive
@@ -36,6 +37,7 @@ SIDES = ("piston", "rod", "both")
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True)
 class CylinderSize:
     """`count` equal cylinders side by side, of a bore and a rod [m]; `works` is the side the pressure acts on.
@@ -51,6 +53,7 @@ class CylinderSize:
     works: Literal["piston", "rod", "both"] = "piston"
 
     def __post_init__(self) -> None:
+        keep_own(self)
         for value, what in ((self.bore, "Bore"), (self.rod, "Rod")):
             positive(in_metres(value, what), what)
         if np.any(np.greater_equal(self.rod, self.bore)):

@@ -15,6 +15,7 @@ from typing import Any, ClassVar, TypeAlias, final
 import numpy as np
 
 from linkage.errors import DefinitionError, cited
+from linkage.frozen import refuses_changes
 from linkage.loads import AT_REST, ForceElement, Load, Poses, Push, Rates, require_poses
 from linkage.loads.two_point import end_forces
 from linkage.motion import Motion
@@ -31,6 +32,7 @@ Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class FloatCircuit(Circuit):
     """A cylinder on a closed accumulator block: `FloatCircuit(lift, block, charge_pressure=94 * kgf_cm2, at=h_horizon)`.

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError
+from linkage.frozen import refuses_changes
 from linkage.quantities.numbers import plain
 
 from .inputs import Array, finite, kelvin, positive
@@ -87,6 +88,7 @@ class Gas(ABC):
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Polytropic(Gas):
     """Ideal gas with p V^n = const: n = 1 is isothermal (slow), n = 1.4 adiabatic (fast). `n` may be an array over states."""

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from linkage.errors import DefinitionError, cited
+from linkage.frozen import unmasked
 from linkage.program import Traced
 
 Array: TypeAlias = NDArray[np.float64]
@@ -143,7 +144,7 @@ def is_traced(value: Any) -> bool:
 
 def _floats(value: ArrayLike, what: str) -> Array:
     try:
-        array = np.asarray(value)
+        array = np.asarray(unmasked(value))
     except ValueError:
         raise DefinitionError(f"{what} = {cited(value)} is not a number; give a number in SI units.") from None
     if is_traced(array[()]):

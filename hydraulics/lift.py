@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, known_name, one_word
+from linkage.frozen import refuses_changes
 from linkage.loads import Force, ForceElement, Load, Poses
 from linkage.motion import Motion, require_motion
 from linkage.motion.reach import Mask
@@ -34,6 +35,7 @@ Feeds: TypeAlias = "Reference | Sequence[Reference]"
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class LiftCircuit(Circuit):
     """A pump on a cylinder: `circuit = LiftCircuit(lift, pressure=180 * bar, flow=60 * litre / minute, mechanical_efficiency=0.9)`.
@@ -340,6 +342,7 @@ class LiftCircuit(Circuit):
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Work:
     """A cylinder's thrust [N] while it grows (`sense` 1) or shrinks (-1), its size, and the mechanical efficiency.
@@ -388,6 +391,7 @@ class Work:
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Holding:
     """Gauge pressures [Pa] that hold a load: on the working side, and on the other one where the load drives on."""
@@ -397,6 +401,7 @@ class Holding:
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Lowering:
     """Going back: the gauge pressure [Pa] that the load alone makes in the working side, the one the other side must

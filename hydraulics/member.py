@@ -18,6 +18,7 @@ from typing import Any, ClassVar, Literal, final
 import numpy as np
 
 from linkage.errors import DefinitionError, cited, unknown, unwarned
+from linkage.frozen import refuses_changes
 from linkage.loads import AT_REST, DrawnAs, ForceElement, LoadCase, Poses, Push, Rates, TwoPoint, require_poses
 from linkage.motion import Column, Motion, Tabled, greatest, lowest, require_motion
 from linkage.quantities import Member, Reference, label, name_of
@@ -36,6 +37,7 @@ DIRECTIONS = ("frictionless", "extending", "retracting")
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Cylinder(TwoPoint, Tabled):
     """`count` equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
@@ -335,6 +337,7 @@ def _cylinder(found: Any, where: str) -> Cylinder:
 TOLERANCE = 1e-9  # m: a length that is met to rounding is met
 
 
+@refuses_changes
 @dataclass(frozen=True)
 class OneSize:
     """A bore and a rod [m] of one design."""

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError
+from linkage.frozen import refuses_changes
 from linkage.quantities.numbers import plain
 from linkage.units import bar
 
@@ -40,6 +41,7 @@ TERMS = (  # i, j, c
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class RealNitrogen(Gas):
     """Real nitrogen kept at one temperature (a slow change); see the file's head for source, range and error."""

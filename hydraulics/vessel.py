@@ -9,6 +9,7 @@ from typing import Any, final
 import numpy as np
 
 from linkage.errors import DefinitionError
+from linkage.frozen import keep_own, refuses_changes
 from linkage.loads.element import written
 
 from .inputs import finite, in_pascals, not_negative
@@ -21,6 +22,7 @@ CHARGE = "Accumulator charge"
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Accumulator:
     """A vessel of `volume` [m3] charged with gas to `charge` [Pa gauge], the fluid out, at the gas's temperature.
@@ -33,6 +35,7 @@ class Accumulator:
     charge: Any
 
     def __post_init__(self) -> None:
+        keep_own(self)
         volume = np.ones(()) if follows(self.volume) else not_negative(self.volume, *VOLUME)
         if np.any(volume > LARGEST):
             large = f"{np.max(volume):.6g}"

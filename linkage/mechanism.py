@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABCMeta
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
 from functools import wraps
@@ -32,6 +33,7 @@ from .motion import (
 from .plan import Plan
 from .program import FloatArray, Way
 from .quantities import Member, Stroke
+from .steps import Drawn
 
 Method = TypeVar("Method", bound=Callable[..., Any])
 
@@ -78,7 +80,30 @@ def of_own_motion(method: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any
     return checked
 
 
-class Mechanism:
+class Structure(ABCMeta):
+    """The class of the classes of mechanism: what a class is made of does not change once it is made."""
+
+    plan: Plan
+
+    def __setattr__(cls, name: str, value: Any) -> None:
+        if isinstance(value, Member) or cls._is_made_of(name):
+            raise cls._unchanging(name, "= ...")
+        super().__setattr__(name, value)
+
+    def __delattr__(cls, name: str) -> None:
+        if cls._is_made_of(name):
+            raise cls._unchanging(name, "is deleted")
+        super().__delattr__(name)
+
+    def _is_made_of(cls, name: str) -> bool:
+        return name == "plan" or isinstance(getattr(cls, name, None), Member) or name in cls.plan.members
+
+    def _unchanging(cls, name: str, what: str) -> DefinitionError:
+        remedy = f"write a subclass, class Other({cls.__name__}): {name} = ..."
+        return DefinitionError(f"{cls.__name__}.{name} {what}: {cls.__name__} is worked out already and would not follow; {remedy}.")
+
+
+class Mechanism(metaclass=Structure):
     """The base of every mechanism. A subclass declares points, links and strokes, one line each, in any order.
 
     An instance is a design: `ThreePointHitch(OB=0.32)`; every keyword is a dimension by its name [SI], a float or
@@ -91,12 +116,20 @@ class Mechanism:
         super().__init_subclass__(**options)
         for name in ("columns", "verdicts"):
             if isfunction(vars(cls).get(name)):
-                setattr(cls, name, of_a_design(of_own_motion(vars(cls)[name])))
-        cls.plan = Plan(assembled(declared(cls), cls.__name__), cls.__name__)
+                type.__setattr__(cls, name, of_a_design(of_own_motion(vars(cls)[name])))
+        members = declared(cls)
+        type.__setattr__(cls, "plan", Plan(assembled(members, cls.__name__), cls.__name__))
         for name in cls.plan.strokes:
             if not any(name in cls.plan.reaches(point) for point in cls.plan.moving) and cls.plan.points:
                 raise DefinitionError(f"{cls.__name__}: the stroke {name} moves nothing; use it in a length or an angle, or take it out.")
+        for name, sketch in cls.plan.of_kind(Drawn).items():
+            try:
+                at_values(cls.plan.sketch_strokes, cls.plan)
+            except DefinitionError as error:
+                raise DefinitionError(f"{cls.__name__}: {name} = {sketch}: {error}") from None
         check(cls.plan)
+        for member in (*members.values(), *cls.plan.members.values()):
+            member.settle(cls.__name__)
 
     def __init__(self, **dimensions: Any) -> None:
         self._values = self._settings(dimensions)

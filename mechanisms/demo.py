@@ -12,8 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
-from linkage import Column, Motion
+from linkage import Column, FileError, Motion
 from linkage.animate import animate
+from linkage.disk import in_words
 from linkage.draw import curves, poses
 from linkage.report import rich_tables, text_table
 from linkage.units import kgf_cm2
@@ -39,11 +40,12 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(sentence)
     print()
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        with in_words(folder):
+            folder.mkdir(parents=True, exist_ok=True)
         for picture in pictures(machine, motion, folder):
             print(f"wrote {picture}")
-    except OSError as error:
-        print(f"cannot write to {folder}: {error.strerror}; choose another folder with --out.", file=sys.stderr)
+    except FileError as error:
+        print(f"{error} Choose another folder with --out.", file=sys.stderr)
         return 2
     return 0
 

@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 
 FLOORS = (
-    ("errors", "units", "vectors"),
+    ("errors", "units", "vectors", "disk", "frozen"),
     ("quantities",),
     ("steps", "loads"),
     ("graph",),

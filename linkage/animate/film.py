@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ..disk import check_place, replacing_text
 from ..draw.limits import limit as limit_of
 from ..draw.poses import named_points
-from ..errors import DefinitionError, FileError, cited
+from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism, require_mechanism
 from ..page import page
 from ..report import NOTHING, At
@@ -45,7 +46,9 @@ def animate(
     the live curve of a column of its results, the last unless named. `at=dict(tilt=0.1)` holds another stroke, `at=dict(S=(0.1, 0.2))`
     says where one runs [m or rad]; strokes not named stand in their middle. `trace` names points whose paths are
     drawn; `limit` is the column's limit, `(value [SI], text, "above" or "below")`. `progress(done, total)` is called
-    as it goes. Raises DefinitionError for another kind of file, a batch of designs or an unknown name.
+    as it goes. What stood at the path is replaced whole, or
+    left as it was. Raises DefinitionError for another kind of file, a batch of designs or an unknown name, FileError for a path that
+    cannot be written.
     """
     require_mechanism(machine)
     if not isinstance(path, (str, os.PathLike)):
@@ -59,8 +62,7 @@ def animate(
     trace = named_points(machine, trace, "trace")
     if limit is not None:
         limit_of(limit)
-    if not target.parent.is_dir():
-        raise FileError(f"{target}: the folder {target.parent} is not there; make it first or choose another.")
+    check_place(target)
     write, fineness = KINDS[kind]
     run = course(machine, fineness * (poses - 1) + 1, column, at=at, eased=fineness == 1)
     write(run, target, trace, limit, progress or silent)
@@ -90,7 +92,8 @@ def html(run: Course, target: Path, trace: Sequence[str], limit: Any, progress: 
     """Write a page."""
     text = page(run.motion, run.column, trace, limit, is_turn=run.is_turn)
     progress(1, 2)
-    target.write_text(text, encoding="utf-8")
+    with replacing_text(target) as stream:
+        stream.write(text)
     progress(2, 2)
 
 

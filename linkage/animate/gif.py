@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
+from ..disk import replacing
 from .course import RATE
 
 COLOURS, APART = 120, 9
@@ -22,7 +24,9 @@ def write_gif(path: Path, frames: Iterable[npt.NDArray[np.uint8]], order: Sequen
     for pose, frame in zip(dict.fromkeys(order), frames, strict=True):
         pictures[pose] = Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE)
     first, *others = [pictures[pose] for pose in order]
-    first.save(path, save_all=True, append_images=others, duration=1000 // RATE, loop=0, disposal=1, optimize=True)
+    with replacing(path) as stream:
+        options: dict[str, Any] = {"duration": 1000 // RATE, "loop": 0, "disposal": 1, "optimize": True}
+        first.save(stream, "GIF", save_all=True, append_images=others, **options)
 
 
 def palette_of(sample: npt.NDArray[np.uint8]) -> Image.Image:

@@ -129,7 +129,7 @@ def next_group(parts: Parts, title: str) -> Group:
         fault = next((rows[row].fault for row in own if rows[row].fault), "")
         if fault:
             raise DefinitionError(f"{title}: {fault}")
-        return grouped([pin for pin in parts.pins if pin in pins], [rows[row] for row in own])
+        return checked(grouped([pin for pin in parts.pins if pin in pins], [rows[row] for row in own]), title)
     raise DefinitionError(f"{title}: no pin is left to place.")
 
 
@@ -165,4 +165,13 @@ def grouped(pins: list[str], rows: list[Row]) -> Group:
             attached.setdefault(f"{row.attached[0]} {row.attached[1]}", row.attached)
     group.attached = tuple(attached.values())
     group.slides = tuple(row.slide for row in rows if row.slide)
+    return group
+
+
+def checked(group: Group, title: str) -> Group:
+    """Return a group that has as many different conditions as coordinates; DefinitionError for one that is held twice in the same way."""
+    held, needed = len(group.given) + 2 * len(group.attached) + len(group.slides), 2 * len(group.pins)
+    if held != needed:
+        what = f"the pins {' '.join(group.pins)} are held by {held} different conditions, {needed} are needed"
+        raise DefinitionError(f"{title}: {what}; take out a link that joins the same pins as another one, and add one that holds them.")
     return group

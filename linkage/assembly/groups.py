@@ -97,8 +97,9 @@ def at_sketch(plan: Plan) -> dict[str, FloatArray]:
         if not done:
             names = " ".join(pin.name for pin in pins)
             strokes = strokes_text(plan, plan.sketch_strokes)
+            gap = f"{missing / mm:.3g} mm are missing" if np.isfinite(missing) else "their equations have no value"
             raise AssemblyError(
-                f"{plan.title}: the pins {names} cannot be assembled from their sketch at {strokes}: {missing / mm:.3g} mm are missing in "
+                f"{plan.title}: the pins {names} cannot be assembled from their sketch at {strokes}: {gap} in "
                 "the nearest pose. Move their near=(x, y) closer to the real pose, or change a length.",
                 point=pins[0].name, mask=np.ones((), bool), shortfall=missing,
             )  # fmt: skip

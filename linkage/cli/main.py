@@ -34,6 +34,9 @@ def main(argv: Sequence[str] | None = None) -> int:
             sys.stdout.flush()
             return code
     except FileError as error:
+        if isinstance(error.__cause__, BrokenPipeError):
+            close_stdout()
+            return PIPE_CLOSED
         return fail(*str(error).splitlines())
     except LinkageError as error:
         return fail(str(error))

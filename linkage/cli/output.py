@@ -6,6 +6,7 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..disk import check_place
 from ..errors import DefinitionError
 from ..mechanism import Mechanism
 
@@ -20,13 +21,12 @@ def picture_argument(parser: ArgumentParser, what: str) -> None:
 def picture(given: str | None, machine: type[Mechanism], text: str, suffixes: Sequence[str] = PICTURES) -> Path:
     """Return the path of a picture; by default the machine's name with the first suffix, in this folder.
 
-    Raises DefinitionError for a suffix that is not among them and a folder that is not there.
+    Raises DefinitionError for a suffix that is not among them, FileError for a place that cannot be written.
     """
     path = Path(given if given is not None else (text if text.isidentifier() else machine.__name__) + suffixes[0])
     if path.suffix.lower() not in suffixes:
         raise DefinitionError(f"-o {path}: the file's name ends in one of {', '.join(suffixes)}, which chooses the format.")
-    if not path.parent.is_dir():
-        raise DefinitionError(f"-o {path}: the folder {path.parent} is not there; make it first.")
+    check_place(path)
     return path
 
 

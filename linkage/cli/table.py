@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from shutil import get_terminal_size
 from typing import TextIO
 
+from ..disk import replacing_text
 from ..motion import Column
 from ..report import rich_tables, text_table, write_csv
 from .command import Command, machine_arguments, motion_arguments
@@ -52,7 +53,7 @@ def write_table(columns: Sequence[Column], rows: int, csv: str | None) -> None:
         keep_line_ends(sys.stdout)
         save(columns, sys.stdout)
     else:
-        with open(csv, "w", newline="", encoding="utf-8") as stream:
+        with replacing_text(csv) as stream:
             save(columns, stream)
         print(f"{csv}: {rows} rows")
 

@@ -13,6 +13,7 @@ from ..errors import DefinitionError, cited, unknown
 from ..motion import Column, Motion, columns_of
 from . import strokes, style
 from .panel import panel
+from .picture import Picture
 
 PANEL = (4.6, 3.0)
 """The size of a panel with its share of the margins [inch]."""
@@ -61,7 +62,7 @@ def grid(count: int) -> tuple[Figure, list[Any]]:
     across = min(ceil(sqrt(count)), 4)
     down = ceil(count / across)
     size = max(PANEL[0] * across, 6.0), PANEL[1] * down + 0.6
-    figure = Figure(figsize=size, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
+    figure = Picture(figsize=size, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
     FigureCanvasAgg(figure)
     figure.get_layout_engine().set(w_pad=0.12, h_pad=0.12)  # type: ignore[union-attr,call-arg]
     return figure, [figure.add_subplot(down, across, index + 1) for index in range(count)]

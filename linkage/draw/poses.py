@@ -19,6 +19,7 @@ from ..quantities import is_whole, real
 from ..report import Run, first, middle
 from . import strokes, style
 from .drawing import Drawing
+from .picture import Picture
 from .room import cloud
 from .scene import Box, Scene
 from .sheet import sheet
@@ -101,7 +102,7 @@ def page(box: Box) -> tuple[Figure, Axes]:
     wide = WIDTH - LEFT - RIGHT
     high = float(np.clip(wide * (top - bottom) / (right - left), LEAST - BOTTOM - TOP, MOST - BOTTOM - TOP))
     height = high + BOTTOM + TOP
-    figure = Figure(figsize=(WIDTH, height), dpi=style.DPI, facecolor=style.PAPER)
+    figure = Picture(figsize=(WIDTH, height), dpi=style.DPI, facecolor=style.PAPER)
     FigureCanvasAgg(figure)
     ax = figure.add_axes((LEFT / WIDTH, BOTTOM / height, wide / WIDTH, high / height))
     sheet(ax, box)

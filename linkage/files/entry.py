@@ -14,7 +14,7 @@ from ..plan import Table
 from ..quantities import Member
 from .design import Design
 from .fields import Value
-from .limits import LABELS
+from .limits import LABELS, NAME_LENGTH
 from .names import shortened
 
 
@@ -107,7 +107,8 @@ class Labelled(Entry):
         if len(labels) > LABELS:
             raise DefinitionError(f"{len(labels)} labels are too many; up to {LABELS} are read.")
         for key in labels:
-            if not isinstance(key, str) or not key.isidentifier() or key in ("self", *signature(cls.describes).parameters):
+            is_label = isinstance(key, str) and key.isidentifier() and len(key) <= 3 * NAME_LENGTH
+            if not is_label or key in ("self", *signature(cls.describes).parameters):
                 raise DefinitionError(f"{shortened(key)} is not a label; write the points' names joined, such as AB or BOC.")
         return {key: value for key, value in table.items() if key in own} | {"labels": labels}
 

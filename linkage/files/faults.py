@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from ..errors import DefinitionError, FileError
-from .limits import FAULTS_SHOWN
+from .limits import FAULTS_SHOWN, NAME_LENGTH
 from .names import shortened
 
 Key = tuple[str, ...]
@@ -75,4 +75,4 @@ def described(error: ValidationError) -> Iterator[tuple[Key, str]]:
 
 def shown(part: str) -> str:
     """Return a part of a key for a message."""
-    return part if part.isidentifier() or part.isdecimal() else shortened(part)
+    return part if len(part) <= NAME_LENGTH and (part.isidentifier() or part.isdecimal()) else shortened(part)

@@ -13,7 +13,7 @@ def own_form(member: Any) -> Any:
         return member.target
     if not isinstance(member, Member):
         return member
-    return type(member), *(form(value) for name, value in vars(member).items() if name != "_name")
+    return type(member), *(form(value) for name, value in vars(member).items() if name not in ("_name", "_class"))
 
 
 def form(part: Any) -> Any:

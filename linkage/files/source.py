@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..disk import read
 from ..errors import FileError
 from .limits import FILE_BYTES, TOML_LINE
 from .lines import line_of, lines
@@ -43,17 +44,7 @@ def source(path_or_text: str | os.PathLike[str]) -> Source:
     path = Path(path_or_text)
     if path.suffix not in (".toml", ".json"):
         raise FileError(f"{shortened(os.fspath(path_or_text), quote=False)}: the name of a mechanism's file ends in .toml or .json.")
-    return decoded(path.name, content(path), path.suffix == ".json")
-
-
-def content(path: Path) -> bytes:
-    """Return a file's bytes; FileError where it cannot be read."""
-    try:
-        with path.open("rb") as file:
-            return file.read(FILE_BYTES + 1)
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise FileError(f"{path}: {reason}.") from None
+    return decoded(path.name, read(path, FILE_BYTES + 1), path.suffix == ".json")
 
 
 def decoded(name: str, raw: bytes, is_json: bool) -> Source:
@@ -71,13 +62,19 @@ def decoded(name: str, raw: bytes, is_json: bool) -> Source:
     except RecursionError:
         raise FileError(f"{name}: lists or tables are nested too deeply; a mechanism's file needs three levels.") from None
     except ValueError as error:
-        raise FileError(located(name, str(error))) from None
+        raise FileError(located(name, str(error), text)) from None
 
 
-def located(name: str, message: str) -> str:
-    """Return a parser's message with its line in front."""
+def located(name: str, message: str, text: str) -> str:
+    """Return a parser's message about a text with its line in front."""
     if message.startswith("Exceeds the limit"):
-        message = "a number has too many digits"
+        longest = max(re.finditer(r"[\d_]+", text), key=lambda found: len(found[0]))
+        message = f"a number has too many digits (at line {text.count(chr(10), 0, longest.start()) + 1}, column 1)"
+    if message.endswith("(at end of document)"):
+        message = message.replace("(at end of document)", f"at the end of the file (at line {text.rstrip().count(chr(10)) + 1}, column 1)")
+    if message.endswith("is not a number"):
+        bare = re.sub(r'"(?:\\.|[^"\\])*"', lambda found: re.sub(r"[^\n]", " ", found[0]), text)
+        message += f" (at line {bare.count(chr(10), 0, max(bare.find(message.split()[0]), 0)) + 1}, column 1)"
     match = re.search(r"\s*\(?:?\s*\(?(?:at )?line (\d+)[,:]? column \d+(?: \(char \d+\))?\)?", message)
     if match is None:
         return f"{name}: {message}."

@@ -7,6 +7,7 @@ from inspect import cleandoc
 from pathlib import Path
 from typing import Any
 
+from ..disk import replacing_text
 from ..errors import DefinitionError, FileError
 from ..mechanism import Mechanism, declared, require_mechanism
 from .design import Design, measured, members_of
@@ -77,7 +78,10 @@ def to_json(machine: Machine) -> str:
 
 
 def save(machine: Machine, path: str | os.PathLike[str]) -> None:
-    """Write a mechanism into a file, TOML or JSON by its ending. FileError where it cannot be written."""
+    """Write a mechanism into a file, TOML or JSON by its ending; what stood there is replaced whole.
+
+    FileError where it cannot be written: what stood there then stands as it was.
+    """
     writers = {".toml": to_toml, ".json": to_json}
     if not isinstance(path, (str, os.PathLike)):
         raise FileError(f"a path is expected, not {type(path).__name__}.")
@@ -85,7 +89,5 @@ def save(machine: Machine, path: str | os.PathLike[str]) -> None:
     if place.suffix not in writers:
         raise FileError(f"{shortened(os.fspath(path), quote=False)}: the name of a mechanism's file ends in .toml or .json.")
     text = writers[place.suffix](machine)
-    try:
-        place.write_text(text, encoding="utf-8", newline="\n")
-    except (OSError, ValueError) as error:
-        raise FileError(f"{place}: {getattr(error, 'strerror', None) or error}.") from None
+    with replacing_text(place) as stream:
+        stream.write(text)

@@ -10,6 +10,7 @@ from typing import Any, ClassVar, TypeAlias, final
 import numpy as np
 
 from ..errors import DefinitionError, cited, unknown
+from ..frozen import refuses_changes
 from ..quantities import Member, Reference, is_number, label, name_of
 from ..steps import Link, Point
 from .element import ForceElement, Poses
@@ -76,6 +77,7 @@ class OnBody(ForceElement):
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Moment(OnBody):
     """A moment M [Nm] on a body, counter-clockwise: `drag = Moment(arm, M=-250)` or `Moment("O B", M=-250)`."""
@@ -89,6 +91,7 @@ class Moment(OnBody):
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class LinkMass(OnBody):
     """A body's own mass [kg] at its centre of gravity: `own = LinkMass("E D F", mass=30)`.

@@ -8,6 +8,7 @@ from math import pi
 from typing import Any, ClassVar, final
 
 from ..errors import DefinitionError, cited, unknown
+from ..frozen import keep_own, refuses_changes
 from ..quantities import Member, Reference, in_degrees, is_number, name_of
 from ..quantities.numbers import plain
 from ..units import deg
@@ -18,6 +19,7 @@ STEEPEST = 0.5 * pi * (1.0 + 1e-9)
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class LoadCase(Member):
     """A named choice of loads: `transport = LoadCase("transport", scale={"load": 2.0}, slope=10 * deg)`.
@@ -36,6 +38,7 @@ class LoadCase(Member):
 
     def __post_init__(self) -> None:
         check_words(self.title, self.scale, self.only)
+        keep_own(self)
         for name, value in {**self.scale, "slope": self.slope}.items():
             if not is_number(value):
                 raise DefinitionError(f"LoadCase({self.title!r}): {name}={cited(value)} is not a finite number.")

@@ -11,6 +11,7 @@ from typing import Any, ClassVar, Protocol, Self
 import numpy as np
 
 from ..errors import DefinitionError, cited
+from ..frozen import keep_own
 from ..quantities import Holding, Member, Number, Quantity, Reference, label, name_of, quantity, real, spelled
 from ..quantities.numbers import plain
 from ..steps import Point
@@ -91,6 +92,7 @@ class ForceElement(Holding):
     optional: ClassVar[frozenset[str]] = frozenset()
 
     def __post_init__(self) -> None:
+        keep_own(self)
         for name in self.numbers:
             self._check_number(name)
 

@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import Any, ClassVar, final
 
 from ..errors import DefinitionError, cited
+from ..frozen import refuses_changes
 from ..quantities import Member, Reference, is_number, label, name_of
 from .element import ForceElement, Friction, Poses
 from .load import Load
@@ -17,6 +18,7 @@ THICKEST = 3.0
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class PinFriction(ForceElement):
     """Friction in a pin of a radius [m]: the moment coefficient * radius * pin force, against the relative turning.
@@ -44,6 +46,7 @@ class PinFriction(ForceElement):
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class GuideFriction(ForceElement):
     """Friction of a point on the guides and slots it runs on: coefficient * normal force, against the relative sliding.

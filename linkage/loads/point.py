@@ -11,6 +11,7 @@ from typing import Any, ClassVar, final
 import numpy as np
 
 from ..errors import DefinitionError, cited
+from ..frozen import refuses_changes, unmasked
 from ..quantities import Reference, is_number, label, name_of, real
 from ..quantities.numbers import plain
 from ..units import g0
@@ -21,6 +22,7 @@ DOWN = (0.0, -g0)  # gravity, m/s2
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Weight(ForceElement):
     """The weight of a mass [kg] at a point: `load = Weight(G, mass=1200)`.
@@ -89,6 +91,7 @@ def two(given: Any, what: str) -> tuple[Any, Any]:
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Force(Pair):
     """A force (x, y) [N] at a point, its direction fixed to the frame: `pull = Force(F, (-5 * kN, 0))`.
@@ -99,6 +102,10 @@ class Force(Pair):
     point: Reference
     vector: Any
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"x": "N", "y": "N"})
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "vector", two(unmasked(self.vector), "Force"))  # parts of its own: one of them may be set
+        super().__post_init__()
 
     def pair(self) -> tuple[Any, Any]:
         return two(self.vector, "Force")
@@ -114,6 +121,7 @@ class Force(Pair):
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Support(ForceElement):
     """A support that pushes a point along a direction (x, y), such as the ground under a shoe: `shoe = Support(R, (0, 1))`.

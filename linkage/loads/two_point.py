@@ -15,6 +15,7 @@ from typing import Any, ClassVar, Literal, TypeAlias, final, get_args
 import numpy as np
 
 from ..errors import DefinitionError, cited, told
+from ..frozen import refuses_changes
 from ..quantities import Distance, Joint, Reference, name_of, pinned
 from .element import AT_REST, ForceElement, Poses, Rates
 from .load import Array, Load, Push
@@ -114,6 +115,7 @@ def refuse_coincidence(member: TwoPoint, length: Array, thrust: Array) -> None:
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Spring(TwoPoint):
     """A straight spring from A to B: `relief = Spring(A, B, stiffness=20e3, free_length=0.4)`; thrust -stiffness (AB - free_length) [N].
@@ -146,6 +148,7 @@ class Spring(TwoPoint):
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Damper(TwoPoint):
     """A viscous damper from A to B: thrust -coefficient d(AB)/dt [N], the coefficient in N s/m; nothing at rest."""
@@ -162,6 +165,7 @@ class Damper(TwoPoint):
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Actuator(TwoPoint):
     """A thrust that is known, from A to B: `push = Actuator(A, B, force=12 * kN)` [N], positive where it pushes the ends apart."""
@@ -176,6 +180,7 @@ class Actuator(TwoPoint):
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Between(TwoPoint):
     """A law of one's own from A to B: `strut = Between(A, B, law)`, `law(length, rate)` gives the thrust [N] from m and m/s.

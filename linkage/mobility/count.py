@@ -89,7 +89,9 @@ def implied(plan: Plan) -> set[str]:
 
 
 def rank(matrix: FloatArray) -> int:
-    """Return the numerical rank of unit rows."""
+    """Return the numerical rank of unit rows; DefinitionError where they have no value."""
+    if not np.isfinite(matrix).all():
+        raise DefinitionError("The sketch holds directions without a value; look for extreme numbers and points that coincide.")
     return int(np.linalg.matrix_rank(matrix, tol=RANK * max(matrix.shape))) if matrix.size else 0
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import DefinitionError, cited
+from ..frozen import refuses_changes
 from ..program import FloatArray
 from ..units import UNITS, unit_or_none
 
@@ -16,6 +17,7 @@ LEAST = 1e-9
 """A value that is smaller, compared with the greatest of its column or in the column's unit, is rounding noise."""
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Column:
     """Values in SI, shape (...), and the unit they are read in; a unit of "" is a plain number."""

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..assembly import NONE_SOLVED, Solved, solve_groups, with_angles
 from ..errors import DefinitionError
+from ..frozen import FrozenDict, read_only
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Kernel
 from .reach import Mask
@@ -34,7 +35,9 @@ class Grid:
         own: bool = False,
         joining: Joining | None = None,
     ) -> None:
-        self.plan, self.designs, self.strokes, self.own = plan, dict(designs), dict(strokes), own
+        self.plan, self.own = plan, own
+        self.designs: FrozenDict[str, Any] = FrozenDict(designs)
+        self.strokes: FrozenDict[str, FloatArray] = FrozenDict({name: read_only(value) for name, value in strokes.items()})
         arrays = [np.shape(value) for value in self.designs.values() if varies(value)]
         try:
             self.design_shape = np.broadcast_shapes(*arrays)
@@ -98,7 +101,9 @@ class Grid:
         tail = (1,) * len(self.stroke_shape)
         designs = self.designs.items()
         shaped = {name: np.reshape(value, np.shape(value) + tail) if varies(value) else np.float64(value) for name, value in designs}
-        return shaped | self.strokes | {name: self.full(value[None])[0] for name, value in self.solved.inputs.items()}
+        solved = {name: self.full(value[None])[0] for name, value in self.solved.inputs.items()}
+        found = {**shaped, **self.strokes, **solved}
+        return FrozenDict({name: read_only(value) if isinstance(value, np.ndarray) else value for name, value in found.items()})
 
     def full(self, values: FloatArray) -> FloatArray:
         """Return a kernel's values in the grid's shape."""

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..frozen import FrozenDict, refuses_changes
 from ..program import FloatArray
 from ..units import deg
 
@@ -30,6 +31,7 @@ def as_read(value: float, unit: str, digits: int = 9) -> str:
     return f"{number(value, unit, digits)} {READ_IN[unit][1]}"
 
 
+@refuses_changes
 @dataclass(frozen=True)
 class Scanned:
     """What was seen at some stroke values: the mask of those reached."""
@@ -41,6 +43,7 @@ class Scanned:
     """Ends that are known already: those of groups, found on the way."""
 
 
+@refuses_changes
 @dataclass(frozen=True)
 class Interval:
     """A reachable range of a stroke, and the step that stops it at either end ("" where the scan ends first) [m or rad]."""
@@ -54,6 +57,7 @@ class Interval:
         return self.low <= value <= self.high
 
 
+@refuses_changes
 @dataclass(frozen=True)
 class Extreme:
     """The least transmission angle of a joint, folded to 0 ... pi/2 [rad], and the stroke where it stands."""
@@ -63,6 +67,7 @@ class Extreme:
     stroke: float
 
 
+@refuses_changes
 @dataclass(frozen=True)
 class Held:
     """A stroke that is held, and where [m or rad, which its unit says]."""
@@ -75,6 +80,7 @@ class Held:
         return f"{self.stroke} = {as_read(self.value, self.unit, 6)}"
 
 
+@refuses_changes
 @dataclass(frozen=True)
 class Open:
     """The pins of groups that do not stand where they began after one turn, and after how many they do; 0 where not after six."""
@@ -87,6 +93,7 @@ class Open:
         return f"after one turn the pins {' '.join(self.pins)} do not stand where they began; {end}"
 
 
+@refuses_changes
 @dataclass(frozen=True)
 class StrokeLimits:
     """The limits along one stroke, the others held. Values in m or rad, as the stroke; printed, angles are in degrees."""
@@ -135,7 +142,7 @@ class StrokeLimits:
         return [f"  reachable from {low} to {high} {READ_IN[self.unit][1]}", *stops]
 
 
-class Limits(dict[str, StrokeLimits]):
+class Limits(FrozenDict[str, StrokeLimits]):
     """The limits of every stroke by name; printed as sentences."""
 
     def __str__(self) -> str:

@@ -67,7 +67,7 @@ class Motion:
             self._settle_unreached()
         if self.is_near_singular:
             self._settle_lost()
-        self._places.flags.writeable = False
+        self._places.flags.writeable = self.reached.flags.writeable = False
         if unreachable == "raise" and scan.is_watched(self):
             scan.refuse_crossing(self)
         if unreachable == "raise" and plan.followed and len(self.strokes) > 1:
@@ -230,7 +230,7 @@ class Motion:
             known = ", ".join(f"{name}=..." for name in self.strokes)
             raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): a value for each stroke is expected, dict({known}).")
         try:
-            arrays = np.broadcast_arrays(*(np.asarray(given[name], float) for name in self.strokes))
+            arrays = np.broadcast_arrays(*(np.array(given[name], float) for name in self.strokes))
         except (TypeError, ValueError, OverflowError):
             said = "numbers or arrays that fit each other are expected"
             raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): {said}.") from None

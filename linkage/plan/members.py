@@ -9,6 +9,7 @@ from math import pi
 from typing import TypeVar
 
 from ..errors import DefinitionError, unknown
+from ..frozen import FrozenDict
 from ..graph import Body, ordered
 from ..quantities import Distance, Function, Joint, Length, Member, Number, Operation, Quantity, Stroke, Variable, needs, unnamed
 from ..steps import Arrow, Bar, Drawn, Ground, Group, Guide, Link, Point, Slide
@@ -37,7 +38,8 @@ class Members:
         for name in order:
             self.members[name] = self._bound(name, members[name])
         strokes = self.of_kind(Stroke)
-        self.strokes = {name: strokes[name] for name in members if name in strokes}
+        self.strokes: Mapping[str, Stroke] = FrozenDict({name: strokes[name] for name in members if name in strokes})
+        self.members = FrozenDict(self.members)
         self._check_kinds()
 
     def _needs(self, name: str, member: Member) -> list[str]:
@@ -61,7 +63,7 @@ class Members:
     @cached_property
     def points(self) -> dict[str, Point]:
         """The points by name, in order."""
-        return self.of_kind(Point)
+        return FrozenDict(self.of_kind(Point))
 
     @cached_property
     def ground(self) -> tuple[str, ...]:
@@ -203,13 +205,13 @@ class Members:
     @cached_property
     def defaults(self) -> dict[str, float]:
         """The design variables at their defaults [SI]."""
-        return {name: entry.default for name, entry in self.table.entries.items()}
+        return FrozenDict({name: entry.default for name, entry in self.table.entries.items()})
 
     @cached_property
     def sketch_strokes(self) -> dict[str, float]:
         """The strokes at which sketch positions hold: the start of each, unless the class says `drawn(...)`."""
         said = {name: value for drawing in self.of_kind(Drawn).values() for name, value in drawing.strokes.items()}
-        return {name: float(said.get(name, stroke.start)) for name, stroke in self.strokes.items()}
+        return FrozenDict({name: float(said.get(name, stroke.start)) for name, stroke in self.strokes.items()})
 
     @cached_property
     def moving(self) -> tuple[str, ...]:

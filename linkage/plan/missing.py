@@ -106,7 +106,10 @@ def triangle_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) 
     for label, value in zip(labels, values, strict=True):
         if not np.all(np.isfinite(value)):
             return f"{label} has no finite value there. Change the strokes or what it follows.", float("nan")
-    missing = 2 * values.max(axis=0) - values.sum(axis=0)
+    with np.errstate(all="ignore"):
+        missing = 2 * values.max(axis=0) - values.sum(axis=0)
+    if not np.any(np.isfinite(missing)):
+        return f"{', '.join(labels)} are beyond all measure, up to {values.max():.4g} m. Look for extreme numbers.", float("nan")
     worst = int(np.nanargmax(missing))
     longest = int(values[:, worst].argmax())
     others = [index for index in range(3) if index != longest]

@@ -7,6 +7,8 @@ from functools import cached_property
 from typing import Any, TypeVar
 from uuid import uuid4
 
+import numpy as np
+
 from ..errors import DefinitionError, unknown
 from ..program import Kernel, Level, Node, Tangent
 from ..quantities import Member, Quantity
@@ -42,7 +44,8 @@ class Plan(Members):
     def trace(self) -> Trace:
         """The program's nodes: every point placed."""
         trace = self._traced(self.solved)
-        self._asked(trace)
+        with np.errstate(all="ignore"):  # what is divided by zero in a constant is told as the place that has no value
+            self._asked(trace)
         for name, length in self.following:
             trace.watch_length(name, length)
         return trace

@@ -35,7 +35,11 @@ class Reading:
             if not isinstance(step, Point):
                 raise unknown("Point", name, (each for each, member in self.members.items() if isinstance(member, Point)))
             self.placing.append(name)
-            self.positions[name] = step.place(self)
+            try:
+                self.positions[name] = step.place(self)
+            except ArithmeticError as error:
+                text = f"{name} = {step}: a value overflows or is divided by zero ({error}); look for extreme numbers and lengths of zero."
+                raise DefinitionError(text) from error
             self.positions[name] = self.closed(step, self.positions[name])
             self.placing.pop()
         return self.positions[name]

@@ -9,6 +9,7 @@ from functools import cached_property, reduce
 
 import numpy as np
 
+from ..errors import DefinitionError
 from ..program import Graph, Level, Node
 from ..quantities import Member, Quantity, Turning
 from ..steps import Ground, Point
@@ -94,6 +95,9 @@ class Trace(Reading):
             if sine.level is Level.POSE:
                 self.loops.append(Loop(self.owner, "guides", (sine,)))
             self.noted[self.owner] = sine
+        elif sine == 0.0:
+            step = self.members[self.owner]
+            raise DefinitionError(f"{self.owner} = {step}: the lines that meet in it are parallel at every pose; change an angle.")
         return sine
 
     def apart(self, square: Scalar) -> Scalar:

@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from importlib.util import find_spec
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..errors import LinkageError
 from .arrays import Arrays, FloatArray, is_number, is_table, numbers
+from .kept import Kept, is_kept
 from .loop import numba_text
 from .schedule import Schedule
-from .source import compiled_in_file, is_kept
+from .source import compiled_in_file
 
 #: NaN stays NaN: a pose out of reach is told by it.
 FLAGS = {"contract", "arcp", "nsz", "reassoc"}
@@ -58,10 +60,19 @@ class Fused:
                 raise LinkageError('backend="numba" needs Numba: pip install "hydrolinkage[fast]".') from None
             arguments = (types.float64[:, ::1], types.float64[:, :, ::1], types.float64[::1], *(types.int64[::1],) * 3)
 
-            def make(function: Callable[..., None], cache: bool) -> Callable[..., None]:
-                jitted = njit([arguments], fastmath=FLAGS, error_model="numpy", nogil=True, cache=cache)
-                done: Callable[..., None] = jitted(function)
-                return done
+            def make(function: Callable[..., None], kept: Kept | None) -> Callable[..., None]:
+                def lazy(cache: bool) -> Any:
+                    return njit(fastmath=FLAGS, error_model="numpy", nogil=True, cache=cache)(function)
+
+                done = lazy(kept is not None)
+                if kept is not None and not kept.take(Path(done.stats.cache_path)):
+                    done, kept = lazy(False), None
+                done.compile(arguments)
+                done.disable_compile()
+                if kept is not None:
+                    kept.note()
+                loop: Callable[..., None] = done
+                return loop
 
             self._ready[turned] = compiled_in_file(self._texts[turned], "poses", make)
         return self._ready[turned]

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..errors import DefinitionError, cited
+from ..frozen import refuses_changes
 from ..units import UNITS, unit_or_none
 from ..vectors import Scalar
 from .numbers import is_number, plain
@@ -15,6 +16,7 @@ from .spelling import in_degrees
 from .where import Where
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Stroke(Quantity):
     """A driven coordinate with its range: a cylinder's stroke [m] or a crank's angle [rad]."""
@@ -43,6 +45,7 @@ class Stroke(Quantity):
         return self.text()
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Variable(Quantity):
     """A design variable that a label or a coordinate made: `OB`, `M.x`."""
@@ -56,6 +59,7 @@ class Variable(Quantity):
         return self.variable
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Dimension(Quantity):
     """A number of the design that has a name of its own [SI]; `unit` is the one it is shown and checked in, such as "kgf"."""

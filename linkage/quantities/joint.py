@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, TypeAlias, final
 
+from ..frozen import refuses_changes
 from ..vectors import Line
 from .member import Member
 from .quantity import Quantity
@@ -19,6 +20,7 @@ Role: TypeAlias = Literal["body", "runner", "slider", "guide", "own"]
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True)
 class JointSide:
     """One of the two bodies of a joint, by the points or the guide that belong to it.
@@ -36,6 +38,7 @@ FRAME_SIDE = JointSide()
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True)
 class Driven:
     """A quantity that a joint drives: the force along `along` (a letter of what the joint holds) is conjugate to `sign` times it."""
@@ -46,6 +49,7 @@ class Driven:
 
 
 @final
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Joint:
     """What the body `on` gets from the body `by` at a point, in the directions that it `holds`.

@@ -9,6 +9,7 @@ from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeAlias
 
 from ..errors import DefinitionError, cited
+from ..frozen import FrozenDict
 
 
 class Member:
@@ -28,6 +29,35 @@ class Member:
     """Whether its value goes by its name, so that it cannot stand in an expression without one."""
 
     _name: str = ""
+    _class: str = ""
+    """The class that it was declared in, once that is complete: from then on it does not change."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if self._class:
+            raise self._unchanging(name)
+        object.__setattr__(self, name, value)
+
+    def __delattr__(self, name: str) -> None:
+        if self._class:
+            raise self._unchanging(name)
+        object.__delattr__(self, name)
+
+    def _unchanging(self, name: str) -> DefinitionError:
+        """Return the error for a change of what a class was made of."""
+        what = f"{self._class}.{self.name}.{name} = ..."
+        remedy = f"write a subclass, class Other({self._class}): {self.name} = ..."
+        return DefinitionError(f"{what}: {self._class} is worked out already and would not follow; {remedy}, or set a dimension.")
+
+    def settle(self, title: str) -> None:
+        """Let nothing of this member change any more: the class `title` is made of it."""
+        for name, value in vars(self).items():
+            if type(value) is dict:
+                object.__setattr__(self, name, FrozenDict(value))
+        if not self._class:
+            object.__setattr__(self, "_class", title)
+
+    def __copy__(self) -> Self:
+        return self.renewed()
 
     def __new__(cls, *given: Any, **options: Any) -> Self:
         if given or options:  # without any it may come from pickle
@@ -59,7 +89,8 @@ class Member:
         """Return this member with attributes changed, under its own name."""
         changed = object.__new__(type(self))
         for name, value in {**vars(self), **changes}.items():
-            object.__setattr__(changed, name, value)
+            if name != "_class":  # it is free to change until a class is made of it
+                object.__setattr__(changed, name, value)
         return changed
 
     def enter(self, claims: Any) -> None:

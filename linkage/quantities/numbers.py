@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ..frozen import unmasked
+
 EXACT = 2**53
 """Up to this every whole number is a float."""
 
@@ -35,10 +37,8 @@ def plain(value: Any) -> Any:
 
 
 def real(value: Any) -> npt.NDArray[np.float64]:
-    """Return a value as a new array of floats; raise ValueError for anything but real numbers, and for values that are masked."""
-    if np.ma.is_masked(value):
-        raise ValueError("some of the values are masked")
-    array = np.asarray(value)
+    """Return a value as a new array of floats, NaN where it is masked; raise ValueError for anything but real numbers."""
+    array = np.asarray(float(value) if is_whole(value) and is_number(value) else unmasked(value))
     if array.dtype.kind not in "fiu":
         raise ValueError(f"{value!r} is not a real number")
     return np.array(array, float)

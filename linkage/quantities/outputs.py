@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..frozen import refuses_changes
 from ..vectors import Scalar
 from .member import Member, Reference, name_of
 from .quantity import Quantity
@@ -17,6 +18,7 @@ def label(reference: Reference) -> str:
     return (reference.name or str(reference)) if isinstance(reference, Member) else str(reference)
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Angle(Quantity):
     """The direction of P -> Q [rad], counter-clockwise from the x axis."""
@@ -46,6 +48,7 @@ class Angle(Quantity):
         return f"angle({label(self.P)}, {label(self.Q)})"
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Distance(Quantity):
     """The distance of P and Q [m]."""
@@ -68,6 +71,7 @@ class Distance(Quantity):
         return f"distance({label(self.P)}, {label(self.Q)})"
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Coordinate(Quantity):
     """A point's x or y [m]."""
@@ -91,6 +95,7 @@ class Coordinate(Quantity):
         return f"{self.axis}({label(self.P)})"
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Length(Quantity):
     """The length of a vector [m]: `abs(AO)`."""

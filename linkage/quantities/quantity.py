@@ -13,6 +13,7 @@ from typing import Any, NoReturn, TypeAlias
 import numpy as np
 
 from ..errors import DefinitionError, cited
+from ..frozen import refuses_changes
 from ..vectors import Scalar, Vec
 from .arithmetic import BINDS, FUNCTIONS, OPERATORS, UFUNCS
 from .member import Member, Reference
@@ -124,6 +125,7 @@ def quantity(value: Operand) -> Quantity:
     raise DefinitionError(f"{cited(value)} stands where a number, a quantity or its name is expected.")
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Number(Quantity):
     """A number, in SI."""
@@ -149,6 +151,7 @@ class Number(Quantity):
         return repr(self.number)
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Ref(Quantity):
     """A quantity by its name, for one that is not bound yet."""
@@ -176,6 +179,7 @@ def ref(name: str) -> Quantity:
     return Ref(name)
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Sum(Quantity):
     """The sum of two quantities; of two angles it is carried as cosine and sine."""
@@ -208,6 +212,7 @@ class Sum(Quantity):
         return self.text()
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Negative(Quantity):
     """A quantity with its sign changed."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import singledispatch
 
+from ..frozen import refuses_changes
 from ..quantities import Member, Number, Where, distance
 from ..vectors import Scalar, Side, Vec
 from .crank import Crank
@@ -14,6 +15,7 @@ from .primitives import Arrow, CosineAngle, Offset, Turn, Vector
 from .step import UNBOUND
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Assignment:
     """A name given to a primitive: `OAB = CosineAngle(...)`; to a quantity, it is the label of a length."""

@@ -11,9 +11,11 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from ..errors import DefinitionError
+from ..frozen import refuses_changes
 from ..quantities import Quantity, quantity, spelled
 
 
+@refuses_changes
 @dataclass(frozen=True)
 class Slot:
     """A place of a step that a label fills: a length of two points or an angle of three."""

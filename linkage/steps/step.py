@@ -12,6 +12,7 @@ from typing import Any, Self
 import numpy as np
 
 from ..errors import DefinitionError, cited
+from ..frozen import refuses_changes
 from ..quantities import Holding, Number, Quantity, Reference, Where, is_number, name_of, quantity
 from ..units import deg
 from ..vectors import Scalar, Side, Vec
@@ -30,6 +31,7 @@ UNBOUND = Unbound(float("nan"))
 TURN = 2.0 * pi * (1.0 + 1e-9)
 
 
+@refuses_changes
 @dataclass(frozen=True)
 class Bar:
     """Two points at a distance: a link, or a cylinder where the length follows a stroke."""

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import DefinitionError
+from ..frozen import unmasked
 from ..mechanism import Mechanism
 
 Array: TypeAlias = npt.NDArray[Any]
@@ -103,9 +104,9 @@ def columns_of(machine: Mechanism, name: str, value: Any) -> tuple[Array, ...]:
 
 
 def column(machine: Mechanism, name: str, value: Any, least: int) -> Array:
-    """Return an array of one dimension, or of at least so many, as it is given."""
+    """Return an array of one dimension, or of at least so many, as it is given, NaN where it is masked."""
     try:
-        found = np.asarray(value)
+        found = np.array(unmasked(value))
     except ValueError:
         found = np.array(None)
     if found.dtype.kind not in "fiu" or not least <= found.ndim <= 1:

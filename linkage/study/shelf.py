@@ -6,7 +6,6 @@ import json
 import os
 import re
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from dataclasses import dataclass
 from hashlib import blake2b
 from io import BytesIO
@@ -15,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ..disk import check_name, in_words, read, replacing
 from ..errors import DefinitionError, FileError, cited
 from .batch import Batch, Task
 from .designs import Designs
@@ -41,10 +41,11 @@ class Shelf:
             raise DefinitionError(f"folder={cited(folder)}: the path of a folder is expected.")
         place, facts = Path(folder), facts_of(task, designs)
         note = place / NOTE
-        if note.exists():
-            check_same(place, read(note), facts)
-        else:
+        there = noted(note)
+        if there is None:
             begin(note, facts)
+        else:
+            check_same(place, there, facts)
         return cls(place, blake2b(json.dumps(facts, sort_keys=True).encode()).digest())
 
     def check(self, start: int, stop: int, content: bytes) -> str:
@@ -62,10 +63,11 @@ class Shelf:
         content = stream.getvalue()
         name = f"designs-{batch.start:09d}-{batch.stop:09d}-{self.check(batch.start, batch.stop, content)}.npy"
         try:
-            replace(self.folder / name, content)
-        except OSError as error:
-            what = f"{self.folder}: designs {batch.start} to {batch.stop - 1} cannot be kept ({error})"
-            raise FileError(f"{what}; make room or the folder writable, the same call goes on from what is kept.") from None
+            with replacing(self.folder / name) as file:
+                file.write(content)
+        except FileError as error:
+            what = f"{error} Designs {batch.start} to {batch.stop - 1} cannot be kept"
+            raise FileError(f"{what}; make room or the folder writable, the same call goes on from what is kept.") from error
 
     def batches(self) -> Iterator[Batch]:
         """Yield the batches that are whole, in order."""
@@ -73,7 +75,7 @@ class Shelf:
             match = NAME.fullmatch(path.name)
             if match is None:
                 continue
-            start, stop, content = int(match[1]), int(match[2]), path.read_bytes()
+            start, stop, content = int(match[1]), int(match[2]), read(path)
             if self.check(start, stop, content) == match[3]:
                 table = np.load(BytesIO(content), allow_pickle=False)
                 yield Batch(start, stop, kept=True, values={name: table[name] for name in table.dtype.names})
@@ -82,29 +84,24 @@ class Shelf:
 def begin(note: Path, facts: Mapping[str, Any]) -> None:
     """Write which study a folder is of; FileError where it cannot be written."""
     try:
-        note.parent.mkdir(parents=True, exist_ok=True)
-        replace(note, json.dumps(facts, indent=2).encode())
-    except OSError as error:
-        raise FileError(f"{note.parent}: finished batches cannot be kept here ({error}); name a folder that can be written.") from None
+        with in_words(note.parent):
+            note.parent.mkdir(parents=True, exist_ok=True)
+        with replacing(note) as stream:
+            stream.write(json.dumps(facts, indent=2).encode())
+    except FileError as error:
+        raise FileError(f"{error} Finished batches cannot be kept here; name a folder that can be written.") from error
 
 
-def replace(path: Path, content: bytes) -> None:
-    """Write a file at once: its name never stands for half of it."""
-    temporary = path.with_name(f"{path.name}.{os.getpid()}.tmp")
+def noted(note: Path) -> dict[str, Any] | None:
+    """Return what a folder says of its study, None where it says nothing; FileError where it cannot be read."""
+    check_name(note)
+    with in_words(note):
+        is_there = note.exists()
+    if not is_there:
+        return None
     try:
-        temporary.write_bytes(content)
-        os.replace(temporary, path)
-    except OSError:
-        with suppress(OSError):
-            temporary.unlink()
-        raise
-
-
-def read(note: Path) -> dict[str, Any]:
-    """Return what a folder says of its study; FileError where it cannot be read."""
-    try:
-        found = json.loads(note.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
+        found = json.loads(read(note))
+    except (ValueError, RecursionError) as error:
         raise FileError(f"{note}: it does not say which study is kept here ({error}); take another folder, or delete this one.") from None
     if not isinstance(found, dict):
         raise FileError(f"{note}: it does not say which study is kept here; take another folder, or delete this one.")

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import DefinitionError, cited, known_name, one_word
+from ..frozen import FrozenDict, read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..quantities import is_whole
 from .asked import one_design
@@ -20,6 +21,7 @@ from .shelf import Shelf
 SMALLEST, LARGEST, PARTS = 64, 2048, 64
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Survey(Mapping[str, Array]):
     """What was measured: `found["travel"]`, shape (m,), for each name that `measure` gave.
@@ -31,6 +33,9 @@ class Survey(Mapping[str, Array]):
     designs: Designs
     results: Mapping[str, Array]
     batches: tuple[Batch, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "results", FrozenDict({name: read_only(array) for name, array in self.results.items()}))
 
     def __getitem__(self, name: str) -> Array:
         return self.results[known_name("Result", name, self.results, where=f"the survey of {self.machine.plan.title}")]

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import DefinitionError, SingularWarning
+from ..frozen import refuses_changes
 from ..mechanism import Mechanism
 from ..motion import Motion, at_values
 from ..program import FloatArray
@@ -22,6 +23,7 @@ Mask = npt.NDArray[np.bool_]
 POSES = 51
 
 
+@refuses_changes
 @dataclass(frozen=True, eq=False)
 class Zone:
     """The band of a quantity over the strokes: `low` and `high`, shape (...), over all settings that can be assembled.

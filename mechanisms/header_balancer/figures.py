@@ -290,12 +290,12 @@ def _name(machine: HeaderBalancer) -> str:
 
 def _sheet(titles: Mapping[str, str], name: str) -> tuple[Any, list[Any]]:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
 
     from linkage.draw import style
+    from linkage.draw.picture import Picture
     from linkage.draw.sheet import quiet
 
-    sheet = Figure(figsize=SIZE if len(titles) == 1 else PAIR, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
+    sheet = Picture(figsize=SIZE if len(titles) == 1 else PAIR, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
     FigureCanvasAgg(sheet)
     cells = [sheet.add_subplot(1, len(titles), place + 1) for place in range(len(titles))]
     for (part, title), ax in zip(titles.items(), cells, strict=True):

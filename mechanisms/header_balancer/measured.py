@@ -12,6 +12,7 @@ import numpy as np
 
 from hydraulics import Verdict
 from linkage import DefinitionError, FileError, Motion
+from linkage.disk import read
 from linkage.errors import cited
 from linkage.program import FloatArray
 from linkage.units import UNITS, mm
@@ -61,10 +62,9 @@ def read_measured(path: str | Path) -> Mapping[str, FloatArray]:
     comma may be the decimal sign). An empty field is a value not measured. FileError names the line.
     """
     try:
-        text = Path(path).read_text(encoding="utf-8-sig")
-    except (OSError, ValueError, TypeError) as error:
-        raise FileError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}.") from None
-    lines = text.splitlines()
+        lines = read(path).decode("utf-8-sig").splitlines()
+    except UnicodeDecodeError:
+        raise FileError(f"{path}: the file is not UTF-8 text; save it in that encoding.") from None
     delimiter = ";" if lines and ";" in lines[0] else ","
     rows = [row for row in csv.reader(lines, delimiter=delimiter, skipinitialspace=True) if row]
     if len(rows) < 2:

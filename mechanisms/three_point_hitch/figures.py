@@ -159,13 +159,13 @@ def lift_range(hitch: ThreePointHitch) -> Any:
 
 def _sheet(count: int, title: str) -> tuple[Any, list[Any]]:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
 
     from linkage.draw import style
+    from linkage.draw.picture import Picture
     from linkage.draw.sheet import quiet
 
     size = (10.6, 5.2) if count == 2 else (8.4, 6.2)
-    sheet: Any = Figure(figsize=size, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
+    sheet: Any = Picture(figsize=size, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
     FigureCanvasAgg(sheet)
     below = 0.05 if count == 2 else 0.01
     sheet.get_layout_engine().set(rect=(0.005, below, 0.98, 0.985 - below), w_pad=0.08, h_pad=0.08)

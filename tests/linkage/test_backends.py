@@ -20,11 +20,12 @@ from linkage.program import Graph, Kernel, Level, Way, interpret, jacobian, solv
 from linkage.program.arrays import aligned, cache_size
 from linkage.program.expand import expanded
 from linkage.program.foreign import c_text, javascript_text
+from linkage.program.kept import Kept
 from linkage.program.loop import numba_text
 from linkage.program.lower import ancestors, lowered
 from linkage.program.order import alive
 from linkage.program.schedule import schedule
-from linkage.program.source import compiled, written
+from linkage.program.source import compiled
 from linkage.program.trig import halved
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.random_mechanisms import random_mechanism
@@ -209,13 +210,14 @@ def test_the_compiled_loop_agrees_and_is_kept(machine, cache_folder):
 
 
 def test_a_program_is_written_once_and_mended(cache_folder):
-    file = written("x = 1\n")
+    file = Kept.of("x = 1\n").file
     date = file.stat().st_mtime_ns
-    assert written("x = 1\n") == file
+    assert Kept.of("x = 1\n").file == file
     assert file.stat().st_mtime_ns == date
-    file.write_text("x = 2\n", encoding="utf-8")
-    assert written("x = 1\n").read_text(encoding="utf-8") == "x = 1\n"
-    assert [each.name for each in cache_folder.iterdir()] == [file.name]
+    for wrong in (b"x = 2\n", b"\xff\n", b""):
+        file.write_bytes(wrong)
+        assert Kept.of("x = 1\n").file.read_text(encoding="utf-8") == "x = 1\n"
+    assert sorted(each.name for each in cache_folder.iterdir()) == ["__pycache__", file.name]
 
 
 def test_without_numba_everything_works_and_asking_for_it_says_how(monkeypatch):

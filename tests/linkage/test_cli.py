@@ -268,7 +268,7 @@ def test_a_curve_is_drawn_over_one_stroke_the_others_held(said, own):
         ("animate mower_lift -o x.gif --at S=0.6", "every stroke is held, so that nothing moves"),
         ("animate mower_lift -o x.gif --at T=0.6", "Stroke 'T' is unknown"),
         ("show bare.py", "Bare declares no points"),
-        ("table mower_lift --csv nowhere/lift.csv", "nowhere/lift.csv: No such file"),
+        ("table mower_lift --csv nowhere/lift.csv", "nowhere/lift.csv: the folder nowhere is not there; make it first"),
         ("table mower_lift --count 0", "'0' is not a count"),
         ("table mower_lift --count many", "'many' is not a count"),
         ("table mower_lift --cuont 3", "unrecognized arguments: --cuont"),

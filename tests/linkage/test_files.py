@@ -222,7 +222,7 @@ def test_command_says_every_mistake_in_a_line(capsys):
     assert err.splitlines()[0] == "hydrolinkage: many_mistakes.toml: 11 mistakes:"
     assert len(err.splitlines()) == 12
     assert main(["show", str(DATA / "nowhere.toml")]) == 2
-    assert "No such file" in capsys.readouterr().err
+    assert "nowhere.toml: there is no such file" in capsys.readouterr().err
 
 
 def test_the_door_does_not_load_pydantic():

@@ -1,11 +1,11 @@
 """Surveys in one process: what they return, what they refuse, what a folder keeps; against the mechanism's own batches."""
 
 import functools
+import os
 import sys
 import threading
 import tracemalloc
 from concurrent.futures import ThreadPoolExecutor
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -332,24 +332,25 @@ def test_note_that_cannot_be_read(tmp_path, content):
 
 def test_folder_that_cannot_be_written(tmp_path):
     (tmp_path / "file").write_text("")
-    with pytest.raises(FileError, match="finished batches cannot be kept here"):
+    with pytest.raises(FileError, match=r"file: something else has this name.* Finished batches cannot be kept here"):
         survey(*hitch_designs(10), travel, folder=tmp_path / "file")
 
 
 def test_full_disk_stops_a_study_and_the_same_call_goes_on(small, tmp_path, monkeypatch):
-    (hitch, over), write = hitch_designs(400), Path.write_bytes
+    (hitch, over), sync, written = hitch_designs(400), os.fsync, []
 
-    def full(path, content):
-        if path.name.startswith("designs-000000128"):
-            write(path, content[: len(content) // 2])
+    def full(handle):
+        if len(list(tmp_path.glob("designs-*.npy"))) == 2:
+            written.append([*tmp_path.glob(".*.tmp")])
+            os.truncate(written[-1][0], 100)
             raise OSError(28, "No space left on device")
-        return write(path, content)
+        sync(handle)
 
     with monkeypatch.context() as patch:
-        patch.setattr(Path, "write_bytes", full)
-        with pytest.raises(FileError, match=r"designs 128 to 191 cannot be kept .*No space left.*the same call goes on"):
+        patch.setattr("linkage.disk.os.fsync", full)
+        with pytest.raises(FileError, match=r"the disk is full.* Designs 128 to 191 cannot be kept.*the same call goes on"):
             survey(hitch, over, travel, folder=tmp_path)
-    assert not [*tmp_path.glob("*.tmp")], "half a file is left behind"
+    assert written and not [*tmp_path.glob(".*.tmp")], "half a file is left behind"
     found = survey(hitch, over, travel, folder=tmp_path)
     assert sum(batch.kept for batch in found.batches) == 2
     same(found, survey(hitch, over, travel))

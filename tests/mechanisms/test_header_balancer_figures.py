@@ -189,7 +189,7 @@ def test_the_table_of_all_headers_says_nothing_of_one(capsys):
         (("header_balancer", "--figure", "1"), "invalid choice"),
         (("header_balancer", "--set", "follows=2m"), "cannot be -2000 mm"),
         (("header_balancer", "-o", "picture.doc"), "ends in one of"),
-        (("header_balancer", "--measured", "nowhere.csv"), "No such file"),
+        (("header_balancer", "--measured", "nowhere.csv"), "nowhere.csv: there is no such file"),
         (("mower_lift",), "no balanced header"),
     ],
     ids=" ".join,

@@ -1,0 +1,71 @@
+"""Values that do not change under the hand: read-only arrays and tables, copies of what the user gave, masks that are not lost."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NoReturn, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from .errors import DefinitionError
+
+Key = TypeVar("Key")
+Value = TypeVar("Value")
+Kind = TypeVar("Kind", bound=type)
+
+
+class FrozenDict(dict[Key, Value]):
+    """A dict that does not change; `dict(...)` of it is a copy that does."""
+
+    def _refuse(self, *given: Any, **named: Any) -> NoReturn:
+        raise DefinitionError("These values are what was worked out or declared, and do not change; take a copy of them, dict(...).")
+
+    __setitem__ = __delitem__ = pop = popitem = clear = update = setdefault = __ior__ = _refuse
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (dict(self),)
+
+
+def read_only(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Return a view of an array that cannot be written."""
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+def unmasked(value: Any) -> Any:
+    """Return a masked array of numbers as floats with NaN in the places that are masked; anything else as it is."""
+    if isinstance(value, np.ma.MaskedArray) and value.dtype.kind in "fiu":
+        return np.ma.filled(value.astype(float), np.nan)
+    return value
+
+
+def own(value: Any) -> Any:
+    """Return what a user gave as a copy of one's own that does not change: arrays read-only, lists as tuples, dicts frozen."""
+    if isinstance(value, np.ndarray) and type(value) in (np.ndarray, np.ma.MaskedArray):
+        return read_only(np.array(unmasked(value)))
+    if type(value) in (list, tuple):
+        return tuple(map(own, value))
+    if isinstance(value, Mapping):
+        return FrozenDict({name: own(each) for name, each in value.items()})
+    return value
+
+
+def keep_own(holder: Any) -> None:
+    """Put copies of one's own in the place of what a frozen dataclass was given."""
+    for name, value in vars(holder).items():
+        object.__setattr__(holder, name, own(value))
+
+
+def refuses_changes(kind: Kind) -> Kind:
+    """Let a frozen dataclass refuse changes in words: a class decorator, written above `@dataclass(frozen=True)`."""
+
+    def refuse(self: Any, name: str, *value: Any) -> NoReturn:
+        title = type(self).__name__
+        remedy = f"make a new one, {title}(...), or dataclasses.replace of this one"
+        raise DefinitionError(f"{title}.{name} = ...: it does not change; {remedy}.")
+
+    setattr(kind, "__setattr__", refuse)  # noqa: B010 - what the dataclass made says nothing of the remedy
+    setattr(kind, "__delattr__", refuse)  # noqa: B010
+    return kind

@@ -15,10 +15,10 @@ from typing import Any
 
 import numpy as np
 
-from ..assembly import solve_groups
 from ..plan import Loop, Plan
 from ..program import FloatArray, Kernel, Level, Way
 from ..steps import Pin
+from .grid import Grid
 from .limits import as_read, number
 from .reach import stroke_unit
 
@@ -105,11 +105,10 @@ class Course:
 
     def inputs(self, x: FloatArray) -> dict[str, Any]:
         """Return the inputs of the program at values of the stroke."""
-        inputs: dict[str, Any] = {**self.designs, **self.held, self.name: x}
-        if self.plan.groups:
-            strokes = {name: x if name == self.name else np.full(x.shape, self.held[name]) for name in self.plan.strokes}
-            inputs |= solve_groups(self.plan, {name: self.designs[name] for name in self.plan.defaults}, strokes).inputs
-        return inputs
+        if not self.plan.solved:
+            return {**self.designs, **self.held, self.name: x}
+        strokes = {name: x if name == self.name else np.full(x.shape, self.held[name]) for name in self.plan.strokes}
+        return Grid(self.plan, {name: self.designs[name] for name in self.plan.defaults}, strokes).flat
 
     def seen(self, x: FloatArray) -> FloatArray:
         """Return the clearance of every loop, shape (loops, n): squared sines of links, sines of guides without a sign, lengths [m]."""

@@ -401,7 +401,7 @@ class Motion:
         pass_of_all = isinstance(member, Point) and bool(along)
         what = Value(member, along)
         targets: tuple[Any, ...] = self.plan.moving if pass_of_all else (member.name or member,)
-        key = (targets, along)
+        key = (targets, along) if pass_of_all else what.key
         if key not in self._values:
             if pass_of_all:
                 kernel = self.plan.kernel(targets, along)
@@ -413,7 +413,7 @@ class Motion:
             if self.is_near_singular and not along:
                 at_end = self.reached & ~np.isfinite(found).all(axis=0)
                 found = to_rounding(kernel, self.grid, at_end, found) if at_end.any() else found
-            continued = self._continued(targets[0], along) if isinstance(member, Quantity) else None
+            continued = self._continued(what) if isinstance(member, Quantity) else None
             self._values[key] = found if continued is None else continued
             self._values[key].flags.writeable = False
         values = self._values[key]
@@ -424,10 +424,9 @@ class Motion:
             return values[index : index + 2]
         return values if isinstance(member, (Arrow, Point)) else values[0]
 
-    def _continued(self, target: Any, along: tuple[str, ...]) -> FloatArray | None:
+    def _continued(self, what: Value) -> FloatArray | None:
         """Return what holds angles, which are continued along the stroke; None where they need not be."""
-        key = ("angles", target, along)
-        return self.plan.made(key, lambda plan: angles_of(plan, plan.derived(plan.nodes(target), along))).continued(self.grid, self.reached)
+        return self.plan.made(("angles", what.key), lambda plan: angles_of(plan, what.nodes(plan))).continued(self.grid, self.reached)
 
     def _numeric(self, member: Member, stroke: str, order: int, step: float | None) -> FloatArray:
         def values(offsets: FloatArray) -> FloatArray:

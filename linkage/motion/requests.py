@@ -188,7 +188,7 @@ class Value(BoundRequest):
 
     @property
     def key(self) -> Any:
-        return self.target, self.along
+        return self.member.identity if isinstance(self.member, Quantity) else self.target, self.along
 
     @property
     def rows(self) -> int:

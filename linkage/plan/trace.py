@@ -42,9 +42,10 @@ class Measure:
 
 @dataclass(frozen=True)
 class Loop:
-    """What a step's place hangs on: links that must meet, guides that must cross, a length that must be positive.
+    """What a step's place hangs on: links that must meet, guides that must cross, a length that must be positive, a direction.
 
-    `links`: the radicand, the scale of its root and the size of the terms whose difference it is; `guides`: the sine; `length`: [m].
+    `links`: the radicand, the scale of its root and the size of the terms whose difference it is; `guides`: the sine; `length`: [m];
+    `meeting`: the distance of the points between which the direction is taken [m].
     """
 
     step: str
@@ -107,6 +108,12 @@ class Trace(Reading):
         else:
             self.guards.append(Guard(self.owner, node))
         return square
+
+    def link_length(self, P: str, Q: str) -> Scalar:
+        length = self.graph.node(super().link_length(P, Q))
+        if length.level is Level.POSE:
+            self.loops.append(Loop(self.owner, "meeting", (length,)))
+        return length
 
     def _measure(self, node: Node) -> None:
         found = Measure(self.owner, node)

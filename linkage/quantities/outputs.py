@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -30,6 +31,10 @@ class Angle(Quantity):
     @property
     def measures(self) -> str:
         return "angle"
+
+    @property
+    def identity(self) -> Any:
+        return self.name or ("angle", name_of(self.P), name_of(self.Q))
 
     def parts(self) -> tuple[Reference, ...]:
         return self.P, self.Q
@@ -60,6 +65,10 @@ class Distance(Quantity):
     @property
     def measures(self) -> str:
         return "length"
+
+    @property
+    def identity(self) -> Any:
+        return self.name or ("distance", name_of(self.P), name_of(self.Q))
 
     def parts(self) -> tuple[Reference, ...]:
         return self.P, self.Q

@@ -60,6 +60,11 @@ class Quantity(Member):
         return np.cos(value), np.sin(value)
 
     @property
+    def identity(self) -> Any:
+        """What tells this quantity from others of the same mechanism: its name, else itself."""
+        return self.name or self
+
+    @property
     def is_constant(self) -> bool:
         """Whether this is a plain number."""
         return False

@@ -149,6 +149,6 @@ def _floats(value: ArrayLike, what: str) -> Array:
         raise DefinitionError(f"{what} = {cited(value)} is not a number; give a number in SI units.") from None
     if is_traced(array[()]):
         return array[()]
-    if array.dtype.kind not in "iuf" or np.ma.is_masked(value):
+    if array.dtype.kind not in "iuf":
         raise DefinitionError(f"{what} = {cited(value)} is not a number; give a number in SI units.")
     return array.astype(np.float64)

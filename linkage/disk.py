@@ -13,7 +13,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO, TextIO, TypeAlias, cast
 
-from .errors import FileError
+from .errors import FileError, cited
 
 Place: TypeAlias = str | os.PathLike[str]
 
@@ -61,7 +61,9 @@ def in_words(path: Place) -> Iterator[None]:
 
 
 def check_name(path: Place) -> None:
-    """Raise FileError for a name that no file can have."""
+    """Raise FileError for what is no name, and for a name that no file can have."""
+    if not isinstance(path, (str, os.PathLike)):
+        raise FileError(f"{cited(path)} is no path of a file; give its name as text, or a pathlib.Path.")
     try:
         is_none = b"\0" in os.fsencode(path)
     except UnicodeEncodeError:

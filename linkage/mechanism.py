@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from abc import ABCMeta
 from collections.abc import Callable, Mapping, Sequence
 from copy import copy
@@ -86,7 +87,9 @@ class Structure(ABCMeta):
     plan: Plan
 
     def __setattr__(cls, name: str, value: Any) -> None:
-        if isinstance(value, Member) or cls._is_made_of(name):
+        builder = str(sys._getframe(1).f_globals.get("__name__", ""))
+        by_value = builder.startswith("cloudpickle")  # which makes a class of another process empty, then gives it what it has
+        if not by_value and (isinstance(value, Member) or cls._is_made_of(name)):
             raise cls._unchanging(name, "= ...")
         super().__setattr__(name, value)
 

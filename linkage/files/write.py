@@ -63,7 +63,7 @@ def left_out(machine: Machine) -> tuple[str, ...]:
     if not (isinstance(cls, type) and issubclass(cls, Mechanism)):
         require_mechanism(cls)
     own = [base for base in cls.__mro__ if issubclass(base, Mechanism) and base is not Mechanism]
-    names = {name for base in own for name in vars(base) if name == "__init__" or not name.startswith("__")}
+    names = {name for base in own for name in vars(base) if name == "__init__" or not name.startswith(("__", "_abc_"))}
     return tuple(sorted(names - {"plan", *declared(cls)}))
 
 

@@ -89,7 +89,7 @@ def quick(plan: Plan, designs: Mapping[str, Any], kernel: Kernel, careful: Poses
             return careful(*strokes, **named)
         try:
             found: tuple[float, ...] = pose(*passed, *(strokes if together else [strokes[place] for place in places]))
-            finite = bool(sum(strokes) * 0.0 == 0.0)  # those that the requests do not follow included
+            finite = isfinite(sum(strokes))  # those that the requests do not follow included
         except (*NO_VALUE, TypeError):
             return careful(*strokes)
         if not finite:

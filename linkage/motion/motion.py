@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import Any, NoReturn, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeAlias
 
 import numpy as np
 
@@ -110,7 +110,7 @@ class Motion:
         Empty where nothing does; it then leads from every pose to every other. None where it is not looked for: of batches and
         of several strokes. Request with unreachable="raise", a motion that is interrupted is refused.
         """
-        if self.size[1] < 2:
+        if self.grid.size[1] < 2:
             return ()
         if not scan.is_watched(self):
             return None
@@ -131,11 +131,13 @@ class Motion:
                 mask=np.ones(self.shape, bool), motion=self,
             )  # fmt: skip
 
-    def __getattr__(self, name: str) -> Any:
-        """Raise AttributeError, with what may have been meant: a point, a vector or an output goes by `motion["G"]`."""
-        is_member = "plan" in vars(self) and name in self.plan.members
-        remedy = f'what the class calls {name} is motion["{name}"]' if is_member else "a point or an output goes by motion[name]"
-        raise AttributeError(f"A motion has no attribute {name!r}; {remedy}.", name=name, obj=self)
+    if not TYPE_CHECKING:  # a name that is not there shall be found before it runs
+
+        def __getattr__(self, name: str) -> Any:
+            """Raise AttributeError, with what may have been meant: a point, a vector or an output goes by `motion["G"]`."""
+            is_member = "plan" in vars(self) and name in self.plan.members
+            remedy = f'what the class calls {name} is motion["{name}"]' if is_member else "a point or an output goes by motion[name]"
+            raise AttributeError(f"A motion has no attribute {name!r}; {remedy}.", name=name, obj=self)
 
     def __contains__(self, name: object) -> bool:
         """Whether a name is that of a point, a vector or a quantity: what `motion[name]` gives."""

@@ -32,6 +32,7 @@ class Members:
 
     def __init__(self, members: Mapping[str, Member], title: str) -> None:
         self.title = title
+        self._behind: dict[str, frozenset[str]] = {}
         order = ordered({name: self._needs(name, member) for name, member in members.items()}, title)
         self.table = Table(title)
         self.members: dict[str, Member] = {}
@@ -94,7 +95,13 @@ class Members:
 
     def reaches(self, start: Member | str) -> set[str]:
         """Return the names of all members that something is built from, itself included."""
-        stack = [start] if isinstance(start, str) else list(needs(start))
+        if isinstance(start, str):
+            if start not in self._behind:
+                self._behind[start] = frozenset(self._reached([start]))
+            return set(self._behind[start])
+        return self._reached(list(needs(start)))
+
+    def _reached(self, stack: list[str]) -> set[str]:
         found: set[str] = set()
         while stack:
             name = stack.pop()

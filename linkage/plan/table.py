@@ -118,8 +118,6 @@ FARTHEST = 1e11
 """m; no mechanism is larger, and the squares of such lengths no longer add."""
 
 TURN = 2.0 * np.pi * (1.0 + 1e-9)
-FARTHEST = 1e100
-"""m; products of larger ones overflow, and a place would be infinite without a word."""
 
 
 def signed(value: Any, sign: int, entry: Entry) -> Any:
@@ -137,8 +135,6 @@ def checked(entry: Entry, value: Any) -> Any:
         raise DefinitionError(f"{entry.where}: {entry.name}={value!r} is not a finite number; give a value in SI.")
     if entry.kind == "not negative" and np.any(np.asarray(value) < 0.0):
         raise DefinitionError(f"{entry.where}: {entry.name}={np.min(value):.6g} is negative; give zero or more.")
-    if entry.kind in ("length", "coordinate") and np.any(np.abs(value) > FARTHEST):
-        raise DefinitionError(f"{entry.where}: {entry.name}={np.max(np.abs(value)):.6g} m is beyond all measure; look for extreme numbers.")
     if entry.kind == "angle" and np.any(np.abs(value) > TURN):
         large = float(np.ravel(value)[np.argmax(np.abs(value))])
         said = f"the angle {entry.name}={large:.6g} rad ({large / deg:.6g} deg) is more than a full turn"

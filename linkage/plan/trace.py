@@ -145,7 +145,9 @@ class Trace(Reading):
         return [*guards, *([] if nearness.op == "constant" else [self.away, nearness - near])]
 
     def angle_of(self, vector: Vec) -> Scalar:
-        angle = self.graph.node(super().angle_of(vector))
+        square = self.graph.node(vector.square())
+        is_none = square.op == "constant" and square.value == 0.0  # a point has no direction to itself
+        angle = self.graph.constant(np.nan) if is_none else self.graph.node(super().angle_of(vector))
         self.angles.append(angle)
         return angle
 

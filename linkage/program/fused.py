@@ -58,7 +58,8 @@ class Fused:
                 from numba import njit, types
             except ImportError:
                 raise LinkageError('backend="numba" needs Numba: pip install "hydrolinkage[fast]".') from None
-            arguments = (types.float64[:, ::1], types.float64[:, :, ::1], types.float64[::1], *(types.int64[::1],) * 3)
+            read = [types.Array(types.float64, axes, "C", readonly=True) for axes in (2, 3)]  # what a motion holds cannot be written
+            arguments = (*read, types.float64[::1], *(types.int64[::1],) * 3)
 
             def make(function: Callable[..., None], kept: Kept | None) -> Callable[..., None]:
                 def lazy(cache: bool) -> Any:

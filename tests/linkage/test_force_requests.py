@@ -137,7 +137,7 @@ def test_batches_of_designs():
     assert force.shape == pin.shape == (3, 2, 41)
     assert_allclose(force, driving_force(motion), rtol=1e-12)
     assert_allclose(pin, np.hypot(*pin_forces(motion).force("C", on="CD")), rtol=1e-11)
-    assert pin_force("C", on="D C").settled(motion.plan).key == pin_force("C", on="CD").settled(motion.plan).key
+    assert pin_force("C", on="D C").bound(motion.plan).key == pin_force("C", on="CD").bound(motion.plan).key
 
 
 def test_a_function_of_floats():

@@ -24,7 +24,7 @@ def kernel(monkeypatch):
     monkeypatch.setattr(fused, "PART", 3)
     monkeypatch.setattr(fused, "WIDE", 5)
     plan = FourBar.plan
-    made = Kernel([*plan.nodes("X"), *plan.nodes("A")], [guard.node for guard in plan.trace.guards])
+    made = Kernel([*plan.nodes("X"), *plan.nodes("A")], plan.trace.watched(plan.members))
     made.fused._ready.update({turned: uncompiled(made.fused.plan, turned) for turned in (False, True)})
     return made
 

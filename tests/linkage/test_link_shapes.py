@@ -211,7 +211,7 @@ def test_contrary_angle_is_the_mirrored_link():
 FLAT = {name: Pin(near=(place, 0.1)) for name, place in {"A": 0.0, "B": 0.1, "D": 0.2}.items()}
 
 
-@pytest.mark.parametrize("lengths", [(0.2, 0.09, 0.25), (0.2, 0.09, 0.12), (0.2, Dimension(0.09), 0.11), (0.05, 0.09, 0.13)], ids=str)
+@pytest.mark.parametrize("lengths", [(0.2, 0.09, 0.25), (0.2, 0.09, 0.12), (0.2, 0.1, 0.11), (0.05, 0.09, 0.13)], ids=str)
 def test_flat_sketch_of_a_group_has_no_side(lengths):
     """Three pins drawn in one line, their lengths a triangle or not known as numbers: no side is guessed."""
     AB, AD, BD = lengths

@@ -49,7 +49,7 @@ def test_the_comment_states_the_design():
 @pytest.mark.parametrize(
     ("asked", "options", "said"),
     [
-        (["G"], {"language": "rust"}, "say one of c, javascript"),
+        (["G"], {"language": "rust"}, 'say "c" or "javascript"'),
         (["G"], {"name": "two words"}, "a function's name"),
         (["Q"], {}, "'Q' is unknown"),
         (["G"], {"name": "for"}, "'for' has a meaning in c already"),

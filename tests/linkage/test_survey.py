@@ -341,8 +341,10 @@ def test_full_disk_stops_a_study_and_the_same_call_goes_on(small, tmp_path, monk
 
     def full(handle):
         if len(list(tmp_path.glob("designs-*.npy"))) == 2:
-            written.append([*tmp_path.glob(".*.tmp")])
-            os.truncate(written[-1][0], 100)
+            half = [*tmp_path.glob(".*.tmp")]
+            written.append(half)
+            for each in half:
+                os.truncate(each, 100)
             raise OSError(28, "No space left on device")
         sync(handle)
 

@@ -43,7 +43,7 @@ USES = [
     (
         'Cylinder("A", "B", bore=0.08, rod=0.045, stroke=@)',
         "[]",
-        ("Stroke of the cylinder = [] holds no number; give one at least, in SI units.",),
+        ("Stroke of the cylinder = () holds no number; give one at least, in SI units.",),
     ),
     (
         'Cylinder("A", "B", bore=0.08, rod=0.045, closed=@)',
@@ -202,7 +202,7 @@ USES = [
     ("CylinderSize(@)", '0.08, 0; "a", 0.045; None, 0.045; nan, 0.04', ("number in SI units.",)),
     ("CylinderSize(@)", "0.08, 0.045, 0; 0.08, 0.045, 1.5", ("Count of cylinders =", "give a whole number from 1 on.")),
     ("CylinderSize(@)", '0.08, 0.045, 1, "pull"; 0.08, 0.045, 1, []', ("is unknown in works. Known: piston, rod, both.",)),
-    ("size.thrust(@)", 'None; "a"; nan; inf; 1j; masked; {}', ("Cylinder pressure =", "give a number in SI units.")),
+    ("size.thrust(@)", 'None; "a"; nan; inf; 1j; {}', ("Cylinder pressure =", "give a number in SI units.")),
     ("size.pressure_for(@)", 'None; "a"; nan; inf; 1e4, "b"', ("give a number in SI units.",)),
     ("size.oil(@)", 'None; "a"; nan', ("Travel =", "give a number in SI units.")),
     ("size.speed(@)", 'None; "a"; inf', ("give a number in SI units.",)),

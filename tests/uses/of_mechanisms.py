@@ -82,8 +82,8 @@ USES = [
         ("Dimension 'charg' is unknown in HeaderBalancer. Did", "OG1, BOG1, OG2, BOG2, lift.bore, lift.rod, shoe.force."),
     ),
     ("setting_table(@)", '"a"; None; [nan]; []; [[1.0]]; {}', ("a list of", "reactions [N] is expected, such as [0.0, 100 * kgf].")),
-    ("read_measured(@)", '"nowhere.csv"', ("nowhere.csv: cannot be read: No such file or directory.",)),
-    ("read_measured(@)", "3; None", ("cannot be read: expected str, bytes or os.PathLike object, not",)),
+    ("read_measured(@)", '"nowhere.csv"', ("nowhere.csv: there is no such file; look at its name and its folder.",)),
+    ("read_measured(@)", "3; None", ("is no path of a file; give its name as text, or a pathlib.Path.",)),
     (
         "deviations(at_rest, @)",
         '{}; 3; None; {"P": [1.0]}',

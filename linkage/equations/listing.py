@@ -198,7 +198,7 @@ class Listing:
 
     # -- what the rules of other steps ask -------------------------------------------------------------
 
-    def root(self, radicand: Any, scale: Any, size: Any) -> Term:
+    def root(self, radicand: Any, scale: Any, size: Any, most: Any = None) -> Term:
         """Return the square root that closes a loop."""
         return FUNCTIONS["sqrt"](radicand)
 

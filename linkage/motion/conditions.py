@@ -27,6 +27,8 @@ WARN = 1e4
 REFUSE = 1e6
 DOUBTFUL, LOST = 1e-7, 1e-3
 """The relative errors above which a result is warned of and refused, where they do not come from the condition of one loop."""
+ROUGH = 1e-6
+"""The error of a place, compared with the machine's size, above which it is warned of: at a dead point half the digits are left."""
 PLACES = 1e-13
 """The product of squared parts (Trace.nearness) above which positions keep nine digits."""
 LEAST = 1e-6
@@ -86,6 +88,7 @@ class Judged:
     spans: Mapping[str, FloatArray]
     error: FloatArray
     steep: frozenset[str] = frozenset()
+    doubt: float = DOUBTFUL
 
     @property
     def refused(self) -> Mask:
@@ -99,7 +102,7 @@ class Judged:
     @property
     def doubtful(self) -> Mask:
         """The poses where the result holds, with an error that has to be told."""
-        mask: Mask = self.error > DOUBTFUL
+        mask: Mask = self.error > self.doubt
         for name, cond in self.conditions.items():
             if name in self.steep:
                 mask = mask | (cond > WARN)
@@ -127,15 +130,15 @@ class Judged:
         return direction, f"takes a direction between points that {apart}"
 
 
-def judged(plan: Plan, reading: ArrayReading, steep: set[str], names: set[str], error: FloatArray) -> Judged:
+def judged(plan: Plan, reading: ArrayReading, steep: set[str], names: set[str], error: FloatArray, doubt: float) -> Judged:
     """Return how far poses are from singular ones for a result built from some members, whose relative error (n,) is known.
 
-    `steep` are the members that it is differentiated through.
+    `steep` are the members that it is differentiated through, `doubt` is the error from which on it has to be told.
     """
     moving = {name: span for name, span in reading.spans.items() if not name or (name in names and plan.moves(plan.members[name]))}
     spans = {name: np.broadcast_to(span, error.shape) for name, span in moving.items()}
     loops = {name: np.broadcast_to(cond, error.shape) for name, cond in conditions(plan, reading, names).items()}
-    return Judged(plan, loops, spans, error, frozenset(steep))
+    return Judged(plan, loops, spans, error, frozenset(steep), doubt)
 
 
 def conditions(plan: Plan, reading: ArrayReading, names: set[str]) -> dict[str, FloatArray]:

@@ -199,9 +199,11 @@ class Evaluation:
     def _unwrap(self, found: FloatArray) -> None:
         """Make the angles in requests continuous along the stroke, in place."""
         for (first, each), angles in zip(self._starts(), self._program[1], strict=True):
+            if angles is None or not angles.angles:
+                continue
             values = found[first : first + each.rows]
             reached = np.isfinite(values).all(axis=0)
-            continued = None if angles is None else angles.continued(self.grid, np.asarray(reached), self.way)
+            continued = angles.continued(self.grid, np.asarray(reached), self.way)
             if continued is not None:
                 values[...] = np.where(reached, continued, np.nan)
 

@@ -19,7 +19,7 @@ from ..program import FloatArray, Kernel, Node, Notes
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
 from .checks import named, order_of
-from .conditions import LEAST, PLACES, Judged, Left, Rounding, judged
+from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Judged, Left, Rounding, judged
 from .grid import Grid
 from .reach import Mask
 
@@ -127,7 +127,8 @@ def examined(plan: Plan, what: BoundRequest, inputs: Mapping[str, Any], reading:
     """Return how far poses are from singular ones for a request: inputs as floats or (n,), and the eager reading there."""
     what.note(reading)
     rounding = plan.made(("rounding", what.key), lambda twin: Rounding.of(twin, what.nodes(twin)))
-    return judged(plan, reading, what.steep(plan), what.names(plan), what.error(plan, rounding.at(inputs)))
+    error = what.error(plan, rounding.at(inputs))
+    return judged(plan, reading, what.steep(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
 
 
 def astray(plan: Plan, what: BoundRequest) -> DefinitionError:
@@ -280,7 +281,7 @@ class ConditionOf(BoundRequest):
         return -1.0
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        near = plan.trace.nearness(self.members)
+        near = plan.trace.nearness(self.members, exact=True)
         return ((2.0 / REGULAR) / np.sqrt(near.graph.apply("maximum", near, WORST**-2)),)
 
     def names(self, plan: Plan) -> set[str]:

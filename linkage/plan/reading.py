@@ -91,7 +91,7 @@ class Reading:
         """Return a stroke, a dimension or a coordinate of a ground point."""
         return self.inputs[name]
 
-    def root(self, radicand: Scalar, scale: Scalar, size: Scalar) -> Scalar:
+    def root(self, radicand: Scalar, scale: Scalar, size: Scalar, most: Scalar | None = None) -> Scalar:
         """Return the square root that closes a loop."""
         return np.sqrt(radicand)
 
@@ -177,7 +177,7 @@ class ArrayReading(Reading):
         self.rounding: dict[str, Any] = {}
         self.spans: dict[str, Any] = {}
 
-    def root(self, radicand: Scalar, scale: Scalar, size: Scalar) -> Scalar:
+    def root(self, radicand: Scalar, scale: Scalar, size: Scalar, most: Scalar | None = None) -> Scalar:
         inside = np.where((radicand < 0.0) & (radicand >= -self.ROUNDING * size), 0.0, radicand)
         height = np.sqrt(inside)
         self.margin(height / scale)

@@ -38,6 +38,8 @@ class Measure:
 
     member: str
     node: Node
+    exact: Node
+    """What `node` is a lower bound of, where that costs less."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +77,7 @@ class Trace(Reading):
         view.directions = dict(self.directions)
         return view
 
-    def root(self, radicand: Scalar, scale: Scalar, size: Scalar) -> Scalar:
+    def root(self, radicand: Scalar, scale: Scalar, size: Scalar, most: Scalar | None = None) -> Scalar:
         radicand = self.graph.node(radicand)
         if radicand.level is not Level.POSE:  # a triangle of the design may be flat: rounding must not open it
             limit = size * -ArrayReading.ROUNDING
@@ -85,7 +87,9 @@ class Trace(Reading):
         node: Node = self.graph.apply("sqrt", radicand)
         self.noted[self.owner] = node
         if node.level is Level.POSE:
-            self._measure(np.maximum(radicand, 0.0) / ((scale * scale + size) * REGULAR**2))
+            bound = size if most is None or self.graph.node(most).level is Level.POSE else most  # links that keep their lengths cost less
+            inside = np.maximum(radicand, 0.0)
+            self._measure(*(inside / ((scale * scale + each) * REGULAR**2) for each in (bound, size)))
         else:
             self.guards.append(Guard(self.owner, node))
         return node
@@ -115,8 +119,8 @@ class Trace(Reading):
             self.loops.append(Loop(self.owner, "meeting", (length,)))
         return length
 
-    def _measure(self, node: Node) -> None:
-        found = Measure(self.owner, node)
+    def _measure(self, node: Node, exact: Node | None = None) -> None:
+        found = Measure(self.owner, node, node if exact is None else exact)
         if found not in self.measures:
             self.measures.append(found)
 
@@ -130,12 +134,12 @@ class Trace(Reading):
         coordinates = [part for place in places for part in (place.x, place.y)]
         return self.graph.node(self.extent * AWAY**2 - reduce(np.maximum, (part * part for part in coordinates), 0.0))
 
-    def nearness(self, names: Container[str]) -> Node:
+    def nearness(self, names: Container[str], *, exact: bool = False) -> Node:
         """Return the product of what measures the distance of some members from singular poses, each at most 1."""
         found = self.graph.constant(1.0)
         for measure in self.measures:
             if measure.member in names or not measure.member:
-                found = found * self.graph.apply("minimum", measure.node, 1.0)
+                found = found * self.graph.apply("minimum", measure.exact if exact else measure.node, 1.0)
         return found
 
     def watched(self, names: Container[str], near: float = NEAR**2) -> list[Node]:

@@ -29,10 +29,11 @@ class Where(Protocol):
     def input(self, name: str) -> Scalar:
         """Return a stroke, a dimension or a coordinate of a ground point."""
 
-    def root(self, radicand: Scalar, scale: Scalar, size: Scalar) -> Scalar:
+    def root(self, radicand: Scalar, scale: Scalar, size: Scalar, most: Scalar | None = None) -> Scalar:
         """Return the square root that closes a loop: `scale` times the sine of the angle between its links.
 
-        NaN where the radicand is negative by more than rounding, which is measured against `size`.
+        NaN where the radicand is negative by more than rounding, which is measured against `size`; `most` is what that is never above,
+        where the links alone say it.
         """
 
     def margin(self, sine: Scalar) -> Scalar:

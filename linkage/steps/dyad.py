@@ -20,7 +20,7 @@ def triangle(where: Where, base2: Scalar, p: Scalar, q: Scalar) -> tuple[Scalar,
     """
     along = (base2 + p * p - q * q) * 0.5
     largest = np.maximum(base2, np.maximum(p * p, q * q))
-    return along, where.root(p * p * base2 - along * along, scale=p * q, size=np.abs(along) * largest)
+    return along, where.root(p * p * base2 - along * along, scale=p * q, size=np.abs(along) * largest, most=p * (p + q) ** 3)
 
 
 class Dyad(Step):

@@ -146,6 +146,7 @@ class Evaluation:
             for name, mask in reach.failures(plan, reading, shape):
                 if name in self.names:
                     lost |= mask
+            lost &= ~np.isfinite(block[:, bad]).all(axis=0) | reach.negative(plan, reading, shape)
         refused = [np.zeros(shape, bool) for _ in self.requests]
         for k, each in enumerate(self.requests):
             here = near[k] & ~lost

@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from math import frexp
 from typing import Any
 
 import numpy as np
@@ -24,8 +25,8 @@ from .tangent import jacobian
 
 RUNS = 12
 """How often a program is run with other last digits."""
-SHAKEN = float(np.finfo(float).eps)
-"""The largest change of a result of one operation, relative: from half to a whole last digit."""
+SHAKEN = 0.75 * float(np.finfo(float).eps)
+"""The largest change of a result of one operation, relative: less than two last digits."""
 SETTLED = 4.0
 """The last digits that iteration leaves of a group's pins."""
 PERIOD = 1999
@@ -102,8 +103,15 @@ def shaken(outputs: Sequence[Node], given: Mapping[str, Any]) -> list[Any]:
                 found = OPERATIONS[node.op].array(*args)
                 if node.op == "arctan2":
                     found = near_first(np.where((np.asarray(args[0]) == 0.0) & (np.asarray(args[1]) == 0.0), np.nan, found))
-                values[node] = found if node.op in EXACT else found + found * changes[node.number % PERIOD]
+                values[node] = found if node.op in EXACT or doubles(node) else found + found * changes[node.number % PERIOD]
     return [values[plain(node)] for node in outputs]
+
+
+def doubles(node: Node) -> bool:
+    """Return whether an operation multiplies by a power of two, which rounds nothing."""
+    if node.op != "multiply":
+        return False
+    return any(arg.op == "constant" and abs(frexp(arg.value)[0]) == 0.5 for arg in map(plain, node.args))
 
 
 def near_first(angle: FloatArray) -> FloatArray:

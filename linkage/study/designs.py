@@ -106,7 +106,7 @@ def columns_of(machine: Mechanism, name: str, value: Any) -> tuple[Array, ...]:
 def column(machine: Mechanism, name: str, value: Any, least: int) -> Array:
     """Return an array of one dimension, or of at least so many, as it is given, NaN where it is masked."""
     try:
-        found = np.array(unmasked(value))
+        found = np.asarray(unmasked(value))
     except ValueError:
         found = np.array(None)
     if found.dtype.kind not in "fiu" or not least <= found.ndim <= 1:

@@ -28,7 +28,7 @@ class Draft:
     def __init__(self, rng):
         self.rng = rng
         self.size = 10.0 ** rng.uniform(-9, 6) if rng.random() < 0.5 else 1.0
-        away = 10.0 ** rng.uniform(-2, 6) * self.size if rng.random() < 0.3 else self.size
+        away = min(10.0 ** rng.uniform(-2, 6) * self.size, 1e10) if rng.random() < 0.3 else self.size
         self.origin = away * rng.normal(size=2)
         self.turn = rng.uniform(-np.pi, np.pi)
         self.near = 10.0 ** rng.uniform(-15, -1)

@@ -152,7 +152,7 @@ def test_all_mistakes_come_at_once():
 @pytest.mark.parametrize(
     ("member", "words"),
     [
-        (Support("F", [[0, 1], [1, 1]]), r"Hitch_\.extra cannot be written into a file: \[0, 1\] is neither a number nor a word"),
+        (Support("F", [[0, 1], [1, 1]]), r"Hitch_\.extra cannot be written into a file: \(0, 1\) is neither a number nor a word"),
         (LoadCase("\x07"), r"Hitch_\.extra cannot be written into a file: .* stands where a word in quotes is expected"),
     ],
 )  # fmt: skip

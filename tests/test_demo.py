@@ -33,7 +33,7 @@ def test_the_demo_prints_the_worksheet_and_writes_its_pictures(folder, capsys):
 def test_a_folder_that_cannot_be_made_is_said_in_words(tmp_path, capsys):
     (tmp_path / "file").write_text("")
     assert main(["--out", str(tmp_path / "file")]) == 2
-    assert "choose another folder with --out" in capsys.readouterr().err
+    assert "Choose another folder with --out" in capsys.readouterr().err
 
 
 def test_an_unknown_option_is_refused():

@@ -1,0 +1,189 @@
+"""A pose's condition comes from what is asked, whatever it is asked by; what lies between two poses is told."""
+
+import ctypes
+import math
+import re
+import shutil
+import subprocess
+import warnings
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from linkage import (
+    LEFT,
+    AssemblyError,
+    Crank,
+    Dyad,
+    Ground,
+    Guide,
+    Link,
+    Mechanism,
+    OnGuide,
+    OnLink,
+    Pin,
+    SingularError,
+    SingularWarning,
+    Stroke,
+    angle,
+    condition,
+    distance,
+    drive_force,
+    driving_force,
+    pin_force,
+    pin_forces,
+    ratio,
+)
+from linkage.loads import Weight
+
+STEPS = 10.0 ** -np.arange(1.0, 16.0)
+
+
+class Lever(Mechanism):
+    """A cylinder AB on a lever OB with a weight; dead points at S = 0.7 and 1.3."""
+
+    S, A, O = Stroke(0.1, 3.0), Ground(0, 0), Ground(1.0, 0)
+    B = Dyad(A, O, AB=S, OB=0.3, side=LEFT)
+    load = Weight(B, mass=100.0)
+
+
+class Platform(Mechanism):
+    """A plate on three rods, one of them on a crank."""
+
+    phi = Stroke(0.0, 0.6)
+    O, P, Q = Ground(0, 0), Ground(3, 0), Ground(1.5, 3)
+    A = Crank(O, OA=0.5, angle=phi)
+    plate = Link("D E F", DE=1, DF=0.9, EF=0.8)
+    r1, r2, r3 = Link("A D", AD=0.8), Link("P E", PE=1.0), Link("Q F", QF=1.9)
+    D, E, F = Pin(near=(1.2, 0.5)), Pin(near=(2.2, 0.5)), Pin(near=(1.6, 1.3))
+
+
+def test_the_condition_is_that_of_two_rows_that_meet():
+    (found,) = Lever().evaluate([condition("B")], S=0.7 + STEPS[4:12])
+    cosine = ((0.7 + STEPS[4:12]) ** 2 + 0.09 - 1.0) / (2 * 0.3 * (0.7 + STEPS[4:12]))
+    sine = np.sqrt((1 - cosine) * (1 + cosine))
+    assert np.all(found > 2.0 / sine * 0.99)
+    assert np.all(found < 2.0 / sine * 8.0)  # the base is three times as long as the lever
+    assert np.all(np.diff(found) > 0.0)
+
+
+def test_the_condition_is_the_same_in_every_way():
+    S = 0.7 + STEPS[:10]
+    (by_blocks,) = Lever().evaluate([condition("B")], S=S, backend="numpy")
+    (by_floats,) = Lever().evaluate([condition("B")], S=S, backend="floats")
+    function = Lever().function([condition("B")])
+    assert_allclose(by_floats, by_blocks, rtol=1e-12)
+    assert_allclose([function(s)[0] for s in S], by_blocks, rtol=1e-12)
+    assert Lever().function([condition()])(0.7)[0] > 1e15
+
+
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="no C compiler")
+def test_the_condition_goes_into_the_text(tmp_path):
+    text, S = Lever().source(["B", condition("B")]), 0.7 + STEPS[:10]
+    (tmp_path / "k.c").write_text(text, encoding="utf-8")
+    subprocess.run(["gcc", "-O2", "-shared", "-fPIC", "-o", tmp_path / "k.so", tmp_path / "k.c", "-lm"], check=True)
+    design = np.array([float(value) for value in re.findall(r"= ([-0-9.e]+)", text.split("*/")[0])])
+    pointer, out = ctypes.POINTER(ctypes.c_double), np.empty((3, S.size))
+    arguments = [(pointer * len(rows))(*(row.ctypes.data_as(pointer) for row in rows)) for rows in (S[None], out)]
+    ctypes.CDLL(str(tmp_path / "k.so")).poses(ctypes.c_long(S.size), design.ctypes.data_as(pointer), *arguments)
+    assert_allclose(out[2], Lever().evaluate([condition("B")], S=S)[0], rtol=1e-9)
+
+
+@pytest.mark.parametrize("pin", "DEF")
+def test_every_pin_of_a_group_is_guarded(pin):
+    with pytest.raises(AssemblyError, match='Group\\("D E F"\\)'):
+        Platform().evaluate([pin], phi=1.1)
+    with pytest.raises(AssemblyError, match='Group\\("D E F"\\)'):
+        Platform().function([pin])(1.1)
+    end = Platform().at(phi=0.3).limits()["phi"].intervals[-1].high
+    for away in (1e-4, 1e-6, 1e-8, 2e-9):
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            Platform().evaluate([ratio(pin)], phi=end - away)
+            Platform().at(phi=end - away).ratio(pin)
+        assert len(told) in (0, 2)  # both ways say the same
+    with pytest.warns(SingularWarning, match="the group D E F"):
+        Platform().evaluate([ratio(pin)], phi=end - 2e-9)
+
+
+@pytest.mark.parametrize("away", [1e-13, 1e-15, 0.0])
+def test_forces_are_refused_where_ratios_are(away):
+    S = 0.7 + away
+    asks = (
+        lambda: driving_force(Lever().at(S=S)),
+        lambda: pin_forces(Lever().at(S=S)),
+        lambda: Lever().evaluate([drive_force()], S=S),
+        lambda: Lever().evaluate([pin_force("O")], S=S),
+        lambda: Lever().function([drive_force()])(S),
+        lambda: Lever().at(S=S).gradient(drive_force(), ["OB"]),
+    )
+    for ask in asks:
+        with pytest.raises(SingularError):
+            ask()
+
+
+def test_the_same_pose_is_judged_alike_in_a_crowd():
+    S = 0.7 + STEPS
+    alone = []
+    for s in S:
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", SingularWarning)
+                alone.append(float(Lever().evaluate([ratio("B")], S=s)[0][1]))
+        except SingularError:
+            alone.append(math.nan)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SingularWarning)
+        (crowd,) = Lever().evaluate([ratio("B"), "B"], S=S, unreachable="nan")[:1]
+    assert_allclose(crowd[1], alone, rtol=1e-12)
+
+
+class Through(Mechanism):
+    """P runs on a rail through the fixed point A."""
+
+    S, A = Stroke(-0.1, 0.1), Ground(0.0, 0.0)
+    rail = Guide((0.0, 0.0), angle=0.3)
+    P = OnGuide(rail, at=S)
+
+
+@pytest.mark.parametrize(
+    "members",
+    [
+        {"X": OnLink("A", "P", AX=0.3)},
+        {"bar": Guide("A", "P"), "X": OnGuide("bar", at=0.3)},
+        {"X": Crank("A", AX=0.3, angle=angle("A", "P"))},
+    ],
+    ids=["on a link", "on a guide", "along a direction"],
+)
+@pytest.mark.parametrize("S", [[-0.1, 0.1], [-0.1, -0.03, 0.07], [-1e-4, 0.09]], ids=str)
+def test_a_direction_that_is_lost_between_two_poses_is_told(members, S):
+    machine = type("Over", (Through,), members)
+    with pytest.raises(SingularError, match="without a direction at S"):
+        machine().at(S=S)
+    motion = machine().at(S=S, unreachable="nan")
+    assert len(motion.interruptions) == 1
+    assert abs(motion.interruptions[0].deepest) < 1e-9
+    assert machine().at(S=np.abs(S)).interruptions == ()
+
+
+def test_a_length_that_touches_zero_interrupts_nothing():
+    machine = type("Measured", (Through,), {"u": distance("A", "P")})
+    assert machine().sweep(4).interruptions == ()
+
+
+def test_an_angle_that_is_followed_and_a_loop_behind_it_are_looked_at_together():
+    class Drag(Mechanism):
+        """A drag link whose follower turns another crank by a fraction of its angle, which carries a dyad."""
+
+        phi = Stroke(0.0, 6.0)
+        O, Q, T = Ground(0.0, 0.0), Ground(0.1, 0.0), Ground(3.0, 0.0)
+        A = Crank(O, OA=1.0, angle=phi)
+        B = Dyad(A, Q, AB=1.1, QB=1.0, side=LEFT)
+        C = Crank(T, TC=0.3, angle=-0.7 * angle(Q, B))
+        D = Dyad(C, Q, CD=1.9, QD=1.6, side=LEFT)
+
+    motion = Drag().sweep(61)
+    assert np.isfinite(motion["D"]).all()
+    assert motion.interruptions == ()
+    assert np.abs(np.diff(motion["C"])).max() < 0.1

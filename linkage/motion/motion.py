@@ -108,7 +108,7 @@ class Motion:
         """What interrupts the way between the least and the greatest stroke, in order: stretches out of reach and change points.
 
         Empty where nothing does; it then leads from every pose to every other. None where it is not looked for: of batches and
-        of several strokes. Request with unreachable="raise", a motion that is interrupted is refused.
+        of several strokes. Asked with unreachable="raise", a motion that is interrupted is refused.
         """
         if self.grid.size[1] < 2:
             return ()

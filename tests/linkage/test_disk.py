@@ -1,4 +1,3 @@
-# ruff: noqa: E501, RUF043
 """Whatever writes a file writes it whole or leaves the old one, with nothing beside it; what cannot be is told in words."""
 
 import errno
@@ -250,7 +249,7 @@ def test_a_full_device_is_told(capsys):
     for place in ("/dev/full", Path("/dev/full")):
         if not Path(place).exists():
             pytest.skip("no /dev/full")
-        with pytest.raises(FileError, match="^/dev/full: there is no room for it: the disk is full"), replacing(place) as stream:
+        with pytest.raises(FileError, match=r"^/dev/full: there is no room for it: the disk is full"), replacing(place) as stream:
             stream.write(b"x" * 100_000)
     assert main(["table", "four_bar", "--csv", "/dev/full"]) == 2
     assert "/dev/full: there is no room" in capsys.readouterr().err
@@ -305,7 +304,10 @@ BAD_NAMES = [
     (lambda folder, name: folder / f"a\0b{Path(name).suffix}", r"a\\x00b.*: the name holds characters that no file's name can have"),
     (lambda folder, name: folder / f"loop{Path(name).suffix}", r"its links lead in a circle"),
 ]
-SURROGATE = (lambda folder, name: folder / f"\ud800{Path(name).suffix}", r"\\ud800.*: the name holds characters that no file's name can have")
+SURROGATE = (
+    lambda folder, name: folder / f"\ud800{Path(name).suffix}",
+    r"\\ud800.*: the name holds characters that no file's name can have",
+)
 
 
 def furnished(folder, name):
@@ -331,7 +333,9 @@ def test_a_place_that_cannot_be_written_is_told_in_words(write, name, place, wor
 
 @posix
 @pytest.mark.parametrize("name", ["bars.toml", "bars.json", "bars.csv"])
-@pytest.mark.parametrize(("place", "words"), [*((place, words if "not there" not in words else "no such file") for place, words in BAD_NAMES), SURROGATE])  # fmt: skip
+@pytest.mark.parametrize(
+    ("place", "words"), [*((place, words if "not there" not in words else "no such file") for place, words in BAD_NAMES), SURROGATE]
+)
 def test_a_file_that_cannot_be_read_is_told_in_words(name, place, words, tmp_path):
     path = place(furnished(tmp_path, name), name)
     with pytest.raises(FileError, match=words):

@@ -1,4 +1,3 @@
-# ruff: noqa: E501
 """Nothing that is handed out, given in or declared changes under the hand: read-only, a copy, or refused in words."""
 
 import copy
@@ -129,7 +128,10 @@ def test_a_class_is_what_it_is_made_of(machine):
                 refused()
         for each in (member, machine.plan.members[name]):
             for attribute in [*(key for key in vars(each) if key != "_class"), "anything"]:
-                for refused in (lambda each=each, key=attribute: setattr(each, key, 3), lambda each=each, key=attribute: delattr(each, key)):
+                for refused in (
+                    lambda each=each, key=attribute: setattr(each, key, 3),
+                    lambda each=each, key=attribute: delattr(each, key),
+                ):
                     with pytest.raises(DefinitionError, match=r"write a subclass|make a new one"):
                         refused()
             for table in (value for value in vars(each).values() if isinstance(value, dict)):
@@ -158,7 +160,8 @@ def test_what_is_not_part_of_the_linkage_may_be_set_on_a_class():
 def test_an_accumulator_a_cylinder_and_a_case_say_how_to_make_a_new_one():
     for made, name in (
         (Cylinder("A", "B", bore=0.1, rod=0.05), "bore"), (CylinderSize(0.1, 0.05), "bore"), (Accumulator(1e-3, 2e6), "charge"),
-        (AccumulatorBlock([Accumulator(1e-3, 2e6)]), "gas"), (LoadCase("a"), "slope"), (Spring("A", "B", stiffness=1.0, preload=1.0), "stiffness"),
+        (AccumulatorBlock([Accumulator(1e-3, 2e6)]), "gas"), (LoadCase("a"), "slope"),
+        (Spring("A", "B", stiffness=1.0, preload=1.0), "stiffness"),
         (FourBar().sweep(3).limits()["phi"], "start"),
     ):  # fmt: skip
         before = str(made)
@@ -196,7 +199,8 @@ MASKED = [
     lambda values: Hitch().at(S=values), lambda values: Hitch(OB=values), lambda values: Hitch().evaluate(["G"], S=values),
     lambda values: Hitch().sweep(3).velocity("G", {"S": values}), lambda values: Weight("G", mass=values),
     lambda values: Force("G", values[:2]), lambda values: Support("G", values[:2]), lambda values: LinkMass("O B", mass=1.0, at=values[:2]),
-    lambda values: Weight("G", mass=1.0, gravity=values[:2]), lambda values: CylinderSize(values, 0.05), lambda values: Accumulator(values, 2e6),
+    lambda values: Weight("G", mass=1.0, gravity=values[:2]), lambda values: CylinderSize(values, 0.05),
+    lambda values: Accumulator(values, 2e6),
     lambda values: Cylinder("A", "B", bore=values, rod=0.05), lambda values: survey(ThreePointHitch(), {"OB": values}, travel),
     lambda values: Hitch(A=(values, 0.55)), lambda values: CylinderSize(0.1, 0.05).thrust(values[1]),
 ]  # fmt: skip

@@ -1,4 +1,3 @@
-# ruff: noqa: E501, SIM102
 """Compiled kernels on disk are code: only a folder that nobody else can write is used, and only what is as it was put there."""
 
 import json
@@ -38,9 +37,8 @@ class Making:
 
     def __call__(self, function, where):
         done = numba.njit(cache=where is not None)(function)
-        if where is not None:
-            if not where.take(Path(done.stats.cache_path)):
-                done, where = numba.njit(function), None
+        if where is not None and not where.take(Path(done.stats.cache_path)):
+            done, where = numba.njit(function), None
         done.compile(SIGNATURE)
         if where is not None:
             where.note()
@@ -71,7 +69,13 @@ def torn(draw, raw):
     """Return bytes that are not those they were."""
     place = draw.randrange(len(raw))
     kind = draw.randrange(5)
-    changed = [raw[:place], b"", raw + b"\0", raw[:place] + bytes([raw[place] ^ 1 << draw.randrange(8)]) + raw[place + 1 :], draw.randbytes(200)]
+    changed = [
+        raw[:place],
+        b"",
+        raw + b"\0",
+        raw[:place] + bytes([raw[place] ^ 1 << draw.randrange(8)]) + raw[place + 1 :],
+        draw.randbytes(200),
+    ]
     return changed[kind]
 
 

@@ -31,7 +31,9 @@ ROUGH = 1e-6
 """The error of a place, compared with the machine's size, above which it is warned of: at a dead point half the digits are left."""
 PLACES = 1e-13
 """The product of squared parts (Trace.nearness) above which positions keep nine digits."""
-LEAST = 1e-6
+FAR = 100.0
+"""The condition below which no loop and no direction is to blame for digits that are lost."""
+LEAST = 1e-3
 """Of a result's natural size: a value that is smaller counts as so large where its relative error is told."""
 
 
@@ -108,6 +110,11 @@ class Judged:
                 mask = mask | (cond > WARN)
         return mask & ~self.refused
 
+    def as_loops(self) -> Judged:
+        """Return the same with an error that is at least what the loops alone lose: 0.3 eps cond^2."""
+        lost = [0.3 * np.finfo(float).eps * cond * cond for cond in self.conditions.values()]
+        return replace(self, error=np.maximum.reduce([self.error, *lost]))
+
     def at(self, mask: Mask) -> Judged:
         """Return the same of some poses."""
         def cut(given: Mapping[str, FloatArray]) -> dict[str, FloatArray]:
@@ -119,7 +126,7 @@ class Judged:
         """Return the member that comes nearest to a singular pose, and how, in words."""
         near = {name: float(np.max(np.where(np.isnan(cond), np.inf, cond), initial=0.0)) for name, cond in self.conditions.items()}
         close = {name: 1.0 / max(float(np.min(span, initial=np.inf)), 1e-300) for name, span in self.spans.items()}
-        if not near and not close:
+        if max([*near.values(), *close.values()], default=0.0) < FAR:
             return "", ""
         loop = max(near, key=near.__getitem__, default="")
         direction = max(close, key=close.__getitem__, default="")
@@ -177,7 +184,7 @@ def refusal(found: Judged, mask: Mask, strokes: Mapping[str, Any], what: str, mo
         why = f"{opening(plan, name)} stands at a {'change' if crossing else 'dead'} point{crossing}: its links are in line {how}"
     else:
         who = opening(plan, name) if name else "it"
-        why = f"{who} {how}" if how else "what it is built from comes near singular poses one after the other"
+        why = f"{who} {how}" if how else "its parts nearly cancel, as far from the origin or where several loops lose digits"
         if not np.max(found.error) < 1.0:
             why += ", and rounding leaves nothing of it"
         else:
@@ -225,7 +232,7 @@ def warn(found: Judged, what: str, level: int = 4, be: str = "is") -> None:
     who = f"{called(plan, name) if name else 'it'} {how}" if how else ""
     warnings.warn(
         SingularWarning(
-            f"{what}: {who or 'it comes near singular poses one after the other'}; expect a relative error of about {estimate:.0e}.",
+            f"{what}: {who or 'its parts nearly cancel'}; expect a relative error of about {estimate:.0e}.",
             estimate=estimate,
         ),
         stacklevel=level,

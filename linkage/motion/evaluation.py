@@ -175,7 +175,7 @@ class Evaluation:
             found = np.where(mask, np.nan, found)
             if self._raises and not np.isfinite(found).all():
                 self._refuse()
-            block[rows, bad] = found
+            block[rows, bad] = np.where(np.isfinite(found).all(axis=0), found, np.nan)
 
     @property
     def _raises(self) -> bool:
@@ -189,7 +189,7 @@ class Evaluation:
         for each in self.requests:
             each.refuse(motion)
         for each in self.requests:
-            if each.may_fail:
+            if each.notes(grid.plan).assumed:
                 raise astray(grid.plan, each)
         names = ", ".join(map(str, self.requests))
         text = f'{grid.plan.title}: {names} has no value at some of these poses. Leave them out, or ask with unreachable="nan".'

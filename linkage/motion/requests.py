@@ -72,6 +72,11 @@ class BoundRequest(ABC):
         """Return the members at whose singular poses it is refused: those it is differentiated through."""
         return self.names(plan) if self.order else set()
 
+    @property
+    def stands_for_others(self) -> bool:
+        """Whether results that are not nodes go through it, so that what its loops lose counts even where it happens to be exact itself."""
+        return False
+
     def note(self, reading: ArrayReading) -> None:  # noqa: B027
         """Work out in an eager reading what is its own, so that its directions are noted; of most there is nothing."""
 
@@ -128,7 +133,8 @@ def examined(plan: Plan, what: BoundRequest, inputs: Mapping[str, Any], reading:
     what.note(reading)
     rounding = plan.made(("rounding", what.key), lambda twin: Rounding.of(twin, what.nodes(twin)))
     error = what.error(plan, rounding.at(inputs))
-    return judged(plan, reading, what.steep(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
+    found = judged(plan, reading, what.steep(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
+    return found.as_loops() if what.stands_for_others else found
 
 
 def astray(plan: Plan, what: BoundRequest) -> DefinitionError:
@@ -214,6 +220,14 @@ class Value(BoundRequest):
     @property
     def turns(self) -> bool:
         return isinstance(self.member, Quantity)
+
+    @property
+    def may_fail(self) -> bool:
+        return isinstance(self.member, Quantity)
+
+    @property
+    def regular(self) -> float:
+        return NEAR**2 if self.along or isinstance(self.member, Quantity) else PLACES
 
     def note(self, reading: ArrayReading) -> None:
         if isinstance(self.member, Quantity):
@@ -304,6 +318,10 @@ class Ratios(BoundRequest):
     @property
     def key(self) -> Any:
         return "ratios", self.members
+
+    @property
+    def stands_for_others(self) -> bool:
+        return True
 
     def points(self, plan: Plan) -> list[str]:
         """Return the points."""

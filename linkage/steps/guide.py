@@ -42,6 +42,8 @@ class Guide(Holding):
     def __init__(self, P: Reference | tuple[float, float], Q: Reference | None = None, *, angle: Any = None) -> None:
         if P is None or (Q is None) == (angle is None):
             raise DefinitionError("Guide: give its origin, and its direction by angle= or by a second point.")
+        if Q is not None and (P is Q or (isinstance(P, str) and P == Q)):
+            raise DefinitionError(f"Guide({label(Q)}, {label(Q)}): its two points must be different.")
         self.fixed_at = None if isinstance(P, (str, Member)) else position(P, "Guide")
         self.P = P if isinstance(P, (str, Member)) else None
         self.Q = Q

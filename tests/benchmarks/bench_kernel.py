@@ -66,7 +66,7 @@ def nodes() -> tuple[Any, ...]:
 
 
 def kernel_case(work: Work) -> Callable[[], Any]:
-    kernel, inputs = Kernel(nodes()), work.grid.flat
+    kernel, inputs = Kernel(nodes()), work.flat
     return lambda: kernel(inputs).values
 
 

@@ -1,6 +1,7 @@
 """Gradients of thrusts and pin forces: exact against differences of the forces, over every shipped machine, and by laws they keep."""
 
 import warnings
+from functools import cache
 
 import numpy as np
 import pytest
@@ -51,6 +52,13 @@ def loaded(machine):
     return type(f"Loaded{machine.__name__}", (machine,), members)
 
 
+@cache
+def compared(machine):
+    """Return the motion of a loaded machine, and what its derivatives by all variables are compared with."""
+    own = loaded(machine)
+    return own().at(**mid(machine)), Differences(own, mid(machine))
+
+
 class Differences:
     """Derivatives by all variables from one batch of designs: central differences, extrapolated twice (Richardson)."""
 
@@ -84,8 +92,7 @@ class Differences:
 
 @ALL
 def test_gradient_of_thrust_is_the_difference_of_designs(machine):
-    own = loaded(machine)
-    motion, differences = own().at(**mid(machine)), Differences(own, mid(machine))
+    motion, differences = compared(machine)
     for drive in machine.plan.strokes:
         found = motion.gradient(drive_force(drive), differences.names)
         differences.check(found, driving_force(differences.motion, drive=drive), drive)
@@ -93,8 +100,7 @@ def test_gradient_of_thrust_is_the_difference_of_designs(machine):
 
 @ALL
 def test_gradient_of_pin_forces_is_the_difference_of_designs(machine):
-    own = loaded(machine)
-    motion, differences = own().at(**mid(machine)), Differences(own, mid(machine))
+    motion, differences = compared(machine)
     joints = [each for each in pin_forces(differences.motion).joints if each.has_force]
     alone = [each for each in joints if sum((each.point, each.on) in ((o.point, o.on), (o.point, o.by)) for o in joints) == 1]
     for joint, component in ((alone[0], "x"), (alone[len(alone) // 2], "y"), (alone[-1], "size")):

@@ -36,7 +36,7 @@ def pasted(machine):
 def check_lengths(sheet, motion, tolerance):
     """Assert that every rigid pair keeps its sketched distance and every slide its guide."""
     for P, Q in sheet.pairs:
-        assert_allclose(motion.distance(P, Q), sheet.length(P, Q), rtol=0, atol=tolerance, err_msg=f"{P}{Q}")
+        assert_allclose(np.hypot(*(motion[Q] - motion[P])), sheet.length(P, Q), rtol=0, atol=tolerance, err_msg=f"{P}{Q}")
     for slide in motion.plan.of_kind(linkage.Slide).values():
         P, Q = through(slide.guide, sheet, motion)
         shoe = motion[slide.point] - P

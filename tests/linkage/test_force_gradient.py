@@ -24,12 +24,12 @@ from linkage import (
     y,
 )
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.laws.test_statics_laws import RANDOM, SHIPPED
+from tests.laws.test_statics_laws import RANDOM, SHIPPED, of_each_structure
 from tests.linkage.test_gradient import mid
 from tests.linkage.test_groups import Platform
 
 MACHINES = [*SHIPPED, *RANDOM, Platform]
-ALL = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
+ALL = pytest.mark.parametrize("machine", of_each_structure(MACHINES), ids=lambda machine: machine.__name__)
 STEPS = np.array([1.0, 2.0, 4.0])
 ALONE = {"n", "atmosphere"}  # of the header balancer: n is 1 or more, and the atmosphere one for all designs
 

@@ -91,6 +91,8 @@ class Evaluation:
 
     def _watch(self, plan: Plan) -> tuple[int, Kernel]:
         """Return how many of its outputs are assumptions, and the kernel of these, of the guards, then of how near each request is."""
+        for each in self.requests:
+            each.nodes(plan)  # directions of its own are noted then
         assumed = self._assumed(plan)
         near = [plan.trace.nearness(each.names(plan)) - each.regular for each in self.requests]
         return len(assumed), Kernel([*assumed, *self._guards(plan), *near])

@@ -7,18 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, known_name
 from ..program import FloatArray
 from ..quantities import Member, is_number, is_whole, real
 
 
 def named(kind: str, target: Any, known: Iterable[str], title: str) -> str:
     """Return the name of a member or the name as given; raise DefinitionError where it is not a known one."""
-    name = target.name if isinstance(target, Member) else target
-    names = list(known)
-    if not isinstance(name, str) or name not in names:
-        raise unknown(kind, name if isinstance(name, str) else target, names, where=title)
-    return name
+    return known_name(kind, target.name if isinstance(target, Member) else target, known, where=title)
 
 
 def rates_of(what: str, given: Any, strokes: Mapping[str, FloatArray], shape: tuple[int, ...], title: str) -> dict[str, FloatArray]:

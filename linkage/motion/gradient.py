@@ -52,9 +52,6 @@ class Slope(BoundRequest):
     def names(self, plan: Plan) -> set[str]:
         return self.what.names(plan)
 
-    def refuse(self, motion: Motion) -> None:
-        """It is asked of motions only, which refuse it themselves."""
-
     def __str__(self) -> str:
         return f"the gradient of {self.what}"
 

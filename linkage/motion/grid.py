@@ -76,17 +76,17 @@ class Grid:
         """The pins of groups and the references of followed angles, shape (m, n)."""
         if not self.plan.solved:
             return NONE_SOLVED
-        groups = NONE_SOLVED if not self.plan.groups else self._each() if self.own else self._grouped(self.flat_designs, self.flat_strokes)
+        groups = NONE_SOLVED
+        if self.plan.groups:
+            groups = self._each() if self.own else solve_groups(self.plan, self.flat_designs, self.flat_strokes)
         return with_angles(groups, self.plan, self.flat_designs, self.flat_strokes)
-
-    def _grouped(self, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray]) -> Solved:
-        return solve_groups(self.plan, designs, strokes)
 
     def _each(self) -> Solved:
         """Return the pins of groups where each design has strokes of its own: followed design by design."""
         m, n = self.size
         found = [
-            self._grouped(
+            solve_groups(
+                self.plan,
                 {name: value[place : place + 1] if varies(value) else value for name, value in self.flat_designs.items()},
                 {name: value[place] for name, value in self.flat_strokes.items()},
             )

@@ -53,7 +53,7 @@ def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None
 
 @dataclass(frozen=True, eq=False)
 class ForceOf(BoundRequest):
-    """A force settled: it goes through ratios and angles, and is true while the loads keep to the laws that were traced."""
+    """A force bound to a plan: it goes through ratios and angles, and is true while the loads keep to the laws that were traced."""
 
     loads: Loads
     case: Case
@@ -81,7 +81,7 @@ class ForceOf(BoundRequest):
 @final
 @dataclass(frozen=True, eq=False)
 class DriveForceOf(ForceOf):
-    """A drive's force settled: its drive, the key of its loads, the members it reads, and those it is differentiated through."""
+    """A drive's force bound to a plan: its drive, the key of its loads, the members it reads, and those it is differentiated through."""
 
     drive: str
     law: tuple[Any, ...]
@@ -152,7 +152,7 @@ def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = 
 @final
 @dataclass(frozen=True, eq=False)
 class PinForceOf(ForceOf):
-    """A pin force settled: what was asked, the key of its loads, a length of the mechanism [m], and the joint in words."""
+    """A pin force bound to a plan: what was asked, the key of its loads, a length of the mechanism [m], and the joint in words."""
 
     asked: PinForce
     law: tuple[Any, ...]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -32,7 +32,7 @@ class Angles:
         raw = grid.full(self.kernel(grid.flat, way=way).values)
         at_end = np.zeros(grid.shape, bool) if reached is None else reached & ~np.isfinite(raw).all(axis=0)
         if at_end.any():
-            raw = to_rounding(self.kernel, grid, at_end, raw)
+            raw = to_rounding(raw, at_end, self.kernel.plan.outputs, grid.inputs_at(at_end))
         joined = grid.joined(raw, self.kernel)
         if not np.any((joined != raw) & np.isfinite(joined)):
             return None
@@ -40,15 +40,19 @@ class Angles:
         found = np.array([np.broadcast_to(each, grid.shape) for each in interpret(self.nodes, grid.inputs, known)], float)
         if at_end.any():
             there = {angle: values[at_end] for angle, values in zip(self.angles, joined, strict=True)}
-            for row, value in enumerate(interpret(self.nodes, grid.inputs_at(at_end), there, clipped=True)):
-                found[row, at_end] = value
+            found = to_rounding(found, at_end, self.nodes, grid.inputs_at(at_end), there)
         return found
 
 
-def to_rounding(kernel: Kernel, grid: Grid, at_end: Mask, values: FloatArray) -> FloatArray:
-    """Return the values (outputs, ...) of a kernel with those of poses put right that stand at a dead point to rounding."""
+def to_rounding(
+    values: FloatArray, at_end: Mask, nodes: Sequence[Node], inputs: Mapping[str, Any], known: Mapping[Node, Any] | None = None
+) -> FloatArray:
+    """Return the values (nodes, ...) of some nodes with those put right of the poses `at_end`, which stand at a dead point to rounding.
+
+    `inputs` and the values that are `known` are those of these poses, floats or (n,).
+    """
     found = np.array(values)
-    for row, value in enumerate(interpret(kernel.plan.outputs, grid.inputs_at(at_end), clipped=True)):
+    for row, value in enumerate(interpret(nodes, inputs, known, clipped=True)):
         found[row, at_end] = value
     return found
 

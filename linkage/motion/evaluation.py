@@ -10,9 +10,9 @@ import numpy as np
 
 from ..errors import DefinitionError, SingularError, one_word
 from ..plan import Plan
-from ..program import FloatArray, Kernel, Node, Way, interpret
+from ..program import FloatArray, Kernel, Node, Way
 from . import conditions, reach
-from .angles import Angles, angles_of
+from .angles import Angles, angles_of, to_rounding
 from .conditions import Judged
 from .grid import Grid
 from .motion import Motion
@@ -172,8 +172,8 @@ class Evaluation:
             found = block[rows, bad]
             at_end = ~mask & ~np.isfinite(found).all(axis=0)
             if not each.order and at_end.any():
-                inside = interpret(self.kernel.plan.outputs[rows], {name: value[at_end] for name, value in inputs.items()}, clipped=True)
-                found[:, at_end] = np.broadcast_arrays(*inside, np.empty(int(at_end.sum())))[:-1]
+                at = {name: value[at_end] for name, value in inputs.items()}
+                found = to_rounding(found, at_end, self.kernel.plan.outputs[rows], at)
             found = np.where(mask, np.nan, found)
             if self._raises and not np.isfinite(found).all():
                 self._refuse()

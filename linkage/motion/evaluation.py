@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import DefinitionError, SingularError, one_word
-from ..plan import Plan
+from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Kernel, Node, Way
 from . import conditions, reach
 from .angles import Angles, angles_of, to_rounding
@@ -143,18 +143,16 @@ class Evaluation:
         """
         plan, shape = self.grid.plan, (int(bad.sum()),)
         with np.errstate(all="ignore"):
-            reading = plan.read(inputs)
-            lost = np.zeros(shape, bool)
-            for name, mask in reach.failures(plan, reading, shape):
-                if name in self.names:
-                    lost |= mask
-            lost &= ~np.isfinite(block[:, bad]).all(axis=0) | reach.negative(plan, reading, shape)
+            lengths = ArrayReading(plan.members, plan.table.lengths, inputs)
+            lost = ~np.isfinite(block[:, bad]).all(axis=0) | reach.negative(plan, lengths, shape)
+            if lost.any():
+                lost[lost] = self._failed({name: value[lost] for name, value in inputs.items()}, int(lost.sum()))
         refused = [np.zeros(shape, bool) for _ in self.requests]
         for k, each in enumerate(self.requests):
             here = near[k] & ~lost
             if here.any():
                 at = {name: value[here] for name, value in inputs.items()}
-                found = examined(plan, each, at, plan.read(at))
+                found = examined(plan, each, at, plan.read(at))  # a reading of its own: what one request notes counts for no other
                 refused[k][here] = found.refused
                 if found.doubtful.any():
                     told = found.at(found.doubtful)
@@ -164,6 +162,14 @@ class Evaluation:
         if (broken & ~lost & ~np.any(refused, axis=0)).any() or (self._raises and np.any([lost, *refused])):
             self._refuse()
         self._fill(block, bad, inputs, [lost | mask for mask in refused])
+
+    def _failed(self, inputs: Mapping[str, Any], count: int) -> Mask:
+        """Return the mask of poses, shape (count,), at which something that the requests are built from cannot be placed."""
+        plan, names, failed = self.grid.plan, self.names, np.zeros(count, bool)
+        for name, mask in reach.failures(plan, plan.read(inputs), failed.shape):
+            if name in names:
+                failed |= mask
+        return failed
 
     def _fill(self, block: FloatArray, bad: Mask, inputs: Mapping[str, Any], without: Sequence[Mask]) -> None:
         """Fill the bad poses of a block: to rounding where they stand at a dead point, with NaN where a request has no value."""

@@ -1,4 +1,4 @@
-"""The house keeps its floors: an import points down or sideways, never up, and nothing heavy is loaded at the door."""
+"""The house keeps its floors: an import points down or sideways, never up or in a circle, and nothing heavy is loaded at the door."""
 
 import ast
 import subprocess
@@ -6,6 +6,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 
+import networkx as nx
 import pytest
 
 ROOT = Path(__file__).parents[1]
@@ -37,10 +38,32 @@ HEAVY = {"PIL", "imageio_ffmpeg", "matplotlib", "networkx", "numba", "pydantic",
 OPTIONAL = {"dask", "distributed", "ezdxf", "openpyxl", "pymoo"}  # extras: there may be nothing to import
 HEAVY_ROOMS = {f"linkage.{room}" for room in ("equations", "study", "draw", "animate", "page", "report", "files")}
 
+KNOWN_CIRCLES = [  # still there, each to be untied; a circle that is gone leaves this list, none joins it
+    [
+        "linkage/motion/gradient.py",
+        "linkage/motion/motion.py",
+        "linkage/motion/requests.py",
+        "linkage/motion/scan.py",
+        "linkage/motion/still.py",
+        "linkage/motion/transmission.py",
+        "linkage/motion/turns.py",
+    ],
+    ["linkage/plan/bodies.py", "linkage/plan/members.py", "linkage/plan/printing.py"],
+    ["linkage/plan/followed.py", "linkage/plan/plan.py"],
+    ["linkage/program/node.py", "linkage/program/simplify.py"],
+    ["linkage/quantities/quantity.py", "linkage/quantities/spelling.py"],
+]
+
 
 def room(module: str) -> str:
     """Return the second name of a dotted module: `steps` of `linkage.steps.dyad`."""
     return module.split(".")[1] if "." in module else "__init__"
+
+
+def origin(path: PurePosixPath, node: ast.ImportFrom) -> str:
+    """Return the absolute module that a `from ... import` of the file `path` names."""
+    base = path.parts[: -node.level] if node.level else ()
+    return ".".join([*base, node.module] if node.module else base)
 
 
 def imports(path: PurePosixPath, tree: ast.AST, lazy: bool = False) -> Iterator[tuple[ast.stmt, str, bool]]:
@@ -52,8 +75,7 @@ def imports(path: PurePosixPath, tree: ast.AST, lazy: bool = False) -> Iterator[
         if isinstance(node, ast.Import):
             yield from ((node, alias.name, lazy) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
-            base = path.parts[: -node.level] if node.level else ()
-            module = ".".join([*base, node.module] if node.module else base)
+            module = origin(path, node)
             names = (f"{module}.{alias.name}" for alias in node.names)
             yield from ((node, name if module == "linkage" and room(name) in FLOOR else module, lazy) for name in names)
         else:
@@ -101,22 +123,78 @@ def print_faults(path: PurePosixPath, tree: ast.AST) -> Iterator[str]:
                 yield f"{path}:{node.lineno}: print( in library code: return the text"
 
 
+def circles(sources: dict[str, str]) -> list[list[str]]:
+    """Return the files of each circle of imports among the files `sources`, path to text, imports for types and in functions included.
+
+    `from .room import x` leads to the module `room.x` if there is one, else to `room`, that is to its `__init__` if it is a folder.
+    """
+    modules = {path.removesuffix(".py").removesuffix("/__init__").replace("/", "."): path for path in sources}
+    graph = nx.DiGraph()
+    for path, text in sources.items():
+        for node in ast.walk(ast.parse(text, path)):
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom):
+                base = origin(PurePosixPath(path), node)
+                names = [name if (name := f"{base}.{alias.name}") in modules else base for alias in node.names]
+            else:
+                continue
+            graph.add_edges_from((path, modules[name]) for name in names if name in modules)
+    return sorted(sorted(circle) for circle in nx.strongly_connected_components(graph) if len(circle) > 1)
+
+
 def faults(path: str, source: str) -> list[str]:
     """Return every breach of the house's rules in the text of one file, its path counted from the checkout."""
     tree, place = ast.parse(source, path), PurePosixPath(path)
     return list(dict.fromkeys([*import_faults(place, tree), *print_faults(place, tree)]))
 
 
-SOURCES = sorted(file.relative_to(ROOT).as_posix() for package in MAY_IMPORT for file in (ROOT / package).rglob("*.py"))
+def sources() -> dict[str, str]:
+    """Return the text of every file of the three packages by its path, counted from the checkout."""
+    files = sorted(file for package in MAY_IMPORT for file in (ROOT / package).rglob("*.py"))
+    return {file.relative_to(ROOT).as_posix(): file.read_text(encoding="utf-8") for file in files}
 
 
-@pytest.mark.parametrize("path", SOURCES)
-def test_file_keeps_the_floors(path):
-    assert not faults(path, (ROOT / path).read_text(encoding="utf-8"))
+def test_files_keep_the_floors():
+    found = [fault for path, text in sources().items() for fault in faults(path, text)]
+    assert not found, "\n".join(found)
 
 
 def test_every_package_is_looked_at():
-    assert {path.split("/")[0] for path in SOURCES} == set(MAY_IMPORT)
+    assert {path.split("/")[0] for path in sources()} == set(MAY_IMPORT)
+
+
+def test_imports_go_in_no_circle_but_the_known_ones():
+    assert circles(sources()) == KNOWN_CIRCLES
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        ("from .base import A", "from .dyad import B"),
+        ("from linkage.steps.base import A", "from . import dyad"),
+        ("import linkage.steps.base", "from .dyad import B"),
+        ("from .base import A", "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from .dyad import B"),
+        ("from .base import A", "def f():\n    from .dyad import B"),
+        ("from .base import A", "from . import B"),
+        ("from .base import A", "from linkage.steps import B"),
+    ],
+)
+def test_circle_is_found(one, other):
+    files = {"linkage/steps/dyad.py": one, "linkage/steps/base.py": other, "linkage/steps/__init__.py": "from .dyad import B"}
+    (circle,) = circles(files)
+    assert {"linkage/steps/dyad.py", "linkage/steps/base.py"} <= set(circle)
+
+
+def test_what_no_circle_is():
+    files = {
+        "linkage/steps/__init__.py": "from .dyad import B\nfrom .base import A",
+        "linkage/steps/dyad.py": "from .base import A\nfrom linkage.errors import E\nfrom . import base",
+        "linkage/steps/base.py": "from ..errors import E\nimport numpy",
+        "linkage/errors.py": "",
+        "hydraulics/steps.py": "from linkage.steps import B",
+    }
+    assert circles(files) == []
 
 
 @pytest.mark.parametrize(

@@ -77,7 +77,7 @@ from .vectors import LEFT as LEFT
 from .vectors import RIGHT as RIGHT
 
 if TYPE_CHECKING:
-    from .equations import equations as equations
+    from .formulas import equations as equations
 
 
 def __getattr__(name: str) -> Any:

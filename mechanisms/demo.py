@@ -13,10 +13,9 @@ from pathlib import Path
 import numpy as np
 
 from linkage import Column, FileError, Motion
-from linkage.animate import animate
 from linkage.disk import in_words
-from linkage.draw import curves, poses
-from linkage.report import rich_tables, text_table
+from linkage.pictures import animate, curves, poses
+from linkage.reports import rich_tables, text_table
 from linkage.units import kgf_cm2
 
 from .mower_lift import MowerLift

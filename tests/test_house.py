@@ -239,7 +239,7 @@ def test_breach_is_found(path, source, fault):
         ("linkage/__init__.py", "from .cli import main\ndef __getattr__(name):\n    from importlib import import_module"),
         ("linkage/__main__.py", "from .cli import main"),
         ("hydraulics/cylinder.py", "from linkage import Stroke\nfrom .gas import isothermal"),
-        ("mechanisms/demo.py", "from hydraulics import Cylinder\ndef f():\n    from linkage.draw import show\n    print(1)"),
+        ("mechanisms/demo.py", "from hydraulics import Cylinder\ndef f():\n    from linkage.pictures import show\n    print(1)"),
     ],
 )
 def test_honest_file_is_left_alone(path, source):

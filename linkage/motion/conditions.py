@@ -21,7 +21,7 @@ from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Iterated, Node, scatter
 from ..quantities import Member
 from ..steps import Point
-from .reach import Mask, called, opening, where_words
+from .limits import Mask, called, opening, where_words
 
 WARN = 1e4
 REFUSE = 1e6

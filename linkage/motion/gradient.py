@@ -11,8 +11,8 @@ import numpy as np
 from ..errors import DefinitionError
 from ..plan import Plan
 from ..program import FloatArray, Kernel, Node, ancestors, gradient
-from .angles import Angles, angles_of
-from .reach import Mask
+from .grid import Angles, angles_of
+from .limits import Mask
 from .requests import BoundRequest, RequestLike, astray, bound, dimensions_of
 
 if TYPE_CHECKING:

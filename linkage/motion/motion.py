@@ -16,14 +16,15 @@ from ..program import FloatArray, Kernel
 from ..quantities import Angle, Distance, Member, Quantity, needs
 from ..steps import Arrow, Point
 from ..vectors import Vec
-from . import conditions, numeric, reach, scan
-from .angles import angles_of, to_rounding
-from .checks import method_of, named, order_of, rates_of
+from . import conditions, scan
+from . import differences as numeric
+from . import limits as reach
 from .conditions import Judged
 from .gradient import gradient_of
-from .grid import Beside, Grid, Joining, as_they_are, in_order
-from .reach import Mask
+from .grid import Beside, Grid, Joining, angles_of, as_they_are, in_order, to_rounding
+from .limits import Mask
 from .requests import BoundRequest, Everywhere, RequestLike, Value, examined, near_of, stroke_of, watched
+from .strokes import method_of, named, order_of, rates_of
 
 Target: TypeAlias = str | Member
 

@@ -18,10 +18,10 @@ from ..plan import NEAR, REGULAR, ArrayReading, Plan
 from ..program import FloatArray, Kernel, Node, Notes
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
-from .checks import named, order_of
 from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Judged, Left, Rounding, judged
 from .grid import Grid
-from .reach import Mask
+from .limits import Mask
+from .strokes import named, order_of
 
 if TYPE_CHECKING:
     from .motion import Motion

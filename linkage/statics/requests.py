@@ -13,17 +13,14 @@ from ..errors import DefinitionError, cited, known_name
 from ..motion import BoundRequest, Motion, Request
 from ..plan import Plan
 from ..program import Node, Notes
-from .contacts import Contact
+from .acting import Case, Loads, drive_of
 from .driving import driving_force
-from .elimination import eliminated_system, held
+from .equilibrium import System
 from .forces import pin_forces
-from .law import Law
-from .loaded import Case, Loads
-from .movement import drive_of
+from .joints import Contact, Structure
 from .result import met
-from .solved import Solved
-from .structure import Structure
-from .system import System
+from .solution import Solved
+from .traced_loads import Law, eliminated_system, held
 from .work import by_work
 
 

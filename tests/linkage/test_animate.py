@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
-from linkage import (
+from linkage import (  # fmt: skip
     LEFT,
     AssemblyError,
     Column,
@@ -24,13 +24,10 @@ from linkage import (
     OnLink,
     Stroke,
     angle,
-)  # fmt: skip
-from linkage.animate import animate
-from linkage.animate.course import course
-from linkage.animate.gif import palette_of
-from linkage.animate.stage import Stage
-from linkage.draw import style
-from linkage.page import page
+)
+from linkage.pictures import animate, page, style
+from linkage.pictures.film import Stage, palette_of
+from linkage.pictures.strokes import course
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.classics.slider_crank import SliderCrank
 from mechanisms.mower_lift import MowerLift

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 from numpy.testing import assert_allclose
 
-from linkage import (
+from linkage import (  # fmt: skip
     LEFT,
     RIGHT,
     AssemblyError,
@@ -28,15 +28,14 @@ from linkage import (
     Turn,
     Vector,
     deg,
-)  # fmt: skip
-from linkage.draw import curves, mechanism, poses, strokes, style
-from linkage.draw.bodies import BodyPart
-from linkage.draw.cylinders import lengthwise
-from linkage.draw.limits import crossings
-from linkage.draw.scene import Scene
-from linkage.draw.shapes import hull, rounded
-from linkage.draw.sheet import sheet
-from linkage.draw.sliders import BlockPart, hatched
+)
+from linkage.pictures import curves, mechanism, poses, strokes, style
+from linkage.pictures.curves import crossings
+from linkage.pictures.drawing import BodyPart
+from linkage.pictures.scene import Scene
+from linkage.pictures.shapes import hull, rounded
+from linkage.pictures.sheet import sheet
+from linkage.pictures.symbols import BlockPart, hatched, lengthwise
 from mechanisms.classics.inverted_slider_crank import InvertedSliderCrank
 from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.classics.slider_crank import SliderCrank

@@ -7,11 +7,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, RIGHT, Column, Crank, DefinitionError, Dyad, Ground, Mechanism, OnLink, Stroke, Weight
-from linkage.animate.course import course
-from linkage.animate.stage import Stage
-from linkage.draw import curves, poses
-from linkage.page.chart import chart
-from linkage.report import results, run_of
+from linkage.pictures import curves, poses
+from linkage.pictures.browser import chart
+from linkage.pictures.film import Stage
+from linkage.pictures.strokes import course
+from linkage.reports import results, run_of
 from linkage.statics import driving_force
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.classics.scotch_yoke import ScotchYoke

@@ -15,18 +15,18 @@ FLOORS = (
     ("errors", "units", "vectors", "disk", "frozen"),
     ("quantities",),
     ("steps", "loads"),
-    ("graph",),
     ("program",),
     ("plan",),
     ("assembly", "mobility"),
     ("motion",),
     ("mechanism",),
-    ("statics", "equations", "study"),
-    ("draw", "animate", "page", "report", "files"),
+    ("statics",),
+    ("formulas", "study", "files"),
+    ("pictures", "reports"),
     ("cli",),
 )
 FLOOR = {room: number for number, rooms in enumerate(FLOORS) for room in rooms}
-FRONT_DOOR = {"__init__", "__main__"}
+FRONT_DOOR = {"__init__", "__main__", "doors"}
 MAY_IMPORT = {  # of the project's own three
     "linkage": {"linkage"},
     "hydraulics": {"linkage", "hydraulics"},
@@ -36,7 +36,7 @@ MAY_PRINT = {"cli", "demo"}
 
 HEAVY = {"PIL", "imageio_ffmpeg", "matplotlib", "networkx", "numba", "pydantic", "rich", "scipy", "sympy"}
 OPTIONAL = {"dask", "distributed", "ezdxf", "openpyxl", "pymoo"}  # extras: there may be nothing to import
-HEAVY_ROOMS = {f"linkage.{room}" for room in ("equations", "study", "draw", "animate", "page", "report", "files")}
+HEAVY_ROOMS = {f"linkage.{room}" for room in ("formulas", "study", "pictures", "reports", "files")}
 
 KNOWN_CIRCLES = [  # still there, each to be untied; a circle that is gone leaves this list, none joins it
     [

@@ -40,9 +40,9 @@ def curves(machine: Mechanism, options: Namespace) -> Any:
     many = [name for name, values in given.items() if len(values) > 1]
     over = motion(machine, options.strokes, options.count) if many else along(machine, options.count, given)
     columns = picked(machine, over, options.columns, [])
-    from ..pictures import curves as drawn
+    from ..pictures import plot
 
-    return drawn(over, columns)
+    return plot(over, columns)
 
 
 def poses(machine: Mechanism, options: Namespace) -> Any:
@@ -52,9 +52,9 @@ def poses(machine: Mechanism, options: Namespace) -> Any:
         machine.at(**{name: 0.5 * (stroke.start + stroke.end) for name, stroke in machine.strokes.items()} | at)
     else:
         along(machine, options.count)
-    from ..pictures import poses as drawn
+    from ..pictures import draw
 
-    return drawn(machine, at or None, traced(machine, options.path), options.count)
+    return draw(machine, at or None, traced(machine, options.path), options.count)
 
 
 # `hydrolinkage animate NAME -o FILE`: a machine over its stroke, with the live curve of a result.

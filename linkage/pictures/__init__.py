@@ -1,16 +1,7 @@
-"""Pictures: a mechanism at a pose, at its end positions, and curves of results over the stroke."""
+"""Pictures: a mechanism at a pose, at its end positions, in motion, and curves of results over the stroke."""
 
-from .browser import page
-from .curves import Limit, curves
+from .browser import page_html
+from .curves import Limit, plot
 from .drawing import Drawing, mechanism
-from .film import animate
-from .poses import poses
-
-
-
-
-# Animations: the mechanism over its stroke and a live curve, as .gif, .mp4 or .html.
-
-
-
-# The browser page: a mechanism that moves, in one file that needs no network.
+from .film import animate, page
+from .poses import draw

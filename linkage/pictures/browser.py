@@ -158,7 +158,9 @@ def labels(scene: Scene, pixels: Pixels) -> list[Any]:
 COLOURS = ("INK", "MUTED", "RULE", "GRID", "PAPER", "CURVE", "ACCENT", "BARREL", "ROD", "PISTON")
 
 
-def page(motion: Motion, column: Column, paths: Sequence[str] = (), limit: Sequence[Any] | None = None, *, is_turn: bool = False) -> str:
+def page_html(
+    motion: Motion, column: Column, paths: Sequence[str] = (), limit: Sequence[Any] | None = None, *, is_turn: bool = False
+) -> str:
     """Return the HTML of a page: the mechanism over a row of poses, the live curve of a column, and its controls.
 
     `paths` names points whose paths are drawn; `limit` is `(value [SI], text, "above" or "below")`; a full turn goes

@@ -138,13 +138,8 @@ PANEL = (4.6, 3.0)
 """The size of a panel with its share of the margins [inch]."""
 
 
-def curves(motion: Motion, columns: Sequence[Column | str], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
-    """Return a figure of columns over the stroke, a panel each; a column that is the stroke itself is left out.
-
-    A column may go by its name: a named output, or a point's coordinate such as "G_y".
-    `limits` are, by the column's name, `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the
-    side that fails, above unless said, is shaded. Raises DefinitionError for a batch, a grid, or an unknown name.
-    """
+def plot(motion: Motion, columns: Sequence[Column | str], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
+    """Return a figure of columns over the stroke, a panel each; see `linkage.plot`."""
     moving, columns = strokes.driven(motion), named(motion, columns)
     if limits is not None and not isinstance(limits, Mapping):
         raise DefinitionError(f"limits={cited(limits)}: a limit for each column by its name is expected, dict(tilt=(0.1, 'max')).")

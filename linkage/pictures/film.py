@@ -22,7 +22,7 @@ from ..mechanism import Mechanism, require_mechanism
 from ..program import FloatArray
 from ..reports import NOTHING, At
 from . import strokes, style
-from .browser import page
+from .browser import page_html
 from .curves import Limit, panel, typeset
 from .curves import limit as limit_of
 from .drawing import Drawing
@@ -223,16 +223,7 @@ def animate(
     at: At = NOTHING,
     progress: Progress | None = None,
 ) -> Path:
-    """Return the path of the animation it wrote: a .gif, an .mp4 (extra `video`) or an .html page that works offline.
-
-    The mechanism runs over its first stroke, there and back (a full turn goes round), at `count` poses; beside it
-    the live curve of a column of its results, the last unless named. `at=dict(tilt=0.1)` holds another stroke, `at=dict(S=(0.1, 0.2))`
-    says where one runs [m or rad]; strokes not named stand in their middle. `trace` names points whose paths are
-    drawn; `limit` is the column's limit, `(value [SI], text, "above" or "below")`. `progress(done, total)` is called
-    as it goes. What stood at the path is replaced whole, or
-    left as it was. Raises DefinitionError for another kind of file, a batch of designs or an unknown name, FileError for a path that
-    cannot be written.
-    """
+    """Return the path of the animation it wrote; see `linkage.animate`."""
     require_mechanism(machine)
     if not isinstance(path, (str, os.PathLike)):
         raise DefinitionError(f"{cited(path)} is no path of a file; give one that ends in .gif, .mp4 or .html.")
@@ -250,6 +241,13 @@ def animate(
     run = course(machine, fineness * (poses - 1) + 1, column, at=at, eased=fineness == 1)
     write(run, target, trace, limit, progress or silent)
     return target
+
+
+def page(machine: Mechanism, path: str | Path, **given: Any) -> Path:
+    """Return the path of the browser page it wrote; see `linkage.page`."""
+    if not isinstance(path, (str, os.PathLike)) or Path(path).suffix.lower() != ".html":
+        raise DefinitionError(f"{cited(path)} is no name of a page; give one that ends in .html.")
+    return animate(machine, path, **given)
 
 
 def silent(done: int, total: int) -> None:
@@ -273,7 +271,7 @@ def mp4(run: Course, target: Path, trace: Sequence[str], limit: Any, progress: P
 
 def html(run: Course, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
     """Write a page."""
-    text = page(run.motion, run.column, trace, limit, is_turn=run.is_turn)
+    text = page_html(run.motion, run.column, trace, limit, is_turn=run.is_turn)
     progress(1, 2)
     with replacing_text(target) as stream:
         stream.write(text)

@@ -18,7 +18,7 @@ from ..program import FloatArray
 from ..quantities import is_whole, real
 from ..reports import Run, first, middle
 from . import strokes, style
-from .drawing import Drawing
+from .drawing import Drawing, mechanism
 from .free_space import cloud
 from .scene import Box, Scene
 from .sheet import Picture, sheet
@@ -67,25 +67,47 @@ MANY = 1_000_000
 """Poses of a path: more do not fit into a picture."""
 
 
-def poses(machine: Mechanism, at: Any = None, path: Sequence[str] = (), count: int = 101) -> Figure:
-    """Return a figure of a mechanism at chosen strokes: the last one bold, the others faint.
-
-    `at` are values of the first stroke [m or rad], or a mapping `dict(S=[0.0, 0.25])` for another or for several;
-    without it, the two ends of the first stroke (of a full turn its middle and its start), the others in their
-    middle. `path` names points whose paths are
-    drawn over that stroke, at `count` poses. Poses out of reach are left out, and the picture says so; where none is in reach this raises
-    AssemblyError.
-    """
+def draw(
+    machine: Mechanism | Motion,
+    at: Any = None,
+    path: Sequence[str] = (),
+    count: int = 101,
+    *,
+    ax: Axes | None = None,
+    pose: int | tuple[int, ...] = 0,
+    faint: bool = False,
+) -> Figure | Drawing:
+    """Return a mechanism's figure at chosen strokes, or a motion at one of its poses, on axes if they are given; see `linkage.draw`."""
+    if isinstance(machine, Motion):
+        return draw_pose(machine, pose, ax=ax, faint=faint)
     require_mechanism(machine)
+    if ax is not None:
+        raise DefinitionError(f"{machine.plan.title}: ax= takes a motion, which has poses; write draw(machine.at(...), ax=ax).")
+    return draw_strokes(machine, at, path, count)
+
+
+def draw_pose(motion: Motion, pose: int | tuple[int, ...] = 0, *, ax: Axes | None = None, faint: bool = False) -> Figure | Drawing:
+    """Return a motion drawn at a pose: as a figure of its own, or as what can be updated on the axes `ax`."""
+    if ax is not None:
+        return mechanism(ax, motion, pose, faint=faint)
+    figure, own = empty_page(Scene(motion).box())
+    mechanism(own, motion, pose, faint=faint)
+    top = 1.0 - 0.24 / float(figure.get_figheight())
+    figure.text(LEFT / WIDTH, top, motion.plan.heading, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
+    return figure
+
+
+def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int) -> Figure:
+    """Return a figure of a mechanism at chosen strokes: the last one bold, the others faint."""
     path = named_points(machine, path, "path")
     if not is_whole(count) or not 2 <= count <= MANY:
         raise DefinitionError(f"count={cited(count)}: a path is drawn through 2 poses or more; give a whole number such as 101.")
     moving, shown, swept = motions(machine, at, count)
     whole = Scene(swept)
-    figure, ax = page(whole.box())
+    figure, ax = empty_page(whole.box())
     for name in path:
         trace(ax, whole.places[name], f"path{'s' if len(path) > 1 else ''} of {', '.join(path)}" if name == path[0] else "")
-    draw(ax, shown, swept, [whole.places[name].T for name in path])
+    draw_poses(ax, shown, swept, [whole.places[name].T for name in path])
     heading(figure, ax, shown, moving)
     remark(figure, ax, strokes.unreached(swept, moving))
     return figure
@@ -128,7 +150,7 @@ def named_points(machine: Mechanism, names: Any, what: str) -> tuple[str, ...]:
     return tuple(known_name("Point", name, machine.plan.points, where=machine.plan.title) for name in names)
 
 
-def page(box: Box) -> tuple[Figure, Axes]:
+def empty_page(box: Box) -> tuple[Figure, Axes]:
     """Return a figure with a sheet that fits a box [m]."""
     left, right, bottom, top = box
     wide = WIDTH - LEFT - RIGHT
@@ -141,7 +163,7 @@ def page(box: Box) -> tuple[Figure, Axes]:
     return figure, ax
 
 
-def draw(ax: Axes, shown: Motion, swept: Motion, keep_clear: Sequence[FloatArray]) -> None:
+def draw_poses(ax: Axes, shown: Motion, swept: Motion, keep_clear: Sequence[FloatArray]) -> None:
     """Draw the poses of a motion, the last one in reach bold."""
     scene = Scene(shown, swept)
     *others, last = scene.reached

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from linkage import DefinitionError, Motion
+from linkage import DefinitionError, Motion, draw
 from linkage.errors import unknown
 from linkage.program import FloatArray
 from linkage.reports import closely
@@ -135,9 +135,9 @@ def _heights(ax: Any, motion: Motion) -> None:
 
 def lift_range(hitch: ThreePointHitch) -> Any:
     """Return the hitch lowered (faint) and lifted, with the lift range of the hitch points."""
-    from linkage.pictures import poses, style
+    from linkage.pictures import style
 
-    sheet = poses(hitch, path=["F", "G"])
+    sheet = draw(hitch, path=["F", "G"])
     (ax,) = sheet.axes
     ends = hitch.at(S=[hitch.strokes["S"].start, hitch.strokes["S"].end])
     low, high = ends.y("F")

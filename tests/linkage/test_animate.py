@@ -25,7 +25,7 @@ from linkage import (  # fmt: skip
     Stroke,
     angle,
 )
-from linkage.pictures import animate, page, style
+from linkage.pictures import animate, page_html, style
 from linkage.pictures.film import Stage, palette_of
 from linkage.pictures.strokes import course
 from mechanisms.classics.front_loader import FrontLoader
@@ -136,7 +136,7 @@ def test_names_keep_close_to_their_points():
 
 def test_a_page_has_the_rail_and_the_block():
     motion = SliderCrank().sweep(9)
-    scene = data_of(page(motion, Column("d", motion["d"], "m")))["scene"]
+    scene = data_of(page_html(motion, Column("d", motion["d"], "m")))["scene"]
     assert len(scene["rails"]) == 1
     assert [scene["names"][each["rider"]] for each in scene["blocks"]] == ["B"]
     assert {len(pose) for pose in scene["poses"]} == {len(scene["names"]) + 2}
@@ -224,7 +224,7 @@ def test_a_page_escapes_what_it_shows():
 
     Sly.plan.title = "</script><b>{{JS}}&"
     motion = Sly().sweep(3)
-    text = page(motion, Column("a<b", motion["psi"], "deg"), limit=(1.0, "</script>"))
+    text = page_html(motion, Column("a<b", motion["psi"], "deg"), limit=(1.0, "</script>"))
     assert text.count("</script>") == 2
     assert "<b>" not in text
     assert "<h1>&lt;/script&gt;&lt;b&gt;{{js}}&amp;</h1>" in text
@@ -234,7 +234,7 @@ def test_a_page_escapes_what_it_shows():
 
 def test_a_page_has_no_pose_out_of_reach():
     motion = TooLong().sweep(unreachable="nan", S=40)
-    data = data_of(page(motion, Column("G_y", motion.y("G"), "m")))
+    data = data_of(page_html(motion, Column("G_y", motion.y("G"), "m")))
     assert data["reached"] == np.flatnonzero(motion.reached).tolist()
     assert all(None not in data["scene"]["poses"][pose] for pose in data["reached"])
     assert data["chart"]["column"]["values"][-1] is None

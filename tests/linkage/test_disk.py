@@ -16,7 +16,7 @@ from linkage import FileError, LinkageError
 from linkage.cli import main
 from linkage.disk import check_place, read, replacing, replacing_text
 from linkage.files import load, save
-from linkage.pictures import animate, curves, poses
+from linkage.pictures import animate, draw, plot
 from linkage.pictures.film import html, write_gif, write_mp4
 from linkage.pictures.strokes import course
 from mechanisms.classics.four_bar import FourBar
@@ -28,7 +28,7 @@ posix = pytest.mark.skipif(sys.platform == "win32", reason="rights and links of 
 @cache
 def figures():
     """Return a figure of each kind."""
-    return poses(FourBar(), count=5), curves(FourBar().sweep(5), ["P_x"])
+    return draw(FourBar(), count=5), plot(FourBar().sweep(5), ["P_x"])
 
 
 def drawn(path):

@@ -192,7 +192,7 @@ from linkage import equations
 from linkage.formulas import equations as function
 from linkage import equations as again
 from mechanisms.mower_lift import MowerLift
-print(str(equations(MowerLift)) == str(function(MowerLift)) == str(again(MowerLift)) == str(linkage.formulas(MowerLift)))
+print(str(equations(MowerLift)) == str(function(MowerLift)) == str(again(MowerLift)) == str(linkage.equations(MowerLift)))
 """
     done = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True)
     assert done.stdout.strip() == "True"

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from linkage.pictures import poses
+from linkage.pictures import draw
 from linkage.pictures.film import stroke_words
 from linkage.pictures.poses import on_its_way
 from linkage.pictures.scene import Scene
@@ -36,7 +36,7 @@ def test_a_point_that_stands_still_has_no_arrow():
 
 @pytest.mark.parametrize("machine", [Pantograph, ScissorLift, ScotchYoke, SliderCrank, Trammel])
 def test_names_keep_clear_of_the_hatches_of_rails(machine):
-    figure = poses(machine())
+    figure = draw(machine())
     figure.canvas.draw()
     (ax,) = figure.axes
     motion = machine().at(**{name: [stroke.start, stroke.end] for name, stroke in machine.plan.strokes.items()})

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..quantities import Function, Length, Member, Number, Quantity, angle, distance, x, y
-from ..quantities.arithmetic import FUNCTIONS
+from ..quantities.quantity import FUNCTIONS
 from ..steps import Arrow, CosineAngle, Turn, Vector
 
 

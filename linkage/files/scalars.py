@@ -11,7 +11,7 @@ from pydantic import PlainValidator, ValidationInfo
 from ..errors import DefinitionError, unknown
 from ..motion import stroke_unit
 from ..quantities import Dimension, Member, Quantity, Stroke, ref
-from ..quantities.numbers import plain
+from ..quantities.quantity import plain
 from ..steps import Arrow, Drawn
 from ..units import UNITS, parse
 from .design import Design, in_degrees

@@ -29,7 +29,7 @@ from linkage import (
     x,
     y,
 )
-from linkage.motion.unwrap import unwrapped
+from linkage.motion.grid import unwrapped
 from mechanisms.three_point_hitch import ThreePointHitch
 
 

@@ -101,8 +101,8 @@ class Trace(Reading):
                 self.loops.append(Loop(self.owner, "guides", (sine,)))
             self.noted[self.owner] = sine
         elif sine == 0.0:
-            step = self.members[self.owner]
-            raise DefinitionError(f"{self.owner} = {step}: the lines that meet in it are parallel at every pose; change an angle.")
+            text = f"{self.owner} = {self.members[self.owner]}: the lines that meet in it are parallel at every pose; change an angle."
+            raise DefinitionError(text, member=self.owner)
         return sine
 
     def apart(self, square: Scalar) -> Scalar:

@@ -121,7 +121,7 @@ class Mechanism(metaclass=Structure):
                 type.__setattr__(cls, name, of_a_design(of_own_motion(vars(cls)[name])))
         members = declared(cls)
         type.__setattr__(cls, "plan", Plan(assembled(members, cls.__name__), cls.__name__))
-        reached = set[str]().union(*map(cls.plan.reaches, cls.plan.moving))
+        reached = cls.plan.reaches(*cls.plan.moving)
         for name in cls.plan.strokes:
             if name not in reached and cls.plan.points:
                 text = f"{cls.__name__}: the stroke {name} moves nothing; use it in a length or an angle, or take it out."

@@ -12,7 +12,7 @@ import numpy as np
 from ..assembly import places_at
 from ..errors import AssemblyError, DefinitionError
 from ..plan import Plan, Reading, Trace, merged, strokes_text
-from ..program import FloatArray, Level, Node, Tangent, interpret
+from ..program import FloatArray, Level, Node, Tangent, ancestors, interpret
 from ..quantities import name_of
 from ..steps import Link, Offset, Slide
 from ..units import mm
@@ -67,10 +67,13 @@ def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Any]) -> Rows:
     held = held_points(plan, {owner for owner, _ in nodes if owner in plan.points})
     seeds: dict[str, Node] = {f"{name}.{axis}": getattr(trace.positions[name], axis) for name in held for axis in "xy"}
     seeds |= {name: trace.inputs[name] for name in plan.strokes}
-    tangents = [Tangent(trace.graph, {seed: 1.0}) for seed in seeds.values()]
-    entries = [tangent.of(node) for _, node in nodes for tangent in tangents]
+    columns = {seed: column for column, seed in enumerate(seeds.values())}
+    tangents = [Tangent(trace.graph, {seed: 1.0}) for seed in columns]
+    behind = [(row, columns[each], node) for row, (_, node) in enumerate(nodes) for each in ancestors([node]) if each in columns]
     at = dict(inputs) | {f"@{name}.{axis}": places[name][k] for name in plan.points for k, axis in enumerate("xy")}
-    matrix = np.array([float(value) for value in interpret(entries, at)]).reshape(len(nodes), len(seeds))
+    matrix = np.zeros((len(nodes), len(seeds)))
+    for (row, column, _), value in zip(behind, interpret([tangents[column].of(node) for _, column, node in behind], at), strict=True):
+        matrix[row, column] = float(value)
     return Rows(unit(matrix), tuple(owner for owner, _ in nodes), tuple(seeds))
 
 

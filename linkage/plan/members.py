@@ -205,29 +205,40 @@ class Members:
 
     # -- what moves with what --------------------------------------------------------------------------
 
-    def reaches(self, start: Member | str) -> set[str]:
-        """Return the names of all members that something is built from, itself included."""
-        if isinstance(start, str):
-            if start not in self._behind:
-                self._behind[start] = frozenset(self._reached([start]))
-            return set(self._behind[start])
-        return self._reached(list(needs(start)))
-
-    def _reached(self, stack: list[str]) -> set[str]:
+    def reaches(self, *starts: Member | str) -> set[str]:
+        """Return the names of all members that some things are built from, themselves included."""
+        if len(starts) == 1 and isinstance(starts[0], str) and starts[0] in self._behind:
+            return set(self._behind[starts[0]])
+        stack = [name for each in starts for name in ([each] if isinstance(each, str) else needs(each))]
         found: set[str] = set()
         while stack:
             name = stack.pop()
-            if name not in self.members:
-                raise unknown("Name", name, self.named(), where=self.title)
             if name not in found:
-                member = self.members[name]
+                member = self.member(name)
                 found.add(name)
                 stack += [*needs(member), *(member.companions if isinstance(member, Point) else ())]
+        if len(starts) == 1 and isinstance(starts[0], str):
+            self._behind[starts[0]] = frozenset(found)
         return found
+
+    def member(self, name: str) -> Member:
+        """Return a member by its name; DefinitionError, with the names there are, where there is none."""
+        if name not in self.members:
+            raise unknown("Name", name, self.named(), where=self.title)
+        return self.members[name]
 
     def moves(self, quantity: Member) -> bool:
         """Return whether a quantity follows a stroke."""
-        return isinstance(quantity, Stroke) or any(name in self.strokes for name in self.reaches(quantity))
+        return isinstance(quantity, Stroke) or any(self.member(name).name in self._driven for name in needs(quantity))
+
+    @cached_property
+    def _driven(self) -> frozenset[str]:
+        """The names of the members that follow a stroke."""
+        found = set(self.strokes)
+        for name, member in self.members.items():  # in order: what a member needs stands before it
+            if not found.isdisjoint(needs(member)):
+                found.add(name)
+        return frozenset(found)
 
     @cached_property
     def bars(self) -> tuple[Bar, ...]:
@@ -301,7 +312,7 @@ class Members:
         """The lengths that follow other quantities, and so can become negative, each with the member that it places."""
         place = list(self.members).index
         found = [(max(ends, key=place), length) for ends, length in self.table.lengths.items()]
-        names = set().union(*map(self.reaches, self.points))
+        names = self.reaches(*self.points)
         found += [(name, length) for name in sorted(names, key=place) for part in self.with_parts(name) for length in part.lengths()]
         return tuple((name, length) for name, length in found if not isinstance(length, (Variable, Number, Length, Distance)))
 
@@ -312,7 +323,7 @@ class Members:
     @cached_property
     def may_overflow(self) -> bool:
         """Whether a place depends on arithmetic that has no value everywhere: quotients, powers, functions."""
-        names = set().union(*map(self.reaches, self.points))
+        names = self.reaches(*self.points)
         parts = [part for name in names for part in self.with_parts(name)]
         return any(isinstance(part, Function) or (isinstance(part, Operation) and part.symbol != "*") for part in parts)
 

@@ -335,7 +335,7 @@ class Members:
     @cached_property
     def defaults(self) -> dict[str, float]:
         """The design variables at their defaults [SI]."""
-        return FrozenDict({name: entry.default for name, entry in self.table.entries.items()})
+        return FrozenDict(self.table.defaults)
 
     @cached_property
     def sketch_strokes(self) -> dict[str, float]:

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from ..vectors import FloatArray
 from .derivatives import jacobian
 from .linear import solve_arrays
 from .node import Closure, Node
-from .numpy_backend import FloatArray
 from .operations import OPERATIONS
 from .schedule import ancestors
 

@@ -14,11 +14,12 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..errors import DefinitionError
+from ..vectors import FloatArray
 from .elimination import expanded
 from .float_backend import Floats
 from .node import Level, Node
 from .numba_backend import Fused
-from .numpy_backend import LARGEST, Arrays, FloatArray, is_array, is_table
+from .numpy_backend import LARGEST, Arrays, is_array, is_table
 from .schedule import Schedule, rewritten, schedule
 
 # Cosine and sine from the tangent of half the angle: NumPy takes that on vectors, eight times as fast as each of the two.

@@ -11,8 +11,8 @@ from threading import local
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from ..vectors import FloatArray
 from .cache import compiled
 from .node import Node
 from .operations import ARRAYS, FLOATS
@@ -116,7 +116,6 @@ def statement(op: str, operands: str, target: str) -> str:
     return f"{op}({operands}, {'out=' if op in NAMED else ''}{target})"
 
 
-FloatArray = npt.NDArray[np.float64]
 SMALLEST, LARGEST = 8192, 16384
 
 

@@ -10,13 +10,13 @@ from typing import Any
 import sympy
 
 from ..plan import Plan
-from ..quantities import Member, Quantity, Reference, Turning, Variable, name_of, spelled
+from ..quantities import Member, Quantity, Reference, Tabulated, Turning, Variable, name_of, spelled
 from ..steps import Arrow, CosineAngle, Ground, Group, Guide, Offset, Pin, Point, Turn, Vector
 from ..steps.expansion import Assignment, Axis, expansion
 from ..vectors import Line
 from .names import Names
 from .printing import Text
-from .symbolic import ANGLE, FUNCTIONS, LENGTH, NUMBER, Place, Term, Unit, input_units, term
+from .symbolic import ANGLE, FUNCTIONS, LENGTH, NUMBER, Place, Term, Unit, curve_function, input_units, term
 from .words import Direction, Norm, Tcos, TurnV, TurnVL, vector_symbol
 
 # What each primitive is written as; any other step by its own rule, in components.
@@ -294,6 +294,10 @@ class Listing:
         along = Place(lambda: self._vectors["line", name], self, unit=NUMBER)
         start: Any = Place(lambda: self.names.vector(name), self) if member.P is None else self.at(member.P)
         return Line(start, along)  # type: ignore[arg-type]
+
+    def curve(self, curve: Tabulated, x: Any, order: int = 0) -> Term:
+        """Return what a table gives, by its name."""
+        return Term(curve_function(curve, order)(term(x).expr))
 
     def angle_of(self, vector: Any) -> Term:
         """Return a vector's direction."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..program import Graph, Level, Node
-from ..quantities import Member, Quantity, Turning
+from ..quantities import Member, Quantity, Tabulated, Turning
 from ..steps import Ground, Point
 from ..vectors import Scalar, Vec
 from .reading import ArrayReading, Reading
@@ -118,6 +118,17 @@ class Trace(Reading):
         if length.level is Level.POSE:
             self.loops.append(Loop(self.owner, "meeting", (length,)))
         return length
+
+    def curve(self, curve: Tabulated, x: Scalar, order: int = 0) -> Scalar:
+        at = self.graph.node(x)
+        point = next((name for name in reversed(self.placing) if isinstance(self.members[name], Point)), "")
+        if point and curve.ends is not None:  # of an output it is enough that it has no value there
+            low, high = curve.ends
+            inside = self.graph.apply("minimum", at - low, high - at)
+            if Guard(point, inside) not in self.guards:
+                self.guards.append(Guard(point, inside))
+                self.loops += [Loop(point, "length", (inside,))] if inside.level is Level.POSE else []
+        return curve.value(at, order, self.graph.pick)
 
     def _measure(self, node: Node, exact: Node | None = None) -> None:
         found = Measure(self.owner, node, node if exact is None else exact)

@@ -67,8 +67,8 @@ def gruebler_count(plan: Members) -> int:
 
 
 def half_joints(point: Point) -> int:
-    """Return how many guides and slots take one freedom each at a step."""
-    return sum(1 for joint in point.joints() if joint.track)
+    """Return how many guides, slots and contacts take one freedom each at a step."""
+    return sum(1 for joint in point.joints() if joint.is_half)
 
 
 # A plan as text: lines that can be pasted into a class.

@@ -10,4 +10,4 @@ from .onlink import OnLink
 from .pin import Drawn, Group, Pin, drawn
 from .primitives import Arrow, CosineAngle, Offset, Turn, Vector
 from .sliders import GuideCross, PinSlotDyad, SliderDyad, YokeDyad
-from .step import UNBOUND, Bar, Point, Step
+from .step import UNBOUND, Bar, Contour, Point, Step

@@ -10,6 +10,7 @@ from math import pi
 from typing import Any, Self
 
 import numpy as np
+import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
@@ -41,8 +42,21 @@ class Bar:
     length: Quantity
 
 
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Contour:
+    """A closed line that is drawn and moves with the points P and Q: its corners along P -> Q and to its left from P, shape (2, n) [m]."""
+
+    P: str
+    Q: str
+    corners: npt.NDArray[np.float64]
+
+
 class Point(Holding):
-    """A named point of the mechanism."""
+    """A named point of the mechanism.
+
+    A step of one's own says `parts`, `place`, `constraints` and `joints`; all the rest has a default that serves.
+    """
 
     kind = "point"
 
@@ -92,6 +106,10 @@ class Point(Holding):
     def shortage(self, where: Where) -> tuple[str, Scalar]:
         """Return what is too short to place this point, in words, and by how much [m]."""
         return "its point lies nowhere", float("nan")
+
+    def outline(self, where: Where) -> tuple[Contour, ...]:
+        """Return what is drawn of this step beside bodies, guides and pins."""
+        return ()
 
 
 class Step(Point):

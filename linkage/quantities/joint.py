@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias, final
 
 from ..frozen import refuses_changes
-from ..vectors import Line
+from ..vectors import Line, Scalar
 from .member import Member, Where
 from .quantity import Quantity
 
@@ -82,6 +82,10 @@ class Holding(Member):
 
     def joints(self) -> tuple[Joint, ...]:
         """Return the joints it brings, beside the pins of bodies that share a point."""
+        return ()
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        """Return what must vanish where it holds, in every reading; empty for a free construction, and for what holds nothing."""
         return ()
 
 

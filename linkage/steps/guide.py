@@ -107,6 +107,9 @@ class Slide(Holding):
         line = where.line(self.guide)
         return line.direction.cross(where.at(self.point) - line.origin)
 
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        return (self.miss(where),)
+
     def joints(self) -> tuple[Joint, ...]:
         return (guided(name_of(self.point), name_of(self.guide)),)
 

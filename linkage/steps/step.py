@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
-from ..quantities import Holding, Number, Quantity, Reference, Where, is_number, name_of, quantity
+from ..quantities import Holding, Member, Number, Quantity, Reference, Where, is_number, name_of, quantity
 from ..units import deg
 from ..vectors import Scalar, Side, Vec
 from .labels import Claims, Slot, match, relabelled, written_labels
@@ -52,6 +52,15 @@ class Contour:
     corners: npt.NDArray[np.float64]
 
 
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Assignment:
+    """A name given to a primitive of the vector method, `OAB = CosineAngle(...)`; to a quantity, it is the label of a length."""
+
+    name: str
+    value: Member
+
+
 class Point(Holding):
     """A named point of the mechanism.
 
@@ -68,9 +77,23 @@ class Point(Holding):
     def place(self, where: Where) -> Vec:
         """Return the position [m]; NaN where it cannot be assembled."""
 
-    def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        """Return what must vanish at this point's place, in every reading; empty for a free construction."""
+    def expansion(self) -> tuple[Assignment, ...]:
+        """Return the primitives that this step stands for, in the vector method's order; empty where its own rule is written out."""
         return ()
+
+    @property
+    def is_fixed(self) -> bool:
+        """Whether it belongs to the frame."""
+        return False
+
+    def coordinates(self) -> tuple[tuple[str, Quantity], ...]:
+        """Return the names and values of both coordinates, where it is given by them."""
+        return ()
+
+    @property
+    def hangs_from(self) -> str:
+        """The point that a construction alone leads from, drawn as a thin line where no body joins them; empty where others hold it."""
+        return ""
 
     @property
     def closes(self) -> bool:

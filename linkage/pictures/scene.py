@@ -16,7 +16,7 @@ from ..loads import TwoPoint
 from ..motion import Motion, require_motion
 from ..program import FloatArray
 from ..quantities import Joint
-from ..steps import Guide, Offset, Slide
+from ..steps import Guide
 from .shapes import APART, HALF, OUTLINES, Outline, hull, turning_with, yokes
 
 # What points slide along: fixed rails and slots on moving bodies, each as long as the travel asks.
@@ -84,8 +84,7 @@ def slots(motion: Motion) -> Iterator[Track]:
 
 def every(motion: Motion) -> Iterator[Joint]:
     """Yield all joints that points slide in, driven or not."""
-    members = {**motion.plan.points, **motion.plan.of_kind(Slide)}
-    return (joint for member in members.values() for joint in member.joints() if joint.track)
+    return (joint for member in motion.plan.holding.values() for joint in member.joints() if joint.track)
 
 
 def row(motion: Motion, x: object, y: object) -> FloatArray:
@@ -292,7 +291,7 @@ class Scene:
     def stays(self) -> tuple[tuple[str, str], ...]:
         """Pairs that a construction joins and no body does: drawn as thin lines."""
         bodies = [set(body.points) for body in self.motion.plan.links] + [{each.P, each.Q} for each in self.hung]
-        pairs = [(step.P if isinstance(step.P, str) else step.P.name, name) for name, step in self.motion.plan.of_kind(Offset).items()]
+        pairs = [(point.hangs_from, name) for name, point in self.motion.plan.points.items() if point.hangs_from]
         return tuple((P, X) for P, X in pairs if not any({P, X} <= body for body in bodies))
 
     @cached_property

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import DefinitionError, unknown
 from ..quantities import Member, Quantity, Reference, Stroke, Tabulated, Turning, name_of
-from ..steps import Ground, Point
+from ..steps import Point
 from ..vectors import Line, Scalar, Vec
 
 
@@ -150,7 +150,7 @@ class Reading:
     @cached_property
     def extent(self) -> Scalar:
         """The square of the machine's size [m2]: the longest length that follows no stroke, or the distance of two fixed points."""
-        fixed = [self.at(name) for name, member in self.members.items() if isinstance(member, Ground)]
+        fixed = [self.at(name) for name, member in self.members.items() if isinstance(member, Point) and member.is_fixed]
         squares = [(place - fixed[0]).square() for place in fixed[1:]]
         squares += [value * value for length in self.lengths.values() if self.stays(value := self.value(length))]
         ranges = [max(abs(member.start), abs(member.end)) for member in self.members.values() if isinstance(member, Stroke)]

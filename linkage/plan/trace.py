@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..program import Graph, Level, Node
 from ..quantities import Member, Quantity, Tabulated, Turning
-from ..steps import Ground, Point
+from ..steps import Point
 from ..vectors import Scalar, Vec
 from .reading import ArrayReading, Reading
 
@@ -141,7 +141,7 @@ class Trace(Reading):
     @cached_property
     def away(self) -> Node:
         """What is above zero where the fixed points stand near enough to the origin."""
-        places = [self.at(name) for name, member in self.members.items() if isinstance(member, Ground)]
+        places = [self.at(name) for name, member in self.members.items() if isinstance(member, Point) and member.is_fixed]
         coordinates = [part for place in places for part in (place.x, place.y)]
         return self.graph.node(self.extent * AWAY**2 - reduce(np.maximum, (part * part for part in coordinates), 0.0))
 

@@ -120,10 +120,8 @@ def turning(members: Mapping[str, Member]) -> frozenset[str]:
 
 def angles(members: Mapping[str, Member]) -> Iterator[Quantity]:
     """Yield the quantities that stand for angles."""
-    rigid = [step for member in members.values() if isinstance(member, Group) for step in member.rigid]
-    for member in (*members.values(), *rigid):
-        found = [getattr(member, "angle", None), getattr(member, "QPX", None)]
-        yield from (angle for angle in found if isinstance(angle, Quantity))
+    for member in members.values():
+        yield from member.angles()
 
 
 Kind = TypeVar("Kind", bound=Member)

@@ -185,6 +185,9 @@ class CurveValue(Quantity):
     def parts(self) -> tuple[Reference, ...]:
         return (self.x,)
 
+    def angles(self) -> tuple[Quantity, ...]:
+        return (self.x,) if self.curve.period is not None and abs(self.curve.period - 2.0 * pi) < 1e-9 else ()
+
     def rule(self, where: Where) -> Scalar:
         return where.curve(self.curve, where.value(self.x), self.order)
 

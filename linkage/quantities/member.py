@@ -101,6 +101,10 @@ class Member:
         """Return the quantities that stand for lengths in this member, beside its labels: none may be negative."""
         return ()
 
+    def angles(self) -> tuple[Any, ...]:
+        """Return the quantities that stand for angles in this member: strokes and dimensions that they are sums of are in rad."""
+        return ()
+
     def examine(self, members: Any, title: str) -> None:
         """Raise DefinitionError for what only the whole class tells to be wrong: its members by name, its title."""
 

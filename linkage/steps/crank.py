@@ -30,6 +30,9 @@ class Crank(Step):
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), self.angle)
 
+    def angles(self) -> tuple[Quantity, ...]:
+        return (self.angle,)
+
     def slots(self) -> tuple[Slot, ...]:
         return (Slot("PX", (self.P, self.X)),)
 

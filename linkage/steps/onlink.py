@@ -48,6 +48,9 @@ class OnLink(Step):
         """Return the quantities of its labels."""
         return tuple(each for each in (self.PX, self.QX, self.QPX) if each is not UNBOUND)
 
+    def angles(self) -> tuple[Quantity, ...]:
+        return () if self.QPX is UNBOUND else (self.QPX,)
+
     def modes(self) -> tuple[Side, ...]:
         return (Side.LEFT, Side.RIGHT) if self.QX is not UNBOUND else ()
 

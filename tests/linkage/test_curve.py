@@ -103,6 +103,7 @@ def test_sympy_reads_the_program_and_the_equations():
     (closed,) = program_expressions(Lifted.plan, "height")
     assert_allclose(float(closed.subs(sympy.Symbol("phi", real=True), 0.7)), motion["height"], rtol=1e-14)
     written = equations(Lifted, ratio="height")
+    assert "phi" in Lifted.plan.turning
     assert str(written["height"]) == "height(phi) = wave(phi)"
     assert str(written["dheight/dphi"]) == "dheight/dphi = wave'(phi)"
     assert_allclose(written.values(dict(phi=0.7))["dheight/dphi"], motion.ratio("height"), rtol=1e-13)

@@ -15,7 +15,7 @@ import pytest
 
 from linkage.cli import Command, machines, main
 from linkage.cli import command as progress
-from linkage.cli import main as commands
+from linkage.cli import entry as commands
 from linkage.cli import show as listing
 
 OWN = '''

@@ -8,11 +8,13 @@ from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from ..disk import check_place
 from ..errors import DefinitionError
-from ..mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from ..mechanism import Mechanism
 
 MOST = 100_000_000
 """Poses of a command."""
@@ -66,6 +68,13 @@ def counted(text: str) -> int:
     if count > MOST:
         raise ArgumentTypeError(f"{text} poses do not fit into memory; lower --count, such as to 1001")
     return count
+
+
+def lined_up(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Yield rows of text as lines whose cells start below each other."""
+    sizes = [max(map(len, cells)) for cells in zip(*rows, strict=True)]
+    for row in rows:
+        yield "  ".join(cell.ljust(size) for cell, size in zip(row, sizes, strict=True)).rstrip()
 
 
 # Where a picture goes: its path, checked before the work is done.

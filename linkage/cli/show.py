@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Iterator
 from inspect import cleandoc
@@ -12,9 +11,9 @@ from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
 from ..plan import printed
 from ..quantities import Dimension
-from ..reports import aligned, design_rows, stroke_rows
-from .command import Command, machine_arguments
-from .machines import OWN, find, registered
+from ..reports import design_rows, stroke_rows
+from .command import Command, lined_up, machine_arguments
+from .machines import find
 from .settings import design, motion
 
 POSES = {0: 1, 1: 101, 2: 21}
@@ -45,8 +44,8 @@ class Show(Command):
 def sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:
     """Yield the title and the lines of each section that describes a design."""
     yield type(machine).__name__, cleandoc(type(machine).__doc__ or "").splitlines()
-    yield "Strokes", aligned(list(stroke_rows(machine)))
-    yield "Design variables", aligned(list(design_rows(machine)))
+    yield "Strokes", lined_up(list(stroke_rows(machine)))
+    yield "Design variables", lined_up(list(design_rows(machine)))
     yield "Bodies", bodies(machine)
     yield "Construction, in order", construction(machine)
 
@@ -86,31 +85,6 @@ def section(title: str, lines: Iterable[str]) -> None:
     text = [f"  {line}".rstrip() for line in lines]
     if text:
         print("\n".join([title, *text, ""]))
-
-
-# `hydrolinkage list`: the machines there are.
-
-class List(Command):
-    """Prints every installed machine with its first line."""
-
-    name = "list"
-    help = "the machines there are"
-
-    def add(self, parser: ArgumentParser) -> None:
-        """Declare nothing."""
-
-    def run(self, options: Namespace) -> int:
-        rows = []
-        for name in registered():
-            try:
-                rows.append((name, (find(name).__doc__ or "").strip().partition("\n")[0]))
-            except DefinitionError as error:
-                print(f"hydrolinkage: warning: {error}", file=sys.stderr)
-        if not rows:
-            raise DefinitionError(f"No machine is installed; install the package (pip install -e .). {OWN}")
-        for line in aligned(rows):
-            print(line)
-        return 0
 
 
 # `hydrolinkage save NAME FILE`: a machine as a mechanism file, and what such a file does not hold.

@@ -3,4 +3,4 @@
 from .ranges import NOTHING, At, Run, below_zero, closely, first, middle, reached_span, run_of, spans_in_words
 from .results import results
 from .table import rich_tables, text_table, write_csv
-from .values import aligned, design_rows, measure, stroke_rows
+from .values import design_rows, measure, stroke_rows

@@ -51,13 +51,13 @@ def path_argument(parser: ArgumentParser) -> None:
 
 def motion_arguments(parser: ArgumentParser, count: int) -> None:
     """Declare the arguments that choose the poses."""
-    parser.add_argument("--count", metavar="N", type=counted, default=count, help=f"poses over each stroke (default {count})")
+    parser.add_argument("--count", metavar="N", type=pose_count, default=count, help=f"poses over each stroke (default {count})")
     parser.add_argument(
         "--at", dest="strokes", metavar="S=0.6,650mm", action="append", default=[], help="chosen stroke values instead; repeatable"
     )
 
 
-def counted(text: str) -> int:
+def pose_count(text: str) -> int:
     """Return a count of at least 1; ArgumentTypeError for anything else."""
     try:
         count = int(text)

@@ -17,12 +17,12 @@ from .command import Command
 
 GROUP = "hydrolinkage.commands"
 HOMES = {
-    "list": "listing:List",
-    "show": "show:Show",
-    "table": "table:Table",
-    "plot": "plot:Plot",
-    "animate": "plot:Animate",
-    "save": "show:Save",
+    "list": "listing:ListCommand",
+    "show": "show:ShowCommand",
+    "table": "table:TableCommand",
+    "plot": "plot:PlotCommand",
+    "animate": "plot:AnimateCommand",
+    "save": "show:SaveCommand",
 }
 BUILT_IN = {name: EntryPoint(name, f"{__package__}.{home}", GROUP) for name, home in HOMES.items()}
 
@@ -34,16 +34,16 @@ def commands_for(arguments: Sequence[str]) -> list[Command]:
     """
     word = arguments[0] if arguments and not arguments[0].startswith("-") else ""
     if word in BUILT_IN:
-        return [loaded(BUILT_IN[word])]
+        return [load_command(BUILT_IN[word])]
     added = {entry.name: entry for entry in entry_points(group=GROUP)}
     if word in added:
-        return [loaded(added[word])]
+        return [load_command(added[word])]
     if word:
         raise unknown("Command", word, [*BUILT_IN, *added])
-    return [*map(loaded, BUILT_IN.values()), *working(added.values())]
+    return [*map(load_command, BUILT_IN.values()), *working(added.values())]
 
 
-def loaded(entry: EntryPoint) -> Command:
+def load_command(entry: EntryPoint) -> Command:
     """Return another package's command; DefinitionError where it cannot be loaded or is none."""
     try:
         found = entry.load()
@@ -59,7 +59,7 @@ def working(entries: Iterable[EntryPoint]) -> list[Command]:
     commands = []
     for entry in entries:
         try:
-            commands.append(loaded(entry))
+            commands.append(load_command(entry))
         except DefinitionError as error:
             print(f"hydrolinkage: warning: {error}", file=sys.stderr)
     return commands
@@ -82,7 +82,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         with warnings.catch_warnings():
             warnings.simplefilter("default", SingularWarning)
             warnings.showwarning = say_warning
-            code = run(list(sys.argv[1:] if argv is None else argv))
+            code = execute(list(sys.argv[1:] if argv is None else argv))
             sys.stdout.flush()
             return code
     except FileError as error:
@@ -105,7 +105,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return int(leaving.code or 0)
 
 
-def run(arguments: list[str]) -> int:
+def execute(arguments: list[str]) -> int:
     """Return the exit code of the command that the arguments name."""
     commands = commands_for(arguments)
     what = "Planar linkages moved by cylinders: numbers, equations and pictures."
@@ -116,14 +116,14 @@ def run(arguments: list[str]) -> int:
         branch = subparsers.add_parser(command.name, help=command.help, description=command.help, allow_abbrev=False)
         command.add(branch)
         branch.set_defaults(run=command.run)
-    options = parsed(parser, arguments)
+    options = parse(parser, arguments)
     if options.command is None:
         parser.print_help(sys.stderr)
         return BAD_INPUT
     return int(options.run(options))
 
 
-def parsed(parser: OneLineParser, arguments: list[str]) -> Namespace:
+def parse(parser: OneLineParser, arguments: list[str]) -> Namespace:
     """Return the arguments by name; names of columns may stand behind options, where argparse leaves them over."""
     options, left = parser.parse_known_args(arguments)
     names = [word for word in left if word != "--"]

@@ -26,7 +26,7 @@ def registered() -> dict[str, EntryPoint]:
     return {entry.name: entry for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name)}
 
 
-class List(Command):
+class ListCommand(Command):
     """Prints every installed machine with its first line."""
 
     name = "list"

@@ -14,7 +14,7 @@ from ..quantities import Member, Quantity, Reference, Turning, Variable, name_of
 from ..steps import Arrow, CosineAngle, Ground, Group, Guide, Offset, Pin, Point, Turn, Vector
 from ..steps.expansion import Assignment, Axis, expansion
 from ..vectors import Line
-from .names import Names
+from .names import SymbolNames
 from .printing import Text
 from .symbolic import ANGLE, FUNCTIONS, LENGTH, NUMBER, Place, Term, Unit, input_units, term
 from .words import Direction, Norm, Tcos, TurnV, TurnVL, vector_symbol
@@ -103,7 +103,7 @@ class Listing:
     """A reading (see `linkage.quantities.Where`) whose scalars are terms; asking for a member writes its lines first."""
 
     def __init__(self, plan: Plan) -> None:
-        self.plan, self.names, self.units = plan, Names(plan), input_units(plan)
+        self.plan, self.names, self.units = plan, SymbolNames(plan), input_units(plan)
         self.lines: list[Written] = []
         self.unknowns: list[str] = []
         self._vectors: dict[Any, Any] = {}

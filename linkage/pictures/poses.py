@@ -16,7 +16,7 @@ from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion
 from ..program import FloatArray
 from ..quantities import is_whole, real
-from ..reports import Run, first, middle
+from ..reports import Run, first_stroke, stroke_middles
 from . import style
 from .drawing import Drawing, mechanism
 from .free_space import cloud
@@ -81,14 +81,14 @@ def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int) -
 
 def motions(machine: Mechanism, at: Any, count: int) -> tuple[str, Motion, Motion]:
     """Return the stroke that moves, the motion at the chosen values, and the one over the whole stroke."""
-    given: dict[str, Any] = dict(at) if isinstance(at, Mapping) else {first(machine): at}
-    moving = max(given, key=lambda name: np.size(given[name])) if given else first(machine)
+    given: dict[str, Any] = dict(at) if isinstance(at, Mapping) else {first_stroke(machine): at}
+    moving = max(given, key=lambda name: np.size(given[name])) if given else first_stroke(machine)
     if moving not in machine.strokes:
         raise unknown("Stroke", moving, machine.strokes, where=machine.plan.title)
     start, end = machine.strokes[moving].start, machine.strokes[moving].end
     usual = (0.5 * (start + end), start) if is_turn(machine, Run(moving, start, end, {})) else (start, end)
     given_values = {name: np.atleast_1d(chosen_values(machine, name, usual if value is None else value)) for name, value in given.items()}
-    at_values: dict[str, Any] = middle(machine) | given_values
+    at_values: dict[str, Any] = stroke_middles(machine) | given_values
     shown = machine.at(unreachable="nan", **at_values)
     if not shown.reached.any():
         machine.at(**at_values)

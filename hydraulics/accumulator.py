@@ -11,10 +11,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
-from typing import Any, final
+from types import MappingProxyType
+from typing import Any, ClassVar, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -27,6 +28,7 @@ from linkage.quantities import Dimension, Quantity, spelled
 from linkage.units import UNITS, cm3, litre, show, unit_or_none
 
 from .bank import GasBank, effective
+from .files import GAS
 from .gas import Gas, Polytropic, isothermal
 from .inputs import Array, above_vacuum, absolute, finite, in_pascals, not_negative, one_number, over_poses, positive
 from .rules import WorkingRange
@@ -61,6 +63,8 @@ class AccumulatorBlock:
     gas: Gas = isothermal
     atmosphere: Any = 101325.0
     unit: str = ""
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"atmosphere": "Pa"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"accumulators": (Accumulator,), "gas": GAS})
 
     def __post_init__(self) -> None:
         if not isinstance(self.accumulators, (list, tuple)):

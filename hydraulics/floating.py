@@ -54,6 +54,7 @@ class FloatCircuit(Circuit):
         {"charge_pressure": "bar", "at": "m", "seal_friction": "bar", "exponent": ""}
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"block": AccumulatorBlock})
 
     def __post_init__(self) -> None:
         super().__post_init__()

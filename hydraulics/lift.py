@@ -58,6 +58,7 @@ class LiftCircuit(Circuit):
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow", "back_pressure", "relief"})
     optional: ClassVar[frozenset[str]] = frozenset({"relief"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"cylinder": "loads"})
 
     def __post_init__(self) -> None:
         super().__post_init__()

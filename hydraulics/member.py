@@ -59,6 +59,8 @@ class Cylinder(TwoPoint, Tabled):
     mounting: str = "pin-pin"
     safety: float = 3.5
     drawn_as: ClassVar[DrawnAs] = "cylinder"
+    file_section: ClassVar[str] = "hydraulics"
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"stroke": "length", "closed": "length"})
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"bore", "rod"})
 
@@ -276,6 +278,8 @@ class Circuit(ForceElement):
     """The base of circuits: what feeds cylinders."""
 
     places: ClassVar[tuple[str, ...]] = ()
+    file_section: ClassVar[str] = "hydraulics"
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"cylinder": "load"})
 
     def members(self, members: Mapping[str, Any]) -> tuple[Cylinder, ...]:
         """Return its cylinders, as a class has them."""

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass
-from typing import Any, final
+from types import MappingProxyType
+from typing import Any, ClassVar, final
 
 import numpy as np
 
@@ -33,6 +35,7 @@ class Accumulator:
 
     volume: Any
     charge: Any
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"volume": "l", "charge": "bar"})
 
     def __post_init__(self) -> None:
         keep_own(self)

@@ -1,8 +1,5 @@
 """A mechanism as a file: TOML or JSON, with the same names as the class form. A file is data: nothing in it is run."""
 
-from .element import ElementEntry as ElementEntry
-from .entry import Entry as Entry
-from .entry import Labelled as Labelled
 from .read import from_dict as from_dict
 from .read import load as load
 from .write import left_out as left_out

@@ -12,12 +12,11 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..mechanism import Mechanism, declared
-from ..quantities import Member, Number, Quantity, is_number, label, name_of, quantity, spelled
+from ..quantities import Member, Number, Quantity, Ref, is_number, label, name_of, quantity, spelled
 from ..quantities.numbers import plain
 from ..steps import Link, Pin, Step
 from ..units import UNITS, parse
 from .expression import arrow, expression
-from .form import form, own_form
 from .names import Names
 
 
@@ -86,7 +85,7 @@ class Design:
         return text
 
 
-def in_degrees(value: float) -> float | str:
+def in_degrees(value: float | str) -> float | str:
     """Return an angle [rad] as text in degrees where that is short and reads back as the same, else as it is."""
     return in_unit(value, "deg") if isinstance(value, float) and abs(value) < 1e9 else value
 
@@ -162,3 +161,22 @@ def joined(text: str, link: Link) -> bool:
     """Return whether a label is made of a link's own points."""
     names = [name_of(point) for point in link.points]
     return text in {"".join(several) for count in (2, 3) for several in permutations(names, count)}
+
+
+# -- what a quantity or a vector says, apart from how it is written: whether a text reads back as the same --
+
+
+def own_form(member: Any) -> Any:
+    """Return what a member says, as nested tuples that compare; its own name does not count."""
+    if isinstance(member, Ref):
+        return member.target
+    if not isinstance(member, Member):
+        return member
+    return type(member), *(form(value) for name, value in vars(member).items() if name not in ("_name", "_class"))
+
+
+def form(part: Any) -> Any:
+    """Return what a part of a member says: its name where it has one."""
+    if isinstance(part, tuple):
+        return tuple(map(form, part))
+    return part.name if isinstance(part, Member) and part.name else own_form(part)

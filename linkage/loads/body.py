@@ -25,6 +25,7 @@ class OnBody(ForceElement):
     """An element on a body that is named by a link or by its points."""
 
     places: ClassVar[tuple[str, ...]] = ()
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"link": "body"})
     link: Body
 
     def named(self) -> tuple[Reference, ...]:
@@ -106,6 +107,7 @@ class LinkMass(OnBody):
     at: Any = None
     gravity: tuple[float, float] = DOWN
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"mass": "kg"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"at": "pair", "gravity": "gravity"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"mass"})
 
     def __post_init__(self) -> None:

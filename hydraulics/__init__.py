@@ -3,6 +3,10 @@
 from .accumulator import AccumulatorBlock as AccumulatorBlock
 from .buckling import Buckling as Buckling
 from .cylinder import CylinderSize as CylinderSize
+from .cylinder import next_bore as next_bore
+from .cylinder import next_rod as next_rod
+from .cylinder import standard_bores as standard_bores
+from .cylinder import standard_rods as standard_rods
 from .floating import FloatCircuit as FloatCircuit
 from .gas import Gas as Gas
 from .gas import adiabatic as adiabatic
@@ -14,9 +18,5 @@ from .lift import LiftCircuit as LiftCircuit
 from .lift import Lowering as Lowering
 from .member import Cylinder as Cylinder
 from .nitrogen import real_nitrogen as real_nitrogen
-from .sizes import next_bore as next_bore
-from .sizes import next_rod as next_rod
-from .sizes import standard_bores as standard_bores
-from .sizes import standard_rods as standard_rods
 from .verdict import Verdict as Verdict
 from .vessel import Accumulator as Accumulator

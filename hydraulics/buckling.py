@@ -26,8 +26,8 @@ from linkage.errors import DefinitionError, known_name
 from linkage.frozen import refuses_changes
 from linkage.units import MPa, kN, mm
 
+from .cylinder import next_rod
 from .inputs import LONGEST, Array, in_metres, one_number, over_poses, positive
-from .sizes import next_rod
 from .verdict import Verdict
 
 MOUNTINGS = MappingProxyType({"pin-pin": 1.0, "fixed-pin": 0.699156, "fixed-fixed": 0.5, "fixed-free": 2.0})

@@ -10,7 +10,7 @@ from linkage.errors import DefinitionError, unknown
 from linkage.files.names import Names, shortened
 from linkage.files.validators import Kind, number_of
 from linkage.quantities import is_number
-from linkage.quantities.numbers import plain
+from linkage.quantities.quantity import plain
 
 from .gas import ROOM, Gas, Polytropic, adiabatic, isothermal, polytropic
 from .nitrogen import RealNitrogen, real_nitrogen

@@ -18,11 +18,10 @@ from linkage.statics import Case, Loads, elements_of
 from linkage.statics.holding import same
 from linkage.units import UNITS, litre, mm, show
 
-from .cylinder import CylinderSize
+from .cylinder import CylinderSize, standard_bores
 from .inputs import Array, not_negative, one_number
 from .lift import LiftCircuit, Lowering, Work
 from .member import Cylinder, one_design, one_size
-from .sizes import standard_bores
 from .verdict import Verdict
 
 

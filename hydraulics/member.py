@@ -27,10 +27,9 @@ from linkage.statics.holding import same
 from linkage.units import mm
 
 from .buckling import Buckling
-from .cylinder import CylinderSize
+from .cylinder import BORES_MM, RODS_MM, CylinderSize, standard_rods
 from .inputs import Array, one_number, positive, stroke_in_metres
 from .settings import follows, number_set
-from .sizes import BORES_MM, RODS_MM, standard_rods
 from .verdict import Verdict
 
 DIRECTIONS = ("frictionless", "extending", "retracting")

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError
 from linkage.frozen import refuses_changes
-from linkage.quantities.numbers import plain
+from linkage.quantities.quantity import plain
 from linkage.units import bar
 
 from .gas import ROOM, Gas

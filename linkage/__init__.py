@@ -1,8 +1,10 @@
 """Planar linkages moved by cylinders, described the way an engineer says them."""
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
+from .doors import animate as animate
+from .doors import draw as draw
+from .doors import equations as equations
+from .doors import page as page
+from .doors import plot as plot
 from .errors import AssemblyError as AssemblyError
 from .errors import DefinitionError as DefinitionError
 from .errors import FileError as FileError
@@ -75,13 +77,3 @@ from .units import litre as litre
 from .units import mm as mm
 from .vectors import LEFT as LEFT
 from .vectors import RIGHT as RIGHT
-
-if TYPE_CHECKING:
-    from .equations import equations as equations
-
-
-def __getattr__(name: str) -> Any:
-    """Return `equations`, loaded where it is first used: it brings SymPy."""
-    if name == "equations":
-        return import_module(".equations", __name__)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

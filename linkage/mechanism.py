@@ -15,7 +15,6 @@ import numpy as np
 
 from .assembly import Assembly, assembled, assemblies
 from .errors import DefinitionError, cited, told, unknown
-from .graph import Body
 from .mobility import FourBar, Mobility, check, four_bars, mobility
 from .motion import (
     Column,
@@ -31,7 +30,7 @@ from .motion import (
     source_of,
     sweep_values,
 )
-from .plan import Plan
+from .plan import Body, Plan
 from .program import FloatArray, Way
 from .quantities import Member, Stroke
 from .steps import Drawn

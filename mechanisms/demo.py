@@ -12,11 +12,9 @@ from pathlib import Path
 
 import numpy as np
 
-from linkage import Column, FileError, Motion
-from linkage.animate import animate
+from linkage import Column, FileError, Motion, animate, draw, plot
 from linkage.disk import in_words
-from linkage.draw import curves, poses
-from linkage.report import rich_tables, text_table
+from linkage.reports import rich_tables, text_table
 from linkage.units import kgf_cm2
 
 from .mower_lift import MowerLift
@@ -69,8 +67,8 @@ def pictures(machine: MowerLift, motion: Motion, folder: Path) -> list[Path]:
     limits = {"kz": RESERVE, "pd": (p_max, f"p_max = {p_max / kgf_cm2:.4g} kgf/cm²", "above")}
     by_name = {column.name: column for column in machine.columns(motion)}
     files = [folder / f"mower_lift_{kind}" for kind in ("curves.png", "poses.png")]
-    curves(motion, [by_name[name] for name in PLOTTED], limits=limits).savefig(files[0])
-    poses(machine, path=["G"]).savefig(files[1])
+    plot(motion, [by_name[name] for name in PLOTTED], limits=limits).savefig(files[0])
+    draw(machine, path=["G"]).savefig(files[1])
     return [*files, animate(machine, folder / "mower_lift.gif", column="kz", trace=["G"], limit=RESERVE)]
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from hydraulics import Cylinder, CylinderSize, LiftCircuit, next_bore
 from hydraulics.inputs import in_pascals, positive
 from hydraulics.judged import Judged, Lifting
-from linkage import (
+from linkage import (  # fmt: skip
     RIGHT,
     Column,
     CosineAngle,
@@ -30,9 +30,9 @@ from linkage import (
     Weight,
     angle,
     distance,
-)  # fmt: skip
+)
 from linkage.motion import Span, lowest, reached
-from linkage.report import reached_span
+from linkage.reports import reached_span
 from linkage.units import cm, deg, g0, kgf, kgf_cm2, litre, minute, mm
 
 G_FROM_O = (1.07, -0.37)                    # centre of gravity from O at S = 0.55 m, as the input says, m

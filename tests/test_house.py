@@ -1,4 +1,4 @@
-"""The house keeps its floors: an import points down or sideways, never up, and nothing heavy is loaded at the door."""
+"""The house keeps its floors: an import points down or sideways, never up or in a circle, and nothing heavy is loaded at the door."""
 
 import ast
 import subprocess
@@ -6,6 +6,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 
+import networkx as nx
 import pytest
 
 ROOT = Path(__file__).parents[1]
@@ -14,18 +15,18 @@ FLOORS = (
     ("errors", "units", "vectors", "disk", "frozen"),
     ("quantities",),
     ("steps", "loads"),
-    ("graph",),
     ("program",),
     ("plan",),
     ("assembly", "mobility"),
     ("motion",),
     ("mechanism",),
-    ("statics", "equations", "study"),
-    ("draw", "animate", "page", "report", "files"),
+    ("statics",),
+    ("formulas", "study", "files"),
+    ("pictures", "reports"),
     ("cli",),
 )
 FLOOR = {room: number for number, rooms in enumerate(FLOORS) for room in rooms}
-FRONT_DOOR = {"__init__", "__main__"}
+FRONT_DOOR = {"__init__", "__main__", "doors"}
 MAY_IMPORT = {  # of the project's own three
     "linkage": {"linkage"},
     "hydraulics": {"linkage", "hydraulics"},
@@ -35,12 +36,22 @@ MAY_PRINT = {"cli", "demo"}
 
 HEAVY = {"PIL", "imageio_ffmpeg", "matplotlib", "networkx", "numba", "pydantic", "rich", "scipy", "sympy"}
 OPTIONAL = {"dask", "distributed", "ezdxf", "openpyxl", "pymoo"}  # extras: there may be nothing to import
-HEAVY_ROOMS = {f"linkage.{room}" for room in ("equations", "study", "draw", "animate", "page", "report", "files")}
+HEAVY_ROOMS = {f"linkage.{room}" for room in ("formulas", "study", "pictures", "reports", "files")}
+
+KNOWN_CIRCLES = [  # still there, each to be untied; a circle that is gone leaves this list, none joins it
+    ["linkage/motion/gradient.py", "linkage/motion/motion.py", "linkage/motion/requests.py", "linkage/motion/scan.py"],
+]
 
 
 def room(module: str) -> str:
     """Return the second name of a dotted module: `steps` of `linkage.steps.dyad`."""
     return module.split(".")[1] if "." in module else "__init__"
+
+
+def origin(path: PurePosixPath, node: ast.ImportFrom) -> str:
+    """Return the absolute module that a `from ... import` of the file `path` names."""
+    base = path.parts[: -node.level] if node.level else ()
+    return ".".join([*base, node.module] if node.module else base)
 
 
 def imports(path: PurePosixPath, tree: ast.AST, lazy: bool = False) -> Iterator[tuple[ast.stmt, str, bool]]:
@@ -52,8 +63,7 @@ def imports(path: PurePosixPath, tree: ast.AST, lazy: bool = False) -> Iterator[
         if isinstance(node, ast.Import):
             yield from ((node, alias.name, lazy) for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
-            base = path.parts[: -node.level] if node.level else ()
-            module = ".".join([*base, node.module] if node.module else base)
+            module = origin(path, node)
             names = (f"{module}.{alias.name}" for alias in node.names)
             yield from ((node, name if module == "linkage" and room(name) in FLOOR else module, lazy) for name in names)
         else:
@@ -101,34 +111,90 @@ def print_faults(path: PurePosixPath, tree: ast.AST) -> Iterator[str]:
                 yield f"{path}:{node.lineno}: print( in library code: return the text"
 
 
+def circles(sources: dict[str, str]) -> list[list[str]]:
+    """Return the files of each circle of imports among the files `sources`, path to text, imports for types and in functions included.
+
+    `from .room import x` leads to the module `room.x` if there is one, else to `room`, that is to its `__init__` if it is a folder.
+    """
+    modules = {path.removesuffix(".py").removesuffix("/__init__").replace("/", "."): path for path in sources}
+    graph = nx.DiGraph()
+    for path, text in sources.items():
+        for node in ast.walk(ast.parse(text, path)):
+            if isinstance(node, ast.Import):
+                names = [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom):
+                base = origin(PurePosixPath(path), node)
+                names = [name if (name := f"{base}.{alias.name}") in modules else base for alias in node.names]
+            else:
+                continue
+            graph.add_edges_from((path, modules[name]) for name in names if name in modules)
+    return sorted(sorted(circle) for circle in nx.strongly_connected_components(graph) if len(circle) > 1)
+
+
 def faults(path: str, source: str) -> list[str]:
     """Return every breach of the house's rules in the text of one file, its path counted from the checkout."""
     tree, place = ast.parse(source, path), PurePosixPath(path)
     return list(dict.fromkeys([*import_faults(place, tree), *print_faults(place, tree)]))
 
 
-SOURCES = sorted(file.relative_to(ROOT).as_posix() for package in MAY_IMPORT for file in (ROOT / package).rglob("*.py"))
+def sources() -> dict[str, str]:
+    """Return the text of every file of the three packages by its path, counted from the checkout."""
+    files = sorted(file for package in MAY_IMPORT for file in (ROOT / package).rglob("*.py"))
+    return {file.relative_to(ROOT).as_posix(): file.read_text(encoding="utf-8") for file in files}
 
 
-@pytest.mark.parametrize("path", SOURCES)
-def test_file_keeps_the_floors(path):
-    assert not faults(path, (ROOT / path).read_text(encoding="utf-8"))
+def test_files_keep_the_floors():
+    found = [fault for path, text in sources().items() for fault in faults(path, text)]
+    assert not found, "\n".join(found)
 
 
 def test_every_package_is_looked_at():
-    assert {path.split("/")[0] for path in SOURCES} == set(MAY_IMPORT)
+    assert {path.split("/")[0] for path in sources()} == set(MAY_IMPORT)
+
+
+def test_imports_go_in_no_circle_but_the_known_ones():
+    assert circles(sources()) == KNOWN_CIRCLES
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        ("from .base import A", "from .dyad import B"),
+        ("from linkage.steps.base import A", "from . import dyad"),
+        ("import linkage.steps.base", "from .dyad import B"),
+        ("from .base import A", "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from .dyad import B"),
+        ("from .base import A", "def f():\n    from .dyad import B"),
+        ("from .base import A", "from . import B"),
+        ("from .base import A", "from linkage.steps import B"),
+    ],
+)
+def test_circle_is_found(one, other):
+    files = {"linkage/steps/dyad.py": one, "linkage/steps/base.py": other, "linkage/steps/__init__.py": "from .dyad import B"}
+    (circle,) = circles(files)
+    assert {"linkage/steps/dyad.py", "linkage/steps/base.py"} <= set(circle)
+
+
+def test_what_no_circle_is():
+    files = {
+        "linkage/steps/__init__.py": "from .dyad import B\nfrom .base import A",
+        "linkage/steps/dyad.py": "from .base import A\nfrom linkage.errors import E\nfrom . import base",
+        "linkage/steps/base.py": "from ..errors import E\nimport numpy",
+        "linkage/errors.py": "",
+        "hydraulics/steps.py": "from linkage.steps import B",
+    }
+    assert circles(files) == []
 
 
 @pytest.mark.parametrize(
     ("path", "source", "fault"),
     [
-        ("linkage/steps/dyad.py", "from linkage.motion import Motion", "floor 2 (steps) imports upwards, floor 7 (motion)"),
-        ("linkage/steps/dyad.py", "from ..motion import Motion", "imports upwards, floor 7"),
-        ("linkage/steps/__init__.py", "from ..motion import Motion", "imports upwards, floor 7"),
+        ("linkage/steps/dyad.py", "from linkage.motion import Motion", "floor 2 (steps) imports upwards, floor 6 (motion)"),
+        ("linkage/steps/dyad.py", "from ..motion import Motion", "imports upwards, floor 6"),
+        ("linkage/steps/__init__.py", "from ..motion import Motion", "imports upwards, floor 6"),
         ("linkage/errors.py", "from .quantities import Stroke", "imports upwards, floor 1"),
         ("linkage/errors.py", "import numpy, linkage.quantities as q", "imports upwards, floor 1"),
-        ("linkage/errors.py", "from . import units, plan", "imports upwards, floor 5 (plan)"),
-        ("linkage/errors.py", "def f():\n    from .plan import Plan", "imports upwards, floor 5 (plan)"),
+        ("linkage/errors.py", "from . import units, plan", "imports upwards, floor 4 (plan)"),
+        ("linkage/errors.py", "def f():\n    from .plan import Plan", "imports upwards, floor 4 (plan)"),
         ("linkage/plan.py", "from linkage import Stroke", "imports the front door"),
         ("linkage/plan.py", "import linkage", "imports the front door"),
         ("linkage/plan.py", "from .cellar import wine", "linkage.cellar, which is no room of the table: add it to FLOORS"),
@@ -156,12 +222,12 @@ def test_breach_is_found(path, source, fault):
         ("linkage/steps/dyad.py", "from ..errors import A\nfrom .base import B\nfrom ..loads import C\nfrom linkage.steps.base import D"),
         ("linkage/steps/__init__.py", "from .dyad import Dyad\nfrom . import base"),
         ("linkage/motion.py", "from . import plan, errors\nfrom linkage import program\nimport numpy as np"),
-        ("linkage/graph.py", "def f():\n    import networkx as nx\n    from scipy.sparse import csgraph"),
-        ("linkage/cli.py", "def f():\n    from .draw import show\n    from . import report\n    print(1)"),
+        ("linkage/plan.py", "def f():\n    import networkx as nx\n    from scipy.sparse import csgraph"),
+        ("linkage/cli.py", "def f():\n    from .pictures import show\n    from . import reports\n    print(1)"),
         ("linkage/__init__.py", "from .cli import main\ndef __getattr__(name):\n    from importlib import import_module"),
         ("linkage/__main__.py", "from .cli import main"),
         ("hydraulics/cylinder.py", "from linkage import Stroke\nfrom .gas import isothermal"),
-        ("mechanisms/demo.py", "from hydraulics import Cylinder\ndef f():\n    from linkage.draw import show\n    print(1)"),
+        ("mechanisms/demo.py", "from hydraulics import Cylinder\ndef f():\n    from linkage.pictures import show\n    print(1)"),
     ],
 )
 def test_honest_file_is_left_alone(path, source):

@@ -2,15 +2,210 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from copy import copy
+from dataclasses import dataclass
+from itertools import combinations
 
-from ..quantities import Member, needs
-from ..steps import Group, Guide, Link, Pin, Slide, Step
-from .decompose import next_group
-from .names import check_names
-from .parts import Parts, check_held, next_step
-from .sketch import Place, Sketch, measured, sided
+import numpy as np
+
+from ..errors import DefinitionError, unknown
+from ..quantities import Member, Quantity, Reference, name_of, needs
+from ..steps import Group, Guide, Link, OnLink, Pin, Slide, Step
+from ..vectors import Side
+from .parts import Parts, Shape, check_held, next_step
+from .sketch import Place, Sketch, measured, missing_labels, sided
+
+# What a parts list refers to, looked at before its pins are placed: names, kinds, labels.
+
+def check_names(members: Mapping[str, Member], title: str) -> None:
+    """Raise DefinitionError for a name that nobody declares, one of another kind, and a label that does not fit its link's points."""
+    for name, member in members.items():
+        for each in needed(name, member, title):
+            if each not in members:
+                raise unknown("Name", each, members, where=f"{title}.{name}")
+    for name, member in members.items():
+        for reference, kind in parts_of(member):
+            if members[name_of(reference)].kind != kind:
+                raise DefinitionError(f"{title}: {name} = {member}: {name_of(reference)} is not a {kind}.")
+        if isinstance(member, Link):
+            member.fitted()
+
+
+def needed(name: str, member: Member, title: str) -> tuple[str, ...]:
+    """Return the names that a member needs; DefinitionError, with the place, where a part of it cannot be one."""
+    try:
+        return tuple(needs(member))
+    except DefinitionError as error:
+        raise DefinitionError(f"{title}.{name}: {error}") from None
+
+
+def parts_of(member: Member) -> list[tuple[Reference, str]]:
+    """Return what a link or a slide joins, each with the kind that it must be."""
+    if isinstance(member, Link):
+        return [(point, "point") for point in member.points]
+    return [(member.point, "point"), (member.guide, "guide")] if isinstance(member, Slide) else []
+
+
+# What no dyad pattern places: the smallest sets of pins whose equations determine them together.
+
+@dataclass(frozen=True)
+class Row:
+    """An equation of the parts list: the loose pins it holds, and what it stands for."""
+
+    pins: tuple[str, ...]
+    length: tuple[str, str, Quantity] | None = None
+    attached: tuple[str, OnLink] | None = None
+    slide: Slide | None = None
+    half: int = 0
+    fault: str = ""
+    """Why it cannot be written down, should its turn come."""
+
+
+def rows_of(parts: Parts, title: str) -> list[Row]:
+    """Return the equations of all links and slides that hold loose pins."""
+    rows: list[Row] = []
+    for name, link in parts.links.items():
+        if parts.loose(link):
+            rows += link_rows(parts, name, title)
+    for slide in parts.slides.values():
+        held = (name_of(slide.point), *parts.guides[name_of(slide.guide)].points)
+        loose = tuple(point for point in held if point in parts.pins and point not in parts.placed)
+        if loose:
+            rows.append(Row(loose, slide=slide))
+    return rows
+
+
+def link_rows(parts: Parts, name: str, title: str) -> list[Row]:
+    """Return a link's equations: one length, and two for every further point that is rigid with two points before it."""
+    link, shape = parts.links[name], parts.shapes[name]
+    points = [*parts.firm(link), *parts.loose(link)]
+    known = (pair for pair in combinations(points, 2) if shape.distance(*pair) is not None)
+    first, second = points[:2] if len(parts.firm(link)) > 1 else next(known, tuple(points[:2]))
+    points = [first, second, *(point for point in points if point not in (first, second))]
+    length = shape.distance(first, second)
+    fault = "" if length is not None else f"the length {first}{second} of {name} = {link} is missing; give it, or draw both pins at=(x, y)."
+
+    def loose(*pins: str) -> tuple[str, ...]:
+        return tuple(pin for pin in pins if pin not in parts.placed)
+
+    measured = None if length is None else (first, second, length)
+    rows = [Row(loose(first, second), length=measured, fault=fault)] if loose(first, second) else []
+    for pin, step in attachments(points, shape, f"{title}: the shape of {name} = {link}"):
+        fault = undrawn(parts, name, pin, step)
+        if not fault:
+            step = as_sketched(parts, pin, step, f"{title}: {name} = {link}", shape)
+        held = (*map(name_of, step.parents), pin)
+        rows += [Row(loose(*held), attached=(pin, step), half=half, fault=fault) for half in (0, 1)]
+    return rows
+
+
+def attachments(points: list[str], shape: Shape, what: str) -> Iterator[tuple[str, OnLink]]:
+    """Yield each further point of a link with the step that makes it rigid with two points before it, in an order that works."""
+    known, left = points[:2], points[2:]
+    while left:
+        steps = {pin: shape.attachment(known, pin) for pin in left}
+        pin, step = next(((pin, step) for pin, step in steps.items() if isinstance(step, OnLink)), (left[0], None))
+        if step is None:
+            raise DefinitionError(f"{what} is not settled at {pin}; give two distances or a distance and an angle.")
+        yield pin, step
+        known.append(pin)
+        left.remove(pin)
+
+
+def undrawn(parts: Parts, name: str, pin: str, step: OnLink) -> str:
+    """Return what keeps a rigid point drawn at=(x, y) from being measured: a parent with only a rough place; else nothing."""
+    rough = [name_of(parent) for parent in step.parents if step.drawn_at and parts.shapes[name].drawn(name_of(parent)) is None]
+    if not rough:
+        return ""
+    return f"{pin} of {name} = {parts.links[name]} cannot be measured from {' '.join(rough)}; draw them at=(x, y) too, or give the lengths."
+
+
+def as_sketched(parts: Parts, pin: str, step: OnLink, what: str, shape: Shape) -> OnLink:
+    """Return a group's rigid point with the side its link's pins have in the sketch, and what is not given measured there."""
+    parents = [name_of(parent) for parent in step.parents]
+    if step.near is None and step.drawn_at is None:
+        return step
+    found = copy(step)
+    (px, py), (qx, qy), X = (parts.sketched(point) for point in (*parents, pin))
+    found.labels = dict(step.labels)
+    if step.drawn_at is not None:
+        found.labels |= missing_labels(pin, step, parents, np.array(X), parts.sketched)
+    if {parents[1] + pin, pin + parents[1]} & set(found.labels):
+        cross = (qx - px) * (X[1] - py) - (qy - py) * (X[0] - px)
+        if cross == 0.0 and not shape.is_straight(parents[0], parents[1], pin):
+            raise DefinitionError(f"{what}: its pins are in one line in the sketch, so that {pin} has no side; move a near=(x, y).")
+        found.side = Side.LEFT if cross >= 0.0 else Side.RIGHT
+    found.near = found.drawn_at = None
+    return found
+
+
+def next_group(parts: Parts, title: str) -> Group:
+    """Return the first set of loose pins that its own equations determine: an Assur group.
+
+    Raises DefinitionError where the equations leave a pin free.
+    """
+    import networkx as nx
+
+    rows = rows_of(parts, title)
+    matched = matching(rows, parts, title)
+    graph = nx.DiGraph()
+    graph.add_nodes_from(dict.fromkeys(pin for pin, _ in matched))  # a set would be in another order in every run
+    for (pin, _), row in matched.items():
+        graph.add_edges_from((other, pin) for other in rows[row].pins if other != pin)
+    blocks = nx.condensation(graph)
+    for block in nx.lexicographical_topological_sort(blocks):
+        pins = blocks.nodes[block]["members"]
+        own = sorted(row for (pin, _), row in matched.items() if pin in pins)
+        fault = next((rows[row].fault for row in own if rows[row].fault), "")
+        if fault:
+            raise DefinitionError(f"{title}: {fault}")
+        return checked(grouped([pin for pin in parts.pins if pin in pins], [rows[row] for row in own]), title)
+    raise DefinitionError(f"{title}: no pin is left to place.")
+
+
+def matching(rows: list[Row], parts: Parts, title: str) -> dict[tuple[str, int], int]:
+    """Return which equation determines which coordinate; DefinitionError for a pin that is left free."""
+    import networkx as nx
+
+    loose = [pin for pin in parts.pins if pin not in parts.placed]
+    graph = nx.Graph()
+    coordinates = [(pin, axis) for pin in loose for axis in (0, 1)]
+    # whole numbers as nodes: names would be matched in an order that changes from run to run
+    first = len(coordinates)
+    graph.add_nodes_from(range(first))
+    for place, row in enumerate(rows):
+        graph.add_edges_from((coordinates.index((pin, axis)), first + place) for pin in row.pins for axis in (0, 1))
+    found = nx.bipartite.hopcroft_karp_matching(graph, range(first))
+    free = list(dict.fromkeys(pin for place, (pin, _) in enumerate(coordinates) if place not in found))
+    if free:
+        raise DefinitionError(
+            f"{title}: the parts leave {' '.join(free)} free: {len(rows)} conditions for {2 * len(loose)} coordinates of the pins "
+            f"{' '.join(loose)}. Add a link, a slide or a length that follows a stroke."
+        )
+    return {each: found[place] - first for place, each in enumerate(coordinates)}
+
+
+def grouped(pins: list[str], rows: list[Row]) -> Group:
+    """Return the group of some pins with its equations."""
+    group = Group(" ".join(pins))
+    group.given = tuple(dict.fromkeys(row.length for row in rows if row.length))
+    attached: dict[str, tuple[str, OnLink]] = {}
+    for row in rows:
+        if row.attached:
+            attached.setdefault(f"{row.attached[0]} {row.attached[1]}", row.attached)
+    group.attached = tuple(attached.values())
+    group.slides = tuple(row.slide for row in rows if row.slide)
+    return group
+
+
+def checked(group: Group, title: str) -> Group:
+    """Return a group that has as many different conditions as coordinates; DefinitionError for one that is held twice in the same way."""
+    held, needed = len(group.given) + 2 * len(group.attached) + len(group.slides), 2 * len(group.pins)
+    if held != needed:
+        what = f"the pins {' '.join(group.pins)} are held by {held} different conditions, {needed} are needed"
+        raise DefinitionError(f"{title}: {what}; take out a link that joins the same pins as another one, and add one that holds them.")
+    return group
 
 
 def assembled(members: Mapping[str, Member], title: str) -> dict[str, Member]:

@@ -1,4 +1,4 @@
 """The command: `hydrolinkage`, same as `python -m linkage`."""
 
-from .command import Command as Command
-from .main import main as main
+from .command import Command
+from .entry import main

@@ -2,8 +2,17 @@
 
 from __future__ import annotations
 
+import sys
 from abc import ABC, abstractmethod
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TypeAlias
+
+from ..disk import check_place
+from ..errors import DefinitionError
+from ..mechanism import Mechanism
 
 MOST = 100_000_000
 """Poses of a command."""
@@ -57,3 +66,51 @@ def counted(text: str) -> int:
     if count > MOST:
         raise ArgumentTypeError(f"{text} poses do not fit into memory; lower --count, such as to 1001")
     return count
+
+
+# Where a picture goes: its path, checked before the work is done.
+
+PICTURES = (".png", ".svg", ".pdf")
+
+
+def picture_argument(parser: ArgumentParser, what: str) -> None:
+    """Declare the argument that names a picture's file."""
+    parser.add_argument("-o", "--output", metavar="FILE", help=f"{', '.join(PICTURES)} ({what})")
+
+
+def picture(given: str | None, machine: type[Mechanism], text: str, suffixes: Sequence[str] = PICTURES) -> Path:
+    """Return the path of a picture; by default the machine's name with the first suffix, in this folder.
+
+    Raises DefinitionError for a suffix that is not among them, FileError for a place that cannot be written.
+    """
+    path = Path(given if given is not None else (text if text.isidentifier() else machine.__name__) + suffixes[0])
+    if path.suffix.lower() not in suffixes:
+        raise DefinitionError(f"-o {path}: the file's name ends in one of {', '.join(suffixes)}, which chooses the format.")
+    check_place(path)
+    return path
+
+
+def figure_path(options: Namespace, machine: type[Mechanism], command: str) -> Path | None:
+    """Return where a command's figure goes, checked before the work is done; None where neither a file nor a figure is asked for."""
+    if options.output is None and options.figure is None:
+        return None
+    return picture(options.output, machine, f"{command}_{options.figure}")
+
+
+# A progress bar on a terminal, nothing in a pipe.
+
+Progress: TypeAlias = Callable[[int, int], None]
+
+
+@contextmanager
+def progress_bar(title: str) -> Iterator[Progress | None]:
+    """Yield what long work calls with (done, total), which draws a bar on stderr; None where stderr is no terminal."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import Progress as Bar
+
+    with Bar(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(title, total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)

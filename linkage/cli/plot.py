@@ -6,9 +6,8 @@ from argparse import ArgumentParser, Namespace
 from typing import Any
 
 from ..mechanism import Mechanism
-from .command import Command, machine_arguments, motion_arguments, path_argument
+from .command import Command, counted, machine_arguments, motion_arguments, path_argument, picture, picture_argument, progress_bar
 from .machines import find
-from .output import picture, picture_argument
 from .settings import along, chosen, design, motion, picked, traced
 
 
@@ -41,9 +40,9 @@ def curves(machine: Mechanism, options: Namespace) -> Any:
     many = [name for name, values in given.items() if len(values) > 1]
     over = motion(machine, options.strokes, options.count) if many else along(machine, options.count, given)
     columns = picked(machine, over, options.columns, [])
-    from ..draw import curves as drawn
+    from ..pictures import plot
 
-    return drawn(over, columns)
+    return plot(over, columns)
 
 
 def poses(machine: Mechanism, options: Namespace) -> Any:
@@ -53,6 +52,42 @@ def poses(machine: Mechanism, options: Namespace) -> Any:
         machine.at(**{name: 0.5 * (stroke.start + stroke.end) for name, stroke in machine.strokes.items()} | at)
     else:
         along(machine, options.count)
-    from ..draw import poses as drawn
+    from ..pictures import draw
 
-    return drawn(machine, at or None, traced(machine, options.path), options.count)
+    return draw(machine, at or None, traced(machine, options.path), options.count)
+
+
+# `hydrolinkage animate NAME -o FILE`: a machine over its stroke, with the live curve of a result.
+
+SUFFIXES = (".gif", ".mp4", ".html")
+
+
+class Animate(Command):
+    """Writes an animation into a file."""
+
+    name = "animate"
+    help = "an animation of a stroke with a live curve, as .gif, .mp4 or an .html page"
+
+    def add(self, parser: ArgumentParser) -> None:
+        machine_arguments(parser)
+        parser.add_argument("-o", "--output", metavar="FILE", required=True, help=f"{', '.join(SUFFIXES)}")
+        parser.add_argument("--column", metavar="I", help="the column of `table` whose curve runs along (default: the last)")
+        path_argument(parser)
+        parser.add_argument("--count", metavar="N", type=counted, default=60, help="poses over the stroke (default 60)")
+        parser.add_argument(
+            "--at", dest="strokes", metavar="S=0.6", action="append", default=[],
+            help="hold a stroke at a value, or run between two: S=0.1,650mm; without it the first runs, others stand in their middle",
+        )  # fmt: skip
+
+    def run(self, options: Namespace) -> int:
+        found = find(options.machine)
+        path = picture(options.output, found, options.machine, SUFFIXES)
+        machine = design(found, options.settings)
+        at, trace = dict(chosen(machine.plan, text) for text in options.strokes), traced(machine, options.path)
+        along(machine, options.count, at)
+        from ..pictures import animate
+
+        with progress_bar(f"drawing {path.name}") as progress:
+            animate(machine, path, count=options.count, column=options.column, trace=trace, at=at, progress=progress)
+        print(path)
+        return 0

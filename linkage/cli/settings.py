@@ -11,7 +11,7 @@ from ..errors import DefinitionError, unknown
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, stroke_unit
 from ..plan import Plan
-from ..report import NOTHING, At, measure, results, run_of
+from ..reports import NOTHING, At, measure, results, run_of
 from ..units import parse
 
 

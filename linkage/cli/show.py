@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Iterator
 from inspect import cleandoc
@@ -11,9 +12,9 @@ from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
 from ..plan import printed
 from ..quantities import Dimension
-from ..report import aligned, design_rows, stroke_rows
+from ..reports import aligned, design_rows, stroke_rows
 from .command import Command, machine_arguments
-from .machines import find
+from .machines import OWN, find, registered
 from .settings import design, motion
 
 POSES = {0: 1, 1: 101, 2: 21}
@@ -68,7 +69,7 @@ def construction(machine: Mechanism) -> Iterator[str]:
 
 def equations(machine: Mechanism) -> str:
     """Return the machine's vector equations as text."""
-    from ..equations import equations as worked_out
+    from ..formulas import equations as worked_out
 
     return str(worked_out(machine))
 
@@ -85,3 +86,52 @@ def section(title: str, lines: Iterable[str]) -> None:
     text = [f"  {line}".rstrip() for line in lines]
     if text:
         print("\n".join([title, *text, ""]))
+
+
+# `hydrolinkage list`: the machines there are.
+
+class List(Command):
+    """Prints every installed machine with its first line."""
+
+    name = "list"
+    help = "the machines there are"
+
+    def add(self, parser: ArgumentParser) -> None:
+        """Declare nothing."""
+
+    def run(self, options: Namespace) -> int:
+        rows = []
+        for name in registered():
+            try:
+                rows.append((name, (find(name).__doc__ or "").strip().partition("\n")[0]))
+            except DefinitionError as error:
+                print(f"hydrolinkage: warning: {error}", file=sys.stderr)
+        if not rows:
+            raise DefinitionError(f"No machine is installed; install the package (pip install -e .). {OWN}")
+        for line in aligned(rows):
+            print(line)
+        return 0
+
+
+# `hydrolinkage save NAME FILE`: a machine as a mechanism file, and what such a file does not hold.
+
+class Save(Command):
+    """Writes a machine into a file."""
+
+    name = "save"
+    help = "a machine, as it is set, as a file in TOML or JSON"
+
+    def add(self, parser: ArgumentParser) -> None:
+        machine_arguments(parser)
+        parser.add_argument("file", metavar="FILE", help="the file, named .toml or .json")
+
+    def run(self, options: Namespace) -> int:
+        from ..files import left_out, save
+
+        machine = design(find(options.machine), options.settings)
+        save(machine, options.file)
+        lost = ", ".join(left_out(machine))
+        print(f"{options.file}: the linkage with {len(machine.plan.members)} members.")
+        if lost:
+            print(f"Not in it, since a file holds no functions of a class: {lost}.")
+        return 0

@@ -11,10 +11,9 @@ from typing import TextIO
 
 from ..disk import replacing_text
 from ..motion import Column
-from ..report import rich_tables, text_table, write_csv
-from .command import Command, machine_arguments, motion_arguments
+from ..reports import rich_tables, text_table, write_csv
+from .command import Command, machine_arguments, motion_arguments, progress_bar
 from .machines import find
-from .progress import progress_bar
 from .settings import design, motion, picked
 
 RICH_ROWS = 500  # a longer table is printed plain, which takes no time

@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..mechanism import Mechanism, declared
 from ..quantities import Member, Number, Quantity, Ref, is_number, label, name_of, quantity, spelled
-from ..quantities.numbers import plain
+from ..quantities.quantity import plain
 from ..steps import Link, Pin, Step
 from ..units import UNITS, parse
 from .expression import arrow, expression

@@ -21,7 +21,7 @@ import numpy as np
 
 from ..errors import DefinitionError, unknown
 from ..quantities import Function, Length, Member, Number, Quantity, angle, distance, x, y
-from ..quantities.arithmetic import FUNCTIONS
+from ..quantities.quantity import FUNCTIONS
 from ..steps import Arrow, CosineAngle, Turn, Vector
 from ..units import UNITS, parse
 from .names import Names

@@ -20,7 +20,7 @@ from .. import loads, steps
 from ..errors import DefinitionError, unknown
 from ..motion import stroke_unit
 from ..quantities import Dimension, Member, Quantity, Stroke, ref
-from ..quantities.numbers import plain
+from ..quantities.quantity import plain
 from ..units import UNITS, parse
 from .design import Design, in_degrees
 from .entry import PATH, Entry, worded

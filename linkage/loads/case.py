@@ -11,7 +11,7 @@ from typing import Any, ClassVar, final
 from ..errors import DefinitionError, cited, unknown
 from ..frozen import keep_own, refuses_changes
 from ..quantities import Member, Reference, in_degrees, is_number, name_of
-from ..quantities.numbers import plain
+from ..quantities.quantity import plain
 from ..units import deg
 from .element import ForceElement
 from .point import gravity_of

@@ -10,8 +10,7 @@ from typing import Any, ClassVar, final
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
 from ..quantities import Member, Reference, is_number, label, name_of
-from .element import ForceElement, Friction, Poses
-from .load import Load
+from .element import ForceElement, Friction, Load, Poses
 
 THICKEST = 3.0
 """m; the radius of a larger pin was given in millimetres."""

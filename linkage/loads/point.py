@@ -6,17 +6,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import cos, sin
 from types import MappingProxyType
-from typing import Any, ClassVar, final
+from typing import Any, ClassVar, TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, cited, unknown
 from ..frozen import refuses_changes, unmasked
-from ..quantities import Reference, is_number, label, name_of, real
-from ..quantities.numbers import plain
+from ..quantities import Member, Reference, is_number, label, name_of, real
+from ..quantities.quantity import plain
+from ..steps import Link, Point
 from ..units import g0
-from .element import ForceElement, Poses, written
-from .load import Array, Load
+from .element import Array, ForceElement, Load, Poses, couple, written
 
 DOWN = (0.0, -g0)  # gravity, m/s2
 
@@ -166,3 +166,123 @@ class Support(ForceElement):
 def vector(size: Any, direction: tuple[Any, Any]) -> Array:
     """Return a size times a direction, shape (2, ...)."""
     return np.stack(np.broadcast_arrays(*(size * part for part in direction)))
+
+
+# What acts on a body as a whole: a moment, its own mass.
+
+Body: TypeAlias = "Reference | tuple[Reference, ...]"
+"""A link, its name, or points of the body: `arm`, `"arm"`, `"O B"`, `(O, B)`."""
+
+
+class OnBody(ForceElement):
+    """An element on a body that is named by a link or by its points."""
+
+    places: ClassVar[tuple[str, ...]] = ()
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"link": "body"})
+    link: Body
+
+    def named(self) -> tuple[Reference, ...]:
+        """Return what names the body: a link, or two or more points."""
+        given = tuple(self.link.split()) if isinstance(self.link, str) else self.link
+        return given if isinstance(given, tuple) else (given,)
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (*self.named(), *super().parts())
+
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
+        self.points(members, title)
+
+    def points(self, members: Mapping[str, Member], title: str) -> tuple[str, ...]:
+        """Return the body's points; DefinitionError for what names no body."""
+        names = tuple(name_of(each) for each in self.named())
+        for name in names:
+            if name not in members:
+                raise unknown("Link or point", name, (each for each, m in members.items() if isinstance(m, (Link, Point))), where=title)
+        found = tuple(members[name] for name in names)
+        if len(found) == 1 and isinstance(found[0], Link):
+            return found[0].point_names
+        if len(set(names)) < 2 or not all(isinstance(each, Point) for each in found):
+            raise DefinitionError(f"{title}: {self}: {' '.join(names)} is not a body; name a link, or two of its points such as 'O B'.")
+        return names
+
+    def axis(self, motion: Poses) -> tuple[str, str, Array]:
+        """Return two points P and Q of the body and Q - P, shape (2, ...) [m]: the body's own x axis."""
+        points = self.points(motion.plan.members, motion.plan.title)
+        self.check_rigid(motion.plan, points)
+        P, Q, *_ = points
+        arm = motion[Q] - motion[P]
+        if np.any((arm[0] == 0.0) & (arm[1] == 0.0)):
+            raise DefinitionError(f"{self.name} = {self}: {P} and {Q} coincide and give no direction; name two other points of the body.")
+        return P, Q, arm
+
+    def check_rigid(self, plan: Any, points: tuple[str, ...]) -> None:
+        """Raise DefinitionError for points of different bodies; those of no declared body, and of what follows a stroke, may stand."""
+        bodies = [set(body.points) for body in plan.links]
+        rams = [{bar.P, bar.Q} for bar in plan.cylinders]
+        rams += [{joint.point for joint in element.joints()} for element in plan.of_kind(ForceElement).values()]
+        free = set(plan.telescopes) | (set(points) - set().union(*bodies))
+        if free or any(set(points) <= body for body in (*bodies, *rams)):
+            return
+        what = f"{self.name} = {self}" if self.name else str(self)
+        raise DefinitionError(f"{plan.title}: {what}: {', '.join(points)} are not points of one body; name those of one.")
+
+    def __str__(self) -> str:
+        return f"{type(self).__name__}({', '.join([repr(' '.join(map(label, self.named()))), *self.words()])})"
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Moment(OnBody):
+    """A moment M [Nm] on a body, counter-clockwise: `drag = Moment(arm, M=-250)` or `Moment("O B", M=-250)`."""
+
+    link: Body
+    M: Any
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"M": "Nm"})
+
+    def loads(self, motion: Poses) -> list[Load]:
+        return couple(*self.axis(motion), self.number(motion, "M"))
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class LinkMass(OnBody):
+    """A body's own mass [kg] at its centre of gravity: `own = LinkMass("E D F", mass=30)`.
+
+    `at=(along, across)` [m] is that centre in the body's axes: from its first point towards the second, and to the left.
+    Without it the centre lies in the middle of the points named, as that of a uniform bar does; each point bears an equal
+    share, so that the mass of a cylinder or a telescope goes out with its ends. `gravity` (x, y) [m/s2] as for a Weight.
+    """
+
+    link: Body
+    mass: Any
+    at: Any = None
+    gravity: tuple[float, float] = DOWN
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"mass": "kg"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"at": "pair", "gravity": "gravity"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"mass"})
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.at is not None and not all(map(is_number, two(self.at, "LinkMass(at=...)"))):
+            raise DefinitionError(f"LinkMass: at={cited(self.at)} is not a place; write (along, across) in m.")
+        object.__setattr__(self, "gravity", gravity_of(self.gravity, "LinkMass"))
+
+    def loads(self, motion: Poses) -> list[Load]:
+        P, Q, arm = self.axis(motion)
+        weight = vector(self.number(motion, "mass"), self.gravity)
+        if self.at is None:
+            points = self.points(motion.plan.members, motion.plan.title)
+            return [Load(point, weight / len(points), (P, Q)) for point in points]
+        r = self.centre(arm)
+        return [Load(P, weight, (P, Q)), *couple(P, Q, arm, r[0] * weight[1] - r[1] * weight[0])]
+
+    def centre(self, arm: Array) -> Array:
+        """Return the centre of gravity's position from P as `at` says, shape (2, ...) [m]."""
+        along = arm / np.hypot(arm[0], arm[1])
+        centre: Array = along * float(self.at[0]) + np.stack([-along[1], along[0]]) * float(self.at[1])
+        return centre
+
+    def in_gravity(self, gravity: tuple[float, float] | None, slope: float) -> LinkMass:
+        return self.renewed(gravity=turned(self.gravity if gravity is None else gravity, slope))

@@ -17,8 +17,7 @@ import numpy as np
 from ..errors import DefinitionError, cited, told
 from ..frozen import refuses_changes
 from ..quantities import Distance, Joint, Reference, name_of, pinned
-from .element import AT_REST, ForceElement, Poses, Rates
-from .load import Array, Load, Push
+from .element import AT_REST, Array, ForceElement, Load, Poses, Push, Rates
 
 DrawnAs: TypeAlias = Literal["strut", "spring", "damper", "cylinder"]
 

@@ -1,33 +1,10 @@
 """Where everything is over the stroke: positions, ratios, angles, distances."""
 
-from .below import Span as Span
-from .below import below_zero as below_zero
-from .below import reached as reached
-from .checks import rates_of as rates_of
-from .column import Column as Column
-from .evaluation import evaluate as evaluate
-from .extremes import Extremum as Extremum
-from .extremes import greatest as greatest
-from .extremes import lowest as lowest
-from .function import PoseFunction as PoseFunction
-from .function import function_of as function_of
-from .grid import Grid as Grid
-from .motion import Motion as Motion
-from .motion import Target as Target
-from .motion import paired as paired
-from .motion import require_motion as require_motion
-from .reach import stroke_unit as stroke_unit
-from .requests import BoundRequest as BoundRequest
-from .requests import Ratio as Ratio
-from .requests import Request as Request
-from .requests import RequestLike as RequestLike
-from .requests import Value as Value
-from .requests import condition as condition
-from .requests import ratio as ratio
-from .source import source_of as source_of
-from .strokes import as_given as as_given
-from .strokes import at_values as at_values
-from .strokes import check_any as check_any
-from .strokes import sweep_values as sweep_values
-from .table import columns_of as columns_of
-from .tabled import Tabled as Tabled
+from .evaluation import PoseFunction, evaluate, function_of, source_of
+from .extremes import Extremum, Span, below_zero, greatest, lowest, reached
+from .grid import Grid
+from .limits import stroke_unit
+from .motion import Motion, Target, paired, require_motion
+from .requests import BoundRequest, Ratio, Request, RequestLike, Value, condition, ratio
+from .strokes import as_given, at_values, check_any, rates_of, sweep_values
+from .table import Column, Tabled, columns_of

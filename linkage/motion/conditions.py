@@ -21,7 +21,7 @@ from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Iterated, Node, scatter
 from ..quantities import Member
 from ..steps import Point
-from .reach import Mask, called, opening, where_words
+from .limits import Mask, called, opening, where_words
 
 WARN = 1e4
 REFUSE = 1e6
@@ -77,6 +77,27 @@ class Left:
         return np.where(np.isnan(found), np.inf, found)
 
 
+@dataclass(frozen=True)
+class Culprit:
+    """The member that comes nearest to a singular pose, by what: its loop's condition, or the least span of a direction it takes.
+
+    The span is in parts of the machine's size. Neither is given where nothing comes near, no name where what has none takes the direction.
+    """
+
+    member: str = ""
+    condition: float | None = None
+    span: float | None = None
+
+    def __str__(self) -> str:
+        """Return `condition 1.0e+07`, what is said of a direction, or nothing."""
+        if self.condition is not None:
+            return "condition infinite" if np.isinf(self.condition) else f"condition {self.condition:.1e}"
+        if self.span is not None:
+            apart = f"are {self.span:.1e} of the machine's size apart" if self.span > 1e-299 else "coincide"
+            return f"takes a direction between points that {apart}"
+        return ""
+
+
 @dataclass(frozen=True, eq=False)
 class Judged:
     """How far poses (n,) are from singular ones for a result.
@@ -122,19 +143,17 @@ class Judged:
 
         return replace(self, conditions=cut(self.conditions), spans=cut(self.spans), error=self.error[mask])
 
-    def culprit(self) -> tuple[str, str]:
-        """Return the member that comes nearest to a singular pose, and how, in words."""
+    def culprit(self) -> Culprit:
+        """Return the member that comes nearest to a singular pose."""
         near = {name: float(np.max(np.where(np.isnan(cond), np.inf, cond), initial=0.0)) for name, cond in self.conditions.items()}
         close = {name: 1.0 / max(float(np.min(span, initial=np.inf)), 1e-300) for name, span in self.spans.items()}
         if max([*near.values(), *close.values()], default=0.0) < FAR:
-            return "", ""
+            return Culprit()
         loop = max(near, key=near.__getitem__, default="")
         direction = max(close, key=close.__getitem__, default="")
         if near.get(loop, 0.0) >= close.get(direction, 0.0):
-            size = "infinite" if np.isinf(near[loop]) else f"{near[loop]:.1e}"
-            return loop, f"(condition {size}, refused above {REFUSE:.0e})"
-        apart = f"are {1.0 / close[direction]:.1e} of the machine's size apart" if close[direction] < 1e299 else "coincide"
-        return direction, f"takes a direction between points that {apart}"
+            return Culprit(loop, condition=near[loop])
+        return Culprit(direction, span=1.0 / close[direction])
 
 
 def judged(plan: Plan, reading: ArrayReading, steep: set[str], names: set[str], error: FloatArray, doubt: float) -> Judged:
@@ -178,13 +197,16 @@ def condition(sine: FloatArray) -> FloatArray:
 def refusal(found: Judged, mask: Mask, strokes: Mapping[str, Any], what: str, motion: Any) -> SingularError:
     """Return the error for a result asked at singular poses; `found` is of these alone, `mask` in the motion's shape."""
     plan = found.plan
-    name, how = found.culprit()
-    if how.startswith("("):
+    near = found.culprit()
+    name = near.member
+    if near.condition is not None:
         crossing = ", where its two branches cross" if crosses(motion, name) else ""
-        why = f"{opening(plan, name)} stands at a {'change' if crossing else 'dead'} point{crossing}: its links are in line {how}"
+        where = f"{'change' if crossing else 'dead'} point{crossing}"
+        why = f"{opening(plan, name)} stands at a {where}: its links are in line ({near}, refused above {REFUSE:.0e})"
     else:
-        who = opening(plan, name) if name else "it"
-        why = f"{who} {how}" if how else "its parts nearly cancel, as far from the origin or where several loops lose digits"
+        why = f"{opening(plan, name) if name else 'it'} {near}"
+        if near.span is None:
+            why = "its parts nearly cancel, as far from the origin or where several loops lose digits"
         if not np.max(found.error) < 1.0:
             why += ", and rounding leaves nothing of it"
         else:
@@ -199,8 +221,8 @@ def refusal(found: Judged, mask: Mask, strokes: Mapping[str, Any], what: str, mo
 def lost(found: Judged, mask: Mask, strokes: Mapping[str, Any]) -> SingularError:
     """Return the error for poses of which rounding leaves nothing; `found` is of these alone, `mask` in the motion's shape."""
     plan = found.plan
-    name, how = found.culprit()
-    why = f"has its links in line {how.split(',')[0]})" if how.startswith("(") else how
+    near = found.culprit()
+    name, why = near.member, str(near) if near.condition is None else f"has its links in line ({near})"
     return SingularError(
         f"{plan.title} stands at a change point {where_words(plan, mask, strokes)}: {opening(plan, name) if name else 'it'} {why}, so that "
         "its place is not settled by its geometry and lost in rounding. Stop before it, move a point, or ask with "
@@ -226,9 +248,9 @@ def crosses(motion: Any, name: str) -> bool:
 
 def warn(found: Judged, what: str, level: int = 4, be: str = "is") -> None:
     """Warn of poses next to a singular one, with the estimate of what is lost; `found` is of these alone."""
-    name, how = found.culprit()
-    plan, estimate = found.plan, float(np.max(found.error))
-    how = f"{be} near a dead point {how.split(',')[0]})" if how.startswith("(") else how
+    near = found.culprit()
+    plan, name, estimate = found.plan, near.member, float(np.max(found.error))
+    how = str(near) if near.condition is None else f"{be} near a dead point ({near})"
     who = f"{called(plan, name) if name else 'it'} {how}" if how else ""
     warnings.warn(
         SingularWarning(
@@ -237,4 +259,3 @@ def warn(found: Judged, what: str, level: int = 4, be: str = "is") -> None:
         ),
         stacklevel=level,
     )
-

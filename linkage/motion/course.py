@@ -19,8 +19,7 @@ from ..plan import Loop, Plan
 from ..program import FloatArray, Kernel, Level, Way
 from ..steps import Pin
 from .grid import Grid
-from .limits import as_read, number
-from .reach import stroke_unit
+from .limits import as_read, number, stroke_unit
 
 GRID = 128
 """Intervals of the grid; an angle has so many for each turn of it."""

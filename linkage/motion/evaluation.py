@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from math import isfinite
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
 from ..errors import DefinitionError, SingularError, one_word
-from ..plan import Plan
-from ..program import FloatArray, Kernel, Node, Way, interpret
-from . import conditions, reach
-from .angles import Angles, angles_of
+from ..plan import ArrayReading, Plan
+from ..program import NO_VALUE, QUICKEST, FloatArray, Kernel, Node, Way, c_text, javascript_text
+from ..quantities import real
+from . import conditions
+from . import limits as reach
 from .conditions import Judged
-from .grid import Grid
+from .grid import Angles, Grid, angles_of, to_rounding
+from .limits import Mask
 from .motion import Motion
-from .reach import Mask
 from .requests import BoundRequest, RequestLike, all_bound, astray, examined
+from .strokes import known_strokes
 
 PIECE = 1 << 18
 """Poses that are looked at again at a time."""
@@ -91,6 +95,8 @@ class Evaluation:
 
     def _watch(self, plan: Plan) -> tuple[int, Kernel]:
         """Return how many of its outputs are assumptions, and the kernel of these, of the guards, then of how near each request is."""
+        for each in self.requests:
+            each.nodes(plan)  # directions of its own are noted then
         assumed = self._assumed(plan)
         near = [plan.trace.nearness(each.names(plan)) - each.regular for each in self.requests]
         return len(assumed), Kernel([*assumed, *self._guards(plan), *near])
@@ -141,18 +147,16 @@ class Evaluation:
         """
         plan, shape = self.grid.plan, (int(bad.sum()),)
         with np.errstate(all="ignore"):
-            reading = plan.read(inputs)
-            lost = np.zeros(shape, bool)
-            for name, mask in reach.failures(plan, reading, shape):
-                if name in self.names:
-                    lost |= mask
-            lost &= ~np.isfinite(block[:, bad]).all(axis=0) | reach.negative(plan, reading, shape)
+            lengths = ArrayReading(plan.members, plan.table.lengths, inputs)
+            lost = ~np.isfinite(block[:, bad]).all(axis=0) | reach.negative(plan, lengths, shape)
+            if lost.any():
+                lost[lost] = self._failed({name: value[lost] for name, value in inputs.items()}, int(lost.sum()))
         refused = [np.zeros(shape, bool) for _ in self.requests]
         for k, each in enumerate(self.requests):
             here = near[k] & ~lost
             if here.any():
                 at = {name: value[here] for name, value in inputs.items()}
-                found = examined(plan, each, at, plan.read(at))
+                found = examined(plan, each, at, plan.read(at))  # a reading of its own: what one request notes counts for no other
                 refused[k][here] = found.refused
                 if found.doubtful.any():
                     told = found.at(found.doubtful)
@@ -163,6 +167,14 @@ class Evaluation:
             self._refuse()
         self._fill(block, bad, inputs, [lost | mask for mask in refused])
 
+    def _failed(self, inputs: Mapping[str, Any], count: int) -> Mask:
+        """Return the mask of poses, shape (count,), at which something that the requests are built from cannot be placed."""
+        plan, names, failed = self.grid.plan, self.names, np.zeros(count, bool)
+        for name, mask in reach.failures(plan, plan.read(inputs), failed.shape):
+            if name in names:
+                failed |= mask
+        return failed
+
     def _fill(self, block: FloatArray, bad: Mask, inputs: Mapping[str, Any], without: Sequence[Mask]) -> None:
         """Fill the bad poses of a block: to rounding where they stand at a dead point, with NaN where a request has no value."""
         for (first, each), mask in zip(self._starts(), without, strict=True):
@@ -170,8 +182,8 @@ class Evaluation:
             found = block[rows, bad]
             at_end = ~mask & ~np.isfinite(found).all(axis=0)
             if not each.order and at_end.any():
-                inside = interpret(self.kernel.plan.outputs[rows], {name: value[at_end] for name, value in inputs.items()}, clipped=True)
-                found[:, at_end] = np.broadcast_arrays(*inside, np.empty(int(at_end.sum())))[:-1]
+                at = {name: value[at_end] for name, value in inputs.items()}
+                found = to_rounding(found, at_end, self.kernel.plan.outputs[rows], at)
             found = np.where(mask, np.nan, found)
             if self._raises and not np.isfinite(found).all():
                 self._refuse()
@@ -231,3 +243,149 @@ def spread(value: Any, of_design: bool, mask: Mask) -> Any:
     if shaped.ndim == 1 and of_design:
         shaped = shaped[:, None]
     return np.broadcast_to(shaped, mask.shape)[mask]
+
+
+# Values and ratios of one design, pose by pose, as a plain function of floats: for root finders and other loops.
+
+Poses: TypeAlias = Callable[..., tuple[float, ...]]
+
+
+@final
+class PoseFunction:
+    """Requests of one design as a function of the strokes, in floats; it can be sent to other processes."""
+
+    def __init__(self, plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike]) -> None:
+        listed = tuple(requests) if isinstance(requests, Iterator) else requests
+        self._made_of = plan, dict(designs), listed
+        self._at = function_of(plan, designs, listed)
+
+    def __call__(self, *strokes: float, **named: float) -> tuple[float, ...]:
+        """Return all components one after the other at strokes [SI], in their order or by name."""
+        return self._at(*strokes, **named)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return PoseFunction, self._made_of
+
+
+def function_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike]) -> Poses:
+    """Return requests as a function of the strokes; see Mechanism.function."""
+    if any(np.ndim(value) for value in designs.values()):
+        raise DefinitionError(f"{plan.title}: a function of floats is of one design; use evaluate for several.")
+    asked = all_bound(plan, requests)
+
+    def bulk(strokes: Sequence[float]) -> Evaluation:
+        if len(strokes) != len(plan.strokes):
+            raise DefinitionError(f"{plan.title}: one value for each stroke is expected: {', '.join(plan.strokes)}.")
+        values = {name: lone(value, name, plan.title) for name, value in zip(plan.strokes, strokes, strict=True)}
+        return Evaluation(Grid(plan, designs, values), asked, QUICKEST)
+
+    def careful(*strokes: float, **named: float) -> tuple[float, ...]:
+        return tuple(float(part) for values in bulk((*strokes, *rest(plan, len(strokes), named))).run(None) for part in np.ravel(values))
+
+    if plan.solved:
+        return careful
+    first = bulk([stroke.start for stroke in plan.strokes.values()])
+    return quick(plan, designs, first.kernel, careful, first.may_fail)
+
+
+def lone(value: Any, name: str, title: str) -> FloatArray:
+    """Return a stroke's one value, shape (); DefinitionError for several, and for what is no finite number."""
+    try:
+        found = real(value)
+    except ValueError:
+        found = np.empty(0)
+    if found.size != 1 or not np.isfinite(found).all():
+        raise DefinitionError(f"{title}: the stroke {name}={value!r:.60}: one finite number is expected; evaluate takes arrays.")
+    return found.reshape(())
+
+
+def rest(plan: Plan, count: int, named: Mapping[str, float]) -> list[float]:
+    """Return the strokes given by name, which follow so many given in order."""
+    known_strokes(named, dict(list(plan.strokes.items())[count:]), plan.title)
+    return [named[name] for name in list(plan.strokes)[count:]]
+
+
+def quick(plan: Plan, designs: Mapping[str, Any], kernel: Kernel, careful: Poses, watched: bool) -> Poses:
+    """Return the pose part with its design worked out; a pose where a guard or a failing operation tells is taken carefully."""
+    floats, count = kernel.floats, len(kernel.plan.outputs)
+    passed = floats.design([float(designs[node.value]) for node in kernel.plan.design_inputs])
+    pose = floats.quick["pose"]
+    places = [list(plan.strokes).index(node.value) for node in kernel.plan.pose_inputs]
+    many = len(plan.strokes)
+    together = places == list(range(many))
+
+    def at(*strokes: float, **named: float) -> tuple[float, ...]:
+        if named or len(strokes) != many:
+            return careful(*strokes, **named)
+        try:
+            found: tuple[float, ...] = pose(*passed, *(strokes if together else [strokes[place] for place in places]))
+            finite = isfinite(sum(strokes))  # those that the requests do not follow included
+        except (*NO_VALUE, TypeError):
+            return careful(*strokes)
+        if not finite:
+            return careful(*strokes)
+        for guard in found[count:]:
+            if not guard > 0.0:
+                return careful(*strokes)
+        if watched and not all(map(isfinite, found)):
+            return careful(*strokes)
+        return found[:count]
+
+    return at
+
+
+# Values and ratios as the text of a function in C or JavaScript: for a controller, or a page of one's own.
+
+WRITERS: Mapping[str, Callable[[Sequence[Node], str, Mapping[str, float]], str]] = {"c": c_text, "javascript": javascript_text}
+
+TAKEN: Mapping[str, str] = {
+    "c": (
+        "auto break case char const continue default do double else enum extern float for goto if inline int long register restrict return"
+        " short signed sizeof static struct switch typedef union unsigned void volatile while main NAN INFINITY"
+        " acos asin atan atan2 ceil cos cosh exp exp2 expm1 fabs floor fma fmax fmin fmod frexp hypot isfinite isinf isnan ldexp log log10"
+        " log1p log2 modf pow remainder rint round signbit sin sinh sqrt tan tanh trunc"
+    ),
+    "javascript": (
+        "arguments await break case catch class const continue debugger default delete do else enum eval export extends false finally for"
+        " function if implements import in instanceof interface let new null package private protected public return static super switch"
+        " this throw true try typeof var void while with yield Math NaN Infinity undefined"
+    ),
+}
+"""The words of each language, and the names of what the text uses: a function called so would not compile, or would hide them."""
+
+
+def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike], language: str, name: str) -> str:
+    """Return requests as text in a language; see Mechanism.source."""
+    one_word("language", language, tuple(WRITERS))
+    if not (isinstance(name, str) and name.isascii() and name.isidentifier()):
+        raise DefinitionError(f"name={name!r}: a function's name is expected, such as poses.")
+    if name in TAKEN[language].split():
+        raise DefinitionError(f"name={name!r} has a meaning in {language} already; give the function another name, such as poses.")
+    if any(np.ndim(value) for value in designs.values()):
+        raise DefinitionError(f"{plan.title}: source() states one design; its dimensions are arguments of the text, which serves all.")
+    asked = all_bound(plan, requests)
+    key = ("source", tuple(each.key for each in asked))
+    nodes = plan.made(key, lambda twin: [node for each in asked for node in held(twin, each)])
+    closed_form(plan, nodes)
+    return WRITERS[language](nodes, name, {name: float(value) for name, value in designs.items()})
+
+
+def held(plan: Plan, what: BoundRequest) -> list[Node]:
+    """Return a request's nodes, NaN where what they are true under does not hold: the text can look nothing up."""
+    nodes = list(what.nodes(plan))
+    for truth in what.notes(plan).assumed:
+        nodes = [node.graph.pick(0.0, truth, node, math.nan) for node in nodes]
+    return nodes
+
+
+def closed_form(plan: Plan, nodes: Sequence[Node]) -> None:
+    """Raise DefinitionError where nodes hang on pins that are found by iteration, or on an angle that is followed."""
+    read = {node.value for node in Kernel(nodes).plan.pose_inputs}
+    for group in plan.groups.values():
+        if not read.isdisjoint(group.inputs):
+            what = f"{plan.title}: {group} is solved by iteration and has no closed form to write down"
+            raise DefinitionError(f"{what}; ask for what does not hang on {', '.join(group.pins)}, or use function().")
+    for angle in plan.followed:
+        if angle in read:
+            what = f"{plan.title}: {angle} is followed from the sketch, as its whole turns tell poses apart, and has no closed form"
+            raise DefinitionError(f"{what} to write down; use a whole multiple of it, drive the angle by a Stroke, or use function().")

@@ -11,8 +11,8 @@ import numpy as np
 from ..errors import DefinitionError
 from ..plan import Plan
 from ..program import FloatArray, Kernel, Node, ancestors, gradient
-from .angles import Angles, angles_of
-from .reach import Mask
+from .grid import Angles, angles_of
+from .limits import Mask
 from .requests import BoundRequest, RequestLike, astray, bound, dimensions_of
 
 if TYPE_CHECKING:
@@ -51,9 +51,6 @@ class Slope(BoundRequest):
 
     def names(self, plan: Plan) -> set[str]:
         return self.what.names(plan)
-
-    def refuse(self, motion: Motion) -> None:
-        """It is asked of motions only, which refuse it themselves."""
 
     def __str__(self) -> str:
         return f"the gradient of {self.what}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import prod
@@ -14,9 +14,46 @@ from ..assembly import NONE_SOLVED, Solved, solve_groups, with_angles
 from ..errors import DefinitionError
 from ..frozen import FrozenDict, read_only
 from ..plan import ArrayReading, Plan
-from ..program import FloatArray, Kernel
-from .reach import Mask
-from .unwrap import unwrapped
+from ..program import QUICKEST, FloatArray, Kernel, Level, Node, Way, ancestors, interpret
+from .limits import Mask
+
+# Angles made continuous along the stroke.
+
+def unwrapped(angle: FloatArray, strokes: list[FloatArray]) -> FloatArray:
+    """Return an angle [rad] without jumps of 2 pi along its last axes, one an independent stroke array axis.
+
+    Poses are joined in the order of the stroke, whatever the order they stand in; NaN is passed over.
+    """
+    axes = strokes[0].ndim if strokes else 0
+    result = np.array(angle, float)
+    for axis in range(axes):
+        result = _along(result, axis - axes, strokes)
+    return result
+
+
+def _along(angle: FloatArray, axis: int, strokes: list[FloatArray]) -> FloatArray:
+    moved = np.moveaxis(angle, axis, -1)
+    if moved.shape[-1] < 2:
+        return angle
+    order = slice(None)
+    if len(strokes) == 1 and strokes[0].ndim == 1:
+        sort = np.argsort(strokes[0], kind="stable")
+        moved = moved[..., sort]
+        order = np.argsort(sort, kind="stable")  # type: ignore[assignment]
+    return np.moveaxis(_joined(moved)[..., order], -1, axis)
+
+
+def _joined(angle: FloatArray) -> FloatArray:
+    """Return the angle continued from each finite value to the next."""
+    finite = np.isfinite(angle)
+    places = np.where(finite, np.arange(angle.shape[-1]), 0)
+    filled = np.take_along_axis(angle, np.maximum.accumulate(places, axis=-1), axis=-1)
+    filled = np.where(np.isfinite(filled), filled, np.take_along_axis(angle, np.argmax(finite, axis=-1)[..., None], axis=-1))
+    steps = np.diff(filled, axis=-1)
+    turns = np.cumsum(np.round(np.where(np.isfinite(steps), steps, 0.0) / (2 * np.pi)), axis=-1)
+    result = np.array(angle)
+    result[..., 1:] -= 2 * np.pi * turns
+    return result
 
 
 class Grid:
@@ -76,17 +113,17 @@ class Grid:
         """The pins of groups and the references of followed angles, shape (m, n)."""
         if not self.plan.solved:
             return NONE_SOLVED
-        groups = NONE_SOLVED if not self.plan.groups else self._each() if self.own else self._grouped(self.flat_designs, self.flat_strokes)
+        groups = NONE_SOLVED
+        if self.plan.groups:
+            groups = self._each() if self.own else solve_groups(self.plan, self.flat_designs, self.flat_strokes)
         return with_angles(groups, self.plan, self.flat_designs, self.flat_strokes)
-
-    def _grouped(self, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray]) -> Solved:
-        return solve_groups(self.plan, designs, strokes)
 
     def _each(self) -> Solved:
         """Return the pins of groups where each design has strokes of its own: followed design by design."""
         m, n = self.size
         found = [
-            self._grouped(
+            solve_groups(
+                self.plan,
                 {name: value[place : place + 1] if varies(value) else value for name, value in self.flat_designs.items()},
                 {name: value[place] for name, value in self.flat_strokes.items()},
             )
@@ -177,3 +214,55 @@ class Beside:
 def varies(value: Any) -> bool:
     """Return whether a dimension differs from design to design."""
     return type(value) is not float and np.ndim(value) > 0
+
+
+# What follows from directions: nodes worked out again where an angle is continued past half a turn along the stroke.
+
+@dataclass(frozen=True, eq=False)
+class Angles:
+    """Some nodes, the moving angles behind them, and the kernel of these."""
+
+    nodes: tuple[Node, ...]
+    angles: tuple[Node, ...]
+    kernel: Kernel
+
+    def continued(self, grid: Grid, reached: Mask | None = None, way: Way = QUICKEST) -> FloatArray | None:
+        """Return the nodes' values, shape (nodes, ...), with angles that do not jump; None where none of them does.
+
+        `reached` are the poses that have a place, of which some may stand at a dead point to rounding.
+        """
+        if not self.angles:
+            return None
+        raw = grid.full(self.kernel(grid.flat, way=way).values)
+        at_end = np.zeros(grid.shape, bool) if reached is None else reached & ~np.isfinite(raw).all(axis=0)
+        if at_end.any():
+            raw = to_rounding(raw, at_end, self.kernel.plan.outputs, grid.inputs_at(at_end))
+        joined = grid.joined(raw, self.kernel)
+        if not np.any((joined != raw) & np.isfinite(joined)):
+            return None
+        known: dict[Node, Any] = dict(zip(self.angles, joined, strict=True))
+        found = np.array([np.broadcast_to(each, grid.shape) for each in interpret(self.nodes, grid.inputs, known)], float)
+        if at_end.any():
+            there = {angle: values[at_end] for angle, values in zip(self.angles, joined, strict=True)}
+            found = to_rounding(found, at_end, self.nodes, grid.inputs_at(at_end), there)
+        return found
+
+
+def to_rounding(
+    values: FloatArray, at_end: Mask, nodes: Sequence[Node], inputs: Mapping[str, Any], known: Mapping[Node, Any] | None = None
+) -> FloatArray:
+    """Return the values (nodes, ...) of some nodes with those put right of the poses `at_end`, which stand at a dead point to rounding.
+
+    `inputs` and the values that are `known` are those of these poses, floats or (n,).
+    """
+    found = np.array(values)
+    for row, value in enumerate(interpret(nodes, inputs, known, clipped=True)):
+        found[row, at_end] = value
+    return found
+
+
+def angles_of(plan: Plan, nodes: Sequence[Node]) -> Angles:
+    """Return nodes of a plan's program with the moving angles behind them."""
+    behind = set(ancestors(nodes))
+    angles = tuple(angle for angle in dict.fromkeys(plan.trace.angles) if angle in behind and angle.level is Level.POSE)
+    return Angles(tuple(nodes), angles, Kernel(angles))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeAlias
 
@@ -16,13 +16,15 @@ from ..program import FloatArray, Kernel
 from ..quantities import Angle, Distance, Member, Quantity, needs
 from ..steps import Arrow, Point
 from ..vectors import Vec
-from . import conditions, numeric, reach, scan
-from .angles import angles_of, to_rounding
-from .checks import method_of, named, order_of, rates_of
+from . import conditions, scan
+from . import differences as numeric
+from . import limits as reach
+from .conditions import Judged
 from .gradient import gradient_of
-from .grid import Beside, Grid, Joining, as_they_are, in_order
-from .reach import Mask
-from .requests import BoundRequest, Everywhere, RequestLike, Value, examined, near_of, watched
+from .grid import Beside, Grid, Joining, angles_of, as_they_are, in_order, to_rounding
+from .limits import Mask
+from .requests import BoundRequest, Everywhere, RequestLike, Value, examined, near_of, stroke_of, watched
+from .strokes import method_of, named, order_of, rates_of
 
 Target: TypeAlias = str | Member
 
@@ -186,21 +188,11 @@ class Motion:
 
     def _settle_lost(self) -> None:
         """Refuse or mask the poses of which rounding leaves nothing, as where two points that another hangs from come together."""
-        every = Everywhere(self.plan.moving)
-        near = near_of(self.grid, every) & self.reached
-        if not near.any():
-            return
-        found = examined(self.plan, every, self.grid.inputs_at(near), self.grid.read_at(near))
-        lost, doubtful = np.zeros(self.shape, bool), np.zeros(self.shape, bool)
-        lost[near], doubtful[near] = found.refused, found.doubtful
-        if lost.any() and self.unreachable == "raise":
-            raise conditions.lost(found.at(found.refused), lost, self.strokes)
+        words = f"The places of {self.plan.title}"
+        lost = self._refused_near(Everywhere(self.plan.moving), words, lambda found, mask: conditions.lost(found, mask, self.strokes), 7)
         if lost.any():
             self._places = np.where(lost, np.nan, self._places)
             self.reached &= ~lost
-        if doubtful.any():
-            where = reach.where_words(self.plan, doubtful, self.strokes)
-            conditions.warn(found.at(found.doubtful), f"The places of {self.plan.title} {where}", 6)
 
     # -- looked at again ---------------------------------------------------------------------------------
 
@@ -380,7 +372,7 @@ class Motion:
         at every pose, or given as `step` [unit of the stroke]. Shape (2, ...) for a point, (...) for an output.
         Raises SingularError at a dead point; warns near one.
         """
-        stroke = self._stroke(wrt)
+        stroke = stroke_of(self.plan, wrt)
         order, method = order_of(order), method_of(method, step)
         member = self._member(target)
         refused = self.refused(Value(member, (stroke,) * order), f"The ratio of {member.name or member}")
@@ -388,13 +380,6 @@ class Motion:
         found = self._evaluated(member, (stroke,) * order) if method == "exact" else self._numeric(member, stroke, order, step)
         found = np.where(refused, np.nan, found) if refused.any() else found
         return self.finite(found, refused, f"The ratio of {member.name or member} by {stroke}")
-
-    def _stroke(self, wrt: str | None) -> str:
-        if wrt is None and len(self.strokes) == 1:
-            return next(iter(self.strokes))
-        if wrt is None:
-            raise DefinitionError(f"{self.plan.title} has {len(self.strokes)} strokes: say wrt= one of {', '.join(self.strokes)}.")
-        return named("Stroke", wrt, self.strokes, self.plan.title)
 
     def _evaluated(self, member: Member, along: tuple[str, ...]) -> FloatArray:
         """Return a value or a derivative through the program; the first derivatives of all points come in one pass, kept."""
@@ -414,7 +399,7 @@ class Motion:
             self._watched[what.key] = not np.all(result.guards > 0.0)
             if self.is_near_singular and not along:
                 at_end = self.reached & ~np.isfinite(found).all(axis=0)
-                found = to_rounding(kernel, self.grid, at_end, found) if at_end.any() else found
+                found = to_rounding(found, at_end, kernel.plan.outputs, self.grid.inputs_at(at_end)) if at_end.any() else found
             continued = self._continued(what) if isinstance(member, Quantity) else None
             self._values[key] = found if continued is None else continued
             self._values[key].flags.writeable = False
@@ -455,19 +440,25 @@ class Motion:
 
     def refused(self, what: BoundRequest, words: str) -> Mask:
         """Return the mask of poses where a result is refused; raise or warn as asked. `words` begin a sentence about it."""
-        none = np.zeros(self.shape, bool)
         if not self._is_near(what):
-            return none
+            return np.zeros(self.shape, bool)
+        return self._refused_near(what, words, lambda found, mask: conditions.refusal(found, mask, self.strokes, words, self), 5)
+
+    def _refused_near(self, what: BoundRequest, words: str, error: Callable[[Judged, Mask], SingularError], level: int) -> Mask:
+        """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked.
+
+        `error` makes what is raised of how the refused poses are judged and of their mask; `level` is that of the warning's caller.
+        """
+        refused, doubtful = np.zeros(self.shape, bool), np.zeros(self.shape, bool)
         near = near_of(self.grid, what) & self.reached
         if not near.any():
-            return none
+            return refused
         found = examined(self.plan, what, self.grid.inputs_at(near), self.grid.read_at(near))
-        refused, doubtful = none, none.copy()
         refused[near], doubtful[near] = found.refused, found.doubtful
         if refused.any() and self.unreachable == "raise":
-            raise conditions.refusal(found.at(found.refused), refused, self.strokes, words, self)
+            raise error(found.at(found.refused), refused)
         if doubtful.any():
-            conditions.warn(found.at(found.doubtful), f"{words} {reach.where_words(self.plan, doubtful, self.strokes)}", 4)
+            conditions.warn(found.at(found.doubtful), f"{words} {reach.where_words(self.plan, doubtful, self.strokes)}", level)
         return refused
 
     def _is_near(self, what: BoundRequest) -> bool:

@@ -18,10 +18,10 @@ from ..plan import NEAR, REGULAR, ArrayReading, Plan
 from ..program import FloatArray, Kernel, Node, Notes
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
-from .checks import named, order_of
 from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Judged, Left, Rounding, judged
 from .grid import Grid
-from .reach import Mask
+from .limits import Mask
+from .strokes import named, order_of
 
 if TYPE_CHECKING:
     from .motion import Motion
@@ -31,7 +31,7 @@ SMALL = 1e-9
 
 
 class BoundRequest(ABC):
-    """A request settled on a plan. A subclass says of which nodes it consists, and by what key it is told from others."""
+    """A request bound to a plan. A subclass says of which nodes it consists, and by what key it is told from others."""
 
     @property
     @abstractmethod
@@ -47,12 +47,11 @@ class BoundRequest(ABC):
         """Return the members that it is built from."""
 
     @abstractmethod
-    def refuse(self, motion: Motion) -> None:
-        """Raise the error of a motion's poses where it has no value; nothing where it has one at all of them."""
-
-    @abstractmethod
     def __str__(self) -> str:
         """Return what it is, in words: `the ratio of G by S`."""
+
+    def refuse(self, motion: Motion) -> None:  # noqa: B027
+        """Raise the error of a motion's poses where it has no value; nothing where it has one at all of them, or another refuses it."""
 
     def notes(self, plan: Plan) -> Notes:
         """Return what its nodes are true under."""
@@ -105,12 +104,7 @@ class Request(ABC):
 
     @abstractmethod
     def bound(self, plan: Plan) -> BoundRequest:
-        """Return the request settled on a plan; DefinitionError where there is no such thing."""
-
-
-def watch_of(plan: Plan, what: BoundRequest) -> Kernel:
-    """Return the kernel of what is above zero where a request is far from every singular pose."""
-    return plan.made(("watch", what.key), lambda twin: Kernel(watched(twin, what)))
+        """Return the request bound to a plan; DefinitionError where there is no such thing."""
 
 
 def watched(plan: Plan, what: BoundRequest) -> list[Node]:
@@ -121,7 +115,7 @@ def watched(plan: Plan, what: BoundRequest) -> list[Node]:
 
 def near_of(grid: Grid, what: BoundRequest) -> Mask:
     """Return the mask of poses at which a request has to be looked at closely."""
-    watch = watch_of(grid.plan, what)
+    watch = grid.plan.made(("watch", what.key), lambda twin: Kernel(watched(twin, what)))
     if not watch.plan.outputs:
         return np.zeros(grid.shape, bool)
     with np.errstate(invalid="ignore"):
@@ -301,9 +295,6 @@ class ConditionOf(BoundRequest):
     def names(self, plan: Plan) -> set[str]:
         return set(self.members)
 
-    def refuse(self, motion: Motion) -> None:
-        """It has a value at every pose that is reached."""
-
     def __str__(self) -> str:
         return f"the condition of {self.of}"
 
@@ -338,9 +329,6 @@ class Ratios(BoundRequest):
     def names(self, plan: Plan) -> set[str]:
         return set(self.members)
 
-    def refuse(self, motion: Motion) -> None:
-        """Ratios that stand for a force are refused with it."""
-
     def error(self, plan: Plan, left: Left) -> FloatArray:
         parts = [left.part(slice(row, row + 2)) for row in range(0, len(left.values), 2)]
         if not parts:
@@ -370,9 +358,6 @@ class Everywhere(BoundRequest):
     def names(self, plan: Plan) -> set[str]:
         return set[str]().union(*map(plan.reaches, self.points))
 
-    def refuse(self, motion: Motion) -> None:
-        """A motion refuses its places itself."""
-
     def error(self, plan: Plan, left: Left) -> FloatArray:
         with np.errstate(all="ignore"):
             found = left.errors.max(axis=0, initial=0.0) / left.size
@@ -383,12 +368,12 @@ class Everywhere(BoundRequest):
 
 
 def bound(plan: Plan, request: RequestLike) -> BoundRequest:
-    """Return a request settled; DefinitionError where there is nothing of that name, or no saying by which stroke."""
+    """Return a request bound to a plan; DefinitionError where there is nothing of that name, or no saying by which stroke."""
     return (request if isinstance(request, Request) else Ratio(request, order=0)).bound(plan)
 
 
 def all_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[BoundRequest, ...]:
-    """Return a list of requests settled; DefinitionError for a lone one, whose letters would be taken for names."""
+    """Return a list of requests bound to a plan; DefinitionError for a lone one, whose letters would be taken for names."""
     if isinstance(requests, (str, Member, Request)):
         raise DefinitionError(f"{plan.title}: {requests!r}: a list of what is asked for is expected, [{requests!r}].")
     if not isinstance(requests, Iterable) or isinstance(requests, (Mapping, Set, np.ndarray)):

@@ -2,10 +2,70 @@
 
 from __future__ import annotations
 
-from ..quantities import Dimension, Quantity, Stroke
-from .column import Column
+from abc import abstractmethod
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..errors import DefinitionError, cited
+from ..frozen import refuses_changes
+from ..program import FloatArray
+from ..quantities import Dimension, Member, Quantity, Stroke
+from ..units import UNITS, unit_or_none
+from .limits import stroke_unit
 from .motion import Motion, require_motion
-from .reach import stroke_unit
+
+# A column of results: a name, values over the poses, and the unit to show them in.
+
+NOISE = 1e-12
+LEAST = 1e-9
+"""A value that is smaller, compared with the greatest of its column or in the column's unit, is rounding noise."""
+
+
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Column:
+    """Values in SI, shape (...), and the unit they are read in; a unit of "" is a plain number."""
+
+    name: str
+    values: FloatArray
+    unit: str = ""
+    digits: int = 4
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str) or not self.name:
+            raise DefinitionError(f'Column({cited(self.name)}): its name is expected first, Column("pressure", values, "bar").')
+        if not are_numbers(self.values):
+            what = f"Column {self.name}: {cited(self.values)} holds no numbers"
+            raise DefinitionError(f"{what}; give one for each pose, NaN where it has none.")
+        unit_or_none(self.unit, where=f"the column {self.name}")
+
+    @property
+    def shown(self) -> FloatArray:
+        """The values in the column's unit."""
+        return np.asarray(self.values) / (UNITS[self.unit][0] if self.unit else 1.0)
+
+    @property
+    def drawn(self) -> FloatArray:
+        """The values in the column's unit, rounding noise as zero: for pictures."""
+        size = float(np.nanmax(np.abs(self.shown), initial=0.0))
+        noise = max(NOISE * size, LEAST if self.unit else 0.0)
+        return np.where(np.abs(self.shown) < noise, 0.0, self.shown)
+
+    @property
+    def heading(self) -> str:
+        """The name with its unit: `pd, kgf/cm2`."""
+        return f"{self.name}, {self.unit}" if self.unit else self.name
+
+
+def are_numbers(values: Any) -> bool:
+    """Return whether values are real numbers or truth values, all of them known."""
+    try:
+        return np.asarray(values).dtype.kind in "fiub" and not np.ma.is_masked(values)
+    except ValueError:
+        return False
+
 
 SHOWN = {"angle": "deg", "length": "m", "": ""}
 
@@ -18,3 +78,16 @@ def columns_of(motion: Motion) -> list[Column]:
     table += [Column(f"{point}_{axis}", getattr(motion, axis)(point), "m") for point in plan.moving for axis in "xy"]
     outputs = {name: member for name, member in plan.of_kind(Quantity).items() if not isinstance(member, (Stroke, Dimension))}
     return table + [Column(name, motion[name], SHOWN[member.measures]) for name, member in outputs.items()]
+
+
+# Members that have columns of their own in a machine's table of results.
+
+class Tabled(Member):
+    """A member that the table of results shows, such as a cylinder: its base beside that of its kind."""
+
+    @abstractmethod
+    def columns(self, motion: Motion) -> list[Column]:
+        """Return its columns under the machine's own loads; the table adds its name to theirs where several members have them.
+
+        The motion was asked for with `unreachable="nan"`: values are NaN where there is none.
+        """

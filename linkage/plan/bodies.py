@@ -1,44 +1,55 @@
-"""The rigid bodies that the steps and links of a plan make, and the Gruebler count of their joints."""
+"""The rigid bodies of a mechanism and the joints between them, from what its steps declare."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
-from ..graph import Body, gruebler, merged
-from ..steps import Guide, Link, Point
-
-if TYPE_CHECKING:
-    from .members import Members
+FRAME = "frame"
 
 
-def rigid_bodies(plan: Members) -> tuple[Body, ...]:
-    """Return the rigid bodies, the frame first."""
-    groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in plan.rods]
-    groups += [body for name, point in plan.points.items() if name not in plan.telescopes for body in point.bodies()]
-    groups += [link.point_names for link in plan.of_kind(Link).values() if len(link.point_names) > 2 or not plan.is_cylinder(link)]
-    rest = resting(plan)
-    still = [name for name, guide in rest.items() if not guide.points]
-    groups += [(*guide.points, name) for name, guide in rest.items() if len(guide.points) == 2]
-    return merged(groups, (*plan.ground, *still))
+@dataclass(frozen=True)
+class Body:
+    """Points that move as one. The frame holds all fixed points."""
+
+    points: tuple[str, ...]
+    fixed: bool = False
+
+    @property
+    def name(self) -> str:
+        """The points' names joined, or `frame`."""
+        return FRAME if self.fixed else "".join(self.points)
+
+    def __contains__(self, point: object) -> bool:
+        return point in self.points
+
+    def __str__(self) -> str:
+        return f"frame {' '.join(self.points)}" if self.fixed else " ".join(self.points)
 
 
-def resting(plan: Members) -> dict[str, Guide]:
-    """Return the points at a fixed place on a guide, which are rigid with it."""
-    found = [(joint.point, joint) for point in plan.points.values() for joint in point.joints() if joint.drives and joint.track]
-    guides = plan.of_kind(Guide)
-    return {point: guides[joint.track[0]] for point, joint in found if not plan.is_there(joint)}
+def merged(groups: Iterable[Sequence[str]], ground: Sequence[str]) -> tuple[Body, ...]:
+    """Return the bodies: groups that share two points are one. The frame comes first."""
+    bodies: list[list[str]] = [list(ground)]
+    for group in groups:
+        body = list(dict.fromkeys(group))
+        while (other := next((each for each in bodies if len(set(each) & set(body)) > 1), None)) is not None:
+            bodies.remove(other)
+            body = list(dict.fromkeys([*other, *body]))
+        bodies.append(body)
+    frame = max(bodies, key=lambda body: len(set(body) & set(ground)) if ground else 0) if ground else []
+    others = [body for body in bodies if body is not frame and body]
+    return (Body(tuple(frame), fixed=True), *(Body(tuple(body)) for body in others))
 
 
-def gruebler_count(plan: Members) -> int:
-    """Return 3 (n - 1) - 2 j1 - j2; a point that only guides hold counts as a pin of its own."""
-    rest = resting(plan)
-    free = {name: point for name, point in plan.points.items() if name not in rest}
-    halves = sum(map(half_joints, free.values())) + sum(len(group.slides) for group in plan.groups.values())
-    bodies = {name for body in plan.links for name in body.points} | {end for bar in plan.cylinders for end in (bar.P, bar.Q)}
-    lone = sum(1 for name, point in free.items() if name not in bodies and (half_joints(point) or name in plan.telescopes))
-    return gruebler(plan.links, [(bar.P, bar.Q) for bar in plan.cylinders]) - halves - len(plan.telescopes) + 2 * lone
+def gruebler(bodies: Sequence[Body], cylinders: Sequence[tuple[str, str]]) -> int:
+    """Return 3 (n - 1) - 2 j: n bodies with the frame, j pins and slides.
 
-
-def half_joints(point: Point) -> int:
-    """Return how many guides and slots take one freedom each at a step."""
-    return sum(1 for joint in point.joints() if joint.track)
+    A cylinder is two bodies on a slide, pinned at its ends. A pin that joins k bodies counts k - 1 times.
+    """
+    ends = Counter(point for pair in cylinders for point in pair)
+    count = Counter(point for body in bodies for point in body.points)
+    count.update(ends)
+    pins = sum(bodies_there - 1 for bodies_there in count.values() if bodies_there > 1)
+    members = len(bodies) + 2 * len(cylinders)
+    return 3 * (members - 1) - 2 * (pins + len(cylinders))

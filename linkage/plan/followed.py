@@ -7,37 +7,34 @@ of it do not: where the arc tangent jumps from 180 to -180 deg, they would jump 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..errors import DefinitionError
 from ..program import Level, Node, ancestors
 from ..quantities import Angle, Function, Member, Quantity, unnamed
+from .members import Members
 from .trace import Trace
-
-if TYPE_CHECKING:
-    from .plan import Plan
 
 WHOLE = 1e-14
 """A multiple so near to a whole number, for its size, is one."""
 
 
-def load_quantities(plan: Plan) -> tuple[Quantity, ...]:
+def load_quantities(plan: Members) -> tuple[Quantity, ...]:
     """Return the quantities that the loads of a class follow."""
     given = [part for member in plan.members.values() if member.kind == "load" for part in member.parts()]
     found = (plan.members.get(part) if isinstance(part, str) else part for part in given)
     return tuple(each for each in dict.fromkeys(found) if isinstance(each, Quantity))
 
 
-def has_angles(plan: Plan, asked: Iterable[str | Member]) -> bool:
+def has_angles(plan: Members, asked: Iterable[str | Member]) -> bool:
     """Return whether some members are built from directions of points."""
     parts = [part for each in asked if isinstance(each, Quantity) for part in (each, *unnamed(each))]
     parts += [part for name in set[str]().union(*map(plan.reaches, asked)) for part in plan.with_parts(name)]
     return any(isinstance(part, Angle) or (isinstance(part, Function) and part.function == "arctan2") for part in parts)
 
 
-def followed_angles(plan: Plan, trace: Trace, loads: Sequence[Quantity]) -> tuple[str, ...]:
+def followed_angles(plan: Members, trace: Trace, loads: Sequence[Quantity]) -> tuple[str, ...]:
     """Return the angles of a trace, as yet not followed, whose whole turns change where points are or what loads are.
 
     DefinitionError where one of them changes the pins of a group.

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
-from .expand import expanded
+from .elimination import expanded
 from .loop import loop, numbered
 from .node import Node
 from .schedule import Schedule, schedule

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from .lower import plain
 from .node import Node
 from .operations import OPERATIONS
+from .schedule import plain
 
 
 @dataclass(frozen=True)

@@ -1,42 +1,22 @@
 """Scalars of a mechanism: strokes, dimensions, outputs, and arithmetic of them."""
 
-from .inputs import Dimension as Dimension
-from .inputs import Stroke as Stroke
-from .inputs import Variable as Variable
-from .joint import FRAME_SIDE as FRAME_SIDE
-from .joint import Driven as Driven
-from .joint import Holding as Holding
-from .joint import Joint as Joint
-from .joint import JointSide as JointSide
-from .joint import guided as guided
-from .joint import pinned as pinned
-from .member import Member as Member
-from .member import Reference as Reference
-from .member import name_of as name_of
-from .member import needs as needs
-from .member import unnamed as unnamed
-from .numbers import is_number as is_number
-from .numbers import is_whole as is_whole
-from .numbers import real as real
-from .outputs import Angle as Angle
-from .outputs import Coordinate as Coordinate
-from .outputs import Distance as Distance
-from .outputs import Length as Length
-from .outputs import angle as angle
-from .outputs import distance as distance
-from .outputs import label as label
-from .outputs import x as x
-from .outputs import y as y
-from .quantity import Function as Function
-from .quantity import Negative as Negative
-from .quantity import Number as Number
-from .quantity import Operation as Operation
-from .quantity import Quantity as Quantity
-from .quantity import Ref as Ref
-from .quantity import Sum as Sum
-from .quantity import quantity as quantity
-from .quantity import ref as ref
-from .spelling import in_degrees as in_degrees
-from .spelling import spelled as spelled
-from .where import Turning as Turning
-from .where import Where as Where
+from .inputs import Dimension, Stroke, Variable
+from .joint import FRAME_SIDE, Driven, Holding, Joint, JointSide, guided, pinned
+from .member import Member, Reference, Turning, Where, name_of, needs, unnamed
+from .outputs import Angle, Coordinate, Distance, Length, angle, distance, label, x, y
+from .quantity import (
+    Function,
+    Negative,
+    Number,
+    Operation,
+    Quantity,
+    Ref,
+    Sum,
+    in_degrees,
+    is_number,
+    is_whole,
+    quantity,
+    real,
+    ref,
+    spelled,
+)

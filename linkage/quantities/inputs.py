@@ -10,10 +10,8 @@ from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
 from ..units import UNITS, unit_or_none
 from ..vectors import Scalar
-from .numbers import is_number, plain
-from .quantity import Quantity
-from .spelling import in_degrees
-from .where import Where
+from .member import Where
+from .quantity import Quantity, in_degrees, is_number, plain
 
 
 @refuses_changes

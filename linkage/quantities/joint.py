@@ -12,9 +12,8 @@ from typing import Literal, TypeAlias, final
 
 from ..frozen import refuses_changes
 from ..vectors import Line
-from .member import Member
+from .member import Member, Where
 from .quantity import Quantity
-from .where import Where
 
 Role: TypeAlias = Literal["body", "runner", "slider", "guide", "own"]
 

@@ -9,9 +9,8 @@ import numpy as np
 
 from ..frozen import refuses_changes
 from ..vectors import Scalar
-from .member import Member, Reference, name_of
+from .member import Member, Reference, Turning, Where, name_of
 from .quantity import Quantity
-from .where import Turning, Where
 
 
 def label(reference: Reference) -> str:

@@ -5,21 +5,96 @@ Each says its rule once, in plain arithmetic; a reading (arrays, traced nodes) s
 
 from __future__ import annotations
 
+import math
+import operator
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NoReturn, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
-from ..frozen import refuses_changes
+from ..frozen import refuses_changes, unmasked
+from ..units import deg
 from ..vectors import Scalar, Vec
-from .arithmetic import BINDS, FUNCTIONS, OPERATORS, UFUNCS
-from .member import Member, Reference
-from .numbers import is_number
-from .spelling import in_degrees, spelled
-from .where import Turning, Where
+from .member import Member, Reference, Turning, Where
+
+# The operators and functions that quantities know: what they compute, and how they are written.
+
+FUNCTIONS: dict[str, Callable[..., Any]] = {
+    name: getattr(np, name) for name in ("sqrt", "sin", "cos", "tan", "arctan2", "exp", "log", "absolute", "minimum", "maximum")
+}
+OPERATORS: dict[str, Callable[[Any, Any], Any]] = {"*": operator.mul, "/": operator.truediv, "**": operator.pow}
+UFUNCS = {"add": "+", "subtract": "-", "multiply": "*", "true_divide": "/", "divide": "/", "power": "**"}
+BINDS = {"*": (2, 2, 3), "/": (2, 2, 3), "**": (3, 4, 4)}
+"""How strongly an operator binds, and how strongly its left and its right side must, to stand without brackets."""
+
+
+# What counts as a number from outside: finite, real, not a truth value.
+
+EXACT = 2**53
+"""Up to this every whole number is a float."""
+
+
+def is_number(value: Any) -> bool:
+    """Return whether a value is one finite real number."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
+        return False
+    try:
+        return math.isfinite(value)
+    except OverflowError:
+        return False
+
+
+def is_whole(value: Any) -> bool:
+    """Return whether a value is one whole number, Python's or NumPy's."""
+    return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+
+
+def plain(value: Any) -> Any:
+    """Return NumPy's number as Python's own, which prints as it is written in a class; a whole one that no float holds as a float."""
+    if isinstance(value, int) and abs(value) > EXACT and is_number(value):
+        return float(value)
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def real(value: Any) -> npt.NDArray[np.float64]:
+    """Return a value as a new array of floats, NaN where it is masked; raise ValueError for anything but real numbers."""
+    array = np.asarray(float(value) if is_whole(value) and is_number(value) else unmasked(value))
+    if array.dtype.kind not in "fiu":
+        raise ValueError(f"{value!r} is not a real number")
+    return np.array(array, float)
+
+
+# How quantities are written, so that the text gives the same value when it is pasted back.
+
+DIGITS = 17  # tell any float from its neighbours
+MORE = 2  # characters that degrees may be longer than radians
+
+
+def spelled(part: Quantity, binding: int = 0, measures: str = "") -> str:
+    """Return a part as text, in brackets where it binds more loosely than its surroundings.
+
+    `measures` says what it stands for, where its place tells: the numbers of an `angle` are written in degrees.
+    """
+    text = part.name or part.text(measures)
+    return f"({text})" if not part.name and getattr(part, "binds", 9) < binding else text
+
+
+def in_degrees(value: float) -> str:
+    """Return an angle [rad] as `75 * deg` where that is the same to the last digit; else, or where it is much shorter, in radians."""
+    plain = repr(value)
+    if not 0.0 < abs(value) < float("inf"):
+        return plain
+    for digits in range(1, DIGITS + 1):
+        degrees = float(f"{value / deg:.{digits}g}")
+        if degrees * deg == value:
+            text = repr(degrees).removesuffix(".0")
+            return f"{text} * deg" if len(text) <= len(plain) + MORE else plain
+    return plain
+
 
 Operand: TypeAlias = "Quantity | float | str"
 Operator: TypeAlias = "Callable[[Quantity, Operand], Quantity]"

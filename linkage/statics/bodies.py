@@ -11,8 +11,8 @@ from ..loads import ForceElement, PinFriction
 from ..plan import Plan
 from ..quantities import Quantity, name_of
 from ..steps import Link
+from .acting import Pushing, member_title
 from .holding import Holding, Line
-from .loaded import Pushing, member_title
 
 FRAME = -1
 FRAME_NAME = "frame"

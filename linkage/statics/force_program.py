@@ -20,21 +20,16 @@ from ..errors import DefinitionError
 from ..motion import Motion
 from ..motion.evaluation import cut as cut_out
 from ..motion.evaluation import pieces
-from ..motion.reach import Mask
+from ..motion.limits import Mask
 from ..plan import Plan
 from ..program import FloatArray, Kernel, Level, Node, Tangent
-from .contacts import Contact
-from .drives import cut
-from .elimination import eliminated_system, held
-from .law import Law, rate_name
-from .loaded import Case, Loaded, Loads
-from .movement import Movement
+from .acting import Case, Loaded, Loads, Movement
+from .equilibrium import System
+from .friction import CONTRACTS, Pressed, Rows, Rub, iterated, rubs, settled, unit_friction
+from .joints import Contact, Structure
 from .poses import Poses
-from .rub import Rub, rubs, unit_friction
-from .rubbing import CONTRACTS, Pressed, Rows, iterated, settled
-from .solved import Equilibrium, Solved
-from .structure import Structure
-from .system import System
+from .solution import Equilibrium, Solved, cut
+from .traced_loads import Law, eliminated_system, held, rate_name
 
 PIECE = 1 << 13
 """Poses whose frictions are settled at a time."""

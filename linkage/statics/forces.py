@@ -10,16 +10,15 @@ import numpy as np
 
 from ..errors import SingularError
 from ..motion import Motion
-from ..motion.reach import where_words
+from ..motion.limits import where_words
 from ..program import FloatArray
+from .acting import Case, Loaded, Loads, drive_of, gathered, movement_of
 from .force_program import by_program
 from .holding import holding_of
 from .levers import with_levers
-from .loaded import Case, Loaded, Loads, gathered
-from .movement import drive_of, movement_of
 from .poses import Poses
 from .result import PinForces
-from .solved import Equilibrium, Rubbed, by_equations
+from .solution import Equilibrium, Rubbed, by_equations
 from .work import by_work
 
 

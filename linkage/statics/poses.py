@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import unwarned
 from ..loads import Poses as ForElements
 from ..motion import BoundRequest
-from ..motion.reach import Mask
+from ..motion.limits import Mask
 from ..motion.requests import Ratios
 from ..plan import Plan
 from ..program import FloatArray

@@ -13,17 +13,14 @@ from ..errors import DefinitionError, cited, known_name
 from ..motion import BoundRequest, Motion, Request
 from ..plan import Plan
 from ..program import Node, Notes
-from .contacts import Contact
+from .acting import Case, Loads, drive_of
 from .driving import driving_force
-from .elimination import eliminated_system, held
+from .equilibrium import System
 from .forces import pin_forces
-from .law import Law
-from .loaded import Case, Loads
-from .movement import drive_of
+from .joints import Contact, Structure
 from .result import met
-from .solved import Solved
-from .structure import Structure
-from .system import System
+from .solution import Solved
+from .traced_loads import Law, eliminated_system, held
 from .work import by_work
 
 
@@ -53,7 +50,7 @@ def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None
 
 @dataclass(frozen=True, eq=False)
 class ForceOf(BoundRequest):
-    """A force settled: it goes through ratios and angles, and is true while the loads keep to the laws that were traced."""
+    """A force bound to a plan: it goes through ratios and angles, and is true while the loads keep to the laws that were traced."""
 
     loads: Loads
     case: Case
@@ -81,7 +78,7 @@ class ForceOf(BoundRequest):
 @final
 @dataclass(frozen=True, eq=False)
 class DriveForceOf(ForceOf):
-    """A drive's force settled: its drive, the key of its loads, the members it reads, and those it is differentiated through."""
+    """A drive's force bound to a plan: its drive, the key of its loads, the members it reads, and those it is differentiated through."""
 
     drive: str
     law: tuple[Any, ...]
@@ -152,7 +149,7 @@ def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = 
 @final
 @dataclass(frozen=True, eq=False)
 class PinForceOf(ForceOf):
-    """A pin force settled: what was asked, the key of its loads, a length of the mechanism [m], and the joint in words."""
+    """A pin force bound to a plan: what was asked, the key of its loads, a length of the mechanism [m], and the joint in words."""
 
     asked: PinForce
     law: tuple[Any, ...]

@@ -11,14 +11,13 @@ import numpy as np
 
 from ..errors import DefinitionError, known_name, unknown
 from ..motion import Motion, require_motion, stroke_unit
-from ..motion.reach import Mask
+from ..motion.limits import Mask
 from ..program import FloatArray
 from ..units import kN
+from .acting import Acting, Loaded
 from .bodies import FRAME_NAME
-from .joint_force import JointForce
-from .loaded import Acting, Loaded
+from .joints import JointForce, Structure
 from .poses import Poses
-from .structure import Structure
 from .work import gap
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import DefinitionError, cited, unwarned
 from ..motion import greatest
 from ..units import deg, kN
-from .joint_force import JointForce
+from .joints import JointForce
 from .result import PinForces
 
 

@@ -11,11 +11,10 @@ from ..errors import DefinitionError
 from ..loads import TwoPoint
 from ..motion import Motion, require_motion
 from ..program import FloatArray
+from .acting import Case, Loaded, Loads, Movement, chosen, gathered, member_title, movement_of, path_tangent, sense_of
 from .forces import equilibrium, held_poses, locked_words
 from .holding import Line, holding_of, same, stroke_followed
 from .levers import Levers, with_levers
-from .loaded import Case, Loaded, Loads, chosen, gathered, member_title
-from .movement import Movement, movement_of, path_tangent, sense_of
 from .poses import Poses
 from .work import by_work
 

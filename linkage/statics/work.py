@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from ..program import FloatArray
-from .loaded import Loaded
+from .acting import Loaded
+from .friction import Rub
 from .poses import Poses
-from .rub import Rub
 
 
 def by_work(poses: Poses, loaded: Loaded, drive: str) -> FloatArray:

@@ -1,31 +1,13 @@
 """Construction steps: each places one thing from things already placed."""
 
-from .crank import Crank as Crank
-from .dyad import Dyad as Dyad
-from .dyad import triangle as triangle
-from .ground import Ground as Ground
-from .guide import Guide as Guide
-from .guide import OnGuide as OnGuide
-from .guide import Slide as Slide
-from .labels import Claims as Claims
-from .labels import Slot as Slot
-from .labels import match as match
-from .link import Link as Link
-from .onlink import OnLink as OnLink
-from .pin import Drawn as Drawn
-from .pin import Group as Group
-from .pin import Pin as Pin
-from .pin import drawn as drawn
-from .primitives import Arrow as Arrow
-from .primitives import CosineAngle as CosineAngle
-from .primitives import Offset as Offset
-from .primitives import Turn as Turn
-from .primitives import Vector as Vector
-from .sliders import GuideCross as GuideCross
-from .sliders import PinSlotDyad as PinSlotDyad
-from .sliders import SliderDyad as SliderDyad
-from .sliders import YokeDyad as YokeDyad
-from .step import UNBOUND as UNBOUND
-from .step import Bar as Bar
-from .step import Point as Point
-from .step import Step as Step
+from .crank import Crank
+from .dyad import Dyad, triangle
+from .ground import Ground
+from .guide import Guide, OnGuide, Slide
+from .labels import Claims, Slot, match
+from .link import Link
+from .onlink import OnLink
+from .pin import Drawn, Group, Pin, drawn
+from .primitives import Arrow, CosineAngle, Offset, Turn, Vector
+from .sliders import GuideCross, PinSlotDyad, SliderDyad, YokeDyad
+from .step import UNBOUND, Bar, Point, Step

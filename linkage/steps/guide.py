@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Any
 
 from ..errors import DefinitionError
-from ..quantities import (
+from ..quantities import (  # fmt: skip
     FRAME_SIDE,
     Driven,
     Holding,
@@ -24,7 +24,7 @@ from ..quantities import (
     name_of,
     quantity,
     spelled,
-)  # fmt: skip
+)
 from ..vectors import Line, Scalar, Vec
 from .labels import Claims
 from .step import Point, position

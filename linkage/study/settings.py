@@ -13,8 +13,8 @@ from ..mechanism import Mechanism
 from ..program import FloatArray
 from ..quantities import is_number
 from ..units import show, unit_or_none
-from .asked import Asked, one_design, poses_of, title_of, unit_of, values
 from .box import range_of
+from .checks import Asked, one_design, poses_of, title_of, unit_of, values
 
 SAMPLES = 1025
 ROUNDS = 12  # each looks 33 times closer

@@ -11,12 +11,10 @@ from ..errors import DefinitionError, cited, known_name, one_word
 from ..frozen import FrozenDict, read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..quantities import is_whole
-from .asked import one_design
-from .batch import Batch, Measure, Task
-from .designs import Array, Designs
-from .progress import Progress, shown
-from .run import Here, Run, Submits
-from .shelf import Shelf
+from .batching import Here, Progress, Run, Submits, shown
+from .checkpoint import Shelf
+from .checks import one_design
+from .designs import Array, Batch, Designs, Measure, Task
 
 SMALLEST, LARGEST, PARTS = 64, 2048, 64
 

@@ -14,7 +14,7 @@ from .following import over_following as over_following
 from .following import relief as relief
 from .headers import HEADERS as HEADERS
 from .machine import HeaderBalancer as HeaderBalancer
-from .matched import ImprovedBalancer as ImprovedBalancer
+from .machine import ImprovedBalancer as ImprovedBalancer
 from .measured import deviations as deviations
 from .measured import read_measured as read_measured
 from .settings import setting_table as setting_table

@@ -6,9 +6,8 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 
 from linkage import DefinitionError, Motion
-from linkage.cli.command import Command, counted, machine_arguments
+from linkage.cli.command import Command, counted, figure_path, machine_arguments, picture_argument
 from linkage.cli.machines import find_like
-from linkage.cli.output import figure_path, picture_argument
 from linkage.cli.settings import setting
 from linkage.cli.table import csv_argument, write_table
 from linkage.plan import Plan

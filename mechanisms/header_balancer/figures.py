@@ -28,8 +28,7 @@ from linkage.units import kgf, kgf_cm2, litre, mm
 
 from .following import BEARING, PLAIN, SHOE, Balance, over_following, own_loads, rubbing
 from .headers import HEADERS
-from .machine import HeaderBalancer
-from .matched import ImprovedBalancer
+from .machine import HeaderBalancer, ImprovedBalancer
 from .measured import ALLOWED, Deviation
 from .settings import with_header
 
@@ -94,7 +93,7 @@ def seals_alone(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> 
 
 def reactions(ax: Any, motion: Motion, measured: Sequence[Deviation] = (), without: Sequence[str] = ()) -> None:
     """Draw the reaction of a shoe over its height: up, down, without friction; the paper's gas law thin beside; measured values dashed."""
-    from linkage.draw import style
+    from linkage.pictures import style
 
     curves, printed, height = _reactions(motion, without), _reactions(_paper(motion), without), Balance(motion).height
     _ways(ax, height, curves)
@@ -109,7 +108,7 @@ def reactions(ax: Any, motion: Motion, measured: Sequence[Deviation] = (), witho
 
 def compared(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     """Draw figure 7: calculated solid, with the band of the paper's 7 %, measured dashed."""
-    from linkage.draw import style
+    from linkage.pictures import style
 
     height, curves, text = Balance(motion).height, _reactions(motion), f"{ALLOWED:g} % about the calculated ones"
     moving = {label: curves[label] for label in CURVES.values()}
@@ -133,7 +132,7 @@ def _ways(ax: Any, height: FloatArray, curves: Mapping[str, FloatArray]) -> None
 
 def _measured(ax: Any, motion: Motion, measured: Sequence[Deviation]) -> None:
     """Lay measured reactions over the calculated ones, with their largest deviation."""
-    from linkage.draw import style
+    from linkage.pictures import style
 
     for each in measured:
         if each.curve in CURVES:
@@ -145,7 +144,7 @@ def _measured(ax: Any, motion: Motion, measured: Sequence[Deviation]) -> None:
 
 def bearings(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     """Draw figure 2 b: what plain bearings at O add to the reaction, up and down, as a force at a shoe."""
-    from linkage.draw import style
+    from linkage.pictures import style
 
     balance, shoes = Balance(motion), float(motion.inputs["shoes"])
     radius = float(motion.inputs[f"{BEARING}.radius"])
@@ -167,7 +166,7 @@ def bearings(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> Non
 
 def given(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     """Draw the pressure in the accumulators over the shoe's height, and the charges of the pairs about there."""
-    from linkage.draw import style
+    from linkage.pictures import style
 
     balance = Balance(motion)
     _curve(ax, balance.height, balance.pressure / kgf_cm2, style.CURVE, "in the accumulators")
@@ -177,7 +176,7 @@ def given(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
 
 def needed(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     """Draw figure 3 b: the pressure at which the shoes carry nothing, up and down, from the shoe's lowest place to the stroke's end."""
-    from linkage.draw import style
+    from linkage.pictures import style
 
     lowest, end = motion.strokes["h"][0], motion.plan.strokes["h"].end
     balance = Balance(motion.moved({"h": np.linspace(lowest, end, 101)}))
@@ -192,7 +191,7 @@ def needed(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
 
 def matched(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     """Draw given and needed pressure over the shoe's height, the latter with friction as a band."""
-    from linkage.draw import style
+    from linkage.pictures import style
 
     balance = Balance(motion)
     up, down = (balance.required_while(way) / kgf_cm2 for way in ("extending", "retracting"))
@@ -215,7 +214,7 @@ REACTIONS = ("2a", "4a", "5a", "6a", "7")
 
 def _as_it_stands(ax: Any, part: str) -> None:
     """Lay header 1 on the machine as it stands beside the improved one, thin."""
-    from linkage.draw import style
+    from linkage.pictures import style
 
     motion = over_following(with_header(1).at(h=0.0))
     balance = Balance(motion)
@@ -251,7 +250,7 @@ def _charges(ax: Any, balance: Balance) -> None:
 
 
 def _kink(ax: Any, height: float, pressure: float) -> None:
-    from linkage.draw import style
+    from linkage.pictures import style
 
     ax.plot(height, pressure, "o", color=style.CURVE, markersize=7, markeredgecolor=style.PAPER, zorder=8.0)
     ax.annotate(
@@ -275,7 +274,7 @@ def _paper(motion: Motion) -> Motion:
 
 
 def _colours() -> dict[str, str]:
-    from linkage.draw import style
+    from linkage.pictures import style
 
     return {"moving up": style.CURVE, "without friction": style.MUTED, "moving down": style.ACCENT}
 
@@ -291,9 +290,8 @@ def _name(machine: HeaderBalancer) -> str:
 def _sheet(titles: Mapping[str, str], name: str) -> tuple[Any, list[Any]]:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-    from linkage.draw import style
-    from linkage.draw.picture import Picture
-    from linkage.draw.sheet import quiet
+    from linkage.pictures import style
+    from linkage.pictures.sheet import Picture, quiet
 
     sheet = Picture(figsize=SIZE if len(titles) == 1 else PAIR, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
     FigureCanvasAgg(sheet)
@@ -316,7 +314,7 @@ def _curve(ax: Any, height: FloatArray, values: FloatArray, colour: str, label: 
 
 def _level(ax: Any, value: float, text: str) -> None:
     """Draw a pressure that matters as a line across, with its name."""
-    from linkage.draw import style
+    from linkage.pictures import style
 
     ax.axhline(value, color=style.MUTED, linewidth=1.0, linestyle=(0, (4, 3)), zorder=2.0)
     ax.annotate(
@@ -327,7 +325,7 @@ def _level(ax: Any, value: float, text: str) -> None:
 
 def _hanging(ax: Any) -> None:
     """Shade where the shoe hangs: a reaction below zero."""
-    from linkage.draw import style
+    from linkage.pictures import style
 
     low, high = ax.get_ylim()
     low = min(low, -0.05 * high)
@@ -341,7 +339,7 @@ def _hanging(ax: Any) -> None:
 
 
 def _finished(ax: Any) -> None:
-    from linkage.draw import style
+    from linkage.pictures import style
 
     along = np.concatenate([np.asarray(line.get_xdata(), float) for line in ax.get_lines() if len(line.get_xdata()) > 2])
     ax.set_xlim(float(along.min()), float(along.max()))

@@ -16,7 +16,7 @@ from linkage.motion import greatest, require_motion
 from linkage.program import FloatArray
 from linkage.quantities import Coordinate, Distance, is_number, is_whole
 from linkage.statics import driving_force, reaction
-from linkage.statics.movement import SENSES
+from linkage.statics.acting import SENSES
 from linkage.units import kgf_cm2, mm
 
 AB = Distance("A", "B")  # one for all, so that its ratio is worked out once

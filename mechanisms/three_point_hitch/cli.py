@@ -5,19 +5,17 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 
 from linkage import Column, DefinitionError, Motion
-from linkage.cli.command import Command, machine_arguments, motion_arguments
+from linkage.cli.command import Command, figure_path, machine_arguments, motion_arguments, picture_argument
 from linkage.cli.machines import find_like
-from linkage.cli.output import figure_path, picture_argument
 from linkage.cli.settings import design, motion
 from linkage.cli.table import csv_argument, write_table
 
 from .categories import CATEGORIES
 from .figures import NAMES, figure
 from .machine import ThreePointHitch
-from .mast import mast_words
 from .report import capacity_columns, pin_table
 from .weakest import pressure_words
-from .zones import capacity_zone, tilt_zone, zone_columns
+from .zones import capacity_zone, mast_words, tilt_zone, zone_columns
 
 LEGEND = """S stroke; F_y height of the hitch points; I = dG_y/dS; capacity at G at the full pressure;
 F 90%, 610 90%: at the hitch points and 610 mm behind them at 90 % of the pressure; MK force in the upper link, tension positive;

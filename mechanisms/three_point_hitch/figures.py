@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from linkage import DefinitionError, Motion
+from linkage import DefinitionError, Motion, draw
 from linkage.errors import unknown
 from linkage.program import FloatArray
-from linkage.report import closely
+from linkage.reports import closely
 from linkage.study import Zone
 from linkage.units import deg, g0, kN, mm
 
@@ -61,7 +61,7 @@ def zones(hitch: ThreePointHitch) -> Any:
 
 
 def _band(ax: Any, zone: Zone, unit: float, place: int, text: str) -> None:
-    from linkage.draw import style
+    from linkage.pictures import style
 
     colour = (style.CURVE, style.ACCENT, *style.BODIES)[place % 8]
     S = zone.strokes["S"] / mm
@@ -103,7 +103,7 @@ def curves(hitch: ThreePointHitch) -> Any:
 
 def _mark(ax: Any, motion: Motion) -> None:
     """Mark the weakest point of the capacity curve."""
-    from linkage.draw import style
+    from linkage.pictures import style
 
     found = weakest(motion)
     if found is None:
@@ -135,9 +135,9 @@ def _heights(ax: Any, motion: Motion) -> None:
 
 def lift_range(hitch: ThreePointHitch) -> Any:
     """Return the hitch lowered (faint) and lifted, with the lift range of the hitch points."""
-    from linkage.draw import poses, style
+    from linkage.pictures import style
 
-    sheet = poses(hitch, path=["F", "G"])
+    sheet = draw(hitch, path=["F", "G"])
     (ax,) = sheet.axes
     ends = hitch.at(S=[hitch.strokes["S"].start, hitch.strokes["S"].end])
     low, high = ends.y("F")
@@ -160,9 +160,8 @@ def lift_range(hitch: ThreePointHitch) -> Any:
 def _sheet(count: int, title: str) -> tuple[Any, list[Any]]:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-    from linkage.draw import style
-    from linkage.draw.picture import Picture
-    from linkage.draw.sheet import quiet
+    from linkage.pictures import style
+    from linkage.pictures.sheet import Picture, quiet
 
     size = (10.6, 5.2) if count == 2 else (8.4, 6.2)
     sheet: Any = Picture(figsize=size, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
@@ -177,14 +176,14 @@ def _sheet(count: int, title: str) -> tuple[Any, list[Any]]:
 
 
 def _curve(ax: Any, along: FloatArray, values: FloatArray, colour: str, text: str, line: str = "-", width: float = 2.0) -> None:
-    from linkage.draw import style
+    from linkage.pictures import style
 
     ax.plot(along, values, color=getattr(style, colour), linewidth=width, linestyle=line, label=text, zorder=6.0)
     ax.set_xlim(float(along.min()), float(along.max()))
 
 
 def _named(ax: Any, title: str, along: str, value: str) -> None:
-    from linkage.draw import style
+    from linkage.pictures import style
 
     if title:
         ax.set_title(title, loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)

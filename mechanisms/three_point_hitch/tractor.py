@@ -12,7 +12,7 @@ import numpy as np
 from hydraulics import Verdict
 from linkage import ForceElement, Motion
 from linkage.program import FloatArray
-from linkage.report import closely
+from linkage.reports import closely
 from linkage.units import deg, g0, kN, mm
 
 from .capacity import own_loads

@@ -10,7 +10,7 @@ from hydraulics import Verdict
 from linkage import Motion, angle
 from linkage.errors import unwarned
 from linkage.motion import greatest, lowest
-from linkage.report import closely
+from linkage.reports import closely
 from linkage.units import deg, g0, kN, mm
 
 from .capacity import capacity, circuit_of, stroke_per_newton

@@ -40,7 +40,7 @@ from linkage import (
     pin_forces,
 )
 from linkage.program import FloatArray, pinned
-from linkage.program.fused import is_there
+from linkage.program.numba_backend import is_there
 from linkage.units import MPa, litre, minute
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.benchmarks.bench_kernel import machine

@@ -21,7 +21,7 @@ import numpy as np
 
 from linkage import LEFT, Crank, Dyad, Ground, Mechanism, OnLink, Stroke, deg, ratio
 from linkage.program import Kernel, Way, gradient
-from linkage.program.fused import is_there
+from linkage.program.numba_backend import is_there
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.benchmarks.bench_kernel import ROOT, first_result, machine
 from tests.benchmarks.c_reference import c_case, has_compiler, unit_case

@@ -8,7 +8,7 @@ from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, Li
 from linkage import Crank, Dyad, Ground, Mechanism, OnLink, PinFriction, Stroke, Weight, deg
 from linkage.files import load, to_toml
 from linkage.motion import Column, Motion, Tabled
-from linkage.report import results
+from linkage.reports import results
 from linkage.units import MPa, bar, kN, litre
 from linkage.vectors import RIGHT
 from mechanisms.three_point_hitch import ThreePointHitch

@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 
 from linkage.program import ancestors
-from linkage.program.lower import plain
+from linkage.program.schedule import plain
 
 DIGITS = 60
 POWER = {

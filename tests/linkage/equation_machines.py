@@ -28,7 +28,7 @@ from linkage import (
     x,
     y,
 )
-from linkage.equations import equations
+from linkage.formulas import equations
 from linkage.quantities import Quantity
 from mechanisms.mower_lift import BELOW, DELFI, G_FROM_O, MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from linkage import (
+from linkage import (  # fmt: skip
     LEFT,
     RIGHT,
     CosineAngle,
@@ -36,7 +36,7 @@ from linkage import (
     ref,
     x,
     y,
-)  # fmt: skip
+)
 from linkage.files import to_dict
 from linkage.loads import Actuator, Damper, Force, GuideFriction, LinkMass, LoadCase, Moment, PinFriction, Spring, Support, Weight
 

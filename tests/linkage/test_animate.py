@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
-from linkage import (
+from linkage import (  # fmt: skip
     LEFT,
     AssemblyError,
     Column,
@@ -24,13 +24,10 @@ from linkage import (
     OnLink,
     Stroke,
     angle,
-)  # fmt: skip
-from linkage.animate import animate
-from linkage.animate.course import course
-from linkage.animate.gif import palette_of
-from linkage.animate.stage import Stage
-from linkage.draw import style
-from linkage.page import page
+)
+from linkage.pictures import animate, page_html, style
+from linkage.pictures.film import Stage, palette_of
+from linkage.pictures.strokes import course
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.classics.slider_crank import SliderCrank
 from mechanisms.mower_lift import MowerLift
@@ -139,7 +136,7 @@ def test_names_keep_close_to_their_points():
 
 def test_a_page_has_the_rail_and_the_block():
     motion = SliderCrank().sweep(9)
-    scene = data_of(page(motion, Column("d", motion["d"], "m")))["scene"]
+    scene = data_of(page_html(motion, Column("d", motion["d"], "m")))["scene"]
     assert len(scene["rails"]) == 1
     assert [scene["names"][each["rider"]] for each in scene["blocks"]] == ["B"]
     assert {len(pose) for pose in scene["poses"]} == {len(scene["names"]) + 2}
@@ -227,7 +224,7 @@ def test_a_page_escapes_what_it_shows():
 
     Sly.plan.title = "</script><b>{{JS}}&"
     motion = Sly().sweep(3)
-    text = page(motion, Column("a<b", motion["psi"], "deg"), limit=(1.0, "</script>"))
+    text = page_html(motion, Column("a<b", motion["psi"], "deg"), limit=(1.0, "</script>"))
     assert text.count("</script>") == 2
     assert "<b>" not in text
     assert "<h1>&lt;/script&gt;&lt;b&gt;{{js}}&amp;</h1>" in text
@@ -237,7 +234,7 @@ def test_a_page_escapes_what_it_shows():
 
 def test_a_page_has_no_pose_out_of_reach():
     motion = TooLong().sweep(unreachable="nan", S=40)
-    data = data_of(page(motion, Column("G_y", motion.y("G"), "m")))
+    data = data_of(page_html(motion, Column("G_y", motion.y("G"), "m")))
     assert data["reached"] == np.flatnonzero(motion.reached).tolist()
     assert all(None not in data["scene"]["poses"][pose] for pose in data["reached"])
     assert data["chart"]["column"]["values"][-1] is None

@@ -17,16 +17,13 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, LinkageError, Mechanism, Stroke
 from linkage.program import Graph, Kernel, Level, Way, interpret, jacobian, solve_arrays
-from linkage.program.arrays import aligned, cache_size
-from linkage.program.expand import expanded
+from linkage.program.cache import Kept, compiled
+from linkage.program.elimination import expanded
 from linkage.program.foreign import c_text, javascript_text
-from linkage.program.kept import Kept
+from linkage.program.kernel import halved
 from linkage.program.loop import numba_text
-from linkage.program.lower import ancestors, lowered
-from linkage.program.order import alive
-from linkage.program.schedule import schedule
-from linkage.program.source import compiled
-from linkage.program.trig import halved
+from linkage.program.numpy_backend import aligned, cache_size
+from linkage.program.schedule import alive, ancestors, lowered, schedule
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.random_mechanisms import random_mechanism
 

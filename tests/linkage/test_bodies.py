@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from linkage import LEFT, RIGHT, Crank, Dyad, Ground, Link, Mechanism, Offset, OnLink, Stroke, Turn, Vector, angle
-from linkage.graph import gruebler, merged
+from linkage.plan import gruebler, merged
 
 
 def names(bodies):

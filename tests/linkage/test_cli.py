@@ -13,7 +13,10 @@ from importlib.metadata import EntryPoint
 import numpy as np
 import pytest
 
-from linkage.cli import Command, commands, listing, machines, main, progress
+from linkage.cli import Command, machines, main
+from linkage.cli import command as progress
+from linkage.cli import entry as commands
+from linkage.cli import show as listing
 
 OWN = '''
     """A machine of a user."""

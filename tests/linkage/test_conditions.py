@@ -167,6 +167,30 @@ def test_a_direction_that_is_lost_between_two_poses_is_told(members, S):
     assert machine().at(S=np.abs(S)).interruptions == ()
 
 
+@pytest.mark.parametrize("asked", ["v", angle("A", "P")], ids=str)
+@pytest.mark.parametrize("away", [1e-3, 1e-6, 1e-9])
+def test_a_direction_that_only_a_request_takes_is_judged_alike_in_every_way(asked, away):
+    class Near(Mechanism):
+        """P runs on a rail 1 nm below the fixed point A."""
+
+        S, A = Stroke(0.1, 0.5), Ground(0.3 * np.cos(0.3), 0.3 * np.sin(0.3) + 1e-9)
+        rail = Guide((0.0, 0.0), angle=0.3)
+        P = OnGuide(rail, at=S)
+        v = angle(A, P)
+
+    S = 0.3 + away
+    asks = [lambda: Near().evaluate([ratio(asked)], S=S)[0], lambda: Near().function([ratio(asked)])(S)[0]]
+    asks.append(lambda: Near().at(S=S).ratio(asked))
+    told = []
+    for ask in asks:
+        with warnings.catch_warnings(record=True) as warned:
+            warnings.simplefilter("always")
+            ask()
+        told.append([each.message.estimate for each in warned])
+    assert len(told[0]) == (away < 1e-8)
+    assert told == [told[0]] * 3
+
+
 def test_a_length_that_touches_zero_interrupts_nothing():
     machine = type("Measured", (Through,), {"u": distance("A", "P")})
     assert machine().sweep(4).interruptions == ()

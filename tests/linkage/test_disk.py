@@ -13,15 +13,12 @@ import numpy as np
 import pytest
 
 from linkage import FileError, LinkageError
-from linkage.animate import animate
-from linkage.animate.course import course
-from linkage.animate.film import html
-from linkage.animate.gif import write_gif
-from linkage.animate.mp4 import write_mp4
 from linkage.cli import main
 from linkage.disk import check_place, read, replacing, replacing_text
-from linkage.draw import curves, poses
 from linkage.files import load, save
+from linkage.pictures import animate, draw, plot
+from linkage.pictures.film import html, write_gif, write_mp4
+from linkage.pictures.strokes import course
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.header_balancer.measured import read_measured
 
@@ -31,7 +28,7 @@ posix = pytest.mark.skipif(sys.platform == "win32", reason="rights and links of 
 @cache
 def figures():
     """Return a figure of each kind."""
-    return poses(FourBar(), count=5), curves(FourBar().sweep(5), ["P_x"])
+    return draw(FourBar(), count=5), plot(FourBar().sweep(5), ["P_x"])
 
 
 def drawn(path):
@@ -393,7 +390,7 @@ def test_the_place_is_looked_at_before_the_work(tmp_path, monkeypatch):
     def worked(*given, **options):
         raise AssertionError("worked for nothing")
 
-    monkeypatch.setattr("linkage.animate.film.course", worked)
+    monkeypatch.setattr("linkage.pictures.film.course", worked)
     with pytest.raises(FileError, match="is not there"):
         animate(FourBar(), tmp_path / "nowhere" / "bars.gif")
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 from numpy.testing import assert_allclose
 
-from linkage import (
+from linkage import (  # fmt: skip
     LEFT,
     RIGHT,
     AssemblyError,
@@ -28,15 +28,14 @@ from linkage import (
     Turn,
     Vector,
     deg,
-)  # fmt: skip
-from linkage.draw import curves, mechanism, poses, strokes, style
-from linkage.draw.bodies import BodyPart
-from linkage.draw.cylinders import lengthwise
-from linkage.draw.limits import crossings
-from linkage.draw.scene import Scene
-from linkage.draw.shapes import hull, rounded
-from linkage.draw.sheet import sheet
-from linkage.draw.sliders import BlockPart, hatched
+)
+from linkage.pictures import draw, mechanism, plot, strokes, style
+from linkage.pictures.curves import crossings
+from linkage.pictures.drawing import BodyPart
+from linkage.pictures.scene import Scene
+from linkage.pictures.shapes import hull, rounded
+from linkage.pictures.sheet import sheet
+from linkage.pictures.symbols import BlockPart, hatched, lengthwise
 from mechanisms.classics.inverted_slider_crank import InvertedSliderCrank
 from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.classics.slider_crank import SliderCrank
@@ -233,9 +232,9 @@ def test_a_batch_of_designs_is_refused():
     with pytest.raises(DefinitionError, match="holds 2 designs and a picture shows one"):
         mechanism(axes(), motion)
     with pytest.raises(DefinitionError, match="2 designs"):
-        poses(ThreePointHitch(OB=[0.29, 0.30]))
+        draw(ThreePointHitch(OB=[0.29, 0.30]))
     with pytest.raises(DefinitionError, match="one design and one row"):
-        curves(motion, [Column("tilt", motion["tilt"], "deg")])
+        plot(motion, [Column("tilt", motion["tilt"], "deg")])
 
 
 # -- sliding ----------------------------------------------------------------------------------------------
@@ -266,10 +265,10 @@ def test_a_fixed_guide_is_a_rail_and_a_slot_moves():
 
 
 def test_what_is_not_reached_is_said_on_the_picture():
-    (remark,) = [text.get_text() for text in poses(TooLong()).texts if "reached" in text.get_text()]
+    (remark,) = [text.get_text() for text in draw(TooLong()).texts if "reached" in text.get_text()]
     limit = float(remark.removeprefix("not reached beyond S = ").removesuffix(" mm")) / 1e3
     assert TooLong().at(unreachable="nan", S=[limit - 1e-3, limit + 1e-3]).reached.tolist() == [True, False]
-    assert not [text for text in poses(MowerLift()).texts if "reached" in text.get_text()]
+    assert not [text for text in draw(MowerLift()).texts if "reached" in text.get_text()]
 
 
 # -- labels ------------------------------------------------------------------------------------------------
@@ -283,7 +282,7 @@ def boxes(figure):
 
 @pytest.mark.parametrize("cls", ALL)
 def test_names_keep_clear_of_each_other_of_pins_and_of_the_edge(cls):
-    figure = poses(cls())
+    figure = draw(cls())
     names = boxes(figure)
     assert set(names) == set(cls.plan.points)
     ax = figure.axes[0]
@@ -301,7 +300,7 @@ def test_names_keep_clear_of_each_other_of_pins_and_of_the_edge(cls):
 
 @pytest.mark.parametrize("cls", ALL)
 def test_scales_are_equal_and_hold_every_pose(cls):
-    ax = poses(cls()).axes[0]
+    ax = draw(cls()).axes[0]
     sizes = np.diff(ax.transData.transform([(0, 0), (1, 1)]), axis=0)[0]
     assert_allclose(sizes[0], sizes[1], rtol=1e-6)
     motion = one_motion(cls)
@@ -316,40 +315,40 @@ def legend(figure):
 
 
 def test_the_legend_says_which_pose_is_which():
-    assert legend(poses(MowerLift(), path=["G"])) == ["S = 550 mm", "S = 800 mm", "path of G"]
-    assert legend(poses(ThreePointHitch(), path=["F", "G"]))[2:] == ["paths of F, G"]
-    assert legend(poses(ThreePointHitch(), at=[0.0, 0.1, 0.25])) == ["S = 0 mm", "S = 100 mm", "S = 250 mm"]
-    assert legend(poses(FourBar())) == ["phi = 180°", "phi = 0°"]
-    assert legend(poses(Crane(), at={"S2": [0.9, 1.2]})) == ["S2 = 900 mm", "S2 = 1200 mm"]
-    assert legend(poses(TooLong())) == ["S = 550 mm"]
+    assert legend(draw(MowerLift(), path=["G"])) == ["S = 550 mm", "S = 800 mm", "path of G"]
+    assert legend(draw(ThreePointHitch(), path=["F", "G"]))[2:] == ["paths of F, G"]
+    assert legend(draw(ThreePointHitch(), at=[0.0, 0.1, 0.25])) == ["S = 0 mm", "S = 100 mm", "S = 250 mm"]
+    assert legend(draw(FourBar())) == ["phi = 180°", "phi = 0°"]
+    assert legend(draw(Crane(), at={"S2": [0.9, 1.2]})) == ["S2 = 900 mm", "S2 = 1200 mm"]
+    assert legend(draw(TooLong())) == ["S = 550 mm"]
 
 
 def test_strokes_held_are_named():
-    figure = poses(Crane())
+    figure = draw(Crane())
     assert [text.get_text() for text in figure.texts] == ["Crane", "at S2 = 1050 mm"]
 
 
 def test_the_path_is_the_points():
-    figure = poses(MowerLift(), path=["G"], count=21)
+    figure = draw(MowerLift(), path=["G"], count=21)
     (line,) = [line for line in figure.axes[0].lines if line.get_color() == style.ACCENT]
     assert_allclose(line.get_xydata().T, MowerLift().sweep(21)["G"])
 
 
 def test_nothing_in_reach_is_said_in_words():
     with pytest.raises(AssemblyError, match="B = Dyad"):
-        poses(Longest())
+        draw(Longest())
 
 
 def test_unknown_names_are_said_in_words():
     with pytest.raises(DefinitionError, match="Known: A, O, B, G"):
-        poses(MowerLift(), path=["H"])
+        draw(MowerLift(), path=["H"])
     with pytest.raises(DefinitionError, match="'T' is unknown"):
-        poses(MowerLift(), at={"T": [0.6]})
+        draw(MowerLift(), at={"T": [0.6]})
 
 
 @pytest.mark.parametrize(("cls", "unit"), [(MowerLift, "m"), (FourBar, "mm")])
 def test_lengths_are_in_the_unit_of_their_size(cls, unit):
-    figure = poses(cls())
+    figure = draw(cls())
     figure.canvas.draw()
     ax = figure.axes[0]
     assert ax.get_xlabel() == f"x, {unit}"
@@ -380,7 +379,7 @@ motion_machine = MowerLift()
 def test_curves_are_the_columns_over_the_stroke_in_their_units():
     motion = motion_machine.sweep(41)
     columns = [columns_of(motion)[name] for name in ("S", "I", "F", "pd", "kz")]
-    figure = curves(motion, columns)
+    figure = plot(motion, columns)
     assert [ax.get_title(loc="left") for ax in figure.axes] == ["I", "F, kgf", "pd, kgf/cm²", "kz"]
     assert {ax.get_xlabel() for ax in figure.axes} == {"S, mm"}
     for ax, column in zip(figure.axes, columns[1:], strict=True):
@@ -393,7 +392,7 @@ def test_curves_are_the_columns_over_the_stroke_in_their_units():
 def test_a_limit_shades_the_side_that_fails_and_marks_the_crossing():
     motion = motion_machine.sweep(101)
     columns = [columns_of(motion)[name] for name in ("pd", "kz")]
-    figure = curves(motion, columns, limits={"kz": (1.0, "kz = 1", "below"), "pd": (motion_machine["p_max"], "p_max")})
+    figure = plot(motion, columns, limits={"kz": (1.0, "kz = 1", "below"), "pd": (motion_machine["p_max"], "p_max")})
     pressure, reserve = figure.axes
     for ax, value, low in ((pressure, 155.0, False), (reserve, 1.0, True)):
         _, line, short, mark = ax.lines
@@ -414,7 +413,7 @@ def test_crossings_lie_between_poses_in_reach():
 
 def test_a_stroke_that_turns_is_shown_in_degrees():
     motion = FourBar().sweep(13)
-    ax = curves(motion, [Column("B_x", motion.x("B"), "m")]).axes[0]
+    ax = plot(motion, [Column("B_x", motion.x("B"), "m")]).axes[0]
     assert ax.get_xlabel() == "phi, deg"
     assert ax.get_xlim() == (0.0, 360.0)
     assert strokes.words(motion.plan, "phi", -pi / 2) == "phi = \N{MINUS SIGN}90°"
@@ -423,20 +422,20 @@ def test_a_stroke_that_turns_is_shown_in_degrees():
 def test_a_constant_column_a_single_pose_and_gaps_can_be_drawn():
     machine = MowerLift()
     still = machine.sweep(3)
-    curves(still, [Column("p", np.full(3, 7.0))]).canvas.draw()
-    curves(machine.at(S=[0.6]), [Column("q", np.array([1.0]))]).canvas.draw()
-    curves(machine.at(S=[0.6, 2.0], unreachable="nan"), [Column("q", np.full(2, np.nan))]).canvas.draw()
+    plot(still, [Column("p", np.full(3, 7.0))]).canvas.draw()
+    plot(machine.at(S=[0.6]), [Column("q", np.array([1.0]))]).canvas.draw()
+    plot(machine.at(S=[0.6, 2.0], unreachable="nan"), [Column("q", np.full(2, np.nan))]).canvas.draw()
 
 
 def test_what_cannot_be_plotted_is_said_in_words():
     motion = motion_machine.sweep(5)
     column = columns_of(motion)["kz"]
     with pytest.raises(DefinitionError, match=r"'kx' is unknown in limits. Did you mean kz"):
-        curves(motion, [column], limits={"kx": (1.0, "")})
+        plot(motion, [column], limits={"kx": (1.0, "")})
     with pytest.raises(DefinitionError, match='say "above" or "below"'):
-        curves(motion, [column], limits={"kz": (1.0, "kz = 1", "under")})
+        plot(motion, [column], limits={"kz": (1.0, "kz = 1", "under")})
     with pytest.raises(DefinitionError, match="no column to draw over S"):
-        curves(motion, [Column("S", motion.strokes["S"], "m")])
+        plot(motion, [Column("S", motion.strokes["S"], "m")])
     grid = Crane().sweep(S1=3, S2=3)
     with pytest.raises(DefinitionError, match="sweep one stroke and give every other a value"):
-        curves(grid, [Column("T_x", grid.x("T"), "m")])
+        plot(grid, [Column("T_x", grid.x("T"), "m")])

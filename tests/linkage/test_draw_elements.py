@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.testing import assert_allclose
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit, isothermal
-from linkage import (
+from linkage import (  # fmt: skip
     RIGHT,
     Actuator,
     Between,
@@ -31,15 +31,14 @@ from linkage import (
     Vector,
     Weight,
     deg,
-)  # fmt: skip
-from linkage.draw import mechanism, style
-from linkage.draw.bodies import BodyPart
-from linkage.draw.cylinders import CylinderPart
-from linkage.draw.elements import StraightPart
-from linkage.draw.outlines import HALF
-from linkage.draw.scene import Scene
+)
 from linkage.loads import TwoPoint
-from linkage.page.scenery import Pixels, scenery
+from linkage.pictures import mechanism, style
+from linkage.pictures.browser import Pixels, scenery
+from linkage.pictures.drawing import BodyPart, StraightPart
+from linkage.pictures.scene import Scene
+from linkage.pictures.shapes import HALF
+from linkage.pictures.symbols import CylinderPart
 from linkage.units import bar, litre
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.three_point_hitch import ThreePointHitch

@@ -5,23 +5,9 @@ import pytest
 import sympy
 from numpy.testing import assert_allclose
 
-from linkage import (
-    LEFT,
-    AssemblyError,
-    Crank,
-    DefinitionError,
-    Dyad,
-    Ground,
-    Link,
-    Mechanism,
-    OnLink,
-    Pin,
-    Stroke,
-    angle,
-    deg,
-)
-from linkage.equations import Equations, Tcos, TurnVL, equations, explicit
-from linkage.equations.oracle import program_expressions
+from linkage import LEFT, AssemblyError, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, OnLink, Pin, Stroke, angle, deg
+from linkage.formulas import Equations, Tcos, TurnVL, equations, explicit
+from linkage.formulas.oracle import program_expressions
 from linkage.plan import ArrayReading
 from linkage.steps.expansion import expansion
 from mechanisms.mower_lift import MowerLift

@@ -7,19 +7,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import (
-    LEFT,
-    RIGHT,
-    Crank,
-    Dimension,
-    Dyad,
-    Ground,
-    Mechanism,
-    OnLink,
-    Stroke,
-    x,
-)
-from linkage.equations import equations
+from linkage import LEFT, RIGHT, Crank, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, x
+from linkage.formulas import equations
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.equation_machines import ALL, HITCHES, Outputs, Slider, check_values
@@ -200,7 +189,7 @@ def test_the_door_opens_late_and_either_way():
 import sys, linkage
 assert "sympy" not in sys.modules
 from linkage import equations
-from linkage.equations import equations as function
+from linkage.formulas import equations as function
 from linkage import equations as again
 from mechanisms.mower_lift import MowerLift
 print(str(equations(MowerLift)) == str(function(MowerLift)) == str(again(MowerLift)) == str(linkage.equations(MowerLift)))

@@ -139,7 +139,9 @@ def test_own_classes_are_written_by_their_arguments():
         "kind": f"{path}CamFollower", "P": "O", "guide": "rail", "OX": 0.1, "angle": "phi * 2.0", "rise": "h / 2.0",
         "table": [0.001, 0.002], "profile": "table",
     }  # fmt: skip
-    assert tables["points"]["Y"] == {"kind": f"{path}CamFollower", "P": "O", "guide": "rail", "OY": 0.2, "angle": "phi", "profile": "cosine"}
+    assert tables["points"]["Y"] == {
+        "kind": f"{path}CamFollower", "P": "O", "guide": "rail", "OY": 0.2, "angle": "phi", "profile": "cosine"
+    }  # fmt: skip
     assert tables["loads"] == {
         "load": {"Weight": "C", "mass": 2},
         "strut": {"kind": f"{path}GasStrut", "A": "A", "B": "E", "force": "h * 1000.0", "progress": 50},

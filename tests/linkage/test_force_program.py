@@ -31,10 +31,9 @@ from linkage import (
     pin_forces,
 )
 from linkage.statics import max_table
+from linkage.statics.acting import gathered, movement_of
 from linkage.statics.forces import held_poses
-from linkage.statics.loaded import gathered
-from linkage.statics.movement import movement_of
-from linkage.statics.solved import by_equations
+from linkage.statics.solution import by_equations
 from linkage.steps import Guide
 from linkage.units import bar, kN, litre, mm
 from mechanisms.three_point_hitch import ThreePointHitch

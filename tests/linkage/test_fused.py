@@ -5,7 +5,8 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import Crank, Dyad, Ground, Mechanism, Stroke
-from linkage.program import Kernel, Way, fused
+from linkage.program import Kernel, Way
+from linkage.program import numba_backend as fused
 from tests.linkage.test_backends import uncompiled
 
 

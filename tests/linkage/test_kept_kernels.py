@@ -12,9 +12,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
-from linkage.program import kept
-from linkage.program.kept import Kept, cache_folder, is_kept, is_own
-from linkage.program.source import compiled_in_file
+from linkage.program import cache as kept
+from linkage.program.cache import Kept, cache_folder, compiled_in_file, is_kept, is_own
 
 numba = pytest.importorskip("numba")
 posix = pytest.mark.skipif(sys.platform == "win32", reason="rights of POSIX")

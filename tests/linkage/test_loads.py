@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import (
+from linkage import (  # fmt: skip
     RIGHT,
     DefinitionError,
     Dimension,
@@ -39,7 +39,7 @@ from linkage import (
     pin_forces,
     reaction,
     ref,
-)  # fmt: skip
+)
 from linkage.loads import couple
 from mechanisms.three_point_hitch import ThreePointHitch
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from linkage import LEFT, Dyad, Ground, Mechanism, SingularError, SingularWarning, Stroke
-from linkage.motion import numeric
+from linkage.motion import differences as numeric
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.random_mechanisms import random_mechanism
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, DefinitionError, Dyad, Ground, Mechanism, Stroke, ref
-from linkage.graph import ordered
+from linkage.plan import ordered
 from tests.linkage.random_mechanisms import random_mechanism
 
 

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from linkage.animate.course import course
-from linkage.animate.stage import spoken
-from linkage.draw import poses
-from linkage.draw.scene import Scene
-from linkage.draw.shapes import segment
-from linkage.draw.sliders import hatched
-from linkage.draw.traces import on_its_way
+from linkage.pictures import draw
+from linkage.pictures.film import stroke_words
+from linkage.pictures.poses import on_its_way
+from linkage.pictures.scene import Scene
+from linkage.pictures.shapes import segment
+from linkage.pictures.strokes import course
+from linkage.pictures.symbols import hatched
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.classics.pantograph import Pantograph
 from mechanisms.classics.scissor_lift import ScissorLift
@@ -36,7 +36,7 @@ def test_a_point_that_stands_still_has_no_arrow():
 
 @pytest.mark.parametrize("machine", [Pantograph, ScissorLift, ScotchYoke, SliderCrank, Trammel])
 def test_names_keep_clear_of_the_hatches_of_rails(machine):
-    figure = poses(machine())
+    figure = draw(machine())
     figure.canvas.draw()
     (ax,) = figure.axes
     motion = machine().at(**{name: [stroke.start, stroke.end] for name, stroke in machine.plan.strokes.items()})
@@ -62,4 +62,4 @@ def test_an_animation_follows_what_changes():
     ],
 )
 def test_a_value_has_as_many_decimals_as_its_column_needs(values, texts):
-    assert [spoken(np.array(values), pose) for pose in range(len(values))] == texts
+    assert [stroke_words(np.array(values), pose) for pose in range(len(values))] == texts

@@ -13,9 +13,9 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import DefinitionError
 from linkage.program import Graph, Kernel, Level, Tangent, interpret
+from linkage.program.elimination import solution
 from linkage.program.operations import ARRAYS, FLOATS, OPERATIONS
 from linkage.program.schedule import schedule
-from linkage.program.solve import solution
 
 VALUES = {"a": 0.7133, "b": -1.3071, "s": 0.4217, "t": 2.1749}  # no sum of them is another
 BINARY = {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv}

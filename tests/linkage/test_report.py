@@ -11,7 +11,7 @@ from hypothesis.extra.numpy import arrays
 from rich.console import Console
 
 from linkage import Column, Crank, DefinitionError, Dimension, Dyad, Ground, Mechanism, Stroke, deg, kgf, kgf_cm2
-from linkage.report import (
+from linkage.reports import (  # fmt: skip
     aligned,
     below_zero,
     closely,
@@ -23,7 +23,7 @@ from linkage.report import (
     stroke_rows,
     text_table,
     write_csv,
-)  # fmt: skip
+)
 
 
 class Lift(Mechanism):

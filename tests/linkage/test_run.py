@@ -7,11 +7,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, RIGHT, Column, Crank, DefinitionError, Dyad, Ground, Mechanism, OnLink, Stroke, Weight
-from linkage.animate.course import course
-from linkage.animate.stage import Stage
-from linkage.draw import curves, poses
-from linkage.page.chart import chart
-from linkage.report import results, run_of
+from linkage.pictures import animate, plot
+from linkage.pictures.browser import chart
+from linkage.pictures.film import Stage
+from linkage.pictures.strokes import course
+from linkage.reports import results, run_of
 from linkage.statics import driving_force
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.classics.scotch_yoke import ScotchYoke
@@ -82,9 +82,9 @@ def test_a_run_that_cannot_be_is_refused(at, words):
 
 def test_a_motion_is_no_mechanism():
     motion = Lever().sweep(3)
-    for draw in (lambda: poses(motion), lambda: course(motion, 5)):
+    for show in (lambda: animate(motion, "a.gif"), lambda: course(motion, 5)):
         with pytest.raises(DefinitionError, match=r"<Motion of Lever.* is no mechanism"):
-            draw()
+            show()
 
 
 def test_an_animation_runs_where_it_is_asked_to():
@@ -130,11 +130,11 @@ def test_a_machine_without_loads_or_with_a_table_of_its_own_keeps_it():
 
 def test_curves_go_by_name():
     motion = FrontLoader().sweep(lift=5, tilt=0.1)
-    figure = curves(motion, ["boom", "N_y"])
+    figure = plot(motion, ["boom", "N_y"])
     assert [ax.get_title(loc="left") for ax in figure.axes] == ["boom, deg", "N_y, m"]
     assert_allclose(figure.axes[0].lines[0].get_ydata(), np.degrees(motion["boom"]))
     with pytest.raises(DefinitionError, match=r"Column 'bom' is unknown in FrontLoader\. Did you mean boom"):
-        curves(motion, ["bom"])
+        plot(motion, ["bom"])
 
 
 # -- numbers that are zero -----------------------------------------------------------------------------------
@@ -158,7 +158,7 @@ def test_a_yoke_in_the_middle_stands_at_zero():
     assert stage.value.get_text() == "\N{MINUS SIGN}0.05000"
     flat = course(ScotchYoke(), 9, "X_y")
     assert chart(flat.motion, flat.column, None)["range"] == [-1.0, 1.0]
-    (ax,) = curves(flat.motion, [flat.column]).axes
+    (ax,) = plot(flat.motion, [flat.column]).axes
     assert ax.get_ylim() == (-1.0, 1.0)
 
 

@@ -25,7 +25,8 @@ from linkage import (
     Stroke,
     distance,
 )
-from linkage.motion import conditions, numeric
+from linkage.motion import conditions
+from linkage.motion import differences as numeric
 
 
 class Lever(Mechanism):

@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, Pin, Stroke, angle, deg
 from linkage.motion import paired
 from linkage.study import Box, settings_for, zone
-from linkage.study.search import extremes
+from linkage.study.zone import extremes
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
 

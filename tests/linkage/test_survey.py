@@ -13,8 +13,9 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import AssemblyError, DefinitionError, FileError, StudyError
 from linkage.program import pinned
-from linkage.program.fused import Fused
-from linkage.study import pace, survey
+from linkage.program.numba_backend import Fused
+from linkage.study import batching as pace
+from linkage.study import survey
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.survey_measures import failing, far_points, group_designs, hitch_designs, logged, travel
 

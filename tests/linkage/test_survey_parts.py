@@ -10,8 +10,8 @@ from numpy.testing import assert_array_equal
 
 from linkage import DefinitionError
 from linkage.study import Box, survey
-from linkage.study.fingerprint import fingerprint
-from linkage.study.pace import Left, Pace
+from linkage.study.batching import Left, Pace
+from linkage.study.checkpoint import fingerprint
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.survey_measures import far_points, travel
 

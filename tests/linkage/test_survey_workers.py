@@ -13,8 +13,9 @@ import numpy as np
 import pytest
 
 from linkage import LinkageError, StudyError
-from linkage.plan.sent import KNOWN, LATEST
-from linkage.study import pace, survey
+from linkage.plan.plan import KNOWN, LATEST
+from linkage.study import batching as pace
+from linkage.study import survey
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.survey_measures import deadly, failing, far_points, group_designs, hitch_designs, logged, travel
 from tests.linkage.test_survey import read, same

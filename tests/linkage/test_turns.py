@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, Crank, Dyad, Ground, Link, Mechanism, OnLink, Pin, Stroke
-from linkage.animate.course import course
+from linkage.pictures.strokes import course
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
 from mechanisms.classics.stephenson_two import StephensonTwo, StephensonTwoFar
 

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from hydraulics import Accumulator, AccumulatorBlock, isothermal
 from linkage import RIGHT, DefinitionError, Dyad, Ground, Spring, Weight
-from linkage.equations import equations
+from linkage.formulas import equations
 from linkage.loads import PinFriction
 from linkage.quantities import angle
 from linkage.statics import driving_force, pin_forces

@@ -4,19 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import (
-    CosineAngle,
-    Dimension,
-    Ground,
-    Link,
-    Mechanism,
-    Offset,
-    Stroke,
-    Turn,
-    Vector,
-    angle,
-    deg,
-)
+from linkage import CosineAngle, Dimension, Ground, Link, Mechanism, Offset, Stroke, Turn, Vector, angle, deg
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.mechanisms.hitch_reference import REFERENCE
 

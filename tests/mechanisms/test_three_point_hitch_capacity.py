@@ -6,20 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from linkage import (
-    AssemblyError,
-    DefinitionError,
-    Force,
-    Ground,
-    LinkMass,
-    Spring,
-    Weight,
-    deg,
-    driving_force,
-    kN,
-    mm,
-    pin_forces,
-)
+from linkage import AssemblyError, DefinitionError, Force, Ground, LinkMass, Spring, Weight, deg, driving_force, kN, mm, pin_forces
 from linkage.cli import main
 from linkage.units import g0
 from mechanisms.three_point_hitch import (

@@ -33,18 +33,16 @@ from linkage import (  # noqa: F401
     Weight,
     angle,
     deg,
-    draw,
     files,
     mm,
+    pictures,
     pin_forces,
     ref,
-    report,
+    reports,
     study,
 )
-from linkage.animate import animate  # noqa: F401
-from linkage.equations import equations  # noqa: F401
 from linkage.motion import below_zero, greatest, lowest  # noqa: F401
-from linkage.page import page  # noqa: F401
+from linkage.pictures import page_html  # noqa: F401
 from linkage.units import bar, litre, parse, show  # noqa: F401
 from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.header_balancer.charge import charge_for, largest_charge  # noqa: F401
@@ -54,7 +52,7 @@ from mechanisms.header_balancer.settings import setting_table, with_header  # no
 from mechanisms.mower_lift import MowerLift  # noqa: F401
 from mechanisms.three_point_hitch import ThreePointHitch
 from mechanisms.three_point_hitch.capacity import behind, capacity, stroke_per_newton  # noqa: F401
-from mechanisms.three_point_hitch.mast import vertical_mast  # noqa: F401
+from mechanisms.three_point_hitch.zones import vertical_mast  # noqa: F401
 
 
 class Lift(Mechanism):

@@ -1,0 +1,139 @@
+"""The doors to what is looked at and handed on: thin functions. The libraries behind them are loaded where one is first called."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, overload
+
+from .mechanism import Mechanism
+from .motion import Column, Motion
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from .formulas import Equations
+    from .pictures import Drawing
+
+NOTHING: Mapping[str, Any] = MappingProxyType({})
+"""No stroke is held."""
+
+Progress = Callable[[int, int], None]
+"""What is called as the poses of an animation are done: with their number, and that of all."""
+
+
+@overload
+def draw(machine: Motion, *, ax: Axes, pose: int | tuple[int, ...] = ..., faint: bool = ...) -> Drawing: ...
+@overload
+def draw(
+    machine: Mechanism | Motion,
+    at: Any = ...,
+    path: Sequence[str] = ...,
+    count: int = ...,
+    *,
+    ax: None = ...,
+    pose: int | tuple[int, ...] = ...,
+    faint: bool = ...,
+) -> Figure: ...
+def draw(
+    machine: Mechanism | Motion,
+    at: Any = None,
+    path: Sequence[str] = (),
+    count: int = 101,
+    *,
+    ax: Axes | None = None,
+    pose: int | tuple[int, ...] = 0,
+    faint: bool = False,
+) -> Figure | Drawing:
+    """Return a figure of a mechanism at chosen strokes, the last one bold and the others faint; or a motion at one of its poses.
+
+    Of a mechanism, `at` are values of the first stroke [m or rad], or a mapping `dict(S=[0.0, 0.25])` for another or for
+    several; without it, the two ends of the first stroke (of a full turn its middle and its start), the others in their middle.
+    `path` names points whose paths are drawn over that stroke, at `count` poses. Poses out of reach are left out, and the
+    picture says so; where none is in reach this raises AssemblyError.
+
+    Of a motion, `pose` is an index into its strokes, an int for the flat one; on axes that are given, the drawing comes back, whose
+    `update(pose)` moves it. Empty axes become a sheet with equal scales that has room for the whole motion. A faint mechanism has
+    no names. Raises DefinitionError for a batch of designs, an unknown name or a pose that is not there.
+    """
+    from .pictures import draw
+
+    return draw(machine, at, path, count, ax=ax, pose=pose, faint=faint)
+
+
+def plot(motion: Motion, columns: Sequence[Column | str], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
+    """Return a figure of columns over the stroke, a panel each; a column that is the stroke itself is left out.
+
+    A column may go by its name: a named output, or a point's coordinate such as "G_y". `limits` are, by the column's name,
+    `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the side that fails, above unless said, is shaded.
+    Raises DefinitionError for a batch, a grid, or an unknown name.
+    """
+    from .pictures import plot
+
+    return plot(motion, columns, limits=limits)
+
+
+def animate(
+    machine: Mechanism,
+    path: str | Path,
+    *,
+    count: int = 60,
+    column: str | None = None,
+    trace: Sequence[str] = (),
+    limit: Sequence[Any] | None = None,
+    at: Mapping[str, Any] = NOTHING,
+    progress: Progress | None = None,
+) -> Path:
+    """Return the path of the animation it wrote: a .gif, an .mp4 (extra `video`) or an .html page that works offline.
+
+    The mechanism runs over its first stroke, there and back (a full turn goes round), at `count` poses; beside it the live
+    curve of a column of its results, the last unless named. `at=dict(tilt=0.1)` holds another stroke, `at=dict(S=(0.1, 0.2))`
+    says where one runs [m or rad]; strokes not named stand in their middle. `trace` names points whose paths are drawn; `limit` is
+    the column's limit, `(value [SI], text, "above" or "below")`. `progress(done, total)` is called as it goes. What stood at the
+    path is replaced whole, or left as it was. Raises DefinitionError for another kind of file, a batch of designs or an unknown
+    name, FileError for a path that cannot be written.
+    """
+    from .pictures import animate
+
+    return animate(machine, path, count=count, column=column, trace=trace, limit=limit, at=at, progress=progress)
+
+
+def page(
+    machine: Mechanism,
+    path: str | Path,
+    *,
+    count: int = 60,
+    column: str | None = None,
+    trace: Sequence[str] = (),
+    limit: Sequence[Any] | None = None,
+    at: Mapping[str, Any] = NOTHING,
+) -> Path:
+    """Return the path of the browser page it wrote, .html: the mechanism moved by hand or running, in one file without network access.
+
+    The arguments are those of `animate`. Raises DefinitionError for a name that does not end in .html.
+    """
+    from .pictures import page
+
+    return page(machine, path, count=count, column=column, trace=trace, limit=limit, at=at)
+
+
+def equations(
+    machine: Mechanism | type[Mechanism],
+    *,
+    start: int = 1,
+    numbers: bool = False,
+    at: Mapping[str, float] | None = None,
+    ratio: str | Sequence[str] = (),
+    wrt: str | None = None,
+) -> Equations:
+    """Return a mechanism's equations, numbered from `start`, in the vector method's primitives: text, LaTeX, SymPy and numbers.
+
+    `print(equations(hitch))` lists them. `numbers` fills the numbers in at the pose `at` (default: the start of each stroke). `ratio`
+    names points and outputs whose derivatives by the stroke `wrt` are added. Source of notation and order: Dyuzhev, Kotov,
+    Chuprynin, "Universality of the hitch of the power vehicle UES-2-250A" (Minsk, 2008), equations (4) to (27).
+    """
+    from .formulas import equations
+
+    return equations(machine, start=start, numbers=numbers, at=at, ratio=ratio, wrt=wrt)

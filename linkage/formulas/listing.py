@@ -1,0 +1,324 @@
+"""The mechanism read symbolically: one line for each primitive, in the vector method's order."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import singledispatch
+from typing import Any
+
+import sympy
+
+from ..plan import Plan
+from ..quantities import Member, Quantity, Reference, Turning, Variable, name_of, spelled
+from ..steps import Arrow, CosineAngle, Ground, Group, Guide, Offset, Pin, Point, Turn, Vector
+from ..steps.expansion import Assignment, Axis, expansion
+from ..vectors import Line
+from .names import Names
+from .printing import Text
+from .symbolic import ANGLE, FUNCTIONS, LENGTH, NUMBER, Place, Term, Unit, input_units, term
+from .words import Direction, Norm, Tcos, TurnV, TurnVL, vector_symbol
+
+# What each primitive is written as; any other step by its own rule, in components.
+
+X_AXIS = vector_symbol("i")
+"""The unit vector of the x axis."""
+
+
+@singledispatch
+def written(member: Member, reading: Any) -> Any:
+    """Return what a member equals: a SymPy vector, or a term for a quantity."""
+    raise NotImplementedError(f"{type(member).__name__} has no symbolic form")
+
+
+@written.register
+def _(member: Quantity, reading: Any) -> Term:
+    return term(member.rule(reading))
+
+
+@written.register
+def _(member: CosineAngle, reading: Any) -> Term:
+    return Term(Tcos(*(reading.value(side).expr for side in member.triangle)), ANGLE)
+
+
+@written.register
+def _(member: Axis, reading: Any) -> Any:
+    return X_AXIS
+
+
+@written.register
+def _(member: Turn, reading: Any) -> Any:
+    length = None if member.scaled_to is None else reading.scaled(member, member.scaled_to)
+    base, angle = reading.arrow(member.base), reading.value(member.angle).as_angle()
+    return TurnV(base, angle.expr) if length is None else TurnVL(base, angle.expr, length.expr)
+
+
+@written.register
+def _(member: Ground, reading: Any) -> Any:
+    """Return the coordinates where one of them is a formula; None for plain numbers, which are given."""
+    place = member.place(reading)
+    formula = any(not value.is_constant for _, value in member.coordinates())
+    return sympy.ImmutableMatrix([term(place.x).expr, term(place.y).expr]) if formula else None
+
+
+@written.register
+def _(member: Guide, reading: Any) -> Any:
+    """Return the guide's direction, of length one."""
+    if member.Q is not None:
+        P, Q = member.points
+        return TurnVL(reading.between(P, Q), sympy.S.Zero, sympy.S.One)
+    fixed = member.angle is None or member.angle.is_constant
+    angle = reading.input(f"{member.name}.angle") if fixed else reading.value(member.angle).as_angle()
+    return TurnV(X_AXIS, angle.expr)
+
+
+@written.register
+def _(member: Offset, reading: Any) -> Any:
+    return reading.at(member.P).expr + reading.arrow(member.by)
+
+
+@written.register
+def _(member: Point, reading: Any) -> Any:
+    place: Any = member.place(reading)
+    return place.expr
+
+
+# A line of the listing: what stands for what.
+
+@dataclass(frozen=True, eq=False)
+class Written:
+    """One line: a symbol, what it equals, and what it measures."""
+
+    lhs: Any
+    rhs: Any
+    unit: Unit
+
+    @property
+    def name(self) -> str:
+        """The text of the left side."""
+        return str(Text().doprint(self.lhs))
+
+
+class Listing:
+    """A reading (see `linkage.quantities.Where`) whose scalars are terms; asking for a member writes its lines first."""
+
+    def __init__(self, plan: Plan) -> None:
+        self.plan, self.names, self.units = plan, Names(plan), input_units(plan)
+        self.lines: list[Written] = []
+        self.unknowns: list[str] = []
+        self._vectors: dict[Any, Any] = {}
+        self._terms: dict[Any, Term] = {}
+        self._labels: dict[int, Assignment] = {}
+        self._kept: list[Assignment] = []
+        self._lengths: dict[str, Term] = {}
+
+    def write(self, order: Iterable[str]) -> None:
+        """Write every member: points and outputs in the order given, vectors and angles where they are first needed."""
+        left = list(order)
+        while left:
+            name, *left = left
+            member = self.plan.members[name]
+            if isinstance(member, Point) or not any(name in self.plan.reaches(later) for later in left):
+                self.ask(name, member)
+
+    def ask(self, name: str, member: Member) -> None:
+        """Write a member's line, if it has one."""
+        if isinstance(member, Point):
+            self.at(name)
+        elif isinstance(member, Arrow):
+            self.arrow(name)
+        elif isinstance(member, Quantity):
+            self.value(name)
+
+    # -- points and vectors ----------------------------------------------------------------------------
+
+    def at(self, point: Reference) -> Any:
+        """Return a point."""
+        name = name_of(point)
+        if name not in self._vectors:
+            self._point(name, self.plan.members[name])
+        return Place(lambda: self._vectors[name], self, (name,))
+
+    def _point(self, name: str, step: Member) -> None:
+        if isinstance(step, Pin) and step.group is not None:
+            return self._group(step.group)
+        assignments = expansion(step) or (Assignment(name, step),)
+        self._kept.extend(assignments)
+        for each in assignments:
+            self.assign(each)
+            if isinstance(each.value, Offset):
+                self._vectors.setdefault((name_of(each.value.P), name), self.arrow(each.value.by))
+
+    def _group(self, group: Group) -> None:
+        """Write the conditions of pins that are found together: the lengths of rods, the shapes of links, the slides."""
+        self.unknowns += group.pins
+        self._vectors |= {pin: self.names.vector(pin) for pin in group.pins}
+        for rod in group.rods:
+            length = self.value(rod.length)
+            self.lines.append(Written(Norm(self.between(rod.P, rod.Q)), length.expr, LENGTH))
+        for step in group.rigid:
+            for each in expansion(step):
+                self._kept.append(each)
+                self.assign(each)
+        for slide in group.slides:
+            miss = slide.miss(self)  # type: ignore[arg-type]
+            self.lines.append(Written(miss.expr, sympy.S.Zero, LENGTH))
+
+    def assign(self, each: Assignment) -> None:
+        """Write one primitive of a step's expansion."""
+        if isinstance(each.value, Quantity):
+            self._label(each)
+        elif isinstance(each.value, Vector):
+            self.between(name_of(each.value.P), name_of(each.value.Q))
+        else:
+            key = each.name if isinstance(each.value, Point) else id(each.value)
+            self.define(key, self.names.vector(each.name), written(each.value, self), LENGTH)
+
+    def define(self, key: Any, symbol: Any, rhs: Any, unit: Unit) -> None:
+        """Write a line; nothing is written for a fixed point of plain coordinates."""
+        self._vectors[key] = symbol
+        if rhs is not None:
+            self.lines.append(Written(symbol, rhs, unit))
+
+    def between(self, P: str, Q: str) -> Any:
+        """Return the vector PQ, written as Q - P where it is not known yet."""
+        if (P, Q) not in self._vectors:
+            vectors = self.plan.of_kind(Vector).items()
+            declared = next((name for name, each in vectors if (name_of(each.P), name_of(each.Q)) == (P, Q)), P + Q)
+            ends = self.at(Q).expr - self.at(P).expr
+            self.define((P, Q), self.names.vector(declared), ends, LENGTH)
+        return self._vectors[P, Q]
+
+    def arrow(self, vector: Reference) -> Any:
+        """Return a vector member as its symbol; one without a name written out."""
+        named = vector if isinstance(vector, str) else vector.name
+        member: Any = self.plan.members[named] if named else vector
+        if isinstance(member, Vector):
+            return self.between(name_of(member.P), name_of(member.Q))
+        key = named or id(member)
+        if key not in self._vectors:
+            if not named:
+                return written(member, self)
+            self.define(key, self.names.vector(named), written(member, self), LENGTH)
+        return self._vectors[key]
+
+    def vector(self, vector: Reference) -> Any:
+        """Return a vector member."""
+        return Place(lambda: self.arrow(vector), self)
+
+    @property
+    def fixed_guides(self) -> list[str]:
+        """The guides whose origin is given."""
+        return [name for name, guide in self.plan.of_kind(Guide).items() if guide.P is None]
+
+    @property
+    def given_points(self) -> list[str]:
+        """The points that the lines start from: fixed ones, guides' origins, and pins that are found together."""
+        return [*self.plan.ground, *self.fixed_guides, *self.unknowns]
+
+    def symbol_of(self, name: str) -> Any:
+        """Return the symbol of a named point, vector or quantity."""
+        if isinstance(self.plan.members[name], Quantity):
+            return self.names.quantity(name)
+        return self.arrow(name) if isinstance(self.plan.members[name], Arrow) else self.at(name).expr
+
+    # -- quantities ------------------------------------------------------------------------------------
+
+    def value(self, quantity: Reference) -> Term:
+        """Return a quantity: its symbol where it has a name or a label."""
+        named = quantity if isinstance(quantity, str) else quantity.name
+        member: Any = self.plan.members[named] if named else quantity
+        if named in self.units:
+            return self.input(named)
+        if named or id(member) in self._labels:
+            return self._known(named or id(member), member)
+        return self._lengths.get(spelled(member)) or written(member, self)
+
+    def _known(self, key: Any, member: Quantity) -> Term:
+        if key not in self._terms:
+            found: Term = written(member, self)
+            self._terms[key] = found if isinstance(key, int) and found.expr.is_Atom else self._line(key, member, found)
+        return self._terms[key]
+
+    def _line(self, key: Any, member: Quantity, found: Term) -> Term:
+        symbol = self._symbol(key, found.unit)
+        self.lines.append(Written(symbol, found.expr, found.unit))
+        return Term(symbol, found.unit)
+
+    def _symbol(self, key: Any, unit: Unit) -> Any:
+        if isinstance(key, str):
+            return self.names.quantity(key)
+        name = self._labels[key].name
+        return self.names.angle(name) if unit == ANGLE else self.names.length(name)
+
+    def _label(self, each: Assignment) -> None:
+        """Write the line of a labelled length or angle: L_AB = L0 + S; nothing for a plain variable."""
+        assert isinstance(each.value, Quantity)
+        if not each.value.name and not isinstance(each.value, Variable):
+            self._labels.setdefault(id(each.value), each)
+            self.value(each.value)
+
+    def scaled(self, arrow: Member, length: Quantity) -> Term:
+        """Return the length a vector is scaled to; an expression gets the vector's name: L_AB = L0 + S."""
+        if arrow.name and not length.name and id(length) not in self._labels:
+            self._labels[id(length)] = Assignment(arrow.name, length)
+            self._lengths[spelled(length)] = self.value(length)
+        return self.value(length)
+
+    def turn(self, angle: Reference) -> Turning:
+        """Return the cosine and sine of an angle."""
+        found = self.value(angle).as_angle()
+        return FUNCTIONS["cos"](found), FUNCTIONS["sin"](found)
+
+    def input(self, name: str) -> Term:
+        """Return the symbol of a stroke, a dimension or a coordinate."""
+        return Term(self.names.quantity(name), self.units[name])
+
+    # -- what the rules of other steps ask -------------------------------------------------------------
+
+    def root(self, radicand: Any, scale: Any, size: Any, most: Any = None) -> Term:
+        """Return the square root that closes a loop."""
+        return FUNCTIONS["sqrt"](radicand)
+
+    def margin(self, sine: Any) -> Any:
+        """Return the sine of the angle between a loop's two members."""
+        return sine
+
+    def line(self, guide: Reference) -> Line:
+        """Return a guide's line."""
+        name = name_of(guide)
+        member = self.plan.members[name]
+        assert isinstance(member, Guide)
+        if ("line", name) not in self._vectors:
+            self.define(("line", name), self.names.direction(name), written(member, self), NUMBER)
+        along = Place(lambda: self._vectors["line", name], self, unit=NUMBER)
+        start: Any = Place(lambda: self.names.vector(name), self) if member.P is None else self.at(member.P)
+        return Line(start, along)  # type: ignore[arg-type]
+
+    def angle_of(self, vector: Any) -> Term:
+        """Return a vector's direction."""
+        return Term(Direction(vector.expr), ANGLE)
+
+    def followed(self, angle: str, vector: Any) -> None:
+        """Return nothing: an angle is written the same, wherever it is counted from."""
+
+    def link(self, P: str, Q: str) -> Term | None:
+        """Return the given length of a link, or None where no label gives it."""
+        known = self.plan.table.lengths.get(frozenset((P, Q)))
+        return None if known is None else self.value(known)
+
+    def link_length(self, P: str, Q: str) -> Term:
+        """Return the distance of two points."""
+        return self.link(P, Q) or Term(Norm(self.between(P, Q)), LENGTH)
+
+    def apart(self, square: Any) -> Any:
+        """Return the square of a vector whose direction is taken."""
+        return square
+
+    def direction(self, P: str, Q: str) -> Any:
+        """Return the vector between two points."""
+        return self.at(Q) - self.at(P)
+
+    def vector_length(self, vector: Reference) -> Term:
+        """Return the length of a vector member."""
+        return Term(Norm(self.arrow(vector)), LENGTH)

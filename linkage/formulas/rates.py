@@ -1,0 +1,152 @@
+"""The derivative of each line by a stroke: the chain of differentiated primitives.
+
+With AB = TurnVL(AO, a, L) and AO turning at the rate w (cross(AO, AO') / |AO|^2), AB' = (w + a') TurnV(AB, 90 deg) + L'/L AB.
+The cosine rule L3^2 = L1^2 + L2^2 - 2 L1 L2 cos(a) gives a'. Source: any text on velocity analogues, such as Artobolevsky.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import singledispatchmethod
+from typing import Any
+
+import sympy
+from sympy.matrices.expressions.matadd import MatAdd
+from sympy.matrices.expressions.matexpr import MatrixElement, MatrixSymbol
+from sympy.matrices.expressions.matmul import MatMul
+
+from .listing import Written
+from .names import Names
+from .symbolic import LENGTH, Unit
+from .words import Cross, Deg, Direction, Dot, Norm, Tcos, TurnV
+
+STILL = sympy.ZeroMatrix(2, 1)
+
+
+class Rates:
+    """Derivatives by one stroke of the lines read so far."""
+
+    def __init__(self, stroke: Any, unit: Unit, names: Names) -> None:
+        self.stroke, self.unit, self.names = stroke, unit, names
+        self.known: dict[Any, Any] = {stroke: sympy.S.One}
+        self._lhs: Any = None
+        self._found: list[Written] = []
+
+    def lines(self, written: Sequence[Written]) -> list[Written]:
+        """Return the derivative of each line that follows the stroke."""
+        for line in written:
+            self._lhs = line.lhs if isinstance(line.rhs, TurnV) else None
+            rate = self.of(line.rhs) if line.rhs.is_Matrix else self.number(line.rhs, line.lhs)
+            if rate in (sympy.S.Zero, STILL) or getattr(rate, "is_zero_matrix", False):
+                continue
+            self.known[line.lhs] = self.names.derivative(line.lhs, self.stroke)
+            self._found.append(Written(self.known[line.lhs], rate, line.unit * self.unit**-1))
+        return self._found
+
+    # -- scalars ---------------------------------------------------------------------------------------
+
+    def number(self, expr: Any, angle: Any = None) -> Any:
+        """Return the derivative of a scalar; `angle` is its own symbol, where it has one."""
+        if isinstance(expr, Tcos):
+            return self._cosine_rule(expr, expr if angle is None else angle)
+        words = sorted(expr.atoms(Norm, Direction, Cross, Dot, MatrixElement, Tcos), key=str)
+        stands = {word: sympy.Dummy(real=True) for word in words}
+        plain = expr.xreplace(stands)
+        rates = [(symbol, self._word(word)) for word, symbol in stands.items()]
+        rates += [(symbol, self.known[symbol]) for symbol in sorted(plain.free_symbols, key=str) if symbol in self.known]
+        total = sympy.Add(*(plain.diff(symbol) * rate for symbol, rate in rates if rate != 0))
+        return total.xreplace({symbol: word for word, symbol in stands.items()})
+
+    def _cosine_rule(self, expr: Any, angle: Any) -> Any:
+        a, b, c = expr.args
+        da, db, dc = map(self.number, expr.args)
+        turned = c * dc - a * da - b * db + sympy.cos(angle) * (a * db + b * da)
+        return turned / (a * b * sympy.sin(angle))
+
+    def _word(self, word: Any) -> Any:
+        """Return the derivative of a number read off vectors."""
+        if isinstance(word, Tcos):
+            return self._cosine_rule(word, word)
+        if isinstance(word, MatrixElement):
+            rate = self.of(word.parent)
+            return sympy.S.Zero if rate == STILL else rate[word.i, 0]
+        if isinstance(word, Norm):
+            return self._stretching(word.args[0])
+        return self._turning(word.args[0]) if isinstance(word, Direction) else self._product(word)
+
+    def _product(self, word: Any) -> Any:
+        """Return the derivative of a scalar or vector product."""
+        a, b = word.args
+        da, db = self.of(a), self.of(b)
+        terms = [type(word)(*pair) for pair, rate in (((da, b), da), ((a, db), db)) if rate != STILL]
+        return sympy.Add(*terms)
+
+    def _turning(self, vector: Any) -> Any:
+        """Return the rate at which a vector turns."""
+        rate = self.of(vector)
+        return sympy.S.Zero if rate == STILL else Cross(vector, rate) / Norm(vector) ** 2
+
+    def _stretching(self, vector: Any) -> Any:
+        """Return the rate of a vector's length, with a line of its own: d|EC|/dS."""
+        rate = self.of(vector)
+        if rate == STILL:
+            return sympy.S.Zero
+        if Norm(vector) not in self.known:
+            symbol = self.known[Norm(vector)] = self.names.stretching(vector, self.stroke)
+            self._found.append(Written(symbol, Dot(vector, rate) / Norm(vector), LENGTH * self.unit**-1))
+        return self.known[Norm(vector)]
+
+    # -- vectors ---------------------------------------------------------------------------------------
+
+    @singledispatchmethod
+    def of(self, vector: Any) -> Any:
+        """Return the derivative of a vector; STILL where it does not follow the stroke."""
+        return sympy.ImmutableMatrix([self.number(each) for each in vector])
+
+    @of.register
+    def _(self, vector: MatrixSymbol) -> Any:
+        return self.known.get(vector, STILL)
+
+    @of.register
+    def _(self, vector: MatAdd) -> Any:
+        moving = [rate for rate in map(self.of, vector.args) if rate != STILL]
+        return summed(moving)
+
+    @of.register
+    def _(self, vector: MatMul) -> Any:
+        factor, (rest,) = vector.as_coeff_matrices()
+        rate, scaled = self.of(rest), self.number(factor)
+        turned = [] if rate == STILL else [MatMul(factor, rate)]
+        return summed(turned + ([] if scaled == 0 else [MatMul(scaled, rest)]))
+
+    @of.register
+    def _(self, vector: TurnV) -> Any:
+        base, angle, *length = vector.args
+        turned = self.number(angle) + self._turning(base)
+        longer = self.number(length[0]) / length[0] if length else self._stretching(base) / Norm(base)
+        here = vector if self._lhs is None else self._lhs
+        return summed([MatMul(factor, part) for factor, part in ((turned, TurnV(here, Deg(90))), (longer, here)) if factor != 0])
+
+
+def summed(vectors: Sequence[Any]) -> Any:
+    """Return the sum of vectors, kept as written; STILL for none."""
+    return (MatAdd(*vectors) if len(vectors) > 1 else vectors[0]) if vectors else STILL
+
+
+def needed(lines: Sequence[Written], target: Any) -> list[Written]:
+    """Return the lines that a symbol is built from, its own last."""
+    wanted, found = {target}, []
+    for line in reversed(lines):
+        if line.lhs in wanted:
+            wanted |= line.rhs.free_symbols
+            found.append(line)
+    return found[::-1]
+
+
+def ratio_lines(lines: Sequence[Written], target: Any, stroke: Any, unit: Unit, names: Names) -> list[Written]:
+    """Return the chain of derivatives that ends in a target's transfer ratio; for a point, I_G = dG_y/dS comes last."""
+    chain = Rates(stroke, unit, names).lines(needed(lines, target))
+    if not chain or chain[-1].lhs != names.derivative(target, stroke) or not target.is_Matrix:
+        return chain
+    last = chain[-1]
+    return [*chain, Written(names.ratio(target.name), last.lhs[1, 0], last.unit)]

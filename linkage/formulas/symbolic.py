@@ -1,0 +1,285 @@
+"""Scalars of the symbolic reading: SymPy expressions that know what they measure and obey NumPy's functions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import sympy
+from sympy.matrices.expressions.matadd import MatAdd
+from sympy.matrices.expressions.matmul import MatMul
+
+from ..errors import DefinitionError
+from ..motion import stroke_unit
+from ..plan import Plan
+from ..quantities import Quantity, unnamed
+from ..steps import CosineAngle, Turn
+from ..units import UNITS, deg
+from .words import Cross, Deg, Dot, Norm, TurnV
+
+# What an expression measures: lengths, angles, and products of them.
+
+@dataclass(frozen=True)
+class Unit:
+    """Powers of metre and radian; not `known` where a formula mixes what it cannot follow."""
+
+    length: Fraction = Fraction(0)
+    angle: Fraction = Fraction(0)
+    known: bool = True
+    named: str = ""
+
+    def __mul__(self, other: Unit) -> Unit:
+        return Unit(self.length + other.length, self.angle + other.angle, self.plain and other.plain)
+
+    def __pow__(self, power: Fraction | int) -> Unit:
+        return Unit(self.length * power, self.angle * power, self.plain)
+
+    @property
+    def plain(self) -> bool:
+        """Whether it is made of metres and radians."""
+        return self.known and not self.named
+
+    @property
+    def factor(self) -> float:
+        """The unit it is shown in, in SI: degrees for an angle."""
+        if self == ANGLE:
+            return deg
+        return UNITS[self.named][0] if self.named else 1.0
+
+    @property
+    def text(self) -> str:
+        """The unit it is shown in: `m`, `deg`, `rad/m`, or nothing."""
+        if self.named or not self.known:
+            return self.named
+        if self == ANGLE:
+            return "deg"
+        powers = [("rad", self.angle), ("m", self.length)]
+        over = "*".join(_power(name, power) for name, power in powers if power > 0)
+        under = "*".join(_power(name, -power) for name, power in powers if power < 0)
+        return f"{over or '1'}/{under}" if under else over
+
+
+def _power(name: str, power: Fraction) -> str:
+    return name + (str(power) if power != 1 else "")
+
+
+NUMBER = Unit()
+LENGTH = Unit(Fraction(1))
+ANGLE = Unit(angle=Fraction(1))
+UNKNOWN = Unit(known=False)
+
+KINDS = {"length": LENGTH, "coordinate": LENGTH, "angle": ANGLE}
+
+
+def input_units(plan: Plan) -> dict[str, Unit]:
+    """Return what each stroke and design variable measures; a `Dimension` by the place where it is used."""
+    lengths = set().union(*map(plan.terms, used_as_lengths(plan)))
+    units = {name: ANGLE if stroke_unit(plan, name) == "rad" else LENGTH for name in plan.strokes}
+    for name, entry in plan.table.entries.items():
+        used = ANGLE if name in plan.turning else LENGTH if name in lengths else NUMBER
+        units[name] = Unit(known=True, named=entry.unit) if entry.unit and UNITS[entry.unit][0] != 1.0 else KINDS.get(entry.kind, used)
+    return units
+
+
+def used_as_lengths(plan: Plan) -> list[Quantity]:
+    """Return the quantities that stand where a length is expected."""
+    found = list(plan.table.lengths.values())
+    for member in plan.members.values():
+        for part in (member, *unnamed(member)):
+            found += part.triangle if isinstance(part, CosineAngle) else ()
+            found += [part.scaled_to] if isinstance(part, Turn) and part.scaled_to is not None else ()
+    return found
+
+
+DIGITS = 40
+"""Numbers are taken as the decimals they are written as."""
+
+
+def number(value: float) -> Any:
+    """Return a float as an exact integer or as the decimal it is written as."""
+    return sympy.Integer(int(value)) if value == int(value) and abs(value) < 1e15 else sympy.Float(repr(value), DIGITS)
+
+
+def degrees(value: float) -> Any:
+    """Return an angle [rad] as it is shown, in degrees; 0 stays 0."""
+    shown = float(f"{value / deg:.13g}")
+    return Deg(number(shown)) if value else sympy.S.Zero
+
+
+class Term:
+    """An expression and its unit; adds, multiplies and takes NumPy's functions, as the rules of quantities ask."""
+
+    def __init__(self, expr: Any, unit: Unit = NUMBER) -> None:
+        self.expr, self.unit = expr, unit
+
+    def as_angle(self) -> Term:
+        """Return a plain number as an angle in degrees."""
+        if self.unit == NUMBER and (self.expr.is_Float or self.expr.is_Integer):
+            return Term(degrees(float(self.expr)), ANGLE)
+        return self
+
+    def _plus(self, other: Any, sign: int) -> Term:
+        a, b = self, term(other)
+        if ANGLE in (a.unit, b.unit):
+            a, b = a.as_angle(), b.as_angle()
+        return Term(a.expr + sign * b.expr, b.unit if a.unit == NUMBER else a.unit)
+
+    def __add__(self, other: Any) -> Term:
+        return self._plus(other, 1)
+
+    def __radd__(self, other: Any) -> Term:
+        return term(other)._plus(self, 1)
+
+    def __sub__(self, other: Any) -> Term:
+        return self._plus(other, -1)
+
+    def __rsub__(self, other: Any) -> Term:
+        return term(other)._plus(self, -1)
+
+    def __mul__(self, other: Any) -> Term:
+        b = term(other)
+        return Term(self.expr * b.expr, self.unit * b.unit)
+
+    def __rmul__(self, other: Any) -> Term:
+        return term(other) * self
+
+    def __truediv__(self, other: Any) -> Term:
+        b = term(other)
+        return Term(self.expr / b.expr, self.unit * b.unit**-1)
+
+    def __rtruediv__(self, other: Any) -> Term:
+        return term(other) / self
+
+    def __pow__(self, other: Any) -> Term:
+        b = term(other)
+        power = Fraction(str(b.expr)) if b.expr.is_Integer or b.expr.is_Float else Fraction(0)
+        exact = sympy.Rational(1, 2) if b.expr == sympy.Float(0.5) else b.expr
+        return Term(self.expr**exact, self.unit**power)
+
+    def __rpow__(self, other: Any) -> Term:
+        return term(other) ** self
+
+    def __neg__(self) -> Term:
+        return Term(-self.expr, self.unit)
+
+    def __pos__(self) -> Term:
+        return self
+
+    def __abs__(self) -> Term:
+        return Term(sympy.Abs(self.expr), self.unit)
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Term:
+        if method != "__call__" or options or ufunc.__name__ not in FUNCTIONS:
+            raise DefinitionError(f"{ufunc.__name__} has no symbolic form; use one of: {', '.join(FUNCTIONS)}.")
+        return FUNCTIONS[ufunc.__name__](*map(term, inputs))
+
+    def __repr__(self) -> str:
+        return f"{self.expr} {self.unit.text}".strip()
+
+
+def term(value: Any) -> Term:
+    """Return a number as a term."""
+    return value if isinstance(value, Term) else Term(number(float(value)))
+
+
+def plain(function: Any) -> Callable[..., Term]:
+    """Return a function of numbers and angles whose value is a plain number."""
+    return lambda *terms: Term(function(*(each.expr for each in terms)))
+
+
+def keeping(function: Any) -> Callable[..., Term]:
+    """Return a function whose value measures what its arguments measure."""
+    return lambda *terms: Term(function(*(each.expr for each in terms)), max(terms, key=lambda each: each.unit != NUMBER).unit)
+
+
+FUNCTIONS: dict[str, Callable[..., Term]] = {
+    "add": lambda a, b: a + b,
+    "subtract": lambda a, b: a - b,
+    "multiply": lambda a, b: a * b,
+    "divide": lambda a, b: a / b,
+    "true_divide": lambda a, b: a / b,
+    "power": lambda a, b: a**b,
+    "negative": lambda a: -a,
+    "sqrt": lambda a: Term(sympy.sqrt(a.expr), a.unit ** Fraction(1, 2)),
+    "sin": plain(sympy.sin),
+    "cos": plain(sympy.cos),
+    "tan": plain(sympy.tan),
+    "exp": plain(sympy.exp),
+    "log": plain(sympy.log),
+    "sign": plain(sympy.sign),
+    "arctan2": lambda y, x: Term(sympy.atan2(y.expr, x.expr), ANGLE),
+    "absolute": keeping(sympy.Abs),
+    "minimum": keeping(sympy.Min),
+    "maximum": keeping(sympy.Max),
+}
+
+
+# Points and vectors of the symbolic reading: SymPy vectors that obey the plane's algebra, as the rules of steps ask.
+
+class Place:
+    """A point, a vector or a direction. Its expression is asked for when it is first needed, so that nothing idle is written."""
+
+    def __init__(self, written: Callable[[], Any], reading: Any, points: tuple[str, ...] = (), unit: Unit = LENGTH) -> None:
+        self._written, self._reading, self._points, self.unit = written, reading, points, unit
+
+    @property
+    def expr(self) -> Any:
+        """The SymPy vector."""
+        return self._written()
+
+    @property
+    def x(self) -> Term:
+        """The x component."""
+        return Term(self.expr[0, 0], self.unit)
+
+    @property
+    def y(self) -> Term:
+        """The y component."""
+        return Term(self.expr[1, 0], self.unit)
+
+    def _like(self, written: Callable[[], Any], unit: Unit | None = None) -> Place:
+        return Place(written, self._reading, unit=unit or self.unit)
+
+    def __add__(self, other: Place) -> Place:
+        return self._like(lambda: MatAdd(self.expr, other.expr))
+
+    def __sub__(self, other: Place) -> Place:
+        if len(self._points) == len(other._points) == 1:
+            P, Q = other._points[0], self._points[0]
+            return Place(lambda: self._reading.between(P, Q), self._reading, (P, Q))
+        return self._like(lambda: MatAdd(self.expr, MatMul(-1, other.expr)))
+
+    def __neg__(self) -> Place:
+        return self._like(lambda: MatMul(-1, self.expr))
+
+    def __mul__(self, factor: Any) -> Place:
+        scale = term(factor)
+        return self._like(lambda: self.expr if scale.expr == 1 else MatMul(scale.expr, self.expr), self.unit * scale.unit)
+
+    def dot(self, other: Place) -> Term:
+        """Return the scalar product."""
+        return Term(Dot(self.expr, other.expr), self.unit * other.unit)
+
+    def cross(self, other: Place) -> Term:
+        """Return the z component of the vector product."""
+        return Term(Cross(self.expr, other.expr), self.unit * other.unit)
+
+    def left(self) -> Place:
+        """Return this vector turned by +90 degrees."""
+        return self._like(lambda: TurnV(self.expr, Deg(90)))
+
+    def turned(self, cos: Any, sin: Any) -> Place:
+        """Return this vector turned by the angle with that cosine and sine."""
+        found: Place = self * cos + self.left() * sin
+        return found
+
+    def length(self) -> Term:
+        """Return the length: the link's own where a label gives it."""
+        known = self._reading.link(*self._points) if len(self._points) == 2 else None
+        return Term(Norm(self.expr), self.unit) if known is None else known
+
+    def square(self) -> Term:
+        """Return the squared length."""
+        return Term(Norm(self.expr), self.unit) ** 2

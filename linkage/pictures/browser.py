@@ -1,0 +1,218 @@
+"""A page that shows a mechanism move: one file, no network, driven by hand or running."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from html import escape
+from importlib.resources import files
+from itertools import cycle
+from typing import Any
+
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+
+from ..errors import DefinitionError, cited, known_name
+from ..motion import Column, Motion
+from ..program import FloatArray
+from ..units import UNITS
+from . import free_space as room
+from . import strokes, style
+from .curves import limit, span, typeset
+from .labels import offsets
+from .scene import Places, Scene
+from .shapes import Outline
+from .symbols import LONG, SLOT, THICK, WIDTH, hatched, support, width
+
+# A curve as plain data for the browser: values, range, ticks and limit.
+
+def chart(motion: Motion, column: Column, bound: Sequence[Any] | None) -> dict[str, Any]:
+    """Return a column over the stroke that a motion runs along; None where it has no value."""
+    moving = strokes.driven(motion)
+    along = strokes.shown(motion.plan, moving, motion.strokes[moving])
+    turning = strokes.unit(motion.plan, moving) == "deg" and float(np.ptp(along)) >= 90.0
+    low, high = span(column.drawn)
+    edge: dict[str, Any] | None = None
+    if bound is not None:
+        found = limit(bound)
+        value = found.value / (UNITS[column.unit][0] if column.unit else 1.0)
+        low, high = min(low, value - 0.06 * (high - low)), max(high, value + 0.06 * (high - low))
+        edge = {"value": value, "text": found.text, "above": found.fails == "above"}
+    unit = strokes.unit(motion.plan, moving)
+    return {
+        "stroke": {"name": moving, "unit": unit, "values": rounded(along), "ticks": ticks(float(along[0]), float(along[-1]), turning)},
+        "column": {"heading": typeset(column.heading), "unit": typeset(column.unit), "values": rounded(column.drawn)},
+        "range": [low, high],
+        "ticks": ticks(low, high),
+        "limit": edge,
+    }
+
+
+def rounded(values: FloatArray) -> list[float | None]:
+    """Return values to seven digits; None for one that is not finite."""
+    return [float(f"{value:.7g}") if np.isfinite(value) else None for value in values.tolist()]
+
+
+def ticks(low: float, high: float, turning: bool = False) -> list[float]:
+    """Return round values between two ends."""
+    low, high = min(low, high), max(low, high)
+    found = MaxNLocator(6, steps=[1, 3, 4.5, 6, 9, 10] if turning else [1, 2, 2.5, 5, 10]).tick_values(low, high)
+    return [float(f"{value:.10g}") for value in found if low <= value <= high]
+
+
+# A mechanism's motion as plain data for the browser: everything in pixels of the drawing, y down.
+
+ACROSS = 760.0
+LEAST, MOST = 380.0, 760.0
+FONT = 15.0
+RAM = ("aside", "bottom", "mouth", "rod", "least", "most")
+
+
+class Pixels:
+    """The drawing's frame: a scale, and where the origin stands."""
+
+    def __init__(self, scene: Scene) -> None:
+        left, right, bottom, top = scene.box()
+        self.height = float(np.clip(ACROSS * (top - bottom) / (right - left), LEAST, MOST))
+        self.scale = min(ACROSS / (right - left), self.height / (top - bottom))
+        self.x0 = 0.5 * ACROSS - 0.5 * (left + right) * self.scale
+        self.y0 = 0.5 * self.height + 0.5 * (bottom + top) * self.scale
+
+    def of(self, points: FloatArray) -> list[Any]:
+        """Return points, shape (n, 2) [m], as pairs of pixels; None for one that is not reached."""
+        flat = np.round(np.column_stack([self.x0 + self.scale * points[:, 0], self.y0 - self.scale * points[:, 1]]), 1)
+        return [pair if np.isfinite(pair).all() else None for pair in flat.tolist()]
+
+    def length(self, metres: float) -> float:
+        """Return a length in pixels."""
+        return round(metres * self.scale, 2)
+
+
+def scenery(scene: Scene, paths: Sequence[str]) -> dict[str, Any]:
+    """Return what to draw: names as indices into `names`, places for every pose."""
+    pixels, names = Pixels(scene), list(scene.places)
+    placed = scene.places | scene.rims
+    index = {name: number for number, name in enumerate(placed)}
+    return {
+        "width": ACROSS,
+        "height": round(pixels.height, 1),
+        "size": pixels.length(scene.size),
+        "names": names,
+        "poses": [pixels.of(np.array([place[:, pose] for place in placed.values()])) for pose in range(scene.motion.reached.size)],
+        "bodies": [
+            {"points": [index[name] for name in points], "fill": fill, "edge": style.mixed(fill, style.INK, 0.65)}
+            for points, fill in zip(scene.hulls, cycle(style.BODIES), strict=False)
+        ],
+        "rams": [
+            {"P": index[ram.P], "Q": index[ram.Q]} | {name: pixels.length(getattr(ram, name)) for name in RAM} for ram in scene.rams
+        ],
+        "straights": [
+            {"P": index[each.P], "Q": index[each.Q], "lines": [stretched(line, pixels) for line in each.lines]} for each in scene.straights
+        ],
+        **sliding(scene, pixels, index),
+        "widths": WIDTH,
+        "thick": THICK,
+        "stays": [[index[P], index[X]] for P, X in scene.stays],
+        "pins": [index[name] for name in scene.pins],
+        "dots": [index[name] for name in scene.dots],
+        "grounds": grounds(scene, pixels),
+        "labels": labels(scene, pixels),
+        "paths": [pixels.of(scene.places[name].T) for name in paths],
+    }
+
+
+def stretched(line: Outline, pixels: Pixels) -> dict[str, Any]:
+    """Return a line of a straight element: its rows with the ways along and across in pixels, these to the right as y points down."""
+    rows = [[round(share, 4), pixels.length(along), -pixels.length(across)] for share, along, across in line.rows.tolist()]
+    return {"rows": rows, "fill": line.fill.lower(), "closed": line.closed, "bold": line.bold}
+
+
+def sliding(scene: Scene, pixels: Pixels, index: Mapping[str, int]) -> dict[str, Any]:
+    """Return the rails, the slots and the blocks."""
+    pairs = [(track, [index[name] for name in track.ends]) for track in scene.tracks]
+    return {
+        "slide": {"long": LONG, "slot": SLOT},
+        "rails": [[pixels.of(line) for line in lines] for lines in hatched(scene)],
+        "slots": [ends for track, ends in pairs if not track.fixed],
+        "blocks": [
+            {"rider": index[rider], "ends": ends, "half": width(track.fixed), "inside": not track.fixed}
+            for track, ends in pairs
+            for rider in track.riders
+        ],
+    }  # fmt: skip
+
+
+def grounds(scene: Scene, pixels: Pixels) -> list[dict[str, Any]]:
+    """Return the ground symbols: a triangle and its hatched line."""
+    symbols = [support(scene.at(0)[name], way, scene.size) for name, way in room.props(scene).items()]
+    return [{"triangle": pixels.of(corners), "lines": [pixels.of(line) for line in lines]} for corners, lines in symbols]
+
+
+def labels(scene: Scene, pixels: Pixels) -> list[Any]:
+    """Return each name's offset from its point, in the order of the names."""
+    poses: list[Places] = scene.some(9)
+    spots = offsets(list(scene.places), poses, room.taken(scene, poses), pixels.scale, 1.15 * pixels.length(scene.size) + 2.0, FONT)
+    return [[round(float(spots[name][0]), 1), round(-float(spots[name][1]), 1)] for name in scene.places]
+
+
+COLOURS = ("INK", "MUTED", "RULE", "GRID", "PAPER", "CURVE", "ACCENT", "BARREL", "ROD", "PISTON")
+
+
+def page_html(
+    motion: Motion, column: Column, paths: Sequence[str] = (), limit: Sequence[Any] | None = None, *, is_turn: bool = False
+) -> str:
+    """Return the HTML of a page: the mechanism over a row of poses, the live curve of a column, and its controls.
+
+    `paths` names points whose paths are drawn; `limit` is `(value [SI], text, "above" or "below")`; a full turn goes
+    round, anything else there and back.
+    """
+    scene = Scene(motion)
+    if not isinstance(column, Column):
+        raise DefinitionError(f"{cited(column)} is no column; give one of machine.columns(motion).")
+    if not isinstance(paths, (list, tuple)):
+        raise DefinitionError(f'paths={cited(paths)}: a list of points is expected, such as ["G"].')
+    for name in paths:
+        known_name("Point", name, motion.plan.points, where=motion.plan.title)
+    if not isinstance(is_turn, (bool, np.bool_)):
+        raise DefinitionError(f"is_turn={cited(is_turn)}: say True for a full turn, else False.")
+    curve = chart(motion, column, limit)
+    moving = curve["stroke"]["name"]
+    data = {
+        "title": motion.plan.heading,
+        "turn": bool(is_turn),
+        "held": strokes.held(motion.plan, motion.strokes, moving),
+        "remark": strokes.unreached(motion, moving),
+        "reached": scene.reached,
+        "scene": scenery(scene, paths),
+        "chart": curve,
+    }
+    parts = {
+        "TITLE": escape(motion.plan.heading),
+        "STROKE": escape(moving),
+        "COLOURS": "".join(f"--{name.lower()}:{getattr(style, name)};" for name in COLOURS),
+        "CSS": text("player.css"),
+        "JS": text("player.js"),
+        "DATA": embedded(data),
+    }
+    return filled(text("player.html"), parts)
+
+
+def text(name: str) -> str:
+    """Return a file of this room."""
+    return files(__package__).joinpath(name).read_text(encoding="utf-8")
+
+
+def embedded(data: Any) -> str:
+    """Return data as JSON that may stand in a script element: nothing in it ends the element or starts a comment."""
+    plain = json.dumps(data, ensure_ascii=True, separators=(",", ":"), allow_nan=False)
+    return plain.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+
+
+def filled(template: str, parts: dict[str, str]) -> str:
+    """Return a template with each `{{NAME}}` replaced once; what is put in is not looked at again."""
+    pieces = template.split("{{")
+    done = [pieces[0]]
+    for piece in pieces[1:]:
+        name, _, rest = piece.partition("}}")
+        done += [parts[name], rest]
+    return "".join(done)

@@ -1,0 +1,177 @@
+"""A mechanism on axes: all its parts, made once, moved from pose to pose."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import cycle
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle, Polygon
+
+from ..motion import Motion
+from ..program import FloatArray
+from . import free_space as room
+from . import style
+from .labels import labels, offsets
+from .scene import Places, Scene, Straight
+from .shapes import Outline, rounded
+from .sheet import points_a_metre, sheet
+from .style import FAINT, STRONG, Look
+from .symbols import CylinderPart, Part, added, ground, rails, sliders
+
+# Rigid bodies: bars with round ends, plates with round corners.
+
+class BodyPart(Part):
+    """A body as the line around its outermost points, filled."""
+
+    def __init__(self, ax: Axes, points: tuple[str, ...], radius: float, colour: str, look: Look) -> None:
+        plate = len(points) > 2
+        self.points, self.radius = points, radius
+        fill, edge = look.colour(colour), look.colour(style.mixed(colour, style.INK, 0.65))
+        level = look.level + (0.0 if plate else 0.2)
+        nowhere = np.zeros((1, 2))
+        self.face = added(ax, Polygon(nowhere, facecolor=fill, edgecolor="none", alpha=0.55 if plate else 1.0, zorder=level))
+        self.edge = added(ax, Polygon(nowhere, fill=False, edgecolor=edge, linewidth=style.OUTLINE, zorder=level + 0.1))
+        self.artists = (self.face, self.edge)
+
+    def move(self, at: Places) -> None:
+        outline = rounded(np.array([at[name] for name in self.points]), self.radius)
+        self.face.set_xy(outline)
+        self.edge.set_xy(outline)
+
+
+# Springs, dampers and struts between two points, and the yokes of what stands beside its pins.
+
+class StraightPart(Part):
+    """A straight element from P to Q as some lines."""
+
+    def __init__(self, ax: Axes, straight: Straight, look: Look) -> None:
+        self.straight, self.points = straight, (straight.P, straight.Q)
+        self.pieces = [(line, added(ax, self._piece(line, look.level + 0.5 + 0.01 * i, look))) for i, line in enumerate(straight.lines)]
+        self.artists = tuple(piece for _, piece in self.pieces)
+
+    @staticmethod
+    def _piece(line: Outline, level: float, look: Look) -> Polygon:
+        return Polygon(
+            np.zeros((1, 2)), closed=line.closed, fill=bool(line.fill), facecolor=look.colour(getattr(style, line.fill or "PAPER")),
+            edgecolor=look.colour(style.INK), linewidth=style.OUTLINE * (1.5 if line.bold else 0.8), joinstyle="round", capstyle="round",
+            zorder=level,
+        )  # fmt: skip
+
+    def move(self, at: Places) -> None:
+        P, Q = at[self.straight.P], at[self.straight.Q]
+        length = float(np.hypot(*(Q - P)))
+        along = (Q - P) / (length or 1.0)
+        turned = np.array([along, [-along[1], along[0]]])
+        for line, piece in self.pieces:
+            piece.set_xy(P + line.at(length) @ turned)
+
+
+# Points: pins as circles, others as small dots, and the thin lines of a bare construction.
+
+class CirclePart(Part):
+    """A point as a circle."""
+
+    def __init__(self, ax: Axes, name: str, radius: float, fill: str, edge: str, width: float, level: float) -> None:
+        self.points = (name,)
+        self.circle = added(ax, Circle((0, 0), radius, facecolor=fill, edgecolor=edge, linewidth=width, zorder=level))
+        self.artists = (self.circle,)
+
+    def move(self, at: Places) -> None:
+        x, y = at[self.points[0]]
+        self.circle.set_center((x, y))
+
+
+def pin(ax: Axes, name: str, size: float, look: Look) -> CirclePart:
+    """Return a joint: a circle with a light centre."""
+    return CirclePart(ax, name, 0.5 * size, style.PAPER, look.colour(style.INK), 1.3 * style.OUTLINE, look.level + 0.8)
+
+
+def dot(ax: Axes, name: str, size: float, look: Look) -> CirclePart:
+    """Return a point that is no joint: a small filled dot."""
+    return CirclePart(ax, name, 0.48 * size, look.colour(style.INK), style.PAPER, style.THIN, look.level + 0.8)
+
+
+class StayPart(Part):
+    """Two points that a construction joins: a thin broken line."""
+
+    def __init__(self, ax: Axes, ends: tuple[str, str], look: Look) -> None:
+        self.points = ends
+        self.line = ax.add_line(Line2D([], [], color=look.colour(style.MUTED), linewidth=style.OUTLINE, dashes=(5, 3), zorder=look.level))
+        self.artists = (self.line,)
+
+    def move(self, at: Places) -> None:
+        self.line.set_data(*np.array([at[name] for name in self.points]).T)
+
+
+class Drawing:
+    """The parts of a mechanism on some axes; `update` moves them to another pose."""
+
+    def __init__(self, ax: Axes, scene: Scene, look: Look = STRONG) -> None:
+        self.ax, self.scene, self.look = ax, scene, look
+        made = bodies, sliders, cylinders, points
+        self.parts: list[Part] = [part for kind in made for part in kind(ax, scene, look)]
+
+    def ground(self) -> None:
+        """Draw what never moves: the frame under its pins."""
+        rails(self.ax, self.scene, self.look)
+        at = self.scene.at(0)
+        for name, way in room.props(self.scene).items():
+            ground(self.ax, at[name], way, self.scene.size, self.look)
+
+    def label(self, poses: Sequence[Places], keep_clear: Sequence[FloatArray] = ()) -> None:
+        """Name the points; the names keep clear of the mechanism at all `poses` and of further points [m]."""
+        size, scale = self.scene.size, points_a_metre(self.ax)
+        clouds = [np.concatenate([points, *keep_clear]) for points in room.taken(self.scene, poses)]
+        self.parts += labels(self.ax, offsets(list(self.scene.places), poses, clouds, scale, 1.15 * size * scale + 1.5), self.look)
+
+    def update(self, pose: int) -> None:
+        """Move to a pose, a flat index."""
+        at = self.scene.at(pose)
+        for part in self.parts:
+            part.update(at)
+
+    @property
+    def artists(self) -> list[Artist]:
+        """All that moves, from the lowest layer up."""
+        return sorted((artist for part in self.parts for artist in part.artists), key=lambda artist: artist.get_zorder())
+
+
+def bodies(ax: Axes, scene: Scene, look: Look) -> list[Part]:
+    """Return the moving bodies."""
+    return [BodyPart(ax, points, scene.size, colour, look) for points, colour in zip(scene.hulls, cycle(style.BODIES), strict=False)]
+
+
+def cylinders(ax: Axes, scene: Scene, look: Look) -> list[Part]:
+    """Return the cylinders, and the straight elements in front of them."""
+    rams = [CylinderPart(ax, ram, scene.size, look) for ram in scene.rams]
+    return [*rams, *(StraightPart(ax, each, look) for each in scene.straights)]
+
+
+def points(ax: Axes, scene: Scene, look: Look) -> list[Part]:
+    """Return the pins, the dots and the lines of a bare construction."""
+    pins = [pin(ax, name, scene.size, look) for name in scene.pins]
+    dots = [dot(ax, name, scene.size, look) for name in scene.dots]
+    return [*(StayPart(ax, ends, look) for ends in scene.stays), *pins, *dots]
+
+
+def mechanism(ax: Axes, motion: Motion, pose: int | tuple[int, ...] = 0, *, faint: bool = False) -> Drawing:
+    """Return the mechanism drawn on axes at a pose of a motion; `update` moves it to another.
+
+    The pose is an index into the strokes, an int for the flat one. Empty axes become a sheet with equal scales that
+    has room for the whole motion. A faint mechanism has no names. At a pose out of reach only the frame is drawn.
+    Raises DefinitionError for a batch of designs or a pose that is not there.
+    """
+    scene = Scene(motion)
+    index = scene.index(pose)
+    if not ax.has_data():
+        sheet(ax, scene.box())
+    drawing = Drawing(ax, scene, FAINT if faint else STRONG)
+    drawing.ground()
+    if not faint:
+        drawing.label([scene.at(index)] if index in scene.reached else [])
+    drawing.update(index)
+    return drawing

@@ -1,0 +1,295 @@
+"""A mechanism's animation, written in the form that the file's name asks for."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
+from shutil import copyfileobj
+from tempfile import TemporaryDirectory, gettempdir
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.artist import Artist
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image
+
+from ..disk import check_place, replacing, replacing_text, spoken
+from ..errors import DefinitionError, FileError, LinkageError, cited
+from ..mechanism import Mechanism, require_mechanism
+from ..program import FloatArray
+from ..reports import NOTHING, At
+from . import strokes, style
+from .browser import page_html
+from .curves import Limit, panel, typeset
+from .curves import limit as limit_of
+from .drawing import Drawing
+from .poses import named_points, trace
+from .scene import Scene
+from .sheet import sheet
+from .strokes import RATE, Course, course, whole
+
+# The stage of an animation: the mechanism and its live curve, drawn once and then moved.
+
+WIDTH, HEIGHT = 9.6, 4.8
+TITLE = 0.953
+SHEET = (0.065, 0.115, 0.535, 0.775)
+CURVE = (0.685, 0.115, 0.285, 0.775)
+"""The figure [inch]; the height of the titles and the places of its two axes as shares of it."""
+
+MOST = 9
+"""Decimals that a value is shown with, at most."""
+
+
+def untyped(canvas: Any) -> Any:
+    """Return a canvas without its type: matplotlib declares none for these methods."""
+    return canvas
+
+
+class Stage:
+    """A figure with a mechanism on the left and a live curve on the right; `frame` gives it at a pose."""
+
+    def __init__(self, course: Course, paths: Sequence[str], bound: Sequence[Any] | Limit | None, dpi: int) -> None:
+        self.course, self.scene = course, Scene(course.motion)
+        self.figure = Figure(figsize=(WIDTH, HEIGHT), dpi=dpi, facecolor=style.PAPER)
+        self.canvas = untyped(FigureCanvasAgg(self.figure))
+        self.drawing = self._mechanism(paths)
+        self.live = self._curve(bound)
+        self.stroke = self.figure.text(SHEET[0] + SHEET[2], TITLE, "", fontsize=style.TITLE, color=style.INK, ha="right", va="center")
+        self._remarks()
+        for artist in self._moving:
+            artist.set_animated(True)
+        self.canvas.draw()
+        self.still: Any = self.canvas.copy_from_bbox(self.figure.bbox)
+
+    def _mechanism(self, paths: Sequence[str]) -> Drawing:
+        """Return the mechanism on its sheet, with paths of points and names that keep their place beside their points."""
+        ax = self.figure.add_axes(SHEET)
+        sheet(ax, self.scene.box())
+        for name in paths:
+            trace(ax, self.scene.places[name])
+        drawing = Drawing(ax, self.scene)
+        drawing.ground()
+        drawing.label(self.scene.some(9))
+        self._title(SHEET[0], self.scene.motion.plan.heading)
+        return drawing
+
+    def _curve(self, bound: Sequence[Any] | None) -> tuple[Artist, ...]:
+        """Return what is drawn anew on the curve, from the lowest layer up: the piece run through, the limit, a marker."""
+        ax = self.figure.add_axes(CURVE)
+        panel(ax, self.course.motion, self.course.column, bound, colour=style.RULE)
+        ax.set_title("", loc="left")
+        (self.run,) = ax.plot([], [], color=style.CURVE, linewidth=style.BOLD + 0.4, zorder=5.05, solid_capstyle="round")
+        (self.marker,) = ax.plot([], [], "o", color=style.CURVE, markersize=9, markeredgecolor=style.PAPER, zorder=7.0, clip_on=False)
+        self._title(CURVE[0], typeset(self.course.column.heading))
+        self.value = self.figure.text(CURVE[0] + CURVE[2], TITLE, "", fontsize=style.TITLE, color=style.CURVE, ha="right", va="center")
+        return tuple(sorted([*ax.lines, *ax.texts], key=lambda artist: artist.get_zorder()))
+
+    def _remarks(self) -> None:
+        """Write under the title the strokes that are held, and what is not reached."""
+        motion = self.course.motion
+        moving = strokes.driven(motion)
+        held = strokes.held(motion.plan, motion.strokes, moving)
+        texts = (
+            (SHEET[0], f"at {held}" if held else "", style.MUTED, "left"),
+            (SHEET[0] + SHEET[2], strokes.unreached(motion, moving), style.ACCENT, "right"),
+        )
+        for x, text, colour, side in texts:
+            if text:
+                self.figure.text(x, 0.91, text, fontsize=style.SMALL, color=colour, va="center", ha=side)
+
+    def _title(self, left: float, text: str) -> None:
+        self.figure.text(left, TITLE, text, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
+
+    @property
+    def _moving(self) -> list[Artist]:
+        return [*self.drawing.artists, *self.live, self.stroke, self.value]
+
+    def frame(self, pose: int) -> npt.NDArray[np.uint8]:
+        """Return the picture at a pose, shape (height, width, 3)."""
+        self.update(pose)
+        self.canvas.restore_region(self.still)
+        renderer = self.canvas.get_renderer()
+        for artist in self._moving:
+            artist.draw(renderer)
+        return np.array(self.canvas.buffer_rgba())[..., :3]
+
+    def update(self, pose: int) -> None:
+        """Move everything to a pose."""
+        motion, column = self.course.motion, self.course.column
+        moving = strokes.driven(motion)
+        along, shown = strokes.shown(motion.plan, moving, motion.strokes[moving]), column.drawn
+        self.drawing.update(pose)
+        self.run.set_data(along[: pose + 1], shown[: pose + 1])
+        self.marker.set_data(along[pose : pose + 1], shown[pose : pose + 1])
+        self.stroke.set_text(strokes.words(motion.plan, moving, float(motion.strokes[moving][pose]), fixed=True))
+        self.value.set_text(stroke_words(shown, pose))
+
+
+def stroke_words(values: FloatArray, pose: int) -> str:
+    """Return one of a column's values as text, all with so many decimals that the greatest has four digits; empty where it has none."""
+    if not np.isfinite(values[pose]):
+        return ""
+    greatest = float(np.nanmax(np.abs(values)))
+    decimals = int(np.clip(3 - np.floor(np.log10(greatest)), 0, MOST)) if greatest > 0.0 else 0
+    return f"{values[pose]:z.{decimals}f}".replace("-", "\N{MINUS SIGN}")
+
+
+# Frames written as a GIF: one palette, and only what changes from frame to frame.
+
+COLOURS, APART = 120, 9
+"""How many colours the palette holds, and how far they stand apart, of 255."""
+
+
+def write_gif(path: Path, frames: Iterable[npt.NDArray[np.uint8]], order: Sequence[int], sample: npt.NDArray[np.uint8]) -> None:
+    """Write frames, one for each pose of `order` met first, in that order; `sample` is a picture with all colours."""
+    palette = palette_of(sample)
+    pictures: dict[int, Image.Image] = {}
+    for pose, frame in zip(dict.fromkeys(order), frames, strict=True):
+        pictures[pose] = Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE)
+    first, *others = [pictures[pose] for pose in order]
+    with replacing(path) as stream:
+        options: dict[str, Any] = {"duration": 1000 // RATE, "loop": 0, "disposal": 1, "optimize": True}
+        first.save(stream, "GIF", save_all=True, append_images=others, **options)
+
+
+def palette_of(sample: npt.NDArray[np.uint8]) -> Image.Image:
+    """Return a picture whose palette holds the most frequent colours of a sample, the paper first, none like another.
+
+    Pillow finds a pixel's colour in the palette to a few steps in 256, so two like colours would mix.
+    """
+    packed, counts = np.unique(sample.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], np.uint32), return_counts=True)
+    ranked = packed[np.argsort(-counts, kind="stable")]
+    chosen: list[npt.NDArray[np.int64]] = []
+    for code in ranked.tolist():
+        colour = np.array([code >> 16, code >> 8 & 255, code & 255])
+        if all(np.abs(colour - other).max() >= APART for other in chosen):
+            chosen.append(colour)
+        if len(chosen) == COLOURS:
+            break
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(np.concatenate(chosen).tolist())
+    return palette
+
+
+# Frames written as an MP4 (H.264) through ffmpeg.
+
+def write_mp4(path: Path, frames: Iterable[npt.NDArray[np.uint8]], size: tuple[int, int]) -> None:
+    """Write frames of a size, width and height in pixels; LinkageError where ffmpeg is not installed, FileError where it fails."""
+    try:
+        import imageio_ffmpeg
+    except ImportError:
+        raise LinkageError(
+            f"{path.name}: an .mp4 needs ffmpeg, which the extra `video` brings: pip install 'hydrolinkage[video]' "
+            "(from a checkout: pip install -e '.[video]'). A .gif or .html needs nothing more."
+        ) from None
+    with replacing(path) as stream, TemporaryDirectory() as folder:
+        film, sent = Path(folder) / "film.mp4", 0
+        writer = imageio_ffmpeg.write_frames(str(film), size, fps=RATE, quality=8, macro_block_size=16)
+        writer.send(None)
+        try:
+            for sent, frame in enumerate(frames, 1):  # noqa: B007 - counted to the end
+                writer.send(np.ascontiguousarray(frame))
+        finally:
+            writer.close()
+        try:
+            held, _ = imageio_ffmpeg.count_frames_and_secs(str(film))
+        except RuntimeError:  # ffmpeg cannot read what it wrote
+            held = 0
+        if held != sent:
+            room = f"make room in {gettempdir()}, where it works"
+            raise FileError(f"{spoken(path)}: ffmpeg wrote {held} of {sent} frames; {room}, or choose .gif or .html.")
+        with film.open("rb") as whole:
+            copyfileobj(whole, stream)
+
+
+GIF_DPI = 100
+MP4_DPI = 150
+PAGE_FINENESS = 3
+
+Progress = Callable[[int, int], None]
+
+
+def animate(
+    machine: Mechanism,
+    path: str | Path,
+    *,
+    count: int = 60,
+    column: str | None = None,
+    trace: Sequence[str] = (),
+    limit: Sequence[Any] | None = None,
+    at: At = NOTHING,
+    progress: Progress | None = None,
+) -> Path:
+    """Return the path of the animation it wrote; see `linkage.animate`."""
+    require_mechanism(machine)
+    if not isinstance(path, (str, os.PathLike)):
+        raise DefinitionError(f"{cited(path)} is no path of a file; give one that ends in .gif, .mp4 or .html.")
+    if progress is not None and (not callable(progress) or isinstance(progress, type)):
+        raise DefinitionError(f"progress={cited(progress)} is no function; give one of (done, total).")
+    target, poses = Path(path), whole(count)
+    kind = target.suffix.lower()
+    if kind not in KINDS:
+        raise DefinitionError(f"{target.name}: an animation is written as .gif, .mp4 or .html; give a name with one of these endings.")
+    trace = named_points(machine, trace, "trace")
+    if limit is not None:
+        limit_of(limit)
+    check_place(target)
+    write, fineness = KINDS[kind]
+    run = course(machine, fineness * (poses - 1) + 1, column, at=at, eased=fineness == 1)
+    write(run, target, trace, limit, progress or silent)
+    return target
+
+
+def page(machine: Mechanism, path: str | Path, **given: Any) -> Path:
+    """Return the path of the browser page it wrote; see `linkage.page`."""
+    if not isinstance(path, (str, os.PathLike)) or Path(path).suffix.lower() != ".html":
+        raise DefinitionError(f"{cited(path)} is no name of a page; give one that ends in .html.")
+    return animate(machine, path, **given)
+
+
+def silent(done: int, total: int) -> None:
+    """Say nothing."""
+
+
+def gif(run: Course, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
+    """Write a GIF; a pose that comes twice is drawn once."""
+    stage = Stage(run, trace, limit, GIF_DPI)
+    sample = np.concatenate([stage.frame(pose) for pose in (run.order[0], run.order[len(run.order) // 2])])
+    poses = list(dict.fromkeys(run.order))
+    write_gif(target, counted(frames(stage, poses), len(poses), progress), run.order, sample)
+
+
+def mp4(run: Course, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
+    """Write an MP4."""
+    stage = Stage(run, trace, limit, MP4_DPI)
+    width, height = stage.canvas.get_width_height()
+    write_mp4(target, counted(frames(stage, run.order), len(run.order), progress), (width, height))
+
+
+def html(run: Course, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
+    """Write a page."""
+    text = page_html(run.motion, run.column, trace, limit, is_turn=run.is_turn)
+    progress(1, 2)
+    with replacing_text(target) as stream:
+        stream.write(text)
+    progress(2, 2)
+
+
+KINDS = {".gif": (gif, 1), ".mp4": (mp4, 1), ".html": (html, PAGE_FINENESS)}
+"""An ending -> what writes it, and between how many times as many poses it moves: a page runs at its own pace."""
+
+
+def frames(stage: Stage, poses: Iterable[int]) -> Iterator[npt.NDArray[np.uint8]]:
+    """Yield the picture at each pose."""
+    return (stage.frame(pose) for pose in poses)
+
+
+def counted(each: Iterator[npt.NDArray[np.uint8]], total: int, progress: Progress) -> Iterator[npt.NDArray[np.uint8]]:
+    """Yield the same pictures, and report each when it has been taken."""
+    progress(0, total)
+    for done, picture in enumerate(each, 1):
+        yield picture
+        progress(done, total)

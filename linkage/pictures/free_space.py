@@ -1,0 +1,69 @@
+"""Where there is room: what a mechanism covers, and the side on which a ground symbol stands freely."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..program import FloatArray
+from .scene import Places, Scene
+from .shapes import segment
+from .symbols import hatched
+
+DOWN, LEFT, RIGHT, UP = -np.pi / 2, np.pi, 0.0, np.pi / 2
+WORTH = {DOWN: 0.0, LEFT: 3.0, RIGHT: 3.0, UP: 6.0}
+"""The directions a ground symbol may take [rad], and how many crowding points it costs to leave the first."""
+
+ACROSS = (-2.7, -2.1, -1.5, -0.9, -0.3, 0.3, 0.9, 1.5, 2.1, 2.7)
+SYMBOL = [(u, v) for u in (1.2, 1.8, 2.4, 3.0, 3.6, 4.2) for v in ACROSS if u > 3.0 or abs(v) < 0.7 * u]
+"""Points that cover a ground symbol, along its direction and across, in sizes."""
+
+
+def cloud(scene: Scene, at: Places) -> FloatArray:
+    """Return points that cover what is drawn at a pose, shape (m, 2) [m]: where no label should stand."""
+    pairs = [(P, Q, 1.0) for points in scene.hulls for P, Q in zip(points, (*points[1:], points[0]), strict=True)]
+    pairs += [*((each.P, each.Q, each.half) for each in scene.hung), *((P, X, 0.0) for P, X in scene.stays)]
+    pairs += [(*track.ends, 1.2) for track in scene.tracks]
+    lines = [(segment(at[P], at[Q], 0.8 * scene.size), half) for P, Q, half in pairs if np.isfinite([at[P], at[Q]]).all()]
+    wide = [line + offset * half * scene.size * _normal(line) for line, half in lines for offset in (-1.0, 0.0, 1.0)]
+    return np.concatenate([np.empty((0, 2)), *wide, *(place[None] for place in at.values() if np.isfinite(place).all())])
+
+
+def _normal(line: FloatArray) -> FloatArray:
+    """Return the unit normal of a line of points."""
+    along = line[-1] - line[0]
+    return np.array([-along[1], along[0]]) / (np.hypot(*along) or 1.0)
+
+
+def props(scene: Scene) -> dict[str, float]:
+    """Return the direction in which each ground symbol stands away from its pin [rad]: down where there is room."""
+    shown = scene.some(7) or [scene.at(0)]
+    covered = np.concatenate([cloud(scene, at) for at in shown])
+    pins = {name: shown[0][name] for name in scene.grounds}
+    chosen: dict[str, float] = {}
+    for name, pin in pins.items():
+        others = [symbol(place, chosen.get(other, DOWN), scene.size) for other, place in pins.items() if other != name]
+        crowd = np.concatenate([covered, *(np.tile(other, (len(shown), 1)) for other in others)]) - pin
+        chosen[name] = min(WORTH, key=lambda way: _crowding(crowd / scene.size, way) / len(shown) + WORTH[way])
+    return chosen
+
+
+def symbol(pin: FloatArray, way: float, size: float) -> FloatArray:
+    """Return points that cover a ground symbol, shape (m, 2) [m]."""
+    along, across = np.array([np.cos(way), np.sin(way)]), np.array([-np.sin(way), np.cos(way)])
+    return np.array([pin + size * (u * along + v * across) for u, v in SYMBOL])
+
+
+def taken(scene: Scene, poses: Sequence[Places]) -> list[FloatArray]:
+    """Return points that no label should cover at each pose, shape (m, 2) [m]; ground symbols count double, rails with their hatches."""
+    symbols = [np.tile(symbol(scene.at(0)[name], way, scene.size), (2, 1)) for name, way in props(scene).items()]
+    rails = [segment(start, end, 0.5 * scene.size) for lines in hatched(scene) for start, end in lines]
+    return [np.concatenate([cloud(scene, at), *symbols, *rails]) for at in poses]
+
+
+def _crowding(crowd: FloatArray, way: float) -> float:
+    """Return how many points [in sizes, from the pin] lie where a ground symbol would stand."""
+    along = crowd @ np.array([np.cos(way), np.sin(way)])
+    across = crowd @ np.array([-np.sin(way), np.cos(way)])
+    return float(np.count_nonzero((along > 1.2) & (along < 4.6) & (np.abs(across) < 0.6 + 0.65 * along)))

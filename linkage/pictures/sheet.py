@@ -1,0 +1,91 @@
+"""The sheet a mechanism is drawn on: equal scales, a light grid, lengths in m or mm."""
+
+from __future__ import annotations
+
+import os
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib import rcParams
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, MaxNLocator, ScalarFormatter
+
+from ..disk import check_place, replacing
+from . import style
+from .scene import Box
+
+
+def sheet(ax: Axes, box: Box) -> None:
+    """Set up axes for a mechanism within a box [m]; they show more of the plane where their shape is another."""
+    left, right, bottom, top = filling(ax, box)
+    in_metres = max(right - left, top - bottom) > 1.0
+    ax.set(xlim=(left, right), ylim=(bottom, top))
+    ax.set_aspect("equal", adjustable="box")
+    for axis, name in ((ax.xaxis, "x"), (ax.yaxis, "y")):
+        axis.set_major_locator(MaxNLocator(11, steps=[1, 2, 5, 10]))
+        axis.set_major_formatter(ScalarFormatter(useOffset=False) if in_metres else FuncFormatter(millimetres))
+        axis.set_label_text(f"{name}, {'m' if in_metres else 'mm'}", fontsize=style.TEXT, color=style.MUTED)
+    quiet(ax)
+    for side in ("top", "right"):
+        ax.spines[side].set_visible(True)
+
+
+def millimetres(value: float, _: int | None = None) -> str:
+    """Return a length [m] as text in mm."""
+    return f"{value * 1e3:.6g}".replace("-", "\N{MINUS SIGN}")
+
+
+def filling(ax: Axes, box: Box) -> Box:
+    """Return a box [m] made wider or higher until it has the shape of the axes."""
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    place = ax.get_position(original=True)
+    shape = place.width * figure.get_figwidth() / (place.height * figure.get_figheight())
+    left, right, bottom, top = box
+    wide, high = max(right - left, shape * (top - bottom)), max(top - bottom, (right - left) / shape)
+    x, y = 0.5 * (left + right), 0.5 * (bottom + top)
+    return x - 0.5 * wide, x + 0.5 * wide, y - 0.5 * high, y + 0.5 * high
+
+
+def quiet(ax: Axes) -> None:
+    """Give axes the house's light frame, grid and ticks."""
+    ax.set_facecolor(style.PAPER)
+    ax.grid(True, color=style.GRID, linewidth=style.THIN)
+    ax.set_axisbelow(True)
+    ax.tick_params(colors=style.MUTED, labelsize=style.SMALL, length=0, pad=5)
+    for side, spine in ax.spines.items():
+        spine.set_color(style.RULE)
+        spine.set_linewidth(style.THIN)
+        spine.set_visible(side in ("left", "bottom"))
+
+
+def points_a_metre(ax: Axes) -> float:
+    """Return the drawing's scale, printer's points a metre, once its limits and place stand."""
+    ax.apply_aspect()
+    ends = ax.transData.transform([(0.0, 0.0), (1.0, 0.0)])
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    return float(np.hypot(*(ends[1] - ends[0]))) * 72.0 / figure.dpi
+
+
+# A figure that is saved as every file here is: whole, or what stood there is left as it was.
+
+class Picture(Figure):
+    """A matplotlib figure whose `savefig` replaces a file whole; FileError, in words, where it cannot be written."""
+
+    def savefig(self, fname: Any, **options: Any) -> None:
+        """Write the picture into a file, in the format that its name's ending says, or into a stream."""
+        if not isinstance(fname, (str, os.PathLike)):
+            super().savefig(fname, **options)
+            return
+        path = Path(fname)
+        kind = options.pop("format", None) or path.suffix[1:] or str(rcParams["savefig.format"])
+        path = path if path.suffix else path.with_name(f"{path.name}.{kind}")
+        check_place(path)
+        drawn = BytesIO()
+        super().savefig(drawn, format=kind, **options)
+        with replacing(path) as stream:
+            stream.write(drawn.getvalue())

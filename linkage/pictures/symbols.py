@@ -1,0 +1,216 @@
+"""A part of the picture: artists made once and moved from pose to pose."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from typing import TypeVar
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.patches import Patch, Polygon
+
+from ..program import FloatArray
+from . import style
+from .scene import Places, Ram, Scene
+from .shapes import rounded
+from .style import Look
+
+Kind = TypeVar("Kind", bound=Patch)
+
+
+def added(ax: Axes, patch: Kind) -> Kind:
+    """Return a patch that is now on the axes."""
+    ax.add_patch(patch)
+    return patch
+
+
+class Part(ABC):
+    """Artists that follow some points. They hide where one of these is not reached."""
+
+    points: tuple[str, ...]
+    artists: Sequence[Artist]
+
+    def update(self, at: Places) -> None:
+        """Move to a pose."""
+        there = all(np.isfinite(at[name]).all() for name in self.points)
+        for artist in self.artists:
+            artist.set_visible(there)
+        if there:
+            self.move(at)
+
+    @abstractmethod
+    def move(self, at: Places) -> None:
+        """Move to a pose at which all points are reached."""
+
+
+# Hydraulic cylinders: a barrel cut open, its piston, and the rod to the other end.
+
+#: part -> half its width, and half the thickness of the two that are discs, in sizes
+WIDTH = {"eye": 0.62, "rod": 0.42, "barrel": 1.3, "piston": 1.12, "cap": 1.5}
+THICK = {"piston": 0.45, "cap": 0.35}
+FILL = {"eye": style.PISTON, "rod": style.ROD, "barrel": style.BARREL, "piston": style.PISTON, "cap": style.PISTON}
+
+
+class CylinderPart(Part):
+    """A cylinder from P to Q: the barrel is pinned at P, the rod at Q."""
+
+    def __init__(self, ax: Axes, ram: Ram, size: float, look: Look) -> None:
+        self.ram, self.size, self.points = ram, size, (ram.P, ram.Q)
+        pieces = ("eye", "barrel", "rod", "piston", "cap")
+        self.pieces = {name: added(ax, self._piece(name, look.level + 0.4 + 0.02 * layer, look)) for layer, name in enumerate(pieces)}
+        self.artists = tuple(self.pieces.values())
+
+    @staticmethod
+    def _piece(name: str, level: float, look: Look) -> Polygon:
+        return Polygon(
+            np.zeros((1, 2)), facecolor=look.colour(FILL[name]), edgecolor=look.colour(style.INK),
+            linewidth=0.8 * style.OUTLINE, joinstyle="round", zorder=level,
+        )  # fmt: skip
+
+    def move(self, at: Places) -> None:
+        P, Q = at[self.ram.P], at[self.ram.Q]
+        length = float(np.hypot(*(Q - P)))
+        along = (Q - P) / (length or 1.0)
+        P = P + self.ram.aside * np.array([-along[1], along[0]])
+        for name, (start, end) in lengthwise(self.ram, length, self.size).items():
+            self.pieces[name].set_xy(box(P, along, start, end, WIDTH[name] * self.size))
+
+
+def lengthwise(ram: Ram, length: float, size: float) -> dict[str, tuple[float, float]]:
+    """Return where each piece of a cylinder starts and ends, from P along to Q [m], at a length [m]."""
+    piston = ram.piston(length)
+    return {
+        "eye": (0.0, ram.bottom),
+        "barrel": (ram.bottom, ram.mouth),
+        "rod": (piston, max(length, piston)),
+        "piston": (piston - THICK["piston"] * size, piston + THICK["piston"] * size),
+        "cap": (ram.mouth - THICK["cap"] * size, ram.mouth + THICK["cap"] * size),
+    }
+
+
+def box(P: FloatArray, along: FloatArray, start: float, end: float, half: float) -> FloatArray:
+    """Return a box along a line from P, shape (4, 2) [m]."""
+    across = half * np.array([-along[1], along[0]])
+    near, far = P + start * along, P + end * along
+    return np.array([near - across, far - across, far + across, near + across])
+
+
+# Pins on the frame: a triangle on hatched ground.
+
+HEIGHT, HALF, HATCH = 3.2, 1.9, 0.9
+"""The triangle's height, half its base, and the depth of the hatching, in sizes."""
+
+
+def ground(ax: Axes, pin: FloatArray, way: float, size: float, look: Look) -> None:
+    """Draw the frame under a pin, on the side of a direction [rad]. It never moves."""
+    corners, lines = support(pin, way, size)
+    colour = look.colour(style.INK)
+    level = look.level - 0.5
+    fill = look.colour(style.ROD)
+    ax.add_patch(Polygon(corners, facecolor=fill, edgecolor=colour, linewidth=style.OUTLINE, joinstyle="round", zorder=level))
+    ax.add_collection(LineCollection(list(lines), colors=colour, linewidths=style.THIN, zorder=level), autolim=False)
+
+
+def support(pin: FloatArray, way: float, size: float) -> tuple[FloatArray, FloatArray]:
+    """Return the triangle, shape (3, 2), and the base line with its hatches, shape (n, 2, 2) [m]."""
+    down, across = np.array([np.cos(way), np.sin(way)]), np.array([-np.sin(way), np.cos(way)])
+
+    def place(along: float, aside: float) -> FloatArray:
+        return np.asarray(pin + size * (along * down + aside * across))
+
+    lines = [(place(HEIGHT, -1.4 * HALF), place(HEIGHT, 1.4 * HALF))]
+    for aside in np.linspace(-1.4 * HALF, 1.4 * HALF - HATCH, 6):
+        lines.append((place(HEIGHT, aside + HATCH), place(HEIGHT + HATCH, aside)))
+    return np.array([pin, place(HEIGHT, HALF), place(HEIGHT, -HALF)]), np.array(lines)
+
+
+# Sliding: rails with their hatching, slots on moving bodies, and the blocks that slide along them.
+
+LONG, HALF, SLOT, HATCH = 2.1, 1.25, 0.7, 0.9
+"""Half a block's length and width, half a slot's width, and the depth of the hatching, in sizes."""
+
+
+class SlotPart(Part):
+    """A slot on a moving body, open from end to end."""
+
+    def __init__(self, ax: Axes, ends: tuple[str, str], size: float, look: Look) -> None:
+        self.points, self.size = ends, size
+        edge = look.colour(style.INK)
+        self.face = added(
+            ax, Polygon(np.zeros((1, 2)), facecolor=style.PAPER, edgecolor=edge, linewidth=style.OUTLINE, zorder=look.level + 0.3)
+        )  # fmt: skip
+        self.artists = (self.face,)
+
+    def move(self, at: Places) -> None:
+        self.face.set_xy(rounded(np.array([at[name] for name in self.points]), SLOT * self.size))
+
+
+class BlockPart(Part):
+    """A slider block: a box along its track."""
+
+    def __init__(self, ax: Axes, rider: str, ends: tuple[str, str], half: float, size: float, look: Look) -> None:
+        self.points, self.half, self.size = (rider, *ends), half, size
+        fill, edge = look.colour(style.RULE), look.colour(style.INK)
+        shape = Polygon(np.zeros((1, 2)), facecolor=fill, edgecolor=edge, linewidth=style.OUTLINE, joinstyle="round")
+        shape.set_zorder(look.level + (0.17 if half == HALF else 0.32))
+        self.face = added(ax, shape)
+        self.artists = (self.face,)
+
+    def move(self, at: Places) -> None:
+        rider, start, end = (at[name] for name in self.points)
+        self.face.set_xy(block(rider, start, end, self.half * self.size, self.size))
+
+
+def block(rider: FloatArray, start: FloatArray, end: FloatArray, half: float, size: float) -> FloatArray:
+    """Return a block's corners, shape (4, 2) [m]; `half` is half its width [m]."""
+    u = (end - start) / np.hypot(*(end - start))
+    along, across = LONG * size * u, half * np.array([-u[1], u[0]])
+    return np.array([rider - along - across, rider + along - across, rider + along + across, rider - along + across])
+
+
+def sliders(ax: Axes, scene: Scene, look: Look) -> list[Part]:
+    """Return the slots and the blocks."""
+    slots = [SlotPart(ax, track.ends, scene.size, look) for track in scene.tracks if not track.fixed]
+    blocks = [BlockPart(ax, rider, track.ends, width(track.fixed), scene.size, look) for track in scene.tracks for rider in track.riders]
+    return [*slots, *blocks]
+
+
+def width(fixed: bool) -> float:
+    """Return half a block's width, in sizes: in a slot it fits the slot."""
+    return HALF if fixed else SLOT
+
+
+def rails(ax: Axes, scene: Scene, look: Look) -> None:
+    """Draw the fixed rails. They never move."""
+    colour = look.colour(style.INK)
+    for lines in hatched(scene):
+        widths = [1.6 * style.OUTLINE, *[style.THIN] * (len(lines) - 1)]
+        ax.add_collection(LineCollection(list(lines), colors=colour, linewidths=widths, zorder=look.level - 0.6), autolim=False)
+
+
+def hatched(scene: Scene) -> list[FloatArray]:
+    """Return for each fixed rail its line and then its hatches, shape (n, 2, 2) [m]."""
+    if not scene.reached:
+        return []
+    at = scene.at(scene.reached[0])
+    pins = [at[name] for name in scene.grounds]
+    return [rail(at[track.ends[0]], at[track.ends[1]], pins, scene.size) for track in scene.tracks if track.fixed]
+
+
+def rail(start: FloatArray, end: FloatArray, pins: list[FloatArray], size: float) -> FloatArray:
+    """Return a rail's line under its blocks and its hatches: below the track, above where a pin stands on the track."""
+    long = float(np.hypot(*(end - start)))
+    along = (end - start) / long
+    below = np.array([along[1], -along[0]])
+    below = -below if below[1] > 1e-6 or (abs(below[1]) <= 1e-6 and below[0] < 0.0) else below
+    held = [pin - start for pin in pins]
+    if any(-2 * size < pin @ along < long + 2 * size and -size < pin @ below < 4 * size for pin in held):
+        below = -below
+    shift = HALF * size * below
+    places = np.arange(0.0, long - HATCH * size, 1.1 * HATCH * size)
+    lines = [(start + shift, end + shift)]
+    lines += [(start + shift + (s + HATCH * size) * along, start + shift + s * along + HATCH * size * below) for s in places]
+    return np.array(lines)

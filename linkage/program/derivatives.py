@@ -1,0 +1,195 @@
+"""Exact derivatives of a program, as nodes of the same program.
+
+A loop's tangent comes from its constraint, not from differentiating the root that placed it:
+residuals r(u, v) = 0 give r_u du = -r_v dv. Applied twice it gives second derivatives.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Iterator, Mapping, Sequence
+
+from .elimination import entries, solution
+from .node import Closure, Graph, Node
+from .operations import OPERATIONS
+
+
+class Tangent:
+    """The derivative of nodes along a direction in the inputs.
+
+    `beyond` continues another direction for nodes made before `limit`: that is how a loop's unknowns
+    are held still while everything before them moves.
+    """
+
+    def __init__(self, graph: Graph, seeds: Mapping[Node, float | Node], beyond: Tangent | None = None, limit: int = 0) -> None:
+        self.graph, self.beyond, self.limit = graph, beyond, limit
+        self.zero = graph.constant(0.0)
+        self._known: dict[Node, Node] = {node: graph.node(seed) for node, seed in seeds.items()}
+        self._systems: dict[Node, list[Node]] = {}
+        self._first = min((node.number for node in seeds), default=0)
+
+    def of(self, node: Node) -> Node:
+        """Return the derivative of a node."""
+        for each in self._unsettled(node):
+            if each not in self._known:
+                self._settle(each)
+        return self._lookup(node)
+
+    def _lookup(self, node: Node) -> Node:
+        if node in self._known:
+            return self._known[node]
+        return self.beyond._lookup(node) if self.beyond is not None and node.number < self.limit else self.zero
+
+    def _unsettled(self, node: Node) -> list[Node]:
+        """Return the ancestors that may have a derivative and do not know it yet, in order of dependence."""
+        found: set[Node] = set()
+        stack = [node]
+        floor = max(self._first, self.limit)
+        while stack:
+            each = stack.pop()
+            if each.number < floor or each in found or each in self._known:
+                continue
+            found.add(each)
+            stack.extend(each.closure.sources if each.closure else each.args[1:] if each.op == "alias" else each.args)
+        return sorted(found, key=lambda each: each.number)
+
+    def _solved(self, node: Node) -> Node:
+        """Return the derivative of one unknown of A u = b: the solution of A du = db - dA u."""
+        system = node.args[0]
+        if system not in self._systems:
+            matrix, right = entries(system)
+            found = [self.graph.apply("component", system, float(place)) for place in range(len(right))]
+            drive = [
+                sum((-(self._lookup(entry) * u) for entry, u in zip(row, found, strict=True)), self._lookup(b))
+                for row, b in zip(matrix, right, strict=True)
+            ]
+            self._systems[system] = solution(self.graph, matrix, drive)
+        return self._systems[system][int(node.args[1].value)]
+
+    def _settle(self, node: Node) -> None:
+        if node.closure is not None:
+            self._known.update(zip(node.closure.roots, rates(self.graph, node.closure, self), strict=True))
+            return
+        if node.op == "alias":
+            self._known[node] = self._lookup(node.args[1])
+            return
+        if node.op in ("solve", "component"):
+            self._known[node] = self._solved(node) if node.op == "component" else self.zero
+            return
+        moving = [(index, change) for index, arg in enumerate(node.args) if (change := self._lookup(arg)) is not self.zero]
+        total = self.zero
+        if moving:
+            partials = OPERATIONS[node.op].partials(node, *node.args)
+            for index, change in moving:
+                total = total + change * partials[index]
+        self._known[node] = total
+
+
+def rates(graph: Graph, closure: Closure, along: Tangent) -> Sequence[Node]:
+    """Return the derivatives of a loop's unknowns along a direction: the solution of r_u du = -r_v dv."""
+    held = Tangent(graph, dict.fromkeys(closure.roots, 0.0), beyond=along, limit=closure.roots[0].number)
+    drive = [-held.of(residual) for residual in closure.residuals]
+    return solution(graph, jacobian(graph, closure), drive, closure.determinant)
+
+
+def jacobian(graph: Graph, closure: Closure) -> list[list[Node]]:
+    """Return the derivatives of a loop's residuals (rows) by its unknowns (columns)."""
+    columns = [Tangent(graph, {each: float(each is root) for each in closure.roots}) for root in closure.roots]
+    return [[column.of(residual) for column in columns] for residual in closure.residuals]
+
+
+# Gradients of a program, as nodes of the same program: reverse mode, from a result back to the inputs.
+#
+# Sums run from the result to everything it is built from, so that the derivatives by all dimensions cost a few times
+# the result itself, however many they are. A loop passes its share on through its constraint: with residuals
+# r(u, v) = 0 and the shares U of its unknowns, r_u^T L = -U gives the shares L^T r_v of what it is built from. A system
+# A x = b passes on A^-T X to b and -(A^-T X) x^T to A. Source: Griewank and Walther, "Evaluating Derivatives", 2008, 15.
+
+def gradient(output: Node, by: Sequence[Node]) -> list[Node]:
+    """Return the derivatives of a node by some inputs, as nodes."""
+    shares = Shares(output.graph, by)
+    found = shares.spread({output: output.graph.constant(1.0)})
+    return [found.get(each, shares.zero) for each in by]
+
+
+class Shares:
+    """How much each node adds to a result, worked out backwards; only where inputs in question lie behind it."""
+
+    def __init__(self, graph: Graph, by: Sequence[Node]) -> None:
+        self.graph, self.zero = graph, graph.constant(0.0)
+        self._active: dict[Node, bool] = dict.fromkeys(by, True)
+
+    def spread(self, seeds: Mapping[Node, Node], floor: int = 0, held: Sequence[Node] = ()) -> dict[Node, Node]:
+        """Return the shares of all nodes behind some; nodes made before `floor` and held ones keep theirs to themselves."""
+        found = {node: share for node, share in seeds.items() if self.is_active(node)}
+        queue = [-node.number for node in found]
+        heapq.heapify(queue)
+        settled: set[int] = set()
+        while queue:
+            number = -heapq.heappop(queue)
+            node = self.graph.nodes[number]
+            if number in settled or number < floor or node in held:
+                continue
+            settled.update((number,) if node.closure is None else (root.number for root in node.closure.roots))
+            for arg, share in self._passed_on(node, found):
+                if not self.is_active(arg):
+                    continue
+                if arg not in found:
+                    heapq.heappush(queue, -arg.number)
+                found[arg] = found[arg] + share if arg in found else share
+        return found
+
+    def is_active(self, node: Node) -> bool:
+        """Return whether a node is built from one of the inputs in question."""
+        stack = [node]
+        while stack:
+            each = stack[-1]
+            behind = sources(each)
+            unknown = [arg for arg in behind if arg not in self._active]
+            if each in self._active or not unknown:
+                self._active.setdefault(each, any(self._active[arg] for arg in behind))
+                stack.pop()
+            else:
+                stack += unknown
+        return self._active[node]
+
+    def _passed_on(self, node: Node, found: Mapping[Node, Node]) -> Iterator[tuple[Node, Node]]:
+        """Yield what a node passes on of its share to the nodes that it is built from."""
+        if node.closure is not None:
+            yield from self._through_loop(node.closure, found)
+        elif node.op == "alias":
+            yield node.args[1], found[node]
+        elif node.op == "component":
+            yield from self._through_system(node, found[node])
+        else:
+            partials = OPERATIONS[node.op].partials(node, *node.args) if node.args else ()
+            yield from ((arg, found[node] * partial) for arg, partial in zip(node.args, partials, strict=True))
+
+    def _through_loop(self, closure: Closure, found: Mapping[Node, Node]) -> Iterator[tuple[Node, Node]]:
+        rows = jacobian(self.graph, closure)
+        turned = [list(column) for column in zip(*rows, strict=True)]
+        wanted = [-found.get(root, self.zero) for root in closure.roots]
+        weights = dict[Node, Node]()
+        for residual, share in zip(closure.residuals, solution(self.graph, turned, wanted, closure.determinant), strict=True):
+            weights[residual] = weights[residual] + share if residual in weights else share
+        first = closure.roots[0].number
+        spread = self.spread(weights, floor=first, held=closure.roots)
+        yield from ((node, share) for node, share in spread.items() if node.number < first)
+
+    def _through_system(self, node: Node, share: Node) -> Iterator[tuple[Node, Node]]:
+        """Yield the shares of a system's entries for that of one unknown; the shares of all unknowns add up."""
+        system, place = node.args[0], int(node.args[1].value)
+        matrix, right = entries(system)
+        turned = [list(column) for column in zip(*matrix, strict=True)]
+        wanted = [share if row == place else self.zero for row in range(len(right))]
+        unknowns = [self.graph.apply("component", system, float(row)) for row in range(len(right))]
+        for row, weight in enumerate(solution(self.graph, turned, wanted)):
+            yield right[row], weight
+            yield from ((matrix[row][column], -(weight * unknown)) for column, unknown in enumerate(unknowns))
+
+
+def sources(node: Node) -> Sequence[Node]:
+    """Return the nodes that a node is built from, where its derivatives are concerned."""
+    if node.closure is not None:
+        return node.closure.sources
+    return node.args[1:] if node.op == "alias" else node.args

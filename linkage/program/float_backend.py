@@ -1,0 +1,86 @@
+"""A handful of poses, in plain Python floats: a NumPy call on a few numbers costs more than a pose."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .cache import compiled
+from .operations import FLOATS, NO_VALUE, QUICK
+from .schedule import Schedule
+from .text import GUARDED, PYTHON, function
+
+
+class Floats:
+    """A program as two functions of floats: the design part and the pose part."""
+
+    def __init__(self, plan: Schedule) -> None:
+        self.plan = plan
+
+    @cached_property
+    def quick(self) -> Mapping[str, Any]:
+        """The functions that raise where a division or a root has no value."""
+        return compiled(self._text(PYTHON), QUICK)
+
+    @cached_property
+    def careful(self) -> Mapping[str, Any]:
+        """The functions that return NaN and infinity there, as NumPy does."""
+        return compiled(self._text(GUARDED), FLOATS)
+
+    def _text(self, dialect: Any) -> str:
+        plan = self.plan
+        text = function("design", plan.design_inputs, plan.design, plan.passed, dialect)
+        return text + function("pose", [*plan.passed, *plan.pose_inputs], plan.pose, (*plan.outputs, *plan.guards), dialect)
+
+    def design(self, values: Sequence[float]) -> tuple[float, ...]:
+        """Return what the pose part needs of a design."""
+        try:
+            found: tuple[float, ...] = self.quick["design"](*values)
+        except NO_VALUE:
+            found = self.careful["design"](*values)
+        return found
+
+    def poses(self, passed: Sequence[float], columns: Sequence[Sequence[float]], n: int) -> list[tuple[float, ...]]:
+        """Return outputs and guards pose by pose."""
+        rows = list(zip(*columns, strict=True)) if columns else [()] * n
+        quick = self.quick["pose"]
+        found = []
+        for row in rows:
+            try:
+                found.append(quick(*passed, *row))
+            except NO_VALUE:
+                found.append(self.careful["pose"](*passed, *row))
+        return found
+
+    def turns(self, m: int, n: int) -> bool:
+        """Return whether designs, not poses, are best contiguous in the result."""
+        return False
+
+    def run(self, design: Sequence[Any], poses: Sequence[Any], values: npt.NDArray[np.float64], guards: npt.NDArray[np.float64]) -> None:
+        """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
+        count, m, n = values.shape
+        designs = [listed(value, m) for value in design]
+        for place in range(m):
+            here = [value[place % len(value)] if np.ndim(value) == 2 else value for value in poses]
+            rows = self.poses(self.design([each[place] for each in designs]), [listed(value, n) for value in here], n)
+            values[:, place] = np.array([row[:count] for row in rows], float).T.reshape(count, n)
+            for k in range(len(guards)):
+                guards[k] = least([guards[k], *(row[count + k] for row in rows)])
+
+
+def least(values: Sequence[float]) -> float:
+    """Return the least of some numbers; NaN, which no comparison sees, where one of them is."""
+    return min(values) if all(value == value for value in values) else math.nan
+
+
+def listed(value: Any, count: int) -> list[float]:
+    """Return a number or an array as so many floats."""
+    if type(value) is float:
+        return [value] * count
+    floats: list[float] = np.asarray(value, float).ravel().tolist()
+    return floats * count if len(floats) == 1 else floats

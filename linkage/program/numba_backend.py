@@ -1,0 +1,154 @@
+"""Many poses in one compiled loop, by Numba (extra `fast`); compiled once, kept on disk."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cached_property
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import LinkageError
+from .cache import Kept, compiled_in_file, is_kept
+from .loop import numba_text
+from .numpy_backend import Arrays, FloatArray, is_number, is_table, numbers
+from .schedule import Schedule
+
+#: NaN stays NaN: a pose out of reach is told by it.
+FLAGS = {"contract", "arcp", "nsz", "reassoc"}
+PART, WIDE = 8192, 1 << 18
+SHORT = 16
+"""With fewer poses than this the designs run along the inner loop."""
+COMPILE, LOAD = 2e10, 2e9
+"""The operations from which compiling a loop pays, and from which loading one from disk does."""
+
+
+def is_there() -> bool:
+    """Return whether Numba is installed."""
+    return find_spec("numba") is not None
+
+
+class Fused:
+    """A program as a compiled loop; the design part is left to NumPy."""
+
+    def __init__(self, plan: Schedule, arrays: Arrays) -> None:
+        self.plan, self.arrays = plan, arrays
+        self._kept: tuple[tuple[float, ...], FloatArray] = (), np.empty((0, 1))
+        self._ready: dict[bool, Callable[..., None]] = {}
+
+    @cached_property
+    def _texts(self) -> dict[bool, str]:
+        return {turned: numba_text(self.plan, turned) for turned in (False, True)}
+
+    def is_worth(self, m: int, n: int, spent: int) -> bool:
+        """Return whether so many designs and poses, and those before them, pay for compiling."""
+        turned = self.turns(m, n)
+        if turned in self._ready:
+            return True
+        work = float(spent + m * n) * max(len(self.plan.pose), 1)
+        return work >= LOAD and is_there() and (work >= COMPILE or is_kept(self._texts[turned]))
+
+    def _loop(self, turned: bool) -> Callable[..., None]:
+        """Return the compiled loop over poses or, turned, over designs."""
+        if turned not in self._ready:
+            try:
+                from numba import njit, types
+            except ImportError:
+                raise LinkageError('backend="numba" needs Numba: pip install "hydrolinkage[fast]".') from None
+            read = [types.Array(types.float64, axes, "C", readonly=True) for axes in (2, 3)]  # what a motion holds cannot be written
+            arguments = (*read, types.float64[::1], *(types.int64[::1],) * 3)
+
+            def make(function: Callable[..., None], kept: Kept | None) -> Callable[..., None]:
+                def lazy(cache: bool) -> Any:
+                    return njit(fastmath=FLAGS, error_model="numpy", nogil=True, cache=cache)(function)
+
+                done = lazy(kept is not None)
+                if kept is not None and not kept.take(Path(done.stats.cache_path)):
+                    done, kept = lazy(False), None
+                done.compile(arguments)
+                done.disable_compile()
+                if kept is not None:
+                    kept.note()
+                loop: Callable[..., None] = done
+                return loop
+
+            self._ready[turned] = compiled_in_file(self._texts[turned], "poses", make)
+        return self._ready[turned]
+
+    def turns(self, m: int, n: int) -> bool:
+        """Return whether designs, not poses, are best contiguous in the result."""
+        return n < SHORT < m
+
+    def run(self, design: Sequence[Any], poses: Sequence[Any], values: FloatArray, guards: FloatArray) -> None:
+        """Fill values, shape (outputs, designs, poses); a guard that is not above zero at some pose becomes -1."""
+        m, n = values.shape[1:]
+        turned = self.turns(m, n) and not any(map(is_table, poses))
+        loop, bad = self._loop(turned), np.zeros(max(len(guards), 1), np.int64)
+        target = values.transpose(0, 2, 1) if turned else values
+        for left in range(0, m, PART):
+            part = slice(left, min(left + PART, m))
+            constants = self._constants(design, part)
+            if turned:
+                constants = np.array(np.broadcast_to(constants, (len(constants), part.stop - left)))
+            for first in range(0, n, WIDE):
+                here = slice(first, min(first + WIDE, n))
+                inputs = cube([seen(value, part, here) for value in poses], here.stop - first)
+                if turned:
+                    inputs = np.array(inputs.transpose(0, 2, 1))
+                self._part(loop, constants, inputs, target[:, here, part] if turned else target[:, part, here], bad)
+        guards[bad[: len(guards)] > 0] = -1.0
+
+    def _constants(self, design: Sequence[Any], part: slice) -> FloatArray:
+        """Return the design part as one array, shape (count, designs or 1); that of the last single design is kept."""
+        key = numbers(design)
+        if key is None:
+            return table(self.arrays.passed([value if is_number(value) else value[part] for value in design]), part)
+        kept, found = self._kept
+        if kept != key or not found.size:
+            found = table(self.arrays.passed(key), part)
+            self._kept = key, found
+        return found
+
+    def _part(self, loop: Callable[..., None], constants: FloatArray, inputs: FloatArray, block: FloatArray, bad: Any) -> None:
+        """Fill a block, shape (outputs, rows, columns)."""
+        inside = block if block.strides[2] == block.itemsize else np.empty(block.shape)
+        loop(constants, inputs, memory(inside), bad, np.array(inside.strides[:2]) // inside.itemsize, np.array(inside.shape[1:]))
+        if inside is not block:
+            block[...] = inside
+
+
+def seen(value: Any, part: slice, here: slice) -> Any:
+    """Return what some designs and poses see of an input of the poses."""
+    if is_table(value):
+        return value[part if len(value) > 1 else slice(None), here if value.shape[1] > 1 else slice(None)]
+    return value if is_number(value) else value[here]
+
+
+def memory(block: FloatArray) -> FloatArray:
+    """Return the memory that a block lies in, from its first element to its last; rows of the block are contiguous."""
+    if block.flags.c_contiguous:
+        return block.reshape(-1)
+    last = sum((size - 1) * stride for size, stride in zip(block.shape, block.strides, strict=True))
+    return np.lib.stride_tricks.as_strided(block, (last // block.itemsize + 1,), (block.itemsize,))
+
+
+def table(passed: Sequence[Any], part: slice) -> FloatArray:
+    """Return the design part as one array, shape (count, designs or 1)."""
+    size = 1 if all(np.ndim(value) == 0 for value in passed) else part.stop - part.start
+    found = np.empty((len(passed), size))
+    for row, value in zip(found, passed, strict=True):
+        row[...] = value
+    return found
+
+
+def cube(poses: Sequence[Any], n: int) -> FloatArray:
+    """Return the inputs of the poses as one array, shape (count, designs or 1, poses)."""
+    rows = max((len(value) for value in poses if is_table(value)), default=1)
+    if len(poses) == 1 and np.size(poses[0]) == rows * n:
+        return np.ascontiguousarray(poses[0], float).reshape(1, rows, n)
+    found = np.empty((len(poses), rows, n))
+    for layer, value in zip(found, poses, strict=True):
+        layer[...] = value
+    return found

@@ -1,0 +1,304 @@
+"""Many poses, in NumPy blocks that stay in the cache."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import Path
+from threading import local
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .cache import compiled
+from .node import Node
+from .operations import ARRAYS, FLOATS
+from .schedule import Schedule, plain
+from .text import GUARDED, function
+
+# The NumPy text of a program: calls that write into a pool of registers, allocated by liveness.
+#
+# Results go in by position and numbers as arrays without dimensions: a keyword costs a call 40 ns, a float 170 ns.
+
+#: Operations that have no place for a result: they make a new array.
+MAKERS = ("pick", "component", "solve")
+#: Operations that NumPy wants the result's place named for.
+NAMED = ("minimum", "maximum")
+
+
+@dataclass(frozen=True)
+class BlockCode:
+    """A function `pose(c, i, r, o, g)` as text, how many registers it needs, and the numbers in it."""
+
+    text: str
+    registers: int
+    numbers: Mapping[str, Any]
+
+
+class Registers:
+    """Names for the operands: constants `c`, inputs `i`, outputs `o`, and a reused pool `r`."""
+
+    def __init__(self, plan: Schedule) -> None:
+        self.names: dict[Node, str] = {node: f"c{place}" for place, node in enumerate(plan.passed)}
+        self.names |= {node: f"i{place}" for place, node in enumerate(plan.pose_inputs)}
+        self.outputs: Mapping[Node, str] = {node: f"o{place}" for place, node in reversed(list(enumerate(plan.outputs)))}
+        self.numbers: dict[float, str] = {}
+        self.free: list[str] = []
+        self.count = 0
+
+    def read(self, node: Node) -> str:
+        """Return an operand's name."""
+        return self.number(node.value) if node.op == "constant" else self.names[node]
+
+    def number(self, value: float) -> str:
+        """Return the name of a number."""
+        return self.numbers.setdefault(value, f"k{len(self.numbers)}")
+
+    def release(self, nodes: Iterable[Node]) -> None:
+        """Give the registers of nodes that nobody reads again back to the pool."""
+        for node in nodes:
+            if self.names.get(node, "").startswith("r"):
+                self.free.append(self.names[node])
+
+    def take(self, node: Node) -> str:
+        """Return where a node is written: its output, or a register."""
+        if node.op == "solve":
+            self.names[node] = f"v{node.number}"
+        elif node in self.outputs:
+            self.names[node] = self.outputs[node]
+        elif self.free:
+            self.names[node] = self.free.pop()
+        else:
+            self.names[node] = f"r{self.count}"
+            self.count += 1
+        return self.names[node]
+
+
+def block_code(plan: Schedule) -> BlockCode:
+    """Return the pose part as NumPy calls without temporaries."""
+    registers, watched = Registers(plan), set(plan.guards)
+    last = {arg: place for place, node in enumerate(plan.pose) for arg in map(plain, node.args)}
+    lines: list[str] = []
+    for place, node in enumerate(plan.pose):
+        args = list(map(plain, node.args))
+        operands = list(map(registers.read, args)) if node.op != "component" else [registers.read(args[0]), repr(int(args[1].value))]
+        registers.release(arg for arg in dict.fromkeys(args) if last[arg] == place)
+        target = registers.take(node)
+        if node.op == "reciprocal":
+            operands.insert(0, registers.number(1.0))
+        lines.append(statement(node.op, ", ".join(operands), target))
+        if node in watched:
+            lines += guard_lines(plan, node, target)
+        if node not in last:
+            registers.release((node,))
+    for guard in dict.fromkeys(plan.guards):
+        if guard not in plan.pose:
+            lines += guard_lines(plan, guard, registers.read(guard))
+    copied = [(place, node) for place, node in enumerate(plan.outputs) if registers.names.get(node) != f"o{place}"]
+    lines += [f"o{place}[...] = {registers.read(node)}" for place, node in copied]
+    sizes = (("c", len(plan.passed)), ("i", len(plan.pose_inputs)), ("r", registers.count), ("o", len(plan.outputs)))
+    unpacked = [f"{', '.join(f'{kind}{k}' for k in range(count))}, = {kind}" for kind, count in sizes if count]
+    body = "\n    ".join([*unpacked, *lines]) or "pass"
+    numbers = {name: np.array(value) for value, name in registers.numbers.items()}
+    return BlockCode(f"def pose(c, i, r, o, g):\n    {body}\n", registers.count, numbers)
+
+
+def statement(op: str, operands: str, target: str) -> str:
+    """Return one operation as a line."""
+    if op == "solve":
+        return f"{target} = solve({operands})"
+    op = "divide" if op == "reciprocal" else op
+    if op in MAKERS:
+        return f"{target}[...] = {op}({operands})"
+    return f"{op}({operands}, {'out=' if op in NAMED else ''}{target})"
+
+
+def guard_lines(plan: Schedule, node: Node, operand: str) -> list[str]:
+    """Return the lines that keep the least value of a guard."""
+    return [f"g[{place}] = least({operand}, None)" for place, guard in enumerate(plan.guards) if guard is node]
+
+
+FloatArray = npt.NDArray[np.float64]
+SMALLEST, LARGEST = 8192, 16384
+
+
+class Arrays:
+    """A program over a pool of registers, block by block: the longer of designs and poses along the rows."""
+
+    def __init__(self, plan: Schedule) -> None:
+        self.plan = plan
+        self._kept: tuple[tuple[float, ...], list[Any]] = (), []
+
+    @cached_property
+    def _pose(self) -> Any:
+        return compiled(self._code.text, {**ARRAYS, **self._code.numbers})["pose"]
+
+    @cached_property
+    def _code(self) -> Any:
+        return block_code(self.plan)
+
+    @cached_property
+    def block(self) -> int:
+        """The poses of a block: registers, inputs and outputs, of which half are in use at a time, fill the second-level cache."""
+        rows = self._code.registers + len(self.plan.outputs) + len(self.plan.pose_inputs)
+        fits: int = 2 * cache_size() // (8 * max(rows, 1))
+        return min(max(1 << (fits.bit_length() - 1), SMALLEST), LARGEST)
+
+    @cached_property
+    def _design(self) -> tuple[Any, Any]:
+        plan = self.plan
+        text = function("design", plan.design_inputs, plan.design, plan.passed, GUARDED)
+        return compiled(text, FLOATS)["design"], compiled(text, ARRAYS)["design"]
+
+    def passed(self, design: Sequence[Any]) -> list[Any]:
+        """Return the design part: floats where nothing varies, else floats or arrays over the designs."""
+        floats, arrays = self._design
+        single = numbers(design)
+        if single is not None:
+            return list(floats(*single))
+        return list(arrays(*(np.asarray(value, float) for value in design)))
+
+    def _constants(self, design: Sequence[Any]) -> list[Any]:
+        """Return the design part as it stands in a block; that of the last single design is kept."""
+        key = numbers(design)
+        if key is None:
+            return [along(value, 0) for value in self.passed(design)]
+        kept, found = self._kept
+        if kept != key or not found:
+            found = [along(value, 0) for value in self.passed(key)]
+            self._kept = key, found
+        return found
+
+    def turns(self, m: int, n: int) -> bool:
+        """Return whether designs, not poses, are best contiguous in the result."""
+        return m > n
+
+    def run(self, design: Sequence[Any], poses: Sequence[Any], values: FloatArray, guards: FloatArray) -> None:
+        """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
+        m, n = values.shape[1:]
+        if m == 1 and n <= self.block and not any(map(is_table, poses)):
+            self._pose(self._constants(design), list(map(row, poses)), POOL.registers(self._code.registers, n), list(values[:, 0]), guards)
+            return
+        turned = self.turns(m, n)
+        target = values.transpose(0, 2, 1) if turned else values
+        inputs = [along(np.transpose(value) if turned and is_table(value) else value, 0 if turned else 1) for value in poses]
+        rows, length = target.shape[1:]
+        columns = min(length, self.block)
+        height = max(1, min(rows, self.block // columns))
+        pool = POOL.registers(self._code.registers, height * columns)
+        constants = [] if turned else self._constants(design)
+        for left in range(0, length, columns):
+            part = slice(left, min(left + columns, length))
+            if turned:
+                constants = [along(value, 1) for value in self.passed([value if is_number(value) else value[part] for value in design])]
+            for top in range(0, rows, height):
+                band = slice(top, min(top + height, rows))
+                here = slice(0, part.stop - part.start) if turned else part
+                self._block(target[:, band, part], (constants, band, here), (inputs, band, part), pool, guards)
+
+    def _block(self, block: FloatArray, constants: Any, inputs: Any, pool: list[FloatArray], guards: FloatArray) -> None:
+        """Fill one block, shape (outputs, rows, columns); constants and inputs with the parts of them that it sees."""
+        if block.shape[1] == 1:
+            block = block[:, 0]
+        shape = block.shape[1:]
+        places = (constants, inputs)
+        seen = [[window(value, band, part, shape) if value.ndim else value for value in values] for values, band, part in places]
+        size = math.prod(shape)
+        if pool and pool[0].size != size:
+            pool = [register[:size] for register in pool]
+        if len(shape) > 1:
+            pool = [register.reshape(shape) for register in pool]
+        least = np.full(len(guards), math.inf) if len(guards) else guards
+        self._pose(*seen, pool, list(block), least)
+        if len(guards):
+            np.minimum(guards, least, out=guards)
+
+
+class Pool(local):
+    """The registers that a thread worked in last: the next block mostly wants as many of the same size."""
+
+    def __init__(self) -> None:
+        self.kept: tuple[int, int] = 0, 0
+        self.rows: list[FloatArray] = []
+
+    def registers(self, count: int, size: int) -> list[FloatArray]:
+        """Return registers whose contents may be anything."""
+        if self.kept != (count, size):
+            self.kept, self.rows = (count, size), aligned(count, size)
+        return self.rows
+
+
+POOL = Pool()
+
+
+@cache
+def cache_size() -> int:
+    """Return the size of the second-level cache of this machine [bytes], 1 MiB where the system does not tell."""
+    try:
+        text = Path("/sys/devices/system/cpu/cpu0/cache/index2/size").read_text(encoding="ascii").strip()
+        return int(text.rstrip("KM")) * {"K": 1 << 10, "M": 1 << 20}.get(text[-1], 1)
+    except (OSError, ValueError):
+        return 1 << 20
+
+
+def is_number(value: Any) -> bool:
+    """Return whether an input is one number."""
+    return type(value) is float or np.size(value) == 1
+
+
+def number(value: Any) -> float:
+    """Return an input that is one number."""
+    return value if type(value) is float else float(np.ravel(value)[0])
+
+
+def numbers(values: Sequence[Any]) -> tuple[float, ...] | None:
+    """Return inputs that are one number each; None where one of them is not."""
+    if set(map(type, values)) <= {float}:
+        return tuple(values)
+    return tuple(map(number, values)) if all(map(is_number, values)) else None
+
+
+def is_array(value: Any) -> bool:
+    """Return whether an input has a value of its own for each design or pose."""
+    return type(value) is not float and np.ndim(value) > 0
+
+
+def is_table(value: Any) -> bool:
+    """Return whether an input varies over designs and poses."""
+    return type(value) is not float and np.ndim(value) == 2
+
+
+def along(value: Any, axis: int) -> Any:
+    """Return a value as it stands in a block: a number without dimensions, or an array that varies along one axis or both."""
+    if is_number(value):
+        return np.array(number(value))
+    array = np.ascontiguousarray(value, float)
+    if is_table(value):
+        return array
+    return array[None, :] if axis == 1 else array[:, None]
+
+
+def row(value: Any) -> Any:
+    """Return an input of the poses as it stands in the only block of one design."""
+    return np.array(number(value)) if is_number(value) else np.ascontiguousarray(value, float)
+
+
+def window(value: Any, band: slice, part: slice, shape: tuple[int, ...]) -> Any:
+    """Return the part of a value that a block sees."""
+    seen = value[band if value.shape[0] > 1 else slice(None), part if value.shape[1] > 1 else slice(None)]
+    return seen if len(shape) == 2 else seen[0] if seen.shape[1] > 1 or shape[0] == 1 else seen[0, 0, ...]
+
+
+def aligned(count: int, size: int) -> list[FloatArray]:
+    """Return arrays, one a register, each at a multiple of 64 bytes, from one pool of memory.
+
+    They lie an odd number of cache lines apart: at a power of two they would fall on the same lines of the cache.
+    """
+    stride = 8 * (-(-size // 8) | 1)
+    memory = np.empty(count * stride + 8)
+    address: int = memory.__array_interface__["data"][0]
+    start = -(address // 8) % 8
+    return list(memory[start : start + count * stride].reshape(count, stride)[:, :size])

@@ -1,0 +1,131 @@
+"""Stroke ranges of a motion of one design and one stroke: where something is below zero, in numbers and in words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from .. import motion as between
+from ..errors import DefinitionError, cited, unknown
+from ..mechanism import Mechanism
+from ..motion import Motion, require_motion
+from ..program import FloatArray
+from ..quantities import is_number, real
+
+Range: TypeAlias = tuple[float, float]
+Spare: TypeAlias = Callable[[Motion], FloatArray]
+
+
+def one_stroke(motion: Motion) -> str:
+    """Return the only stroke of a motion; DefinitionError for what is no motion, and where there are several."""
+    require_motion(motion)
+    if len(motion.strokes) != 1:
+        raise DefinitionError(f"{motion.plan.title}: ranges are told along one stroke, here are {len(motion.strokes)}.")
+    return next(iter(motion.strokes))
+
+
+def reached_span(motion: Motion) -> Range:
+    """Return the least and the largest stroke reached [SI] over the range of a motion, whatever its number of poses.
+
+    Raises AssemblyError where none is.
+    """
+    found = below_zero(motion, lambda each: -np.ones(each.shape))
+    if not found:
+        raise motion.refusal()
+    return found[0][0], found[-1][1]
+
+
+def closely(motion: Motion, values: FloatArray | None = None) -> Motion:
+    """Return the same design at chosen strokes [SI], else at 513 poses over the reached range; NaN where out of reach."""
+    name = one_stroke(motion)
+    return motion.moved({name: np.linspace(*reached_span(motion), 513) if values is None else values})
+
+
+def below_zero(motion: Motion, spare: Spare) -> list[Range]:
+    """Return the stroke ranges [SI] where `spare` of a motion, shape (poses,), is below zero; their ends are roots."""
+    name = one_stroke(motion)
+    return [(each.start[name], each.end[name]) for each in between.below_zero(motion, spare)]
+
+
+def spans_in_words(spans: Sequence[Range], stroke: str, unit: str = "m") -> str:
+    """Return stroke ranges as text: `from S = 0.5500 to 0.5660 m and at S = 0.7000 m`."""
+    for span in spans if isinstance(spans, (list, tuple)) else [spans]:
+        if not (isinstance(span, (list, tuple)) and len(span) == 2 and all(map(is_number, span))):
+            raise DefinitionError(f"{cited(span)} is no range; give a list of (start, end) [m or rad].")
+    return " and ".join(
+        f"from {stroke} = {low:.4f} to {high:.4f} {unit}" if low < high else f"at {stroke} = {low:.4f} {unit}" for low, high in spans
+    )
+
+
+# What a picture of the whole runs over: one stroke from end to end, the others held.
+
+At: TypeAlias = Mapping[str, Any]
+NOTHING: At = MappingProxyType({})
+
+
+@dataclass(frozen=True)
+class Run:
+    """The stroke that moves, its two ends, and the values of the others [m or rad]."""
+
+    stroke: str
+    start: float
+    end: float
+    held: Mapping[str, float]
+
+    def over(self, values: Any) -> dict[str, Any]:
+        """Return all strokes, the moving one at some values: what `at` takes."""
+        return {**self.held, self.stroke: values}
+
+
+def run_of(machine: Mechanism, at: At = NOTHING) -> Run:
+    """Return what moves: the stroke that `at` gives two values, else the first that it does not hold, over its range.
+
+    Strokes that are not given stand in their middle. DefinitionError where nothing is left to move.
+    """
+    one = first(machine)
+    title = machine.plan.title
+    if not isinstance(at, Mapping):
+        raise DefinitionError(f"{title}: at={cited(at)}: values of strokes by name are expected, such as at=dict({one}=0.1).")
+    given = {name: values_of(machine, name, value) for name, value in at.items()}
+    runs = [name for name in machine.strokes if len(given.get(name, ())) == 2]
+    free = [name for name in machine.strokes if name not in given]
+    if len(runs) > 1:
+        raise DefinitionError(f"{title}: {' and '.join(runs)} have two values each; one stroke runs, hold the others at one value.")
+    if not (runs or free):
+        raise DefinitionError(f"{title}: every stroke is held, so that nothing moves; give {one} two values, its run.")
+    moving = (runs or free)[0]
+    start, end = given.get(moving, (machine.strokes[moving].start, machine.strokes[moving].end))
+    held = middle(machine) | {name: values[0] for name, values in given.items()}
+    return Run(moving, start, end, {name: value for name, value in held.items() if name != moving})
+
+
+def values_of(machine: Mechanism, name: str, value: Any) -> tuple[float, ...]:
+    """Return what a stroke is given: one value, or the two ends of its run; DefinitionError for anything else."""
+    title = machine.plan.title
+    if name not in machine.strokes:
+        raise unknown("Stroke", name, machine.strokes, where=title)
+    try:
+        values = tuple(np.ravel(real(value)).tolist())
+    except ValueError:
+        values = ()
+    if len(values) not in (1, 2) or len(set(values)) < len(values) or not np.all(np.isfinite(values)):
+        raise DefinitionError(f"{title}: {name}={value!r}: one number holds a stroke, two different ones are the ends of its run.")
+    return values
+
+
+def first(machine: Mechanism) -> str:
+    """Return the first stroke; DefinitionError for a structure without one, and for what is no mechanism."""
+    if not isinstance(machine, Mechanism):
+        raise DefinitionError(f"{machine!r:.60} is no mechanism; give a design such as Boom(), and its strokes by at=.")
+    if not machine.strokes:
+        raise DefinitionError(f"{machine.plan.title} has no stroke, so there is nothing to move; declare one, S = Stroke(0, 0.25).")
+    return next(iter(machine.strokes))
+
+
+def middle(machine: Mechanism) -> dict[str, float]:
+    """Return the middle of every stroke [m or rad]."""
+    return {name: 0.5 * (stroke.start + stroke.end) for name, stroke in machine.strokes.items()}

@@ -1,0 +1,122 @@
+"""Results as aligned plain text."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, TextIO
+
+import numpy as np
+
+from ..errors import DefinitionError, cited
+from ..motion import Column
+from ..program import FloatArray
+from ..quantities import is_whole
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+
+GAP = "  "
+NOTHING = "-"  # stands for NaN: not reached, or not limited
+
+
+def flat(columns: Sequence[Column]) -> list[FloatArray]:
+    """Return the columns' values in their units, one row a pose: broadcast to one shape, the designs outermost."""
+    if not isinstance(columns, (list, tuple)) or not columns or not all(isinstance(each, Column) for each in columns):
+        raise DefinitionError(f"{cited(columns)} is no table; give a list of columns, such as machine.columns(motion).")
+    try:
+        return [each.ravel() for each in np.broadcast_arrays(*(column.shown for column in columns))]
+    except ValueError:
+        shapes = ", ".join(f"{column.name} {np.shape(column.values)}" for column in columns)
+        raise DefinitionError(f"The columns' shapes do not fit each other: {shapes}.") from None
+
+
+def cells(column: Column, values: FloatArray) -> list[str]:
+    """Return a column's numbers as text, with its number of decimals."""
+    return [NOTHING if np.isnan(value) else f"{value:z.{column.digits}f}" for value in values.tolist()]
+
+
+def checked_width(width: int | None) -> int | None:
+    """Return a width; DefinitionError unless it is a number of characters, or none."""
+    if width is not None and not (is_whole(width) and width > 0):
+        raise DefinitionError(f"width={cited(width)}: a number of characters is expected, such as 80.")
+    return width
+
+
+def blocks(columns: Sequence[Column], texts: Sequence[Sequence[str]], width: int | None, edge: int) -> Iterator[list[int]]:
+    """Yield the indices of the columns that stand beside each other in `width` characters; the first leads every block.
+
+    `edge` is the space that a column takes beside its own text. Without a width all stand beside each other.
+    """
+    sizes = [edge + max(map(len, (column.heading, *text))) for column, text in zip(columns, texts, strict=True)]
+    block = [0]
+    for index in range(1, len(columns)):
+        if width is not None and len(block) > 1 and sum(sizes[each] for each in (*block, index)) > width:
+            yield block
+            block = [0]
+        block.append(index)
+    yield block
+
+
+def text_table(columns: Sequence[Column], width: int | None = None) -> Iterator[str]:
+    """Yield the lines of a table: headings with units, numbers right-aligned under them.
+
+    With a `width` [characters] a table that is too wide is cut into blocks, the first column repeated in each.
+    """
+    texts = [cells(column, values) for column, values in zip(columns, flat(columns), strict=True)]
+    for number, block in enumerate(blocks(columns, texts, checked_width(width), len(GAP))):
+        if number:
+            yield ""
+        yield from _lines([columns[index].heading for index in block], [texts[index] for index in block])
+
+
+def _lines(headings: Sequence[str], texts: Sequence[Sequence[str]]) -> Iterator[str]:
+    sizes = [max(map(len, (heading, *text))) for heading, text in zip(headings, texts, strict=True)]
+    yield GAP.join(heading.rjust(size) for heading, size in zip(headings, sizes, strict=True))
+    for row in zip(*texts, strict=True):
+        yield GAP.join(cell.rjust(size) for cell, size in zip(row, sizes, strict=True))
+
+
+# Results as tables for a terminal.
+
+PADDING = 3  # characters that rich puts between the texts of two columns
+
+
+def rich_tables(columns: Sequence[Column], width: int | None = None) -> Iterator[Table]:
+    """Yield tables for rich's console; more than one where all columns do not fit `width` [characters]."""
+    from rich.box import SIMPLE_HEAD
+    from rich.table import Table
+
+    texts = [cells(column, values) for column, values in zip(columns, flat(columns), strict=True)]
+    room = checked_width(width)
+    for block in blocks(columns, texts, None if room is None else room + 1, PADDING):
+        table = Table(box=SIMPLE_HEAD, header_style="bold", show_edge=False)
+        for index in block:
+            table.add_column(columns[index].heading, justify="right", no_wrap=True)
+        for row in zip(*(texts[index] for index in block), strict=True):
+            table.add_row(*row)
+        yield table
+
+
+# Results as CSV (RFC 4180).
+
+CHUNK = 10_000
+
+
+def write_csv(columns: Sequence[Column], stream: TextIO, progress: Callable[[int, int], None] | None = None) -> None:
+    """Write columns as CSV: a header with units, one row a pose, full precision, an empty field for NaN.
+
+    Lines end with CR LF, so a file is to be opened with newline="". `progress(done, total)` hears of the rows written.
+    """
+    values = flat(columns)
+    if not callable(getattr(stream, "write", None)) or isinstance(stream, type):
+        raise DefinitionError(f'{cited(stream)} is no open file; write into open("table.csv", "w", newline="").')
+    total = len(values[0])
+    writer = csv.writer(stream)
+    writer.writerow(column.heading for column in columns)
+    for start in range(0, total, CHUNK):
+        rows = zip(*(each[start : start + CHUNK].tolist() for each in values), strict=True)
+        writer.writerows([["" if value != value else repr(value) for value in row] for row in rows])
+        if progress is not None:
+            progress(min(start + CHUNK, total), total)

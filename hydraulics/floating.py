@@ -24,9 +24,8 @@ from linkage.quantities import Reference, label, name_of
 from linkage.statics import Case, Loads, stroke_followed
 
 from .accumulator import AccumulatorBlock
-from .inputs import Array, finite, in_pascals, is_traced
+from .inputs import Array, finite, follows, in_pascals, is_traced, number_set
 from .member import Circuit, Cylinder, found_in, is_named, the_cylinder
-from .settings import follows, number_set
 
 Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
 

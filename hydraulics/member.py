@@ -28,8 +28,7 @@ from linkage.units import mm
 
 from .buckling import Buckling
 from .cylinder import BORES_MM, RODS_MM, CylinderSize, standard_rods
-from .inputs import Array, one_number, positive, stroke_in_metres
-from .settings import follows, number_set
+from .inputs import Array, follows, number_set, one_number, positive, stroke_in_metres
 from .verdict import Verdict
 
 DIRECTIONS = ("frictionless", "extending", "retracting")

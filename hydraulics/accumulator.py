@@ -28,7 +28,7 @@ from linkage.loads.element import written
 from linkage.quantities import Dimension, Quantity, spelled
 from linkage.units import UNITS, cm3, litre, show, unit_or_none
 
-from .files import GAS
+from .files import GasLaw
 from .gas import Gas, Polytropic, isothermal
 from .inputs import (
     Array,
@@ -195,7 +195,7 @@ class AccumulatorBlock:
     atmosphere: Any = 101325.0
     unit: str = ""
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"atmosphere": "Pa"})
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"accumulators": (Accumulator,), "gas": GAS})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"accumulators": (Accumulator,), "gas": GasLaw()})
 
     def __post_init__(self) -> None:
         if not isinstance(self.accumulators, (list, tuple)):

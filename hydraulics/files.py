@@ -6,9 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import singledispatch
 from typing import Any
 
-from linkage.errors import DefinitionError, unknown
-from linkage.files.names import Names, shortened
-from linkage.files.validators import Kind, number_of
+from linkage.errors import DefinitionError, cited, unknown
 from linkage.quantities import is_number
 from linkage.quantities.quantity import plain
 
@@ -26,21 +24,21 @@ LAWS: Mapping[str, tuple[Callable[..., Gas], tuple[str, ...]]] = {
 EXAMPLE = '"isothermal" or { law = "polytropic", n = 1.2 }'
 
 
-def gas_of(given: Any, names: Names) -> Gas:
-    """Return the gas law that a word or a table says."""
+def gas_of(given: Any, number: Callable[[Any], float]) -> Gas:
+    """Return the gas law that a word or a table says; `number` reads a number of it."""
     table = {"law": given} if isinstance(given, str) else given
     if not isinstance(table, Mapping) or not isinstance(table.get("law"), str):
-        raise DefinitionError(f"{shortened(given)} is no gas law; write {EXAMPLE}.")
+        raise DefinitionError(f"{cited(given)} is no gas law; write {EXAMPLE}.")
     name = table["law"]
     if name not in LAWS:
-        raise unknown("Gas law", shortened(name, quote=False), LAWS)
+        raise unknown("Gas law", name, LAWS)
     make, keys = LAWS[name]
     for key in table:
         if key not in ("law", *keys):
-            raise unknown(f"Key of {name}", shortened(key, quote=False), keys)
+            raise unknown(f"Key of {name}", key, keys)
     if "n" in keys and "n" not in table:
         raise DefinitionError(f"the exponent n of {name} is missing; write {EXAMPLE}.")
-    return make(**{key: number_of(table[key], names) for key in keys if key in table})
+    return make(**{key: number(table[key]) for key in keys if key in table})
 
 
 @singledispatch
@@ -53,7 +51,7 @@ def written_gas(gas: Gas) -> Any:
 def _(gas: Polytropic) -> Any:
     if gas.spelled in LAWS:
         return gas.spelled
-    return {"law": "polytropic", "n": number(gas.n), **temperature(gas)}
+    return {"law": "polytropic", "n": one_number(gas.n), **temperature(gas)}
 
 
 @written_gas.register
@@ -63,15 +61,18 @@ def _(gas: RealNitrogen) -> Any:
 
 def temperature(gas: Gas) -> dict[str, Any]:
     """Return the temperature of a law [K] where it is not the usual one."""
-    return {} if gas.temperature == ROOM else {"temperature": number(gas.temperature)}
+    return {} if gas.temperature == ROOM else {"temperature": one_number(gas.temperature)}
 
 
-def number(value: Any) -> Any:
+def one_number(value: Any) -> Any:
     """Return a number of a gas law; DefinitionError where there are several."""
     if not is_number(plain(value)):
         raise DefinitionError(f"the gas law has several values, {value!r}; a file holds one design.")
     return plain(value)
 
 
-GAS = Kind(gas_of, lambda gas, design, name: written_gas(gas))
-"""What stands in the place of a gas law."""
+class GasLaw:
+    """What stands in the place of a gas law: how it is read from a file, and written into one."""
+
+    read = staticmethod(gas_of)
+    write = staticmethod(written_gas)

@@ -17,7 +17,11 @@ class LinkageError(Exception):
 
 
 class DefinitionError(LinkageError, ValueError):
-    """What a class, a file or a setting says cannot be."""
+    """What a class, a file or a setting says cannot be. `member` is the name of the member at fault, "" where it is no single one."""
+
+    def __init__(self, *message: object, member: str = "") -> None:
+        super().__init__(*message)
+        self.member = member
 
 
 class AssemblyError(LinkageError):
@@ -57,6 +61,16 @@ def unwarned() -> Iterator[None]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", SingularWarning)
         yield
+
+
+@contextmanager
+def about(member: str) -> Iterator[None]:
+    """Let a DefinitionError carry the name of the member that is looked at, unless it knows a nearer one."""
+    try:
+        yield
+    except DefinitionError as error:
+        error.member = error.member or member
+        raise
 
 
 @contextmanager

@@ -123,12 +123,13 @@ class Mechanism(metaclass=Structure):
         type.__setattr__(cls, "plan", Plan(assembled(members, cls.__name__), cls.__name__))
         for name in cls.plan.strokes:
             if not any(name in cls.plan.reaches(point) for point in cls.plan.moving) and cls.plan.points:
-                raise DefinitionError(f"{cls.__name__}: the stroke {name} moves nothing; use it in a length or an angle, or take it out.")
+                text = f"{cls.__name__}: the stroke {name} moves nothing; use it in a length or an angle, or take it out."
+                raise DefinitionError(text, member=name)
         for name, sketch in cls.plan.of_kind(Drawn).items():
             try:
                 at_values(cls.plan.sketch_strokes, cls.plan)
             except DefinitionError as error:
-                raise DefinitionError(f"{cls.__name__}: {name} = {sketch}: {error}") from None
+                raise DefinitionError(f"{cls.__name__}: {name} = {sketch}: {error}", member=name) from None
         check(cls.plan)
         for member in (*members.values(), *cls.plan.members.values()):
             member.settle(cls.__name__)

@@ -19,7 +19,7 @@ from ..steps import Point, Step
 from .design import Design
 from .names import NAME_LENGTH, Names, shortened
 from .source import Mistakes
-from .validators import KINDS, Kind, amount, value_of
+from .validators import KINDS, Kind, amount, each_of, number_of, value_of
 
 LABELS = 100
 VALUES = 100
@@ -121,8 +121,11 @@ def kind_of(cls: type[Any], parameter: Parameter, said: Mapping[str, Any]) -> Ki
         return Within.of(kind)
     if isinstance(kind, tuple):
         return list_of(*kind)
-    found: Kind = KINDS[kind] if isinstance(kind, str) else kind
-    return found
+    if isinstance(kind, str):
+        return KINDS[kind]
+    return kind if isinstance(kind, Kind) else Kind(
+        lambda given, names: kind.read(given, lambda each: number_of(each, names)), lambda value, design, name: kind.write(value)
+    )  # fmt: skip
 
 
 # -- their table -------------------------------------------------------------------------------------------
@@ -206,12 +209,7 @@ def list_of(part: type[Any]) -> Kind:
             raise DefinitionError("is not a list [...].")
         if len(given) > VALUES:
             raise DefinitionError(f"{len(given)} are too many; at most {VALUES} items are read.")
-        found, mistakes = [], Mistakes()
-        for place, each in enumerate(given):
-            with mistakes.at(str(place)):
-                found.append(read_one(each, names))
-        mistakes.check()
-        return found
+        return each_of(enumerate(given), lambda place, each: read_one(each, names))
 
     return Kind(
         read,

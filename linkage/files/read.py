@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Collection, Mapping
 from copy import copy
 from typing import Any
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError, FileError
+from ..errors import AssemblyError, DefinitionError, FileError, about
 from ..mechanism import Mechanism
 from ..plan import Table
 from ..quantities import Member
 from ..steps import Point
 from .names import Names, member_name, shortened
 from .registry import registry
-from .source import Faults, Key, source
+from .source import Faults, source
 
 HEAD = ("name", "doc", "order")
 MEMBERS = 400
@@ -162,10 +161,11 @@ def made(title: str, doc: str | None, members: Mapping[str, Member], names: Name
         with np.errstate(all="ignore"):
             machine: type[Mechanism] = type(title, (Mechanism,), {"__module__": __name__, "__doc__": doc, **members})
             for name in machine.plan.named():
-                machine.plan.nodes(name)
+                with about(name):
+                    machine.plan.nodes(name)
         return machine
     except DefinitionError as error:
-        faults.add(key_of(str(error), names), str(error))
+        faults.add((names.sections[error.member], error.member) if error.member in names.sections else (), str(error))
         raise FileError(faults.text()) from error
     except AssemblyError as error:
         faults.add((names.sections[error.point], error.point) if error.point in names.sections else (), str(error))
@@ -176,9 +176,3 @@ def made(title: str, doc: str | None, members: Mapping[str, Member], names: Name
         raise FileError(f"{faults.source}: expressions hang on each other in too long a chain; shorten it.") from None
     except ArithmeticError as error:
         raise FileError(f"{faults.source}: a value overflows or is divided by zero ({error}); look for extreme numbers.") from error
-
-
-def key_of(message: str, names: Names) -> Key:
-    """Return the key of the member that a message is about: `B = ...`, else the first name in it; empty where it names none."""
-    words = [*re.findall(r"(\w+) = ", message), *re.findall(r"\w+", message)]
-    return next(((names.sections[word], word) for word in words if word in names.sections), ())

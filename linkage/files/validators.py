@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, TypeAlias
@@ -26,16 +26,36 @@ DEEPEST = 3
 """How deep lists may stand in each other."""
 
 
+def written(value: Any, design: Design, name: str = "") -> Any:
+    """Return a value as a file holds it, by what it is: an expression, a name, a number, a word, lists and tables of them.
+
+    `name` is that of its design variable, where it is one. DefinitionError for what a file cannot hold.
+    """
+    if isinstance(value, Quantity):
+        return design.variable(name, value)
+    if isinstance(value, Arrow):
+        return design.arrow(value)
+    if isinstance(value, Mapping):
+        return {key: written(each, design) for key, each in value.items()}
+    if isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value):
+        return [written(each, design) for each in value]
+    if isinstance(value, Side):
+        return str(value)
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    return word_of(value) if isinstance(value, str) else option(value)
+
+
 @dataclass(frozen=True)
 class Kind:
-    """How an argument of one kind is read, by the names of the file, and written, by the design and the variable's name.
+    """How an argument of one kind is read, by the names of the file, and written, by the design and the name of its variable.
 
     DefinitionError for what is none. `refers` to other members: without a default such an argument says what a member is built
     from. `make` is what becomes of the argument once the whole entry is sound.
     """
 
     read: Read
-    write: Write
+    write: Write = written
     refers: bool = False
     make: Callable[[Any], Any] = lambda value: value
 
@@ -146,28 +166,28 @@ def loads_of(given: Any, names: Names) -> Any:
     return [names.checked(each, "load") for each in given]
 
 
+def each_of(given: Iterable[tuple[Any, Any]], read: Callable[[Any, Any], Any]) -> list[Any]:
+    """Return what is read of each key and value; SeveralError with all mistakes, each under its key."""
+    found, mistakes = [], Mistakes()
+    for key, value in given:
+        with mistakes.at(str(key)):
+            found.append(read(key, value))
+    mistakes.check()
+    return found
+
+
 def load_list_of(given: Any, names: Names) -> tuple[str, ...]:
     """Return the names of loads from a list."""
-    if not isinstance(given, Sequence) or isinstance(given, str):
+    if not isinstance(given, (list, tuple)):
         raise DefinitionError("is not a list [...].")
-    found, mistakes = [], Mistakes()
-    for place, each in enumerate(given):
-        with mistakes.at(str(place)):
-            found.append(names.checked(each, "load"))
-    mistakes.check()
-    return tuple(found)
+    return tuple(each_of(enumerate(given), lambda place, name: names.checked(name, "load")))
 
 
 def factors_of(given: Any, names: Names) -> dict[str, float]:
     """Return numbers by the names of loads."""
     if not isinstance(given, Mapping):
         raise DefinitionError("is not a table { key = value }.")
-    found, mistakes = {}, Mistakes()
-    for name, value in given.items():
-        with mistakes.at(str(name)):
-            found[names.checked(name, "load")] = number_of(value, names)
-    mistakes.check()
-    return found
+    return dict(each_of(given.items(), lambda name, value: (names.checked(name, "load"), number_of(value, names))))
 
 
 def strokes_of(given: Any, names: Names) -> dict[str, float]:
@@ -196,14 +216,14 @@ def side_of(given: Any, names: Names) -> Side:
     return found
 
 
-def word_of(given: Any) -> str:
+def word_of(given: Any, names: Names | None = None) -> str:
     """Return a word that stands for itself."""
     if not isinstance(given, str) or not given.isprintable():
         raise DefinitionError(f"{shortened(given)} stands where a word in quotes is expected.")
     return given
 
 
-def switch_of(given: Any) -> bool:
+def switch_of(given: Any, names: Names) -> bool:
     """Return true or false."""
     if not isinstance(given, (bool, np.bool_)):
         raise DefinitionError(f"{shortened(given)} is neither true nor false.")
@@ -227,20 +247,20 @@ def written_force(value: Any, design: Design, name: str) -> Any:
     return [design.amount(part, "N", f"{owner}.{axis}") for axis, part in zip("xy", value, strict=True)]
 
 
-def written_names(value: Any) -> str | list[str]:
+def written_names(value: Any, design: Design, name: str) -> str | list[str]:
     """Return the name of one member, or a list of names."""
     found = [name_of(each) for each in (value if isinstance(value, (list, tuple)) else (value,))]
     return found[0] if len(found) == 1 else found
 
 
-def written_body(value: Any) -> str:
+def written_body(value: Any, design: Design, name: str) -> str:
     """Return the names of a link or of points of a body in one text."""
     return " ".join(map(name_of, value.split() if isinstance(value, str) else value if isinstance(value, tuple) else (value,)))
 
 
-def written_list(value: Any) -> Any:
-    """Return a number or a word, or a list of them, or lists of lists as a file holds them."""
-    return [written_list(each) for each in value] if isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value) else option(value)
+def written_pair(value: Any, design: Design, name: str) -> Any:
+    """Return numbers in a list; DefinitionError for lists in it."""
+    return option(value)
 
 
 # -- the kinds ---------------------------------------------------------------------------------------------
@@ -248,16 +268,12 @@ def written_list(value: Any) -> Any:
 
 def reference(kind: str) -> Kind:
     """Return the kind of an argument that names a member of a kind."""
-    return Kind(lambda given, names: names.checked(given, kind), lambda value, design, name: name_of(value), refers=True)
+    return Kind(lambda given, names: names.checked(given, kind), refers=True)
 
 
 def measured(measures: str) -> Kind:
-    """Return the kind of a number that follows nothing, with the unit that it may have; an angle is written in degrees."""
-
-    def write(value: Any, design: Design, name: str) -> Any:
-        return in_degrees(float(value)) if measures == "angle" else option(value)
-
-    return Kind(lambda given, names: number_of(given, names, measures), write)
+    """Return the kind of a number that follows nothing, with the unit that it may have."""
+    return Kind(lambda given, names: number_of(given, names, measures))
 
 
 def amount(unit: str) -> Kind:
@@ -274,35 +290,31 @@ stroke_ends = several("two numbers, such as [0.0, 0.25]", number_of)
 coordinates_of = several("two coordinates in m, such as [0.20, 0.55]", value_of)
 
 
-def as_is(value: Any, design: Design, name: str) -> Any:
-    """Return an option as a file holds it."""
-    return option(value)
-
-
 KINDS: Mapping[str, Kind] = MappingProxyType(
     {measures: measured(measures) for measures in {each for _, each in UNITS.values()}}
     | {kind: reference(kind) for kind in ("point", "guide", "load", "link")}
     | {
         "number": measured(""),
+        "angle": Kind(lambda given, names: number_of(given, names, "angle"), lambda value, design, name: in_degrees(float(value))),
         "quantity": Kind(value_of, lambda value, design, name: design.variable(name, quantity(value))),
         "direction": Kind(value_of, lambda value, design, name: in_degrees(design.variable(name, quantity(value)))),
-        "vector": Kind(arrow_of, lambda value, design, name: design.arrow(value), refers=True),
-        "points": Kind(points_of, lambda value, design, name: " ".join(map(label, value)), refers=True),
-        "origin": Kind(origin_of, written_origin),
-        "body": Kind(body_of, lambda value, design, name: written_body(value), refers=True),
-        "loads": Kind(loads_of, lambda value, design, name: written_names(value), refers=True),
+        "vector": Kind(arrow_of, refers=True),
+        "points": Kind(points_of, written_body, refers=True),
+        "body": Kind(body_of, written_body, refers=True),
+        "loads": Kind(loads_of, written_names, refers=True),
+        "member": Kind(member_of, refers=True),
         "load list": Kind(load_list_of, lambda value, design, name: [name_of(each) for each in value]),
-        "load factors": Kind(factors_of, lambda value, design, name: {load: option(factor) for load, factor in value.items()}),
-        "member": Kind(member_of, lambda value, design, name: name_of(value), refers=True),
-        "place": Kind(place_of, as_is),
-        "pair": Kind(pair_of, as_is),
-        "gravity": Kind(gravity_of, as_is),
+        "load factors": Kind(factors_of),
+        "origin": Kind(origin_of, written_origin),
+        "place": Kind(place_of, written_pair),
+        "pair": Kind(pair_of, written_pair),
+        "gravity": Kind(gravity_of, written_pair),
         "force vector": Kind(force_of, written_force),
-        "side": Kind(side_of, lambda value, design, name: str(value)),
-        "word": Kind(lambda given, names: word_of(given), lambda value, design, name: word_of(value)),
-        "switch": Kind(lambda given, names: switch_of(given), lambda value, design, name: switch_of(value)),
-        "numbers": Kind(listed, lambda value, design, name: written_list(value)),
-        "option": Kind(listed, lambda value, design, name: written_list(value)),
+        "side": Kind(side_of),
+        "word": Kind(word_of),
+        "switch": Kind(switch_of),
+        "numbers": Kind(listed),
+        "option": Kind(listed),
     }
 )
 """The kinds by name: what a class may say in `argument_kinds`, `expects` and `places`; what a unit measures is a kind as well."""

@@ -221,7 +221,8 @@ def check(plan: Plan) -> None:
         bodies = ", ".join(body.name for body in plan.links)
         raise DefinitionError(
             f"{plan.title}: the mobility is {found.rank}, the strokes are {found.strokes} ({', '.join(plan.strokes) or 'none'}). "
-            f"Gruebler count {found.gruebler} of the bodies {bodies}. {remedy(found)}"
+            f"Gruebler count {found.gruebler} of the bodies {bodies}. {remedy(found)}",
+            member=next(iter(plan.strokes), ""),
         )
     check_lengths(plan)
     check_slides(plan)
@@ -247,7 +248,8 @@ def check_lengths(plan: Plan) -> None:
             if change > 1e-9 * max(lengths, default=1.0):
                 raise DefinitionError(
                     f"{plan.title}: {name} = {link}: the distance {P}{Q} changes by {change / mm:.3g} mm over the stroke, "
-                    "but a link is rigid. Take it out, or correct a length."
+                    "but a link is rigid. Take it out, or correct a length.",
+                    member=name,
                 )
 
 
@@ -266,7 +268,8 @@ def check_slides(plan: Plan) -> None:
                 where = strokes_text(plan, strokes)
                 raise DefinitionError(
                     f"{plan.title}: {name} = {slide}: {name_of(slide.point)} is {off / mm:.3g} mm off the guide at {where}. "
-                    "Take the slide out, or let it place the point: declare the point as a Pin."
+                    "Take the slide out, or let it place the point: declare the point as a Pin.",
+                    member=name,
                 )
 
 

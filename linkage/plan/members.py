@@ -10,7 +10,7 @@ from math import pi
 from types import MappingProxyType
 from typing import TypeVar
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, about, unknown
 from ..frozen import FrozenDict
 from ..quantities import (
     Distance,
@@ -144,18 +144,21 @@ class Members:
         self.table = Table(title)
         self.members: dict[str, Member] = {}
         for name in order:
-            self.members[name] = self._bound(name, members[name])
+            with about(name):
+                self.members[name] = self._bound(name, members[name])
         strokes = self.of_kind(Stroke)
         self.strokes: Mapping[str, Stroke] = FrozenDict({name: strokes[name] for name in members if name in strokes})
         self.members = FrozenDict(self.members)
-        self._check_kinds()
+        for name, member in self.members.items():
+            with about(name):
+                self._check_kinds(name, member)
 
     def _needs(self, name: str, member: Member) -> list[str]:
         """Return the names that a member needs; DefinitionError, with the place, where a part of it cannot be one."""
         try:
             return list(needs(member))
         except DefinitionError as error:
-            raise DefinitionError(f"{self.title}.{name}: {error}") from None
+            raise DefinitionError(f"{self.title}.{name}: {error}", member=name) from None
 
     def _bound(self, name: str, member: Member) -> Member:
         """Return a member with its dimensions entered in the table."""
@@ -178,25 +181,24 @@ class Members:
         """The names of the fixed points."""
         return tuple(self.of_kind(Ground))
 
-    def _check_kinds(self) -> None:
+    def _check_kinds(self, name: str, member: Member) -> None:
         """Raise DefinitionError where a point, a vector or a quantity stands in the place of another kind."""
-        for name, member in self.members.items():
-            member.examine(self.members, self.title)
-            for part in self.with_parts(name):
-                for length in part.lengths():
-                    if isinstance(length, Number) and not length.number > 0.0:
-                        raise DefinitionError(f"{self.title}: {name} = {member}: the length {length.number:.6g} m is not positive.")
-                for attribute, kind in part.expects:
-                    reference = getattr(part, attribute)
-                    found = self.members[reference] if isinstance(reference, str) else reference
-                    if reference is not None and found.kind != kind:
-                        raise DefinitionError(f"{self.title}: {name} = {member}: {found.name or found} is not a {kind}.")
-            if isinstance(member, Stroke) and name in self.turning and abs(member.end - member.start) > TURNS * 2.0 * pi:
-                text = f"{self.title}: {name} = {member} is an angle in radians, {abs(member.end - member.start) / (2.0 * pi):.3g} turns"
-                raise DefinitionError(f"{text}; write Stroke({member.start:.6g} * deg, {member.end:.6g} * deg).")
-            if isinstance(member, Ground) and self.moves(member):
-                text = f"{self.title}: {name} = {member} follows a stroke, but is fixed; drive a point by OnGuide, Dyad or Crank."
-                raise DefinitionError(text)
+        member.examine(self.members, self.title)
+        for part in self.with_parts(name):
+            for length in part.lengths():
+                if isinstance(length, Number) and not length.number > 0.0:
+                    raise DefinitionError(f"{self.title}: {name} = {member}: the length {length.number:.6g} m is not positive.")
+            for attribute, kind in part.expects:
+                reference = getattr(part, attribute)
+                found = self.members[reference] if isinstance(reference, str) else reference
+                if reference is not None and found.kind != kind:
+                    raise DefinitionError(f"{self.title}: {name} = {member}: {found.name or found} is not a {kind}.")
+        if isinstance(member, Stroke) and name in self.turning and abs(member.end - member.start) > TURNS * 2.0 * pi:
+            text = f"{self.title}: {name} = {member} is an angle in radians, {abs(member.end - member.start) / (2.0 * pi):.3g} turns"
+            raise DefinitionError(f"{text}; write Stroke({member.start:.6g} * deg, {member.end:.6g} * deg).")
+        if isinstance(member, Ground) and self.moves(member):
+            text = f"{self.title}: {name} = {member} follows a stroke, but is fixed; drive a point by OnGuide, Dyad or Crank."
+            raise DefinitionError(text)
 
     # -- what moves with what --------------------------------------------------------------------------
 
@@ -358,10 +360,12 @@ def ordered(needs: Mapping[str, Iterable[str]], title: str) -> list[str]:
     for name, wanted in graph.items():
         for each in wanted:
             if each not in graph:
-                raise unknown("Name", each, graph, where=f"{title}.{name}")
+                with about(name):
+                    raise unknown("Name", each, graph, where=f"{title}.{name}")
     try:
         return list(TopologicalSorter(graph).static_order())
     except CycleError as error:
         cycle = list(reversed(error.args[1]))
         words = " needs ".join(cycle)
-        raise DefinitionError(f"{title}: {words}. Nothing in this cycle can come first; take one of them from another point.") from None
+        remedy = "Nothing in this cycle can come first; take one of them from another point."
+        raise DefinitionError(f"{title}: {words}. {remedy}", member=cycle[0]) from None

@@ -102,7 +102,8 @@ class Trace(Reading):
             self.noted[self.owner] = sine
         elif sine == 0.0:
             step = self.members[self.owner]
-            raise DefinitionError(f"{self.owner} = {step}: the lines that meet in it are parallel at every pose; change an angle.")
+            text = f"{self.owner} = {step}: the lines that meet in it are parallel at every pose; change an angle."
+            raise DefinitionError(text, member=self.owner)
         return sine
 
     def apart(self, square: Scalar) -> Scalar:

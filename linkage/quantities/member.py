@@ -28,8 +28,11 @@ class Member:
     """Its attributes that refer to others, with the kind each must be."""
 
     argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({})
-    """What its arguments are where `expects` and annotations do not tell, for files: `body`, `side`, `place`, `length`, ...; see
-    `linkage.files.validators`. What a class says adds to what its bases say."""
+    """What its arguments are where `expects` and annotations do not tell, for files. What a class says adds to what its bases say.
+
+    A word, such as `body`, `place`, `length` (see `linkage.files.validators`); a class, whose own arguments stand among those of the
+    member; such a class in a tuple, for a list of values; an object with `read(given, number)` and `write(value)`.
+    """
 
     file_section: ClassVar[str] = ""
     """The section of a file that it stands in, where its class is not known to `linkage.files`."""

@@ -26,7 +26,6 @@ class Design:
     def __init__(self, machine: type[Mechanism] | Mechanism, names: Names) -> None:
         self.plan, self.names = machine.plan, names
         self.set: Mapping[str, Any] = changed(machine) if isinstance(machine, Mechanism) else {}
-        self.machine = machine
         self.written: set[str] = set()
 
     def variable(self, name: str, given: Quantity) -> float | str:
@@ -66,17 +65,13 @@ class Design:
             return given.number
         return self.checked(spelled(given), form(given), expression)
 
-    def own(self, given: Quantity) -> str:
-        """Return the text of a quantity's own rule, whatever its name; DefinitionError unless it reads back as the same."""
-        return self.checked(str(given), own_form(given), expression)
-
     def arrow(self, given: Member | str) -> str:
         """Return a vector as text, or its name; DefinitionError unless it reads back as the same."""
         return self.checked(label(given), form(given), arrow)
 
-    def own_arrow(self, given: Member) -> str:
-        """Return the text of a vector's own rule, whatever its name; DefinitionError unless it reads back as the same."""
-        return self.checked(str(given), own_form(given), arrow)
+    def own(self, given: Member) -> str:
+        """Return the text of a quantity's or a vector's own rule, whatever its name; DefinitionError unless it reads back as the same."""
+        return self.checked(str(given), own_form(given), expression if isinstance(given, Quantity) else arrow)
 
     def checked(self, text: str, says: Any, read: Callable[[str, Names], Any]) -> str:
         """Return a text; DefinitionError unless it is read as what it says."""

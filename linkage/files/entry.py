@@ -71,8 +71,10 @@ class Argument:
 
 
 def kept(member: Any, argument: str) -> Any:
-    """Return what a member was given for an argument."""
-    values = (getattr(member, name) for name in (argument, *KEPT_AS.get(argument, ())) if hasattr(member, name))
+    """Return what a member was given for an argument; DefinitionError where it does not keep it."""
+    values = [getattr(member, name) for name in (argument, *KEPT_AS.get(argument, ())) if hasattr(member, name)]
+    if not values:
+        raise DefinitionError(f"it has no attribute {argument}; let its class keep each argument in the attribute of that name.")
     return next((each for each in values if each is not None), None)
 
 

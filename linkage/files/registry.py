@@ -144,7 +144,7 @@ OWN: tuple[AnEntry, ...] = (
     Bare(steps.Ground, "ground", lambda given, names: steps.Ground(*coordinates_of(given, names)), ground_written),
     Entry(steps.Guide, "guides", keys={"P": "from", "Q": "to"}),
     *(Entry(step, "points", step.__name__) for step in POINTS),
-    Bare(steps.Arrow, "vectors", vector_of, lambda member, design: design.own_arrow(member), family=True),
+    Bare(steps.Arrow, "vectors", vector_of, lambda member, design: design.own(member), family=True),
     Entry(steps.Link, "links", make=link_of),
     Entry(steps.Pin, "pins"),
     Entry(steps.Slide, "slides"),
@@ -185,7 +185,9 @@ class Registry:
         words = self.sections[section]
         if "" in words:
             return words[""]
-        found = [word for word in (*words, PATH) if isinstance(given, Mapping) and word in given]
+        found = [word for word in words if isinstance(given, Mapping) and word in given]
+        if isinstance(given, Mapping) and PATH in given and (not found or ":" in str(given[PATH])):  # beside a word it may be a label
+            found.append(PATH)
         if len(found) > 1:
             raise DefinitionError(f"it is {' and '.join(found)} at once; say one of them.")
         if found == [PATH]:

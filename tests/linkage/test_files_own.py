@@ -199,6 +199,24 @@ def test_mistake_is_said_in_words(tables, words):
         from_dict(tables)
 
 
+class Forgetful(Wind):
+    """A load that does not keep what it is given."""
+
+    def __init__(self, point, area, height=0.0):
+        super().__init__(point, area * 2.0)
+
+
+def test_what_a_member_does_not_keep_is_refused():
+    with pytest.raises(DefinitionError, match=r"wind cannot be written into a file: it has no attribute height; let its class keep"):
+        to_toml(type("Other", (Valve,), {"wind": Forgetful("C", 1.0)}))
+
+
+def test_a_label_may_be_the_word_kind():
+    points = {"ki": Ground(0.0, 0.0), "nd": Dyad("ki", "E", kind=0.2, End=0.25, side=LEFT)}
+    back = load(to_toml(type("Named", (Valve,), points)))
+    assert back.plan.defaults["kind"] == 0.2
+
+
 def test_class_inside_a_function_is_refused():
     class Own(GasStrut):
         """A class that no import path leads to."""

@@ -26,7 +26,7 @@ DEEPEST = 3
 """How deep lists may stand in each other."""
 
 
-def written(value: Any, design: Design, name: str = "") -> Any:
+def file_value(value: Any, design: Design, name: str = "") -> Any:
     """Return a value as a file holds it, by what it is: an expression, a name, a number, a word, lists and tables of them.
 
     `name` is that of its design variable, where it is one. DefinitionError for what a file cannot hold.
@@ -36,9 +36,9 @@ def written(value: Any, design: Design, name: str = "") -> Any:
     if isinstance(value, Arrow):
         return design.arrow(value)
     if isinstance(value, Mapping):
-        return {key: written(each, design) for key, each in value.items()}
+        return {key: file_value(each, design) for key, each in value.items()}
     if isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value):
-        return [written(each, design) for each in value]
+        return [file_value(each, design) for each in value]
     if isinstance(value, Side):
         return str(value)
     if isinstance(value, (bool, np.bool_)):
@@ -55,7 +55,7 @@ class Kind:
     """
 
     read: Read
-    write: Write = written
+    write: Write = file_value
     refers: bool = False
     make: Callable[[Any], Any] = lambda value: value
 
@@ -271,7 +271,7 @@ def reference(kind: str) -> Kind:
     return Kind(lambda given, names: names.checked(given, kind), refers=True)
 
 
-def measured(measures: str) -> Kind:
+def fixed_number(measures: str) -> Kind:
     """Return the kind of a number that follows nothing, with the unit that it may have."""
     return Kind(lambda given, names: number_of(given, names, measures))
 
@@ -291,10 +291,10 @@ coordinates_of = several("two coordinates in m, such as [0.20, 0.55]", value_of)
 
 
 KINDS: Mapping[str, Kind] = MappingProxyType(
-    {measures: measured(measures) for measures in {each for _, each in UNITS.values()}}
+    {measures: fixed_number(measures) for measures in {each for _, each in UNITS.values()}}
     | {kind: reference(kind) for kind in ("point", "guide", "load", "link")}
     | {
-        "number": measured(""),
+        "number": fixed_number(""),
         "angle": Kind(lambda given, names: number_of(given, names, "angle"), lambda value, design, name: in_degrees(float(value))),
         "quantity": Kind(value_of, lambda value, design, name: design.variable(name, quantity(value))),
         "direction": Kind(value_of, lambda value, design, name: in_degrees(design.variable(name, quantity(value)))),

@@ -31,7 +31,7 @@ def about(member: str) -> Iterator[None]:
 
 
 class DefinitionError(LinkageError, ValueError):
-    """What a class, a file or a setting says cannot be."""
+    """What a class, a file or a setting says cannot be. `member` is the name of the member at fault, "" where it is no single one."""
 
 
 class AssemblyError(LinkageError):

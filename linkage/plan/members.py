@@ -148,7 +148,9 @@ class Members:
         strokes = self.of_kind(Stroke)
         self.strokes: Mapping[str, Stroke] = FrozenDict({name: strokes[name] for name in members if name in strokes})
         self.members = FrozenDict(self.members)
-        self._check_kinds()
+        for name, member in self.members.items():
+            with about(name):
+                self._check_kinds(name, member)
 
     def _needs(self, name: str, member: Member) -> list[str]:
         """Return the names that a member needs; DefinitionError, with the place, where a part of it cannot be one."""
@@ -178,13 +180,8 @@ class Members:
         """The names of the fixed points."""
         return tuple(name for name, point in self.points.items() if point.is_fixed)
 
-    def _check_kinds(self) -> None:
+    def _check_kinds(self, name: str, member: Member) -> None:
         """Raise DefinitionError where a point, a vector or a quantity stands in the place of another kind."""
-        for name, member in self.members.items():
-            with about(name):
-                self._check_kind(name, member)
-
-    def _check_kind(self, name: str, member: Member) -> None:
         member.examine(self.members, self.title)
         for part in self.with_parts(name):
             for length in part.lengths():

@@ -6,6 +6,7 @@ from collections.abc import Callable, Hashable, Iterator, Mapping
 from functools import lru_cache
 from inspect import Parameter, Signature, signature
 from math import inf
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias
 
 from ..errors import DefinitionError, cited
@@ -25,6 +26,16 @@ class Member:
 
     expects: ClassVar[tuple[tuple[str, str], ...]] = ()
     """Its attributes that refer to others, with the kind each must be."""
+
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({})
+    """What its arguments are where `expects` and annotations do not tell, for files. What a class says adds to what its bases say.
+
+    A word, such as `body`, `place`, `length` (see `linkage.files.validators`); a class, whose own arguments stand among those of the
+    member; such a class in a tuple, for a list of values; an object with `read(given, number)` and `write(value)`.
+    """
+
+    file_section: ClassVar[str] = ""
+    """The section of a file that it stands in, where its class is not known to `linkage.files`."""
 
     needs_name: ClassVar[bool] = False
     """Whether its value goes by its name, so that it cannot stand in an expression without one."""

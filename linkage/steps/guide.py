@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 from ..errors import DefinitionError
@@ -38,6 +39,7 @@ class Guide(Holding):
 
     kind = "guide"
     expects = (("P", "point"), ("Q", "point"))
+    argument_kinds = MappingProxyType({"P": "origin", "angle": "direction"})
 
     def __init__(self, P: Reference | tuple[float, float], Q: Reference | None = None, *, angle: Any = None) -> None:
         if P is None or (Q is None) == (angle is None):

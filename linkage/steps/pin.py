@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
 from typing import Any
 
 from ..errors import DefinitionError, cited
@@ -19,6 +20,8 @@ class Pin(Point):
     `at=(x, y)` is its place in a drawing: lengths and angles that are not given are measured from it.
     A pin that no dyad places belongs to a group, whose pins are found together.
     """
+
+    argument_kinds = MappingProxyType({"near": "place", "at": "place"})
 
     def __init__(self, *place: Any, near: Any = None, at: Any = None) -> None:
         if place:

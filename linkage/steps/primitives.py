@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -149,6 +150,7 @@ class Offset(Point):
 
     X: str = ""
     expects = (("P", "point"), ("by", "vector"))
+    argument_kinds = MappingProxyType({"vector": "vector"})
 
     def __init__(self, P: Reference, vector: Reference) -> None:
         self.P, self.by = P, vector

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass
 from math import pi
+from types import MappingProxyType
 from typing import Any, Self
 
 import numpy as np
@@ -68,6 +69,7 @@ class Point(Holding):
     """
 
     kind = "point"
+    file_section = "points"
 
     def bind(self, X: str, claims: Claims) -> Self:
         """Return this step with its name, its parents' names and its dimensions settled."""
@@ -144,6 +146,7 @@ class Step(Point):
     X: str = ""
     parents: tuple[Reference, ...]
     parent_letters: tuple[str, ...] = ("P", "Q")
+    argument_kinds = MappingProxyType({"side": "side", "near": "place", "at": "place"})
     measures: str = ""
     """What `at=(x, y)` supplies: the `distances` from both parents, or one distance and the `angle`."""
 

@@ -45,7 +45,12 @@ class Capacity(Command):
         over = motion_at(machine, options.strokes, options.count)
         if options.category:
             print(f"{CATEGORIES[options.category]}.\n")
-        columns = zone_table(machine, over) if options.zones else hitch_table(over)
+        if options.zones:
+            columns = zone_table(machine, over)
+        else:
+            eta = float(over.inputs["circuit.mechanical_efficiency"])
+            print(f"{pressure_words(over)}, eta {eta:.4g}. Pressures are gauge.\n{LEGEND}\n")
+            columns = capacity_columns(over)
         write_table(columns, over.reached.size, options.csv)
         if options.pins:
             print(f"\n{table_text(max_table([pin_forces(over)]))}")
@@ -70,12 +75,6 @@ def hitch_of(options: Namespace) -> ThreePointHitch:
     machine = design(CATEGORIES[options.category].machine if options.category else found, options.settings)
     assert isinstance(machine, ThreePointHitch)
     return machine
-
-
-def hitch_table(over: Motion) -> list[Column]:
-    """Return the table of capacities, its columns told."""
-    print(f"{pressure_words(over)}, eta {float(over.inputs['circuit.mechanical_efficiency']):.4g}. Pressures are gauge.\n{LEGEND}\n")
-    return capacity_columns(over)
 
 
 def zone_table(machine: ThreePointHitch, over: Motion) -> list[Column]:

@@ -7,7 +7,7 @@ import numpy as np
 from hydraulics import Verdict, lift_verdicts
 from linkage import Column, ForceElement, Mechanism, Motion, pin_forces
 from linkage.program import FloatArray
-from linkage.reports import below_zero, closely, spans_in_words
+from linkage.reports import closely, ranges_below_zero, spans_in_words
 from linkage.statics.acting import Case
 from linkage.units import deg, g0, kN
 
@@ -90,7 +90,7 @@ def upper_link_verdict(motion: Motion) -> Verdict:
     if low >= 0.0 or high <= 0.0:
         kind, small, large = ("tension", low, high) if low >= 0.0 else ("compression", -high, -low)
         return Verdict("upper link", True, f"in {kind} over this motion, {small / kN:.2f} to {large / kN:.2f} kN.")
-    pressed = spans_in_words(below_zero(motion, upper_link_force), "S")
+    pressed = spans_in_words(ranges_below_zero(motion, upper_link_force), "S")
     says = f"up to {high / kN:.2f} kN of tension and {-low / kN:.2f} kN of compression, which acts {pressed}"
     return Verdict("upper link", True, f"{says}: the force changes its sense, so that play is felt.")
 

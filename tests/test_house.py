@@ -101,7 +101,8 @@ def import_faults(path: PurePosixPath, tree: ast.AST) -> Iterator[str]:
             yield f"{where}: {package} imports {owner}"
         elif package == owner == "linkage" and not door and (fault := climbing(here, module)):
             yield f"{where}: {fault}"
-        if lazy and not door and owner not in HEAVY | OPTIONAL and ".".join(module.split(".")[:2]) not in HEAVY_ROOMS:
+        is_heavy = owner in HEAVY | OPTIONAL or ".".join(module.split(".")[:2]) in HEAVY_ROOMS or module.endswith(".figures")
+        if lazy and not door and not is_heavy:
             yield f"{where}: {module} is imported inside a function, which is for heavy libraries only: import it at the top"
 
 

@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
@@ -18,7 +17,7 @@ from ..program import FloatArray
 from ..quantities import is_number
 from ..units import UNITS
 from . import style
-from .sheet import Picture, quiet
+from .sheet import panels, quiet
 from .strokes import StrokeAxis
 
 PANEL = (4.6, 3.0)
@@ -57,15 +56,11 @@ def columns_named(motion: Motion, columns: Sequence[Column | str]) -> list[Colum
     return [own[each] if isinstance(each, str) else each for each in columns]
 
 
-def panel_grid(count: int) -> tuple[Figure, list[Any]]:
+def panel_grid(count: int) -> tuple[Figure, list[Axes]]:
     """Return a figure and the axes of so many panels, as near to a square as they go."""
     across = min(ceil(sqrt(count)), 4)
     down = ceil(count / across)
-    size = max(PANEL[0] * across, 6.0), PANEL[1] * down + 0.6
-    figure = Picture(figsize=size, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
-    FigureCanvasAgg(figure)
-    figure.get_layout_engine().set(w_pad=0.12, h_pad=0.12)  # type: ignore[union-attr,call-arg]
-    return figure, [figure.add_subplot(down, across, index + 1) for index in range(count)]
+    return panels((max(PANEL[0] * across, 6.0), PANEL[1] * down + 0.6), across, down, count, w_pad=0.12, h_pad=0.12)
 
 
 # Limit lines: a value that a result may not pass, and on which side it fails.

@@ -66,7 +66,7 @@ def guides(motion: Motion) -> Iterator[SlideTrack]:
         if riders:
             fixed = set(guide.points) <= set(plan.ground) and (guide.angle is None or not plan.moves(guide.angle))
             line = motion.reading.line(guide)
-            origin, along = over_poses(motion, line.origin.x, line.origin.y), over_poses(motion, line.direction.x, line.direction.y)
+            origin, along = pose_rows(motion, line.origin.x, line.origin.y), pose_rows(motion, line.direction.x, line.direction.y)
             yield SlideTrack(name, origin, along, riders, fixed)
 
 
@@ -77,8 +77,8 @@ def slots(motion: Motion) -> Iterator[SlideTrack]:
         for joint in step.joints():
             if joint.track and joint.line is not None and joint.track[0] not in guides:
                 line = joint.line(motion.reading)
-                along = over_poses(motion, line.direction.x, line.direction.y)
-                yield SlideTrack(f"{name}|slot", over_poses(motion, line.origin.x, line.origin.y), along, (joint.point,), False)
+                along = pose_rows(motion, line.direction.x, line.direction.y)
+                yield SlideTrack(f"{name}|slot", pose_rows(motion, line.origin.x, line.origin.y), along, (joint.point,), False)
 
 
 def slide_joints(motion: Motion) -> Iterator[Joint]:
@@ -86,7 +86,7 @@ def slide_joints(motion: Motion) -> Iterator[Joint]:
     return (joint for member in motion.plan.holding.values() for joint in member.joints() if joint.track)
 
 
-def over_poses(motion: Motion, x: object, y: object) -> FloatArray:
+def pose_rows(motion: Motion, x: object, y: object) -> FloatArray:
     """Return two components over all poses, shape (2, n)."""
     return np.array([np.broadcast_to(np.asarray(each, float), motion.shape).ravel() for each in (x, y)])
 

@@ -41,7 +41,7 @@ class StrokeAxis:
             )
         name = max(motion.strokes, key=lambda name: float(np.ptp(motion.strokes[name])))
         unit = shown_unit(plan, name)
-        return cls(name, unit, np.asarray(motion.strokes[name] / UNITS[unit][0]), held_words(motion, name))
+        return cls(name, unit, np.asarray(motion.strokes[name] / UNITS[unit][0]), others_in_words(motion, name))
 
     @property
     def is_turning(self) -> bool:
@@ -61,7 +61,7 @@ def stroke_words(plan: Plan, name: str, value: float, *, fixed: bool = False) ->
     return text + ("°" if unit == "deg" else f" {unit}")
 
 
-def held_words(motion: Motion, moving: str) -> str:
+def others_in_words(motion: Motion, moving: str) -> str:
     """Return the values of the strokes beside the one that moves, as text; empty where there is one stroke."""
     others = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items() if name != moving}
     return ", ".join(stroke_words(motion.plan, name, value) for name, value in others.items())

@@ -216,7 +216,7 @@ class SourceReader:
         if value.__module__ != self.home or id(value) in self.seen:
             return name
         self.seen.add(id(value))
-        source = source_of(value)
+        source = source_text(value)
         if source is None and isinstance(value, FunctionType) and not self.has_version:
             lacks = "is a lambda, without source text of its own" if value.__name__ == "<lambda>" else "has no source text that is found"
             raise DefinitionError(
@@ -226,7 +226,7 @@ class SourceReader:
         return self.listed((name, source, outside_values(value, source or "")))
 
 
-def source_of(value: FunctionType | type) -> str | None:
+def source_text(value: FunctionType | type) -> str | None:
     """Return the source text of a function or a class; None for a lambda, and where no file has it."""
     try:
         return None if value.__name__ == "<lambda>" else dedent(getsource(value)).strip()

@@ -10,6 +10,7 @@ from traceback import extract_tb
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 
 class LinkageError(Exception):
@@ -41,7 +42,7 @@ class AssemblyError(LinkageError):
     shape of the motion), `shortfall` is the largest missing length [m] (NaN where it is not a length).
     """
 
-    def __init__(self, message: str, *, point: str = "", mask: Any = None, shortfall: float = float("nan")) -> None:
+    def __init__(self, message: str, *, point: str = "", mask: npt.ArrayLike | None = None, shortfall: float = float("nan")) -> None:
         super().__init__(message, member=point)
         self.point = point
         self.mask = np.zeros((), bool) if mask is None else np.asarray(mask, bool)
@@ -51,7 +52,7 @@ class AssemblyError(LinkageError):
 class SingularError(AssemblyError):
     """A ratio or a force was asked for at a singular pose; positions stay available in `motion`."""
 
-    def __init__(self, message: str, *, point: str = "", mask: Any = None, motion: Any = None) -> None:
+    def __init__(self, message: str, *, point: str = "", mask: npt.ArrayLike | None = None, motion: Any = None) -> None:
         super().__init__(message, point=point, mask=mask)
         self.reason = message
         self.motion = motion

@@ -318,10 +318,11 @@ class Members:
     def following(self) -> tuple[tuple[str, Quantity], ...]:
         """The lengths that follow other quantities, and so can become negative, each with the member that it places."""
         place = list(self.members).index
-        found = [(max(ends, key=place), length) for ends, length in self.table.lengths.items()]
+        found: list[tuple[str, Member]] = [(max(ends, key=place), length) for ends, length in self.table.lengths.items()]
         names = self.reaches(*self.points)
         found += [(name, length) for name in sorted(names, key=place) for part in self.with_parts(name) for length in part.lengths()]
-        return tuple((name, length) for name, length in found if not isinstance(length, (Variable, Number, Length, Distance)))
+        never = (Variable, Number, Length, Distance)
+        return tuple((name, length) for name, length in found if isinstance(length, Quantity) and not isinstance(length, never))
 
     def with_parts(self, name: str) -> tuple[Member, ...]:
         """Return a member and its parts that have no name of their own."""

@@ -238,10 +238,10 @@ def be(what: str) -> str:
 
 def crosses(motion: Any, name: str) -> bool:
     """Return whether a loop in line can be assembled on both sides of the pose, so that two branches cross there."""
-    if len(motion.strokes) != 1 or motion.design_shape or name not in motion.loop_sines:
+    if len(motion.strokes) != 1 or motion._design_shape or name not in motion._loop_sines:
         return False
     ((stroke, values),) = motion.strokes.items()
-    place = int(np.argmin(np.nan_to_num(np.abs(np.broadcast_to(motion.loop_sines[name], motion.shape)))))
+    place = int(np.argmin(np.nan_to_num(np.abs(np.broadcast_to(motion._loop_sines[name], motion.shape)))))
     step = 1e-4 * abs(motion.plan.strokes[stroke].end - motion.plan.strokes[stroke].start)
     return bool(motion.moved({stroke: np.ravel(values)[place] + np.array([-step, step])}).reached.all())
 

@@ -75,18 +75,18 @@ def gradient_of(motion: Motion, of: RequestLike, wrt: Sequence[str]) -> FloatArr
     plan = motion.plan
     what, dimensions = bound(plan, of), dimensions_of(plan, wrt)
     names, title = tuple(name for name, _ in dimensions), f"The gradient of {what}"
-    refused = motion.refused(Slope(what, names), title)
+    refused = motion._refused(Slope(what, names), title)
     good = motion.reached & ~refused
     slopes = plan.made(("gradient", what.key, names), lambda plan: slopes_of(plan, what, names))
     rest = what.rows * len(names)
-    values, assumed, switches = np.split(motion.grid.full(slopes.kernel(motion.grid.flat).values), [rest, rest + slopes.assumed])
+    values, assumed, switches = np.split(motion._grid.full(slopes.kernel(motion._grid.flat).values), [rest, rest + slopes.assumed])
     check(motion, what, good, assumed, zip(slopes.touched, switches, strict=True))
-    continued = slopes.angles.continued(motion.grid, motion.reached)
+    continued = slopes.angles.continued(motion._grid, motion.reached)
     signs = np.tile([float(sign) for _, sign in dimensions], what.rows).reshape(-1, *(1,) * len(motion.shape))
     found = values if continued is None else continued
     if not (good.all() and np.all(signs > 0.0) and found.flags.writeable):
         found = np.where(good, found * signs, np.nan)
-    rows = motion.finite(found, refused, title)
+    rows = motion._finite(found, refused, title)
     return np.stack(np.split(rows, what.rows), axis=1) if what.rows > 1 else rows
 
 

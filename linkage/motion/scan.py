@@ -160,7 +160,7 @@ def transmission(motion: Motion, name: str, held: Mapping[str, float], found: Se
         return -np.array([[folded(wide, joint)] for joint in moving]), wide.reached[None]
 
     wide = motion.moved({**held, name: stroke(*samples(counts))})
-    moving = [joint for joint in wide.joints if changes(wide.transmission_angle(joint))]
+    moving = [joint for joint in wide._joints if changes(wide.transmission_angle(joint))]
     if not moving:
         return ()
     least = highest(look, counts)
@@ -214,8 +214,8 @@ Moved = Callable[[Mapping[str, Any]], "Motion"]
 
 def limits(motion: Motion) -> Limits:
     """Return the limits along every stroke of one design; other strokes are held at the motion's first values."""
-    if motion.design_shape:
-        title, shape = motion.plan.title, motion.design_shape
+    if motion._design_shape:
+        title, shape = motion.plan.title, motion._design_shape
         raise DefinitionError(f"{title}: limits are worked out for one design at a time; this motion has {shape}.")
     check_any(motion.strokes, motion.plan)
     held = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
@@ -230,7 +230,7 @@ def stroke_limits(motion: Motion, name: str, held: Mapping[str, float]) -> Strok
     span = end - start
     turn = max(0.0, np.pi - 0.5 * span)
     low, high = (start - span, end + span) if unit == "m" else (start - turn, end + turn)
-    between = Course(motion.plan, motion.grid.flat, name, held).interruptions(low, high)
+    between = Course(motion.plan, motion._grid.flat, name, held).interruptions(low, high)
     found = search(scanner(motion.moved, name, held), low, high, [each.deepest for each in between if each.is_gap])
     crossings = tuple((each.deepest, called(motion.plan, each.step)) for each in between if not each.is_gap)
     others = tuple(Held(each, value, stroke_unit(motion.plan, each)) for each, value in held.items() if each != name)
@@ -245,19 +245,19 @@ def scanner(moved: Moved, name: str, held: Mapping[str, float]) -> Callable[[Flo
 
     def scan(at: FloatArray) -> Scanned:
         motion = moved({**held, name: at})
-        return Scanned(motion.reached, lambda place: failing(moved({**held, name: at[place : place + 1]})), motion.group_stops)
+        return Scanned(motion.reached, lambda place: failing(moved({**held, name: at[place : place + 1]})), motion._grid.solved.stops)
 
     return scan
 
 
 def failing(motion: Motion) -> str:
     """Return what cannot be placed first at a motion's pose, by its name."""
-    return next((called(motion.plan, name) for name, mask in failures(motion.plan, motion.reading, motion.shape) if mask.any()), "")
+    return next((called(motion.plan, name) for name, mask in failures(motion.plan, motion._reading, motion.shape) if mask.any()), "")
 
 
 def is_watched(motion: Motion) -> bool:
     """Return whether it is looked at between the poses: of one design along one stroke, from two poses on."""
-    return len(motion.strokes) == 1 and not motion.design_shape and motion.shape != () and motion.reached.size > 1
+    return len(motion.strokes) == 1 and not motion._design_shape and motion.shape != () and motion.reached.size > 1
 
 
 def interruptions(motion: Motion) -> tuple[Interruption, ...]:
@@ -272,7 +272,7 @@ def interruptions(motion: Motion) -> tuple[Interruption, ...]:
     known = clear.get(key)
     if known is not None and known[0] <= low and high <= known[1]:
         return ()
-    found = Course(motion.plan, motion.grid.flat, name, {}).interruptions(low, high)
+    found = Course(motion.plan, motion._grid.flat, name, {}).interruptions(low, high)
     if not found and (known is None or (low <= known[0] and known[1] <= high)):
         clear[key] = low, high
         for old in list(clear)[:-KEPT]:
@@ -290,7 +290,7 @@ def between_words(motion: Motion) -> str:
 
 def group_crossing(motion: Motion, crossed: Any) -> SingularError:
     """Return the error for poses that a group's pins reach only through a change point."""
-    numbers = np.unique(motion.grid.full(motion.grid.solved.crossed[None].astype(float))[0][crossed])
+    numbers = np.unique(motion._grid.full(motion._grid.solved.crossed[None].astype(float))[0][crossed])
     named = list(motion.plan.groups.items())
     groups = ", ".join(f"{name} = {group}" for name, group in (named[int(number) - 1] for number in numbers))
     where = where_words(motion.plan, crossed, motion.strokes)
@@ -303,7 +303,7 @@ def group_crossing(motion: Motion, crossed: Any) -> SingularError:
 
 def stop_words(motion: Motion) -> str:
     """Return how far a sweep of one design goes, in words: `It goes from S = 0 to 0.408276 m.`"""
-    if len(motion.strokes) != 1 or motion.design_shape or not motion.reached.any() or motion.reached.ndim != 1:
+    if len(motion.strokes) != 1 or motion._design_shape or not motion.reached.any() or motion.reached.ndim != 1:
         return ""
     ((name, values),) = motion.strokes.items()
     order = np.argsort(values, kind="stable")
@@ -332,8 +332,8 @@ def gap(motion: Motion, first: Interruption, found: Sequence[Interruption]) -> A
     ((name, values),) = motion.strokes.items()
     plan, unit = motion.plan, stroke_unit(motion.plan, name)
     there = motion.moved({name: np.array([first.deepest])})
-    step = next((each for each, mask in failures(plan, there.reading, (1,)) if mask.any()), first.step)
-    words, shortfall = missing_words(plan, step, there.reading, np.ones(1, bool))
+    step = next((each for each, mask in failures(plan, there._reading, (1,)) if mask.any()), first.step)
+    words, shortfall = missing_words(plan, step, there._reading, np.ones(1, bool))
     far = np.asarray(values > first.low if np.ravel(values)[0] <= first.low else values < first.high)
     edges = [float(values.min()), *(edge for each in found if each.is_gap for edge in (each.low, each.high)), float(values.max())]
     spans = [f"from {name} = {low:.6g} to {high:.6g} {unit}" for low, high in zip(edges[::2], edges[1::2], strict=True)]

@@ -308,7 +308,7 @@ def test_several_quantities_at_once():
 
 def test_requests_are_asked_in_bulk():
     def in_bulk(motion):
-        return evaluate(motion.grid, [ratio("psi")], None, QUICKEST, "nan")[0]
+        return evaluate(motion._grid, [ratio("psi")], None, QUICKEST, "nan")[0]
 
     for S in ([0.5, 0.75], [0.3, 0.9]):
         batch = Lift(OB=[0.19, 0.20, 0.21]).at(S=S, unreachable="nan")

@@ -39,15 +39,6 @@ OPTIONAL = {"dask", "distributed", "ezdxf", "openpyxl", "pymoo"}  # extras: ther
 HEAVY_ROOMS = {f"linkage.{room}" for room in ("formulas", "study", "pictures", "reports", "files")}
 
 KNOWN_CIRCLES = [  # still there, each to be untied; a circle that is gone leaves this list, none joins it
-    [
-        "linkage/motion/gradient.py",
-        "linkage/motion/motion.py",
-        "linkage/motion/requests.py",
-        "linkage/motion/scan.py",
-        "linkage/motion/still.py",
-        "linkage/motion/transmission.py",
-        "linkage/motion/turns.py",
-    ],
     ["linkage/plan/bodies.py", "linkage/plan/members.py", "linkage/plan/printing.py"],
     ["linkage/plan/followed.py", "linkage/plan/plan.py"],
     ["linkage/program/node.py", "linkage/program/simplify.py"],

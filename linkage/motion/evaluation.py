@@ -136,7 +136,7 @@ class Evaluation:
                 flagged = above[:, bad]
                 self._put_right(block, bad, paired, worst, ~flagged[:assumed].all(axis=0), ~flagged[len(above) - len(self.requests) :])
         for k, found in worst.items():
-            conditions.warn(found, f"{plan.title}: {self.requests[k]}", 5, "comes")
+            conditions.warn_near(found, f"{plan.title}: {self.requests[k]}", "comes")
 
     def _put_right(
         self, block: FloatArray, bad: Mask, inputs: dict[str, Any], worst: dict[int, Judged], broken: Any, near: Any

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeAlias
 
 import numpy as np
 
 from ..assembly import parted
-from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, cited, one_word, unwarned
+from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, cited, one_word, unwarned, warn
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Kernel
 from ..quantities import Angle, Distance, Member, Quantity, needs
@@ -20,10 +19,23 @@ from . import conditions, scan
 from . import differences as numeric
 from . import limits as reach
 from .conditions import Judged
-from .gradient import gradient_of
 from .grid import Beside, Grid, Joining, angles_of, as_they_are, in_order, to_rounding
 from .limits import Mask
-from .requests import BoundRequest, Everywhere, RequestLike, Value, examined, near_of, stroke_of, watched
+from .requests import (
+    BoundRequest,
+    Everywhere,
+    RequestLike,
+    Slope,
+    Value,
+    astray,
+    bound,
+    dimensions_of,
+    examined,
+    near_of,
+    slopes_of,
+    stroke_of,
+    watched,
+)
 from .strokes import method_of, named, order_of, rates_of
 
 Target: TypeAlias = str | Member
@@ -103,7 +115,7 @@ class Motion:
         spans = [f"{name} = {reach.span_read(values, reach.stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
         poses = f"{', '.join(spans) or 'no stroke'}; shape {self.shape}"
         reached = "all reached" if self.reached.all() else f"{int(self.reached.sum())} of {self.reached.size} reached"
-        return f"<Motion of {self.plan.title}: {poses}, {reached}{scan.between_words(self)}>"
+        return f"<Motion of {self.plan.title}: {poses}, {reached}{scan.between_words(self.interruptions)}>"
 
     @cached_property
     def interruptions(self) -> tuple[scan.Interruption, ...] | None:
@@ -183,7 +195,7 @@ class Motion:
     def _settle_lost(self) -> None:
         """Refuse or mask the poses of which rounding leaves nothing, as where two points that another hangs from come together."""
         words = f"The places of {self.plan.title}"
-        lost = self._refused_near(Everywhere(self.plan.moving), words, lambda found, mask: conditions.lost(found, mask, self.strokes), 7)
+        lost = self._refused_near(Everywhere(self.plan.moving), words, lambda found, mask: conditions.lost(found, mask, self.strokes))
         if lost.any():
             self._places = np.where(lost, np.nan, self._places)
             self.reached &= ~lost
@@ -424,19 +436,19 @@ class Motion:
         if lost > numeric.WARN[order]:
             other = "the exact one is not" if step is None else "without a step it is chosen at every pose"
             text = f"{what} is off by up to about {lost:.0e} of its greatest value; {other}."
-            warnings.warn(SingularWarning(text, estimate=lost), stacklevel=3)
+            warn(SingularWarning(text, estimate=lost))
         return np.where(useless, np.nan, found)
 
     def _refused(self, what: BoundRequest, words: str) -> Mask:
         """Return the mask of poses where a result is refused; raise or warn as asked. `words` begin a sentence about it."""
         if not self._is_near(what):
             return np.zeros(self.shape, bool)
-        return self._refused_near(what, words, lambda found, mask: conditions.refusal(found, mask, self.strokes, words, self), 5)
+        return self._refused_near(what, words, lambda found, mask: conditions.refusal(found, mask, self.strokes, words, self))
 
-    def _refused_near(self, what: BoundRequest, words: str, error: Callable[[Judged, Mask], SingularError], level: int) -> Mask:
+    def _refused_near(self, what: BoundRequest, words: str, error: Callable[[Judged, Mask], SingularError]) -> Mask:
         """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked.
 
-        `error` makes what is raised of how the refused poses are judged and of their mask; `level` is that of the warning's caller.
+        `error` makes what is raised of how the refused poses are judged and of their mask.
         """
         refused, doubtful = np.zeros(self.shape, bool), np.zeros(self.shape, bool)
         near = near_of(self._grid, what) & self.reached
@@ -447,7 +459,7 @@ class Motion:
         if refused.any() and self.unreachable == "raise":
             raise error(found.at(found.refused), refused)
         if doubtful.any():
-            conditions.warn(found.at(found.doubtful), f"{words} {reach.where_words(self.plan, doubtful, self.strokes)}", level)
+            conditions.warn_near(found.at(found.doubtful), f"{words} {reach.where_words(self.plan, doubtful, self.strokes)}")
         return refused
 
     def _is_near(self, what: BoundRequest) -> bool:
@@ -464,7 +476,34 @@ class Motion:
         how the transfer ratio follows the dimensions, `gradient(thrust(), wrt=["OB", "load.mass"])` how the drive's force does.
         Raises SingularError at a dead point, DefinitionError for the law of a load that cannot be traced.
         """
-        return gradient_of(self, of, wrt)
+        plan = self.plan
+        what, dimensions = bound(plan, of), dimensions_of(plan, wrt)
+        names, title = tuple(name for name, _ in dimensions), f"The gradient of {what}"
+        refused = self._refused(Slope(what, names), title)
+        good = self.reached & ~refused
+        slopes = plan.made(("gradient", what.key, names), lambda plan: slopes_of(plan, what, names))
+        rest = what.rows * len(names)
+        values, assumed, switches = np.split(self._grid.full(slopes.kernel(self._grid.flat).values), [rest, rest + slopes.assumed])
+        self._check_laws(what, good, assumed, zip(slopes.touched, switches, strict=True))
+        continued = slopes.angles.continued(self._grid, self.reached)
+        signs = np.tile([float(sign) for _, sign in dimensions], what.rows).reshape(-1, *(1,) * len(self.shape))
+        found = values if continued is None else continued
+        if not (good.all() and np.all(signs > 0.0) and found.flags.writeable):
+            found = np.where(good, found * signs, np.nan)
+        rows = self._finite(found, refused, title)
+        return np.stack(np.split(rows, what.rows), axis=1) if what.rows > 1 else rows
+
+    def _check_laws(self, what: BoundRequest, good: Mask, assumed: FloatArray, switches: Iterable[tuple[str, FloatArray]]) -> None:
+        """Raise the error of poses where a law is another than the one traced, or changes to another with a dimension."""
+        if np.any(good & ~np.all(assumed > 0.0, axis=0)):
+            what.refuse(self)
+            raise astray(self.plan, what)
+        for words, values in switches:
+            if np.any(good & (values > 0.0)):
+                raise DefinitionError(
+                    f"{self.plan.title}: {what} has no derivative by {words} that it equals here, and is another law next to it. "
+                    "Leave that dimension out of wrt=, or set it beside that number."
+                )
 
     # -- velocity --------------------------------------------------------------------------------------
 
@@ -514,7 +553,8 @@ def out_of_reach(motion: Motion) -> AssemblyError:
     return reach.refusal(motion.plan, motion._grid.read_at(missing), missing, motion.strokes, scan.stop_words(motion))
 
 
-def require_motion(given: Any) -> None:
-    """Raise DefinitionError for what is no motion."""
+def require_motion(given: object) -> Motion:
+    """Return the motion that was given; DefinitionError for anything else."""
     if not isinstance(given, Motion):
         raise DefinitionError(f"{given!r:.60} is no motion; give machine.sweep(...) or machine.at(...).")
+    return given

@@ -9,22 +9,19 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
 from ..errors import DefinitionError, cited
 from ..plan import NEAR, REGULAR, ArrayReading, Plan
-from ..program import FloatArray, Kernel, Node, Notes
+from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
 from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Judged, Left, Rounding, judged
-from .grid import Grid
+from .grid import Angles, Grid, MotionLike, angles_of
 from .limits import Mask
 from .strokes import named, order_of
-
-if TYPE_CHECKING:
-    from .motion import Motion
 
 SMALL = 1e-9
 """A result of no known size [SI] that is smaller counts as so large where its relative error is told."""
@@ -50,7 +47,7 @@ class BoundRequest(ABC):
     def __str__(self) -> str:
         """Return what it is, in words: `the ratio of G by S`."""
 
-    def refuse(self, motion: Motion) -> None:  # noqa: B027
+    def refuse(self, motion: MotionLike) -> None:  # noqa: B027
         """Raise the error of a motion's poses where it has no value; nothing where it has one at all of them, or another refuses it."""
 
     def notes(self, plan: Plan) -> Notes:
@@ -205,7 +202,7 @@ class Value(BoundRequest):
     def names(self, plan: Plan) -> set[str]:
         return plan.reaches(self.target)
 
-    def refuse(self, motion: Motion) -> None:
+    def refuse(self, motion: MotionLike) -> None:
         if self.along:
             motion.ratio(self.target, wrt=self.along[0], order=self.order)
         elif isinstance(self.member, Quantity):
@@ -403,3 +400,56 @@ def dimensions_of(plan: Plan, names: Any) -> list[tuple[str, int]]:
         if name in plan.table.following and name not in plan.table.spellings:
             raise DefinitionError(f"{plan.title}: {name} follows {plan.table.following[name]}; take the gradient by what it follows.")
     return [plan.table.spellings[named("Dimension", name, plan.table.spellings, plan.title)] for name in names]
+
+
+# Derivatives by dimensions: reverse mode through the program, all dimensions at once.
+
+@dataclass(frozen=True, eq=False)
+class Slopes:
+    """The kernel of a request's derivatives by some dimensions, then of what it assumes, then of its switches by those dimensions."""
+
+    kernel: Kernel
+    angles: Angles
+    assumed: int
+    touched: tuple[str, ...]
+
+
+@final
+@dataclass(frozen=True)
+class Slope(BoundRequest):
+    """The derivatives of a request by some dimensions, as a request that is looked at near singular poses."""
+
+    what: BoundRequest
+    by: tuple[str, ...]
+
+    @property
+    def key(self) -> Any:
+        return "slope", self.what.key, self.by
+
+    @property
+    def order(self) -> int:
+        return 1 + self.what.order
+
+    def nodes(self, plan: Plan) -> tuple[Node, ...]:
+        inputs = [plan.trace.inputs[name] for name in self.by]
+        return tuple(share for node in self.what.nodes(plan) for share in gradient(node, inputs))
+
+    def names(self, plan: Plan) -> set[str]:
+        return self.what.names(plan)
+
+    def __str__(self) -> str:
+        return f"the gradient of {self.what}"
+
+
+def slopes_of(plan: Plan, what: BoundRequest, names: Sequence[str]) -> Slopes:
+    """Return the derivatives of a request by dimensions, as a kernel."""
+    inputs = [plan.trace.inputs[name] for name in names]
+    shares, notes = Slope(what, tuple(names)).nodes(plan), what.notes(plan)
+    touched = [
+        (switch, f"{name}: the law of {owner} compares what follows {name} with a number")
+        for switch, owner in notes.switches.items()
+        for name, each in zip(names, inputs, strict=True)
+        if each in ancestors([switch])
+    ]
+    kernel = Kernel([*shares, *notes.assumed, *(switch for switch, _ in touched)])
+    return Slopes(kernel, angles_of(plan, shares), len(notes.assumed), tuple(words for _, words in touched))

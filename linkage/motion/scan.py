@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from ..steps import Point
 from ..units import deg
 from .course import Course
 from .course import Interruption as Interruption
+from .grid import MotionLike
 from .limits import (
     Extreme,
     Held,
@@ -35,10 +36,6 @@ from .limits import Limits as Limits
 from .peaks import SAMPLES, Index, Mask, bisected, highest, samples
 from .strokes import check_any
 
-if TYPE_CHECKING:
-    from .motion import Motion
-
-
 # Where a cylinder's length stands still against a stroke: its dead points, at which its thrust moves nothing.
 
 NEAR = 1e-8
@@ -51,7 +48,9 @@ AGAIN = 1e-6
 """Poses whose points are so near to each other, compared with the linkage, are one, as after a full turn."""
 
 
-def dead_points(motion: Motion, stroke: str, held: Mapping[str, float], ranges: Sequence[tuple[float, float]]) -> list[tuple[float, str]]:
+def dead_points(
+    motion: MotionLike, stroke: str, held: Mapping[str, float], ranges: Sequence[tuple[float, float]]
+) -> list[tuple[float, str]]:
     """Return where along a stroke, in some ranges, lengths of elements that hold stand still: the stroke and the element's name.
 
     Those whose two points a stroke drives apart never do. The others are held.
@@ -75,7 +74,7 @@ def dead_points(motion: Motion, stroke: str, held: Mapping[str, float], ranges: 
     return sorted(found)
 
 
-def follows(motion: Motion, element: TwoPoint, stroke: str, held: Mapping[str, float], ranges: Sequence[tuple[float, float]]) -> bool:
+def follows(motion: MotionLike, element: TwoPoint, stroke: str, held: Mapping[str, float], ranges: Sequence[tuple[float, float]]) -> bool:
     """Return whether an element's length changes with a stroke beyond rounding, as that of one between two points of a body does not."""
     at = np.concatenate([np.linspace(low, high, LOOKS) for low, high in ranges])
     moved = motion.moved({**held, stroke: at})
@@ -85,7 +84,7 @@ def follows(motion: Motion, element: TwoPoint, stroke: str, held: Mapping[str, f
     return bool(np.any(rate > STILL * way))
 
 
-def first_times(motion: Motion, stroke: str, held: Mapping[str, float], at: FloatArray) -> Mask:
+def first_times(motion: MotionLike, stroke: str, held: Mapping[str, float], at: FloatArray) -> Mask:
     """Return which of some strokes (n,) give a pose that no one before gives."""
     if at.size < 2:
         return np.ones(at.shape, bool)
@@ -96,7 +95,7 @@ def first_times(motion: Motion, stroke: str, held: Mapping[str, float], at: Floa
     return np.asarray(~np.tril(apart <= AGAIN * size, -1).any(axis=1))
 
 
-def rate_of(motion: Motion, element: TwoPoint, stroke: str, held: Mapping[str, float]) -> Callable[[FloatArray], FloatArray]:
+def rate_of(motion: MotionLike, element: TwoPoint, stroke: str, held: Mapping[str, float]) -> Callable[[FloatArray], FloatArray]:
     """Return the ratio of an element's length by a stroke, as a function of that stroke (n,); NaN where it has none."""
     length = Distance(*element.ends)
 
@@ -143,7 +142,7 @@ UNCHANGED = 1e-9
 """A transmission angle that changes by less [rad] does not follow the stroke."""
 
 
-def transmission(motion: Motion, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> tuple[Extreme, ...]:
+def transmission(motion: MotionLike, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> tuple[Extreme, ...]:
     """Return the least transmission angle of every dyad that moves with a stroke, over its declared and reachable part."""
     ends = sorted((motion.plan.strokes[name].start, motion.plan.strokes[name].end))
     parts = np.array([(max(each.low, ends[0]), min(each.high, ends[1])) for each in found if each.low < ends[1] and each.high > ends[0]])
@@ -173,7 +172,7 @@ def changes(angle: FloatArray) -> bool:
     return bool(np.nanmax(angle) - np.nanmin(angle) > UNCHANGED)
 
 
-def folded(motion: Motion, joint: str) -> FloatArray:
+def folded(motion: MotionLike, joint: str) -> FloatArray:
     """Return a joint's transmission angle folded to 0 ... pi/2 [rad]; NaN where it is not reached."""
     angle = motion.transmission_angle(joint)
     return np.minimum(angle, np.pi - angle)
@@ -191,7 +190,7 @@ CLOSED = 1e-6
 """Pins that are so near to where they began, compared with the linkage, have returned."""
 
 
-def open_turn(motion: Motion, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> Open | None:
+def open_turn(motion: MotionLike, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> Open | None:
     """Return the pins that do not return after one turn of a stroke [rad], and how many turns they take; None where all do."""
     pins = [pin for group in motion.plan.groups.values() for pin in group.pins if name in motion.plan.reaches(pin)]
     whole = next((each for each in found if each.high - each.low > TURN * (1.0 - 1e-9)), None)
@@ -208,11 +207,11 @@ def open_turn(motion: Motion, name: str, held: Mapping[str, float], found: Seque
 KEPT = 64
 """The designs of a plan whose clear stretches are kept."""
 
-Moved = Callable[[Mapping[str, Any]], "Motion"]
+Moved = Callable[[Mapping[str, Any]], MotionLike]
 """The motion at other strokes, unreachable poses as NaN."""
 
 
-def limits(motion: Motion) -> Limits:
+def limits(motion: MotionLike) -> Limits:
     """Return the limits along every stroke of one design; other strokes are held at the motion's first values."""
     if motion._design_shape:
         title, shape = motion.plan.title, motion._design_shape
@@ -222,7 +221,7 @@ def limits(motion: Motion) -> Limits:
     return Limits({name: stroke_limits(motion, name, held) for name in motion.strokes})
 
 
-def stroke_limits(motion: Motion, name: str, held: Mapping[str, float]) -> StrokeLimits:
+def stroke_limits(motion: MotionLike, name: str, held: Mapping[str, float]) -> StrokeLimits:
     """Return the limits along one stroke, looked for one span beyond its declared range, a crank over a full turn."""
     stroke = motion.plan.strokes[name]
     unit = stroke_unit(motion.plan, name)
@@ -250,17 +249,17 @@ def scanner(moved: Moved, name: str, held: Mapping[str, float]) -> Callable[[Flo
     return scan
 
 
-def failing(motion: Motion) -> str:
+def failing(motion: MotionLike) -> str:
     """Return what cannot be placed first at a motion's pose, by its name."""
     return next((called(motion.plan, name) for name, mask in failures(motion.plan, motion._reading, motion.shape) if mask.any()), "")
 
 
-def is_watched(motion: Motion) -> bool:
+def is_watched(motion: MotionLike) -> bool:
     """Return whether it is looked at between the poses: of one design along one stroke, from two poses on."""
     return len(motion.strokes) == 1 and not motion._design_shape and motion.shape != () and motion.reached.size > 1
 
 
-def interruptions(motion: Motion) -> tuple[Interruption, ...]:
+def interruptions(motion: MotionLike) -> tuple[Interruption, ...]:
     """Return what interrupts the way of one design along its one stroke, between the least and the greatest of its poses.
 
     A stretch where nothing does is kept, of the last designs that were asked for, so that poses in it are not looked at again.
@@ -280,15 +279,14 @@ def interruptions(motion: Motion) -> tuple[Interruption, ...]:
     return found
 
 
-def between_words(motion: Motion) -> str:
+def between_words(found: Sequence[Interruption] | None) -> str:
     """Return what is known of the way between the poses, in words: nothing where it is clear."""
-    found = motion.interruptions
     if found is None:
         return ", not looked at between the poses"
     return "".join(f", interrupted: {each}" for each in found)
 
 
-def group_crossing(motion: Motion, crossed: Any) -> SingularError:
+def group_crossing(motion: MotionLike, crossed: Any) -> SingularError:
     """Return the error for poses that a group's pins reach only through a change point."""
     numbers = np.unique(motion._grid.full(motion._grid.solved.crossed[None].astype(float))[0][crossed])
     named = list(motion.plan.groups.items())
@@ -301,7 +299,7 @@ def group_crossing(motion: Motion, crossed: Any) -> SingularError:
     )  # fmt: skip
 
 
-def stop_words(motion: Motion) -> str:
+def stop_words(motion: MotionLike) -> str:
     """Return how far a sweep of one design goes, in words: `It goes from S = 0 to 0.408276 m.`"""
     if len(motion.strokes) != 1 or motion._design_shape or not motion.reached.any() or motion.reached.ndim != 1:
         return ""
@@ -313,7 +311,7 @@ def stop_words(motion: Motion) -> str:
     return f" It goes {', and '.join(spans)}."
 
 
-def refuse_crossing(motion: Motion) -> None:
+def refuse_crossing(motion: MotionLike) -> None:
     """Raise the error of what interrupts a sweep between its poses: a stretch out of reach, or a change point.
 
     A loop that a declared side keeps on one branch would turn back at a change point, which no machine does.
@@ -327,7 +325,7 @@ def refuse_crossing(motion: Motion) -> None:
     raise gap(motion, first, found) if first.is_gap else crossing(motion, first)
 
 
-def gap(motion: Motion, first: Interruption, found: Sequence[Interruption]) -> AssemblyError:
+def gap(motion: MotionLike, first: Interruption, found: Sequence[Interruption]) -> AssemblyError:
     """Return the error for a stretch between the poses of a sweep that cannot be assembled."""
     ((name, values),) = motion.strokes.items()
     plan, unit = motion.plan, stroke_unit(motion.plan, name)
@@ -344,7 +342,7 @@ def gap(motion: Motion, first: Interruption, found: Sequence[Interruption]) -> A
     )  # fmt: skip
 
 
-def crossing(motion: Motion, found: Interruption) -> SingularError:
+def crossing(motion: MotionLike, found: Interruption) -> SingularError:
     """Return the error that names a change point, or where guides are parallel."""
     loop, name, value = found.step, found.stroke, found.deepest
     unit = stroke_unit(motion.plan, name)

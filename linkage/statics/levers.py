@@ -6,13 +6,12 @@ such poses are refused like any other singular one, by the condition of the leve
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import SingularError, SingularWarning
+from ..errors import SingularError, SingularWarning, warn
 from ..loads import TwoPoint
 from ..motion.conditions import REFUSE, WARN, be, condition
 from ..motion.limits import where_words
@@ -53,7 +52,7 @@ def refused_where(poses: Poses, values: FloatArray, cond: FloatArray, what: str,
         # one division by a difference that is lost: the error goes with the condition, not its square
         error = f"expect a relative error of about {np.finfo(float).eps * worst:.0e}"
         text = f"{what} {be(what)} nearly refused {where}, for close by {reason} (condition {worst:.1e}); {error}."
-        warnings.warn(text, SingularWarning, stacklevel=5)
+        warn(SingularWarning(text))
     return np.where(lost, np.nan, values)
 
 

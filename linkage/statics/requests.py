@@ -10,7 +10,8 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError, cited, known_name
-from ..motion import BoundRequest, Motion, Request
+from ..motion import BoundRequest, Request, require_motion
+from ..motion.grid import MotionLike
 from ..plan import Plan
 from ..program import Node, Notes
 from .acting import Case, Loads, drive_of
@@ -100,8 +101,8 @@ class DriveForceOf(ForceOf):
     def steep(self, plan: Plan) -> set[str]:
         return set(self.carriers)
 
-    def refuse(self, motion: Motion) -> None:
-        driving_force(motion, self.loads, self.drive, case=self.case)
+    def refuse(self, motion: MotionLike) -> None:
+        driving_force(require_motion(motion), self.loads, self.drive, case=self.case)
 
     def __str__(self) -> str:
         return f"the driving force of {self.drive}"
@@ -173,8 +174,8 @@ class PinForceOf(ForceOf):
     def names(self, plan: Plan) -> set[str]:
         return set(plan.members)
 
-    def refuse(self, motion: Motion) -> None:
-        pin_forces(motion, self.loads, case=self.case)
+    def refuse(self, motion: MotionLike) -> None:
+        pin_forces(require_motion(motion), self.loads, case=self.case)
 
     def __str__(self) -> str:
         what = "the size" if self.asked.component == "size" else f"the {self.asked.component} component"

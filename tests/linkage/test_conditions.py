@@ -211,3 +211,28 @@ def test_an_angle_that_is_followed_and_a_loop_behind_it_are_looked_at_together()
     assert np.isfinite(motion["D"]).all()
     assert motion.interruptions == ()
     assert np.abs(np.diff(motion["C"])).max() < 0.1
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda lever, near: near.ratio("B"),
+        lambda lever, near: near.gradient("B", wrt=["OB"]),
+        lambda lever, near: near.gradient(ratio("B"), wrt=["OB"]),
+        lambda lever, near: near.velocity("B", rates=dict(S=1.0)),
+        lambda lever, near: near.acceleration("B", rates=dict(S=1.0)),
+        lambda lever, near: near.ratio(angle("O", "B")),
+        lambda lever, near: lever.evaluate([ratio("B")], S=0.7 + 1e-9),
+        lambda lever, near: lever.function([ratio("B")])(0.7 + 1e-9),
+        lambda lever, near: driving_force(near),
+        lambda lever, near: pin_forces(near),
+    ],
+)
+def test_a_warning_points_to_the_line_that_asked(ask):
+    lever = Lever()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SingularWarning)
+        near = lever.at(S=0.7 + 1e-9)
+    with pytest.warns(SingularWarning) as found:
+        ask(lever, near)
+    assert {each.filename for each in found} == {__file__}

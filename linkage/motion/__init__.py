@@ -1,6 +1,6 @@
 """Where everything is over the stroke: positions, ratios, angles, distances."""
 
-from .evaluation import PoseFunction, evaluate, function_of, source_of
+from .evaluation import PoseFunction, evaluate, evaluate_grid, source_of
 from .extremes import Extremum, Span, below_zero, greatest, lowest, reached
 from .grid import Grid
 from .limits import stroke_unit

@@ -7,7 +7,7 @@ where it has no value, and the error that rounding leaves of it. Kernels, functi
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Hashable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from typing import Any, TypeAlias, final
 
@@ -99,6 +99,10 @@ class BoundRequest(ABC):
 class Request(ABC):
     """Something to ask of a mechanism that is no member of it: a ratio, a thrust, a pin force."""
 
+    def identity(self, plan: Plan) -> Hashable:
+        """Return what tells it from others of the same plan as long as what it holds lives; None where what it holds may change."""
+        return None
+
     @abstractmethod
     def bound(self, plan: Plan) -> BoundRequest:
         """Return the request bound to a plan; DefinitionError where there is no such thing."""
@@ -151,6 +155,10 @@ class Ratio(Request):
     target: str | Member
     wrt: str | None = None
     order: int = 1
+
+    def identity(self, plan: Plan) -> Hashable:
+        target = identity_of(plan, self.target)
+        return None if target is None else ("ratio", target, self.wrt, self.order)
 
     def bound(self, plan: Plan) -> Value:
         along = (stroke_of(plan, self.wrt),) * self.order if self.order else ()
@@ -251,6 +259,10 @@ class Condition(Request):
     """How near a pose is to a singular one for what is built from a point or a quantity, as something to ask for."""
 
     target: str | Member | None = None
+
+    def identity(self, plan: Plan) -> Hashable:
+        target = None if self.target is None else identity_of(plan, self.target)
+        return None if target is None and self.target is not None else ("condition", target)
 
     def bound(self, plan: Plan) -> ConditionOf:
         if self.target is None:
@@ -376,6 +388,27 @@ def all_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[BoundRequest
     if not isinstance(requests, Iterable) or isinstance(requests, (Mapping, Set, np.ndarray)):
         raise DefinitionError(f'{plan.title}: {cited(requests)}: a list of what is asked for is expected, such as ["G"].')
     return tuple(bound(plan, request) for request in requests)
+
+
+def identity_of(plan: Plan, request: RequestLike) -> Hashable:
+    """Return what tells something asked for from others; None for a quantity that only itself is, and for what may change."""
+    if type(request) is str:
+        return request
+    if isinstance(request, Request):
+        identity = request.identity(plan)
+        try:
+            hash(identity)
+        except TypeError:  # what was given is anything as yet, and refused where it is bound
+            return None
+        return identity
+    identity = request.identity if isinstance(request, Quantity) else request.name if isinstance(request, Member) else None
+    return None if identity is request else identity or None
+
+
+def identities_of(plan: Plan, requests: Sequence[RequestLike]) -> Hashable:
+    """Return what tells a list of requests from others; None where one of them has no identity, or it is no list."""
+    found = tuple([identity_of(plan, each) for each in requests]) if type(requests) in (list, tuple) else (None,)
+    return None if None in found else found
 
 
 def stroke_of(plan: Plan, name: str | None) -> str:

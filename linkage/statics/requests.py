@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import Any, final
+from typing import Any, TypeVar, final
+from weakref import ref
 
 import numpy as np
 
 from ..errors import DefinitionError, cited, known_name
+from ..loads import ForceElement, LoadCase
 from ..motion import BoundRequest, Request, require_motion
 from ..motion.grid import MotionLike
+from ..motion.requests import identity_of
 from ..plan import Plan
 from ..program import Node, Notes
 from .acting import Case, Loads, drive_of
@@ -24,6 +27,32 @@ from .solution import Solved
 from .traced_loads import Law, eliminated_system, held
 from .work import by_work
 
+Bound = TypeVar("Bound", bound=BoundRequest)
+
+
+def loads_identity(loads: Loads, case: Case) -> Hashable:
+    """Return what tells loads in a load case from others, which it does not keep alive; None where one of them may change.
+
+    Members that were declared do not, nor do frozen dataclasses. What their laws compute with is taken not to change either.
+    """
+    listed = () if loads is None else loads if isinstance(loads, (list, tuple)) else (loads,)
+    parts = [each if each is None or isinstance(each, str) else ref(each) if is_fixed(each) else ... for each in (case, *listed)]
+    return None if ... in parts else (loads is None, *parts)
+
+
+def bound_once(plan: Plan, request: Request, bound: Callable[[Plan], Bound]) -> Bound:
+    """Return a request of the machine's own loads as `bound` binds it, kept with the plan."""
+    identity = identity_of(plan, request)
+    return bound(plan) if identity is None else plan.made(("bound", identity), lambda _: bound(plan))
+
+
+def is_fixed(thing: object) -> bool:
+    """Return whether loads or a load case cannot change: members of a class, and frozen dataclasses."""
+    if not isinstance(thing, (ForceElement, LoadCase)):
+        return False
+    settings = vars(type(thing)).get("__dataclass_params__")
+    return bool(thing._class) or (settings is not None and settings.frozen)
+
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -34,7 +63,14 @@ class DriveForce(Request):
     loads: Loads = None
     case: Case = None
 
+    def identity(self, plan: Plan) -> Hashable:
+        loads = loads_identity(self.loads, self.case)
+        return None if loads is None else ("drive force", self.drive, loads)
+
     def bound(self, plan: Plan) -> DriveForceOf:
+        return bound_once(plan, self, self._bound) if self.loads is None else self._bound(plan)
+
+    def _bound(self, plan: Plan) -> DriveForceOf:
         drive = drive_of(plan, self.drive)
         law = Law.of(plan, self.loads, self.case)
         return DriveForceOf(self.loads, self.case, drive, law.key, frozenset(law.names), frozenset(law.carriers))
@@ -123,7 +159,14 @@ class PinForce(Request):
     loads: Loads = None
     case: Case = None
 
+    def identity(self, plan: Plan) -> Hashable:
+        loads = loads_identity(self.loads, self.case)
+        return None if loads is None else ("pin force", self.point, self.on, self.component, loads)
+
     def bound(self, plan: Plan) -> PinForceOf:
+        return bound_once(plan, self, self._bound) if self.loads is None else self._bound(plan)
+
+    def _bound(self, plan: Plan) -> PinForceOf:
         known_name("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
         law = Law.of(plan, self.loads, self.case)
         structure = Structure(plan, law.loaded.elements, law.loaded.pushing)

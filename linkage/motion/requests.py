@@ -266,9 +266,9 @@ class Condition(Request):
 
     def bound(self, plan: Plan) -> ConditionOf:
         if self.target is None:
-            return ConditionOf(frozenset(plan.members), plan.title)
-        value = bound(plan, self.target)
-        return ConditionOf(frozenset(value.names(plan)), str(value))
+            return ConditionOf(None, frozenset(set[str]().union(*map(plan.reaches, plan.points))), plan.title)
+        value = Ratio(self.target, order=0).bound(plan)
+        return ConditionOf(value, frozenset(value.names(plan)), str(value))
 
 
 def condition(target: str | Member | None = None) -> Condition:
@@ -276,7 +276,8 @@ def condition(target: str | Member | None = None) -> Condition:
 
     Next to a singular pose it is 2 over the sine of the loop in line, and the product of such where several follow one another or a
     direction is taken between points that come close: above 1e4 a ratio is off by some 0.3 eps cond^2, above 1e6 it is refused.
-    `condition("G")` is of what G is built from, `condition()` of the whole machine.
+    `condition("G")` is of what G is built from, `condition(angle("A", "P"))` of what the angle is built from and of its own direction,
+    `condition()` of all points of the machine. What else is asked beside it makes no difference.
     """
     return Condition(target)
 
@@ -284,21 +285,22 @@ def condition(target: str | Member | None = None) -> Condition:
 @final
 @dataclass(frozen=True)
 class ConditionOf(BoundRequest):
-    """The condition of some members, bound to a plan; never refused."""
+    """The condition of a value, or of all points where it is None, bound to a plan with the members behind it; never refused."""
 
+    value: Value | None
     members: frozenset[str]
     of: str
 
     @property
     def key(self) -> Any:
-        return "condition", self.members
+        return "condition", self.value and self.value.key
 
     @property
     def regular(self) -> float:
         return -1.0
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        near = plan.trace.nearness(self.members, exact=True)
+        near = plan.trace.alone(self.value and self.value.member).nearness(self.members, exact=True)
         return ((2.0 / REGULAR) / np.sqrt(near.graph.apply("maximum", near, WORST**-2)),)
 
     def names(self, plan: Plan) -> set[str]:

@@ -19,6 +19,7 @@ from ..plan import negative as negative
 from ..plan import opening as opening
 from ..program import FloatArray
 from ..units import deg
+from .peaks import last_holding
 
 SAMPLES = 1441
 
@@ -172,27 +173,22 @@ def intervals(scan: Scan, at: FloatArray, reached: Any) -> list[Interval]:
     found: list[Interval] = []
     edges = np.flatnonzero(np.diff(np.concatenate([[False], reached, [False]]).astype(int)))
     for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
-        low, low_stop = (at[first], "") if first == 0 else bisected(scan, at[first], at[first - 1])
-        high, high_stop = (at[last], "") if last == len(at) - 1 else bisected(scan, at[last], at[last + 1])
+        low, low_stop = (at[first], "") if first == 0 else end_of_reach(scan, at[first], at[first - 1])
+        high, high_stop = (at[last], "") if last == len(at) - 1 else end_of_reach(scan, at[last], at[last + 1])
         found.append(Interval(float(low), float(high), low_stop, high_stop))
     return found
 
 
-def bisected(scan: Scan, inside: float, outside: float) -> tuple[float, str]:
+def end_of_reach(scan: Scan, inside: float, outside: float) -> tuple[float, str]:
     """Return the last stroke reached between one inside and one outside, and the step that fails beyond it."""
-    for _ in range(8):
-        at = np.linspace(inside, outside, 65)
-        seen = scan(at)
-        place = int(np.argmin(seen.reached))
-        known = [stop for stop in seen.stops if min(inside, outside) <= stop <= max(inside, outside)]
-        if known:
-            return known[0], seen.failing(place)
-        if seen.reached[place]:
-            return inside, ""
-        inside, outside = float(at[max(place - 1, 0)]), float(at[place])
-        if abs(outside - inside) <= 4e-16 * max(abs(inside), abs(outside)):
-            break
-    return inside, seen.failing(place)
+    seen = scan(np.linspace(inside, outside, 65))
+    known = [stop for stop in seen.stops if min(inside, outside) <= stop <= max(inside, outside)]
+    if known:
+        return known[0], seen.failing(int(np.argmin(seen.reached)))
+    if np.all(seen.reached):
+        return inside, ""
+    last, beyond = last_holding(lambda at: np.array(scan(at).reached), inside, outside, parts=64)
+    return float(last), scan(np.array([beyond])).failing(0)
 
 
 # Where a mechanism cannot be assembled, in words: the strokes, and what is missing there.

@@ -18,13 +18,10 @@ from ..plan import missing_words as missing_words
 from ..plan import negative as negative
 from ..plan import opening as opening
 from ..program import FloatArray
-from ..units import deg
+from ..units import UNITS, deg, display_unit, factor
 from .peaks import last_holding
 
 SAMPLES = 1441
-
-READ_IN = {"m": (1.0, "m"), "rad": (deg, "deg")}
-"""The unit of a stroke -> the one it is read in: its factor and its name."""
 
 Scan = Callable[[FloatArray], "Scanned"]
 """A look at some stroke values: which are reached, and what fails."""
@@ -32,12 +29,12 @@ Scan = Callable[[FloatArray], "Scanned"]
 
 def number(value: float, unit: str, digits: int = 9) -> str:
     """Return a value of a stroke [m or rad] as it is read, without its unit; angles in degrees."""
-    return f"{value / READ_IN[unit][0]:.{digits}g}"
+    return f"{value / factor(display_unit(UNITS[unit][1])):.{digits}g}"
 
 
 def as_read(value: float, unit: str, digits: int = 9) -> str:
     """Return a value of a stroke [m or rad] as it is read: `0.25 m`, `90 deg`."""
-    return f"{number(value, unit, digits)} {READ_IN[unit][1]}"
+    return f"{number(value, unit, digits)} {display_unit(UNITS[unit][1])}"
 
 
 @refuses_changes
@@ -148,7 +145,7 @@ class StrokeLimits:
             return [f"  reachable all the way from {number(interval.low, self.unit)} to {as_read(interval.high, self.unit)}"]
         low, high = (number(value, self.unit) + ("" if stop else " (looked no farther)") for value, stop in ends)
         stops = [f"    {number(value, self.unit)}: dead point of {stop}" for value, stop in ends if stop]
-        return [f"  reachable from {low} to {high} {READ_IN[self.unit][1]}", *stops]
+        return [f"  reachable from {low} to {high} {display_unit(UNITS[self.unit][1])}", *stops]
 
 
 class Limits(FrozenDict[str, StrokeLimits]):
@@ -241,9 +238,14 @@ def span_read(values: Any, unit: str) -> str:
 
 def place_read(value: Any, unit: str) -> str:
     """Return a stroke [m or rad], or the range of several, as a place of it is read: `0.1234 m`, `25.00 deg`, `0.1000 to 0.2000 m`."""
-    digits, (factor, name) = 2 if unit == "rad" else 4, READ_IN[unit]
-    ends = dict.fromkeys(f"{float(each) / factor + 0.0:.{digits}f}" for each in (np.min(value), np.max(value)))
-    return f"{' to '.join(ends)} {name}"
+    digits, shown = 2 if unit == "rad" else 4, display_unit(UNITS[unit][1])
+    ends = dict.fromkeys(f"{float(each) / factor(shown) + 0.0:.{digits}f}" for each in (np.min(value), np.max(value)))
+    return f"{' to '.join(ends)} {shown}"
+
+
+def stroke_display_unit(plan: Plan, name: str, length: str = "m") -> str:
+    """Return the unit that a stroke is shown in: deg where it is an angle, else that of a length."""
+    return display_unit(UNITS[stroke_unit(plan, name)][1], length)
 
 
 def stroke_unit(plan: Plan, name: str) -> str:

@@ -14,10 +14,10 @@ from ..errors import DefinitionError, cited, known_name
 from ..loads import ForceElement, LoadCase
 from ..motion import BoundRequest, Request, require_motion
 from ..motion.grid import MotionLike
-from ..motion.requests import identity_of
+from ..motion.requests import identity_of, stroke_of
 from ..plan import Plan
 from ..program import Node, Notes
-from .acting import Case, Loads, drive_of
+from .acting import Case, Loads
 from .driving import driving_force
 from .equilibrium import System
 from .forces import pin_forces
@@ -71,7 +71,7 @@ class DriveForce(Request):
         return bound_once(plan, self, self._bound) if self.loads is None else self._bound(plan)
 
     def _bound(self, plan: Plan) -> DriveForceOf:
-        drive = drive_of(plan, self.drive)
+        drive = stroke_of(plan, self.drive, "drive")
         law = Law.of(plan, self.loads, self.case)
         return DriveForceOf(self.loads, self.case, drive, law.key, frozenset(law.names), frozenset(law.carriers))
 

@@ -178,10 +178,10 @@ def conditions(plan: Plan, reading: ArrayReading, names: set[str]) -> dict[str, 
 
 def loops(plan: Plan, reading: ArrayReading) -> dict[str, Any]:
     """Return the sines of the loops that move; a triangle rigid in itself is none."""
-    return {name: sine for name, sine in reading.sines.items() if plan.moves(member := plan.members[name]) and closes(member)}
+    return {name: sine for name, sine in reading.sines.items() if plan.moves(member := plan.members[name]) and closes_loop(member)}
 
 
-def closes(member: Member) -> bool:
+def closes_loop(member: Member) -> bool:
     """Return whether a member closes a loop."""
     return member.closes if isinstance(member, Point) else True
 
@@ -212,13 +212,13 @@ def refusal(found: Judged, mask: Mask, strokes: Mapping[str, Any], what: str, mo
         else:
             why += f", and rounding leaves an error of about {float(np.max(found.error)):.0e} of it"
     return SingularError(
-        f"{what} {be(what)} refused {where_words(plan, mask, strokes)}: {why}. The positions hold; shorten the stroke, or ask with "
+        f"{what} {is_or_are(what)} refused {where_words(plan, mask, strokes)}: {why}. The positions hold; shorten the stroke, or ask with "
         f'unreachable="nan" for the other poses.',
         point=name, mask=mask, motion=motion,
     )  # fmt: skip
 
 
-def lost(found: Judged, mask: Mask, strokes: Mapping[str, Any]) -> SingularError:
+def lost_places(found: Judged, mask: Mask, strokes: Mapping[str, Any]) -> SingularError:
     """Return the error for poses of which rounding leaves nothing; `found` is of these alone, `mask` in the motion's shape."""
     plan = found.plan
     near = found.culprit()
@@ -231,7 +231,7 @@ def lost(found: Judged, mask: Mask, strokes: Mapping[str, Any]) -> SingularError
     )  # fmt: skip
 
 
-def be(what: str) -> str:
+def is_or_are(what: str) -> str:
     """Return "is" or "are" for what opens a sentence: `The joint forces`, `The ratio of BS`."""
     return "are" if what.split(" of ")[0].endswith("s") else "is"
 

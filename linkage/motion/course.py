@@ -19,7 +19,7 @@ from ..plan import Loop, Plan
 from ..program import FloatArray, Kernel, Level, Way
 from ..steps import Pin
 from .grid import Grid
-from .limits import as_read, number, stroke_unit
+from .limits import stroke_number, stroke_text, stroke_unit
 from .peaks import Mask, last_holding
 
 GRID = 128
@@ -59,9 +59,10 @@ class Interruption:
 
     def __str__(self) -> str:
         if self.is_gap:
-            return f"{self.step} out of reach from {self.stroke} = {number(self.low, self.unit)} to {as_read(self.high, self.unit)}"
+            span = f"{stroke_number(self.low, self.unit)} to {stroke_text(self.high, self.unit)}"
+            return f"{self.step} out of reach from {self.stroke} = {span}"
         what = {"guides": "parallel guides", "meeting": "no direction"}.get(self.kind, "a change point")
-        return f"{what} of {self.step} at {self.stroke} = {as_read(self.low, self.unit)}"
+        return f"{what} of {self.step} at {self.stroke} = {stroke_text(self.low, self.unit)}"
 
 
 @dataclass(frozen=True)

@@ -21,8 +21,8 @@ from .conditions import Judged
 from .grid import Angles, Grid, angles_of, to_rounding, varies
 from .limits import Mask
 from .motion import Motion
-from .requests import BoundRequest, RequestLike, all_bound, astray, examined, identities_of
-from .strokes import as_given, at_values, known_strokes
+from .requests import BoundRequest, RequestLike, all_bound, examined, identities_of, other_law_error
+from .strokes import at_values, float_array, known_strokes
 
 PIECE = 1 << 18
 """Poses that are looked at again at a time."""
@@ -42,7 +42,7 @@ def evaluate(
         found = at_one_pose(plan, designs, strokes, requests)
         if found is not None:
             return found
-    return evaluate_grid(Grid(plan, designs, at_values(strokes, plan, as_given)), requests, out, way, unreachable)
+    return evaluate_grid(Grid(plan, designs, at_values(strokes, plan, float_array)), requests, out, way, unreachable)
 
 
 def evaluate_grid(grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: Way, unreachable: str) -> list[FloatArray]:
@@ -110,7 +110,7 @@ class Evaluation:
     def run(self, out: FloatArray | None) -> list[FloatArray]:
         """Return one array a request, in the usual shapes; rows of `out` where it is given."""
         grid, rows = self.grid, sum(each.rows for each in self.requests)
-        result = self.kernel(grid.flat, self._place(rows, out), self.way, grid.size)
+        result = self.kernel(grid.flat, self._target(rows, out), self.way, grid.size)
         if not np.all(result.guards > 0.0) or (self.may_fail and not np.isfinite(result.values).all()):
             self._settle(result.values)
         found = grid.full(result.values)
@@ -128,7 +128,7 @@ class Evaluation:
     def _make(self, plan: Plan) -> tuple[Kernel, list[Angles | None]]:
         nodes = [each.nodes(plan) for each in self.requests]
         kernel = Kernel([node for each in nodes for node in each], [*self._assumed(plan), *self._guards(plan)])
-        return kernel, [angles_of(plan, each) if request.turns else None for request, each in zip(self.requests, nodes, strict=True)]
+        return kernel, [angles_of(plan, own) if each.follows_angles else None for each, own in zip(self.requests, nodes, strict=True)]
 
     def _guards(self, plan: Plan) -> list[Node]:
         """Return the guards of what the requests are built from."""
@@ -146,7 +146,7 @@ class Evaluation:
         near = [plan.trace.nearness(each.names(plan)) - each.regular for each in self.requests]
         return len(assumed), Kernel([*assumed, *self._guards(plan), *near])
 
-    def _place(self, rows: int, out: FloatArray | None) -> FloatArray | None:
+    def _target(self, rows: int, out: FloatArray | None) -> FloatArray | None:
         """Return where the caller wants the results, shape (rows, designs, poses)."""
         grid = self.grid
         if out is None:
@@ -170,16 +170,17 @@ class Evaluation:
         assumed, kernel = plan.made(("guards", tuple(each.key for each in self.requests)), self._watch)
         worst: dict[int, Judged] = {}
         for band, part in pieces(*self.grid.size):
-            inputs = {name: cut(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
+            inputs = {name: part_of_input(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
             block = place[:, band, part]
             least = np.broadcast_to(kernel(inputs, way=self.way).values, (len(kernel.plan.outputs), *block.shape[1:]))
             with np.errstate(invalid="ignore"):
                 above = least > 0.0
                 bad = ~np.all(above[: len(above) - len(self.requests)], axis=0) | ~np.isfinite(block).all(axis=0)
             if bad.any():
-                paired = {name: spread(value, name in plan.table.entries, bad) for name, value in inputs.items()}
+                at_bad = {name: input_at(value, name in plan.table.entries, bad) for name, value in inputs.items()}
                 flagged = above[:, bad]
-                self._put_right(block, bad, paired, worst, ~flagged[:assumed].all(axis=0), ~flagged[len(above) - len(self.requests) :])
+                near = ~flagged[len(above) - len(self.requests) :]
+                self._put_right(block, bad, at_bad, worst, ~flagged[:assumed].all(axis=0), near)
         for k, found in worst.items():
             conditions.warn_near(found, f"{plan.title}: {self.requests[k]}", "comes")
 
@@ -247,7 +248,7 @@ class Evaluation:
             each.refuse(motion)
         for each in self.requests:
             if each.notes(grid.plan).assumed:
-                raise astray(grid.plan, each)
+                raise other_law_error(grid.plan, each)
         names = ", ".join(map(str, self.requests))
         text = f'{grid.plan.title}: {names} has no value at some of these poses. Leave them out, or ask with unreachable="nan".'
         raise SingularError(text, motion=motion)
@@ -275,14 +276,14 @@ def pieces(m: int, n: int, most: int = PIECE) -> Iterator[tuple[slice, slice]]:
             yield slice(top, min(top + height, m)), slice(left, min(left + width, n))
 
 
-def cut(value: Any, band: slice, part: slice, of_design: bool) -> Any:
+def part_of_input(value: Any, band: slice, part: slice, of_design: bool) -> Any:
     """Return the part of a flat input that belongs to a part of the grid."""
     if np.ndim(value) == 2:
         return value[band if value.shape[0] > 1 else slice(None), part]
     return value if np.ndim(value) == 0 or np.size(value) == 1 else value[band] if of_design else value[part]
 
 
-def spread(value: Any, of_design: bool, mask: Mask) -> Any:
+def input_at(value: Any, of_design: bool, mask: Mask) -> Any:
     """Return a flat input at the poses of a mask."""
     shaped = np.asarray(value, float)
     if shaped.ndim == 1 and of_design:

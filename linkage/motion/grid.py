@@ -70,10 +70,10 @@ class Grid:
         designs: Mapping[str, Any],
         strokes: Mapping[str, FloatArray],
         *,
-        own: bool = False,
+        per_design: bool = False,
         joining: Joining | None = None,
     ) -> None:
-        self.plan, self.own = plan, own
+        self.plan, self.per_design = plan, per_design
         self.designs: FrozenDict[str, Any] = FrozenDict(designs)
         self.strokes: FrozenDict[str, FloatArray] = FrozenDict({name: read_only(value) for name, value in strokes.items()})
         arrays = [np.shape(value) for value in self.designs.values() if varies(value)]
@@ -83,9 +83,9 @@ class Grid:
             shapes = ", ".join(map(str, arrays))
             raise DefinitionError(f"{plan.title}: the shapes of the design arrays do not fit each other: {shapes}.") from None
         shape = next((value.shape for value in self.strokes.values()), ())
-        self.stroke_shape: tuple[int, ...] = shape[len(self.design_shape) if own else 0 :]
+        self.stroke_shape: tuple[int, ...] = shape[len(self.design_shape) if per_design else 0 :]
         self.shape = (*self.design_shape, *self.stroke_shape)
-        self.is_special, self._joining = own or joining is not None, joining or by_stroke
+        self.is_special, self._joining = per_design or joining is not None, joining or joined_by_stroke
         self._angles: dict[Kernel, FloatArray] = {}
 
     @cached_property
@@ -96,7 +96,7 @@ class Grid:
     @cached_property
     def flat_strokes(self) -> dict[str, FloatArray]:
         """The strokes as a kernel takes them: (n,), or (m, n) where each design has its own."""
-        return {name: value.reshape(self.size) if self.own else value.ravel() for name, value in self.strokes.items()}
+        return {name: value.reshape(self.size) if self.per_design else value.ravel() for name, value in self.strokes.items()}
 
     @cached_property
     def flat_designs(self) -> dict[str, Any]:
@@ -116,7 +116,7 @@ class Grid:
             return NONE_SOLVED
         groups = NONE_SOLVED
         if self.plan.groups:
-            groups = self._each() if self.own else solve_groups(self.plan, self.flat_designs, self.flat_strokes)
+            groups = self._each() if self.per_design else solve_groups(self.plan, self.flat_designs, self.flat_strokes)
         return with_angles(groups, self.plan, self.flat_designs, self.flat_strokes)
 
     def _each(self) -> Solved:
@@ -175,23 +175,23 @@ Joining: TypeAlias = Callable[[Grid, FloatArray, Kernel], FloatArray]
 """How angles (k, ...) [rad] that a kernel gives on a grid are made continuous."""
 
 
-def by_stroke(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
+def joined_by_stroke(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
     """Return angles without jumps along the strokes, whatever the order of the poses."""
     return np.array([unwrapped(angle, [value for value in grid.strokes.values() if value.ndim]) for angle in angles])
 
 
-def in_order(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
+def joined_in_order(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
     """Return angles without jumps in the order of the poses."""
     return np.array([unwrapped(angle, [np.empty(grid.stroke_shape)] * 2) for angle in angles])  # two: one would be sorted by its values
 
 
-def as_they_are(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
+def not_joined(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
     """Return angles within 180 deg of zero."""
     return angles
 
 
 @dataclass(frozen=True, eq=False)
-class Beside:
+class JoinedTo:
     """Angles within 180 deg of those of poses that are known: of `like`, by their number `near`, an array that fits the grid's poses.
 
     The poses that are known belong to the same designs, or to a single one.

@@ -27,14 +27,14 @@ Scan = Callable[[FloatArray], "Scanned"]
 """A look at some stroke values: which are reached, and what fails."""
 
 
-def number(value: float, unit: str, digits: int = 9) -> str:
+def stroke_number(value: float, unit: str, digits: int = 9) -> str:
     """Return a value of a stroke [m or rad] as it is read, without its unit; angles in degrees."""
     return f"{value / factor(display_unit(UNITS[unit][1])):.{digits}g}"
 
 
-def as_read(value: float, unit: str, digits: int = 9) -> str:
+def stroke_text(value: float, unit: str, digits: int = 9) -> str:
     """Return a value of a stroke [m or rad] as it is read: `0.25 m`, `90 deg`."""
-    return f"{number(value, unit, digits)} {display_unit(UNITS[unit][1])}"
+    return f"{stroke_number(value, unit, digits)} {display_unit(UNITS[unit][1])}"
 
 
 @refuses_changes
@@ -83,7 +83,7 @@ class Held:
     unit: str
 
     def __str__(self) -> str:
-        return f"{self.stroke} = {as_read(self.value, self.unit, 6)}"
+        return f"{self.stroke} = {stroke_text(self.value, self.unit, 6)}"
 
 
 @refuses_changes
@@ -124,16 +124,16 @@ class StrokeLimits:
 
     def __str__(self) -> str:
         held = f", with {', '.join(map(str, self.held))} held" if self.held else ""
-        lines = [f"{self.stroke}: declared {number(self.start, self.unit, 6)} to {as_read(self.end, self.unit, 6)}{held}"]
+        lines = [f"{self.stroke}: declared {stroke_number(self.start, self.unit, 6)} to {stroke_text(self.end, self.unit, 6)}{held}"]
         for each in self.intervals:
             lines += self._reach(each)
-        lines += [f"  change point at {as_read(value, self.unit)}: the branches of {step} cross" for value, step in self.change_points]
+        lines += [f"  change point at {stroke_text(value, self.unit)}: the branches of {step} cross" for value, step in self.change_points]
         lines += [
-            f"  dead point of {name} at {self.stroke} = {as_read(value, self.unit)}: its length stands still"
+            f"  dead point of {name} at {self.stroke} = {stroke_text(value, self.unit)}: its length stands still"
             for value, name in self.cylinder_dead_points
         ]
         lines += [
-            f"  least transmission angle at {each.joint}: {each.angle / deg:.4g} deg at {as_read(each.stroke, self.unit, 6)}"
+            f"  least transmission angle at {each.joint}: {each.angle / deg:.4g} deg at {stroke_text(each.stroke, self.unit, 6)}"
             for each in self.transmission
         ]
         return "\n".join([*lines, *([f"  {self.open_turn}"] if self.open_turn else [])])
@@ -142,9 +142,9 @@ class StrokeLimits:
         """Return the lines of an interval."""
         ends = (interval.low, interval.low_stop), (interval.high, interval.high_stop)
         if not (interval.low_stop or interval.high_stop):
-            return [f"  reachable all the way from {number(interval.low, self.unit)} to {as_read(interval.high, self.unit)}"]
-        low, high = (number(value, self.unit) + ("" if stop else " (looked no farther)") for value, stop in ends)
-        stops = [f"    {number(value, self.unit)}: dead point of {stop}" for value, stop in ends if stop]
+            return [f"  reachable all the way from {stroke_number(interval.low, self.unit)} to {stroke_text(interval.high, self.unit)}"]
+        low, high = (stroke_number(value, self.unit) + ("" if stop else " (looked no farther)") for value, stop in ends)
+        stops = [f"    {stroke_number(value, self.unit)}: dead point of {stop}" for value, stop in ends if stop]
         return [f"  reachable from {low} to {high} {display_unit(UNITS[self.unit][1])}", *stops]
 
 
@@ -216,27 +216,27 @@ def where_words(plan: Plan, mask: Mask, strokes: Mapping[str, Any]) -> str:
     if mask.ndim > poses:
         designs = mask.reshape(*mask.shape[: mask.ndim - poses], -1)
         return f"at {count} of {total} poses, in {int(designs.any(axis=-1).sum())} of {designs[..., 0].size} designs"
-    spans = [f"{name} = {span(value[mask], stroke_unit(plan, name))}" for name, value in strokes.items()]
+    spans = [f"{name} = {si_span(value[mask], stroke_unit(plan, name))}" for name, value in strokes.items()]
     if total == 1:
         return f"at {', '.join(spans)}" if spans else "anywhere"
     return f"at {count} of {total} strokes, {'from ' if count > 1 else 'at '}{', '.join(spans)}"
 
 
-def span(values: Any, unit: str) -> str:
+def si_span(values: Any, unit: str) -> str:
     """Return the range of some stroke values as text."""
     low, high = float(np.min(values)), float(np.max(values))
     return f"{low:.4f} {unit}" if low == high else f"{low:.4f} to {high:.4f} {unit}"
 
 
-def span_read(values: Any, unit: str) -> str:
+def span_text(values: Any, unit: str) -> str:
     """Return the range of some stroke values as it is read: `0 to 0.25 m`, `90 deg`."""
     if not np.size(values):
         return "nothing"
     low, high = float(np.min(values)), float(np.max(values))
-    return as_read(low, unit, 6) if low == high else f"{number(low, unit, 6)} to {as_read(high, unit, 6)}"
+    return stroke_text(low, unit, 6) if low == high else f"{stroke_number(low, unit, 6)} to {stroke_text(high, unit, 6)}"
 
 
-def place_read(value: Any, unit: str) -> str:
+def place_text(value: Any, unit: str) -> str:
     """Return a stroke [m or rad], or the range of several, as a place of it is read: `0.1234 m`, `25.00 deg`, `0.1000 to 0.2000 m`."""
     digits, shown = 2 if unit == "rad" else 4, display_unit(UNITS[unit][1])
     ends = dict.fromkeys(f"{float(each) / factor(shown) + 0.0:.{digits}f}" for each in (np.min(value), np.max(value)))

@@ -19,24 +19,24 @@ from . import conditions, scan
 from . import differences as numeric
 from . import limits as reach
 from .conditions import Judged
-from .grid import Beside, Grid, Joining, angles_of, as_they_are, in_order, to_rounding
+from .grid import Grid, JoinedTo, Joining, angles_of, joined_in_order, not_joined, to_rounding
 from .limits import Mask
 from .requests import (
     BoundRequest,
-    Everywhere,
+    Places,
     RequestLike,
     Slope,
     Value,
-    astray,
     bound,
     dimensions_of,
     examined,
-    near_of,
+    near_singular,
+    other_law_error,
     slopes_of,
     stroke_of,
     watched,
 )
-from .strokes import method_of, named, order_of, rates_of
+from .strokes import checked_name, method_of, order_of, rates_of
 
 Target: TypeAlias = str | Member
 
@@ -57,7 +57,7 @@ class Motion:
         strokes: Mapping[str, FloatArray],
         unreachable: str = "raise",
         *,
-        own: bool = False,
+        per_design: bool = False,
         joining: Joining | None = None,
         tangent: Mapping[str, FloatArray] | None = None,
     ) -> None:
@@ -67,7 +67,7 @@ class Motion:
         ):  # fmt: skip
             raise DefinitionError("Motion(...) is made by a design: machine.sweep(...) or machine.at(...).")
         one_word("unreachable", unreachable, ("raise", "nan"))
-        self._grid = Grid(plan, designs, strokes, own=own, joining=joining)
+        self._grid = Grid(plan, designs, strokes, per_design=per_design, joining=joining)
         self.plan, self.unreachable = plan, unreachable
         self.shape, self._design_shape = self._grid.shape, self._grid.design_shape
         self._tangent = tangent
@@ -83,7 +83,7 @@ class Motion:
             self._settle_lost()
         self._places.flags.writeable = self.reached.flags.writeable = False
         if unreachable == "raise" and scan.is_watched(self):
-            scan.refuse_crossing(self)
+            scan.refuse_interrupted(self)
         if unreachable == "raise" and plan.followed and len(self.strokes) > 1:
             self._refuse_parted()
 
@@ -112,7 +112,7 @@ class Motion:
         return self._grid.stroke_shape
 
     def __repr__(self) -> str:
-        spans = [f"{name} = {reach.span_read(values, reach.stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
+        spans = [f"{name} = {reach.span_text(values, reach.stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
         poses = f"{', '.join(spans) or 'no stroke'}; shape {self.shape}"
         reached = "all reached" if self.reached.all() else f"{int(self.reached.sum())} of {self.reached.size} reached"
         return f"<Motion of {self.plan.title}: {poses}, {reached}{scan.between_words(self.interruptions)}>"
@@ -195,7 +195,7 @@ class Motion:
     def _settle_lost(self) -> None:
         """Refuse or mask the poses of which rounding leaves nothing, as where two points that another hangs from come together."""
         words = f"The places of {self.plan.title}"
-        lost = self._refused_near(Everywhere(self.plan.moving), words, lambda found, mask: conditions.lost(found, mask, self.strokes))
+        lost = self._refused_near(Places(self.plan.moving), words, lambda found, mask: conditions.lost_places(found, mask, self.strokes))
         if lost.any():
             self._places = np.where(lost, np.nan, self._places)
             self.reached &= ~lost
@@ -229,10 +229,10 @@ class Motion:
         except (TypeError, ValueError, OverflowError):
             said = "numbers or arrays that fit each other are expected"
             raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): {said}.") from None
-        own = self._grid.own and arrays[0].shape[: len(self._design_shape)] == self._design_shape
-        joining = in_order if self._grid.is_special else None
+        own = self._grid.per_design and arrays[0].shape[: len(self._design_shape)] == self._design_shape
+        joining = joined_in_order if self._grid.is_special else None
         with unwarned():
-            return type(self)(self.plan, self.designs, dict(zip(self.strokes, arrays, strict=True)), "nan", own=own, joining=joining)
+            return type(self)(self.plan, self.designs, dict(zip(self.strokes, arrays, strict=True)), "nan", per_design=own, joining=joining)
 
     # -- what is read off ---------------------------------------------------------------------------------
 
@@ -292,10 +292,10 @@ class Motion:
         return np.asarray(self._point(point)[1])
 
     def _point(self, name: Target) -> FloatArray:
-        return self._place(named("Point", name, self.plan.points, self.plan.title))
+        return self._place(checked_name("Point", name, self.plan.points, self.plan.title))
 
     def _known(self, target: Target) -> Member:
-        return self.plan.members[named("Name", target, self.plan.members, self.plan.title)]
+        return self.plan.members[checked_name("Name", target, self.plan.members, self.plan.title)]
 
     def angle(self, P: Target, Q: Target) -> FloatArray:
         """Return the direction of P -> Q [rad], without jumps along the stroke."""
@@ -316,7 +316,7 @@ class Motion:
         force on the way from link to link that moves the second one. DefinitionError for a point that is no such joint.
         Sources: H. Alt, Werkstattstechnik 26 (1932); S. S. Balli, S. Chand, Mech. Mach. Theory 37 (2002) 175-195.
         """
-        name = named("Point", point, self.plan.points, self.plan.title)
+        name = checked_name("Point", point, self.plan.points, self.plan.title)
         directions = self._meeting(name)
         if not directions:
             raise reach.no_joint(self.plan, name, self._joints)
@@ -338,7 +338,7 @@ class Motion:
         if not isinstance(target, Quantity) or target.name:
             return self._known(target)
         for name in needs(target):
-            named("Name", name, self.plan.members, self.plan.title)
+            checked_name("Name", name, self.plan.members, self.plan.title)
         return target
 
     @property
@@ -451,7 +451,7 @@ class Motion:
         `error` makes what is raised of how the refused poses are judged and of their mask.
         """
         refused, doubtful = np.zeros(self.shape, bool), np.zeros(self.shape, bool)
-        near = near_of(self._grid, what) & self.reached
+        near = near_singular(self._grid, what) & self.reached
         if not near.any():
             return refused
         found = examined(self.plan, what, self._grid.inputs_at(near), self._grid.read_at(near))
@@ -497,7 +497,7 @@ class Motion:
         """Raise the error of poses where a law is another than the one traced, or changes to another with a dimension."""
         if np.any(good & ~np.all(assumed > 0.0, axis=0)):
             what.refuse(self)
-            raise astray(self.plan, what)
+            raise other_law_error(self.plan, what)
         for words, values in switches:
             if np.any(good & (values > 0.0)):
                 raise DefinitionError(
@@ -532,7 +532,9 @@ class Motion:
         return np.where(self.reached, np.zeros((*parts, *self.shape)), np.nan)
 
 
-def paired(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], like: Motion | None = None, at: Any = slice(None)) -> Motion:
+def each_at_its_stroke(
+    plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], like: Motion | None = None, at: Any = slice(None)
+) -> Motion:
     """Return the poses of m designs, each at a stroke of its own; a position has the shape (2, m), what is out of reach is NaN.
 
     `designs` and `strokes` are floats or arrays (m,) [SI]. There is no stroke along which angles could be followed: they lie
@@ -541,14 +543,14 @@ def paired(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], l
     size = np.broadcast_shapes((1,), *(np.shape(value) for value in (*designs.values(), *strokes.values())))
     of_each = {name: np.broadcast_to(np.asarray(value, float), size) for name, value in designs.items()}
     at_each = {name: np.broadcast_to(np.asarray(value, float), size) for name, value in strokes.items()}
-    joining = as_they_are if like is None else Beside(like._grid, at)
-    return Motion(plan, of_each, at_each, "nan", own=True, joining=joining)
+    joining = not_joined if like is None else JoinedTo(like._grid, at)
+    return Motion(plan, of_each, at_each, "nan", per_design=True, joining=joining)
 
 
 def out_of_reach(motion: Motion) -> AssemblyError:
     """Return the error for the poses of a motion that are not reached: out of reach, or behind a change point."""
     if motion._crossed.any():
-        return scan.group_crossing(motion, motion._crossed)
+        return scan.group_change_point_error(motion, motion._crossed)
     missing = ~motion.reached
     return reach.refusal(motion.plan, motion._grid.read_at(missing), missing, motion.strokes, scan.stop_words(motion))
 

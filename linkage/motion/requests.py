@@ -21,7 +21,7 @@ from ..steps import Arrow, Point
 from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Judged, Left, Rounding, judged
 from .grid import Angles, Grid, MotionLike, angles_of
 from .limits import Mask
-from .strokes import named, order_of
+from .strokes import checked_name, order_of
 
 SMALL = 1e-9
 """A result of no known size [SI] that is smaller counts as so large where its relative error is told."""
@@ -64,7 +64,7 @@ class BoundRequest(ABC):
         """How often it is differentiated."""
         return 0
 
-    def steep(self, plan: Plan) -> set[str]:
+    def differentiated(self, plan: Plan) -> set[str]:
         """Return the members at whose singular poses it is refused: those it is differentiated through."""
         return self.names(plan) if self.order else set()
 
@@ -73,7 +73,7 @@ class BoundRequest(ABC):
         """Whether results that are not nodes go through it, so that what its loops lose counts even where it happens to be exact itself."""
         return False
 
-    def note(self, reading: ArrayReading) -> None:  # noqa: B027
+    def read_own(self, reading: ArrayReading) -> None:  # noqa: B027
         """Work out in an eager reading what is its own, so that its directions are noted; of most there is nothing."""
 
     @property
@@ -91,7 +91,7 @@ class BoundRequest(ABC):
         return False
 
     @property
-    def turns(self) -> bool:
+    def follows_angles(self) -> bool:
         """Whether it follows angles, which are continued along the stroke."""
         return False
 
@@ -114,7 +114,7 @@ def watched(plan: Plan, what: BoundRequest) -> list[Node]:
     return plan.trace.watched(what.names(plan), what.regular)
 
 
-def near_of(grid: Grid, what: BoundRequest) -> Mask:
+def near_singular(grid: Grid, what: BoundRequest) -> Mask:
     """Return the mask of poses at which a request has to be looked at closely."""
     watch = grid.plan.made(("watch", what.key), lambda twin: Kernel(watched(twin, what)))
     if not watch.plan.outputs:
@@ -125,14 +125,14 @@ def near_of(grid: Grid, what: BoundRequest) -> Mask:
 
 def examined(plan: Plan, what: BoundRequest, inputs: Mapping[str, Any], reading: ArrayReading) -> Judged:
     """Return how far poses are from singular ones for a request: inputs as floats or (n,), and the eager reading there."""
-    what.note(reading)
+    what.read_own(reading)
     rounding = plan.made(("rounding", what.key), lambda twin: Rounding.of(twin, what.nodes(twin)))
     error = what.error(plan, rounding.at(inputs))
-    found = judged(plan, reading, what.steep(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
+    found = judged(plan, reading, what.differentiated(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
     return found.as_loops() if what.stands_for_others else found
 
 
-def astray(plan: Plan, what: BoundRequest) -> DefinitionError:
+def other_law_error(plan: Plan, what: BoundRequest) -> DefinitionError:
     """Return the error for poses where a law goes another way than the one that was traced."""
     laws = ", ".join(dict.fromkeys(what.notes(plan).assumed.values()))
     return DefinitionError(
@@ -165,7 +165,7 @@ class Ratio(Request):
         if isinstance(self.target, Quantity) and not self.target.name:
             plan.reaches(self.target)  # raises for a name in it that there is not
             return Value(self.target, along)
-        return Value(plan.members[named("Name", self.target, plan.named(), plan.title)], along)
+        return Value(plan.members[checked_name("Name", self.target, plan.named(), plan.title)], along)
 
 
 RequestLike: TypeAlias = str | Member | Request
@@ -217,7 +217,7 @@ class Value(BoundRequest):
             motion.value(self.member)
 
     @property
-    def turns(self) -> bool:
+    def follows_angles(self) -> bool:
         return isinstance(self.member, Quantity)
 
     @property
@@ -228,13 +228,13 @@ class Value(BoundRequest):
     def regular(self) -> float:
         return NEAR**2 if self.along or isinstance(self.member, Quantity) else PLACES
 
-    def note(self, reading: ArrayReading) -> None:
+    def read_own(self, reading: ArrayReading) -> None:
         if isinstance(self.member, Quantity):
             with np.errstate(all="ignore"):
                 reading.value(self.member)
 
     def error(self, plan: Plan, left: Left) -> FloatArray:
-        scale = natural(self.member, left.size)
+        scale = natural_size(self.member, left.size)
         if scale is None:
             return left.over(SMALL)
         for name in self.along:
@@ -246,7 +246,7 @@ class Value(BoundRequest):
         return f"the ratio of {what} by {self.along[0]}" if self.along else what
 
 
-def natural(member: Any, size: FloatArray) -> Any:
+def natural_size(member: Any, size: FloatArray) -> Any:
     """Return what a position, a length or an angle is compared with: the machine's size [m], or 1 rad; None for other quantities."""
     if isinstance(member, (Point, Arrow)) or member.measures == "length":
         return size
@@ -354,7 +354,7 @@ class Ratios(BoundRequest):
 
 @final
 @dataclass(frozen=True)
-class Everywhere(BoundRequest):
+class Places(BoundRequest):
     """The places of some points together: what a motion works out first."""
 
     points: tuple[str, ...]
@@ -419,7 +419,7 @@ def stroke_of(plan: Plan, name: str | None, keyword: str = "wrt") -> str:
         return next(iter(plan.strokes))
     if name is None:
         raise DefinitionError(f"{plan.title} has {len(plan.strokes)} strokes: say {keyword}= one of {', '.join(plan.strokes)}.")
-    return named("Stroke", name, plan.strokes, plan.title)
+    return checked_name("Stroke", name, plan.strokes, plan.title)
 
 
 def dimensions_of(plan: Plan, names: Any) -> list[tuple[str, int]]:
@@ -428,13 +428,13 @@ def dimensions_of(plan: Plan, names: Any) -> list[tuple[str, int]]:
         raise DefinitionError(f'{plan.title}: wrt="{names}": a list of dimensions is expected, wrt=["{names}"].')
     if not isinstance(names, Iterable) or isinstance(names, np.ndarray):
         raise DefinitionError(f"{plan.title}: wrt={cited(names)}: a list of dimensions is expected.")
-    names = [named("Dimension", name, (*plan.table.spellings, *plan.table.following, *plan.points), plan.title) for name in names]
+    names = [checked_name("Dimension", name, (*plan.table.spellings, *plan.table.following, *plan.points), plan.title) for name in names]
     for name in names:
         if f"{name}.x" in plan.table.spellings or f"{name}.y" in plan.table.spellings:
             raise DefinitionError(f'{plan.title}: wrt="{name}": a point has two coordinates; say "{name}.x" or "{name}.y".')
         if name in plan.table.following and name not in plan.table.spellings:
             raise DefinitionError(f"{plan.title}: {name} follows {plan.table.following[name]}; take the gradient by what it follows.")
-    return [plan.table.spellings[named("Dimension", name, plan.table.spellings, plan.title)] for name in names]
+    return [plan.table.spellings[checked_name("Dimension", name, plan.table.spellings, plan.title)] for name in names]
 
 
 # Derivatives by dimensions: reverse mode through the program, all dimensions at once.

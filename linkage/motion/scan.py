@@ -286,7 +286,7 @@ def between_words(found: Sequence[Interruption] | None) -> str:
     return "".join(f", interrupted: {each}" for each in found)
 
 
-def group_crossing(motion: MotionLike, crossed: Any) -> SingularError:
+def group_change_point_error(motion: MotionLike, crossed: Any) -> SingularError:
     """Return the error for poses that a group's pins reach only through a change point."""
     numbers = np.unique(motion._grid.full(motion._grid.solved.crossed[None].astype(float))[0][crossed])
     named = list(motion.plan.groups.items())
@@ -311,7 +311,7 @@ def stop_words(motion: MotionLike) -> str:
     return f" It goes {', and '.join(spans)}."
 
 
-def refuse_crossing(motion: MotionLike) -> None:
+def refuse_interrupted(motion: MotionLike) -> None:
     """Raise the error of what interrupts a sweep between its poses: a stretch out of reach, or a change point.
 
     A loop that a declared side keeps on one branch would turn back at a change point, which no machine does.
@@ -322,10 +322,10 @@ def refuse_crossing(motion: MotionLike) -> None:
     (values,) = motion.strokes.values()
     start = float(np.ravel(values)[0])
     first = min(found, key=lambda each: min(abs(each.low - start), abs(each.high - start)))
-    raise gap(motion, first, found) if first.is_gap else crossing(motion, first)
+    raise gap_error(motion, first, found) if first.is_gap else change_point_error(motion, first)
 
 
-def gap(motion: MotionLike, first: Interruption, found: Sequence[Interruption]) -> AssemblyError:
+def gap_error(motion: MotionLike, first: Interruption, found: Sequence[Interruption]) -> AssemblyError:
     """Return the error for a stretch between the poses of a sweep that cannot be assembled."""
     ((name, values),) = motion.strokes.items()
     plan, unit = motion.plan, stroke_unit(motion.plan, name)
@@ -342,7 +342,7 @@ def gap(motion: MotionLike, first: Interruption, found: Sequence[Interruption]) 
     )  # fmt: skip
 
 
-def crossing(motion: MotionLike, found: Interruption) -> SingularError:
+def change_point_error(motion: MotionLike, found: Interruption) -> SingularError:
     """Return the error that names a change point, or where guides are parallel."""
     loop, name, value = found.step, found.stroke, found.deepest
     unit = stroke_unit(motion.plan, name)

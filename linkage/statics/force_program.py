@@ -18,8 +18,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..motion import Motion
-from ..motion.evaluation import cut as cut_out
-from ..motion.evaluation import pieces
+from ..motion.evaluation import part_of_input, pieces
 from ..motion.limits import Mask
 from ..plan import Plan
 from ..program import FloatArray, Kernel, Level, Node, Tangent
@@ -215,7 +214,7 @@ def frictions(
     q, locked = np.zeros((len(rubbing), poses.count)), np.zeros(poses.count, bool)
     places = poses.full(np.arange(poses.count, dtype=float)).reshape(motion._grid.size)
     for band, part in pieces(*motion._grid.size, PIECE):
-        inputs = {name: cut_out(value, band, part, name in poses.plan.table.entries) for name, value in given.items()}
+        inputs = {name: part_of_input(value, band, part, name in poses.plan.table.entries) for name, value in given.items()}
         here = places[band, part]
         good = np.isfinite(here)
         at = here[good].astype(int)

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import SingularError, SingularWarning, warn
 from ..loads import TwoPoint
-from ..motion.conditions import REFUSE, WARN, be, condition
+from ..motion.conditions import REFUSE, WARN, condition, is_or_are
 from ..motion.limits import where_words
 from ..program import FloatArray
 from .equilibrium import areas
@@ -43,7 +43,7 @@ def refused_where(poses: Poses, values: FloatArray, cond: FloatArray, what: str,
             where = where_words(motion.plan, mask, motion.strokes)
             worst = float(np.max(np.nan_to_num(cond[lost], nan=np.inf)))
             size = "infinite" if np.isinf(worst) else f"{worst:.1e}"
-            text = f"{what} {be(what)} refused {where}: {reason} (condition {size}, refused above {REFUSE:.0e})."
+            text = f"{what} {is_or_are(what)} refused {where}: {reason} (condition {size}, refused above {REFUSE:.0e})."
             raise SingularError(text, mask=mask, motion=motion)
     near = (cond > WARN) & ~lost
     if near.any():
@@ -51,7 +51,7 @@ def refused_where(poses: Poses, values: FloatArray, cond: FloatArray, what: str,
         where = where_words(motion.plan, poses.full(near.astype(float)) == 1.0, motion.strokes)
         # one division by a difference that is lost: the error goes with the condition, not its square
         error = f"expect a relative error of about {np.finfo(float).eps * worst:.0e}"
-        text = f"{what} {be(what)} nearly refused {where}, for close by {reason} (condition {worst:.1e}); {error}."
+        text = f"{what} {is_or_are(what)} nearly refused {where}, for close by {reason} (condition {worst:.1e}); {error}."
         warn(SingularWarning(text))
     return np.where(lost, np.nan, values)
 

@@ -101,7 +101,7 @@ class ForceOf(BoundRequest):
         return True
 
     @property
-    def turns(self) -> bool:
+    def follows_angles(self) -> bool:
         return True
 
     def notes(self, plan: Plan) -> Notes:
@@ -134,7 +134,7 @@ class DriveForceOf(ForceOf):
     def names(self, plan: Plan) -> set[str]:
         return set(self.read)
 
-    def steep(self, plan: Plan) -> set[str]:
+    def differentiated(self, plan: Plan) -> set[str]:
         return set(self.carriers)
 
     def refuse(self, motion: MotionLike) -> None:

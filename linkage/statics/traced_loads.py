@@ -14,7 +14,7 @@ from ..errors import DefinitionError, unwarned
 from ..loads import Load, Push
 from ..motion import Motion
 from ..motion.requests import stroke_of
-from ..motion.strokes import named
+from ..motion.strokes import checked_name
 from ..plan import ArrayReading, Plan, Trace
 from ..program import FloatArray, Level, Node, Notes, Tangent, Traced, eliminated, node_of
 from ..quantities import Angle, Distance, Quantity, Reference
@@ -86,7 +86,7 @@ class TracedMotion:
 
     def _nodes(self, target: str | Quantity) -> tuple[Any, ...]:
         """Return the nodes of a point, a vector or a quantity; the members behind it are noted."""
-        member = self.plan.members[named("Name", target, self.plan.named(), self.plan.title)] if isinstance(target, str) else target
+        member = self.plan.members[checked_name("Name", target, self.plan.named(), self.plan.title)] if isinstance(target, str) else target
         self.read |= self.plan.reaches(member.name or member)
         if isinstance(member, (Point, Arrow)):
             place = self._reading.at(member) if isinstance(member, Point) else self._reading.vector(member)

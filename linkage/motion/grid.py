@@ -18,49 +18,11 @@ from ..program import QUICKEST, FloatArray, Kernel, Level, Node, Way, ancestors,
 from ..quantities import Member, Quantity
 from .limits import Mask
 
-# Angles made continuous along the stroke.
-
-def unwrapped(angle: FloatArray, strokes: list[FloatArray]) -> FloatArray:
-    """Return an angle [rad] without jumps of 2 pi along its last axes, one an independent stroke array axis.
-
-    Poses are joined in the order of the stroke, whatever the order they stand in; NaN is passed over.
-    """
-    axes = strokes[0].ndim if strokes else 0
-    result = np.array(angle, float)
-    for axis in range(axes):
-        result = _along(result, axis - axes, strokes)
-    return result
-
-
-def _along(angle: FloatArray, axis: int, strokes: list[FloatArray]) -> FloatArray:
-    moved = np.moveaxis(angle, axis, -1)
-    if moved.shape[-1] < 2:
-        return angle
-    order = slice(None)
-    if len(strokes) == 1 and strokes[0].ndim == 1:
-        sort = np.argsort(strokes[0], kind="stable")
-        moved = moved[..., sort]
-        order = np.argsort(sort, kind="stable")  # type: ignore[assignment]
-    return np.moveaxis(_joined(moved)[..., order], -1, axis)
-
-
-def _joined(angle: FloatArray) -> FloatArray:
-    """Return the angle continued from each finite value to the next."""
-    finite = np.isfinite(angle)
-    places = np.where(finite, np.arange(angle.shape[-1]), 0)
-    filled = np.take_along_axis(angle, np.maximum.accumulate(places, axis=-1), axis=-1)
-    filled = np.where(np.isfinite(filled), filled, np.take_along_axis(angle, np.argmax(finite, axis=-1)[..., None], axis=-1))
-    steps = np.diff(filled, axis=-1)
-    turns = np.cumsum(np.round(np.where(np.isfinite(steps), steps, 0.0) / (2 * np.pi)), axis=-1)
-    result = np.array(angle)
-    result[..., 1:] -= 2 * np.pi * turns
-    return result
-
 
 class Grid:
     """Designs times strokes. Arrays are component-first, designs before strokes.
 
-    `strokes` are arrays of one shape; with `own` this begins with that of the designs, each of which then has strokes of its own.
+    `strokes` are arrays of one shape; with `per_design` this begins with that of the designs, each of which then has strokes of its own.
     `joining` says how angles are made continuous.
     """
 
@@ -171,6 +133,43 @@ class Grid:
         return self._angles[kernel]
 
 
+def varies(value: Any) -> bool:
+    """Return whether a dimension differs from design to design."""
+    return type(value) is not float and np.ndim(value) > 0
+
+
+class MotionLike(Protocol):
+    """What limits, conditions and requests ask of a motion, which itself is made with them; see `Motion`."""
+
+    @property
+    def plan(self) -> Plan: ...
+    @property
+    def _grid(self) -> Grid: ...
+    @property
+    def shape(self) -> tuple[int, ...]: ...
+    @property
+    def _design_shape(self) -> tuple[int, ...]: ...
+    @property
+    def designs(self) -> Mapping[str, Any]: ...
+    @property
+    def strokes(self) -> Mapping[str, FloatArray]: ...
+    @property
+    def reached(self) -> Mask: ...
+    @property
+    def _reading(self) -> ArrayReading: ...
+    @property
+    def _joints(self) -> tuple[str, ...]: ...
+    @property
+    def _loop_sines(self) -> Mapping[str, Any]: ...
+    def __getitem__(self, name: str) -> FloatArray: ...
+    def moved(self, strokes: Mapping[str, Any]) -> Self: ...
+    def value(self, quantity: Quantity) -> FloatArray: ...
+    def transmission_angle(self, point: str) -> FloatArray: ...
+    def ratio(self, target: str | Member, *, wrt: str | None = None, order: int = 1) -> FloatArray: ...
+
+
+# How angles are made continuous over a grid.
+
 Joining: TypeAlias = Callable[[Grid, FloatArray, Kernel], FloatArray]
 """How angles (k, ...) [rad] that a kernel gives on a grid are made continuous."""
 
@@ -212,39 +211,37 @@ class JoinedTo:
         return found
 
 
-def varies(value: Any) -> bool:
-    """Return whether a dimension differs from design to design."""
-    return type(value) is not float and np.ndim(value) > 0
+def unwrapped(angle: FloatArray, strokes: list[FloatArray]) -> FloatArray:
+    """Return an angle [rad] without jumps of 2 pi along its last axes, one an independent stroke array axis.
+
+    Poses are joined in the order of the stroke, whatever the order they stand in; NaN is passed over.
+    """
+    axes = strokes[0].ndim if strokes else 0
+    result = np.array(angle, float)
+    for axis in range(axes):
+        result = _along(result, axis - axes, strokes)
+    return result
 
 
-class MotionLike(Protocol):
-    """What limits, conditions and requests ask of a motion, which itself is made with them; see `Motion`."""
+def _along(angle: FloatArray, axis: int, strokes: list[FloatArray]) -> FloatArray:
+    moved = np.moveaxis(angle, axis, -1)
+    if moved.shape[-1] < 2:
+        return angle
+    order = np.argsort(strokes[0], kind="stable") if len(strokes) == 1 and strokes[0].ndim == 1 else np.arange(moved.shape[-1])
+    return np.moveaxis(_joined(moved[..., order])[..., np.argsort(order, kind="stable")], -1, axis)
 
-    @property
-    def plan(self) -> Plan: ...
-    @property
-    def _grid(self) -> Grid: ...
-    @property
-    def shape(self) -> tuple[int, ...]: ...
-    @property
-    def _design_shape(self) -> tuple[int, ...]: ...
-    @property
-    def designs(self) -> Mapping[str, Any]: ...
-    @property
-    def strokes(self) -> Mapping[str, FloatArray]: ...
-    @property
-    def reached(self) -> Mask: ...
-    @property
-    def _reading(self) -> ArrayReading: ...
-    @property
-    def _joints(self) -> tuple[str, ...]: ...
-    @property
-    def _loop_sines(self) -> Mapping[str, Any]: ...
-    def __getitem__(self, name: str) -> FloatArray: ...
-    def moved(self, strokes: Mapping[str, Any]) -> Self: ...
-    def value(self, quantity: Quantity) -> FloatArray: ...
-    def transmission_angle(self, point: str) -> FloatArray: ...
-    def ratio(self, target: str | Member, *, wrt: str | None = None, order: int = 1) -> FloatArray: ...
+
+def _joined(angle: FloatArray) -> FloatArray:
+    """Return the angle continued from each finite value to the next."""
+    finite = np.isfinite(angle)
+    places = np.where(finite, np.arange(angle.shape[-1]), 0)
+    filled = np.take_along_axis(angle, np.maximum.accumulate(places, axis=-1), axis=-1)
+    filled = np.where(np.isfinite(filled), filled, np.take_along_axis(angle, np.argmax(finite, axis=-1)[..., None], axis=-1))
+    steps = np.diff(filled, axis=-1)
+    turns = np.cumsum(np.round(np.where(np.isfinite(steps), steps, 0.0) / (2 * np.pi)), axis=-1)
+    result = np.array(angle)
+    result[..., 1:] -= 2 * np.pi * turns
+    return result
 
 
 # What follows from directions: nodes worked out again where an angle is continued past half a turn along the stroke.

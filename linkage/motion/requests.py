@@ -23,8 +23,20 @@ from .grid import Angles, Grid, MotionLike, angles_of
 from .limits import Mask
 from .strokes import checked_name, order_of
 
-SMALL = 1e-9
-"""A result of no known size [SI] that is smaller counts as so large where its relative error is told."""
+
+class Request(ABC):
+    """Something to ask of a mechanism that is no member of it: a ratio, a thrust, a pin force."""
+
+    def identity(self, plan: Plan) -> Hashable:
+        """Return what tells it from others of the same plan as long as what it holds lives; None where what it holds may change."""
+        return None
+
+    @abstractmethod
+    def bound(self, plan: Plan) -> BoundRequest:
+        """Return the request bound to a plan; DefinitionError where there is no such thing."""
+
+
+RequestLike: TypeAlias = str | Member | Request
 
 
 class BoundRequest(ABC):
@@ -96,56 +108,66 @@ class BoundRequest(ABC):
         return False
 
 
-class Request(ABC):
-    """Something to ask of a mechanism that is no member of it: a ratio, a thrust, a pin force."""
-
-    def identity(self, plan: Plan) -> Hashable:
-        """Return what tells it from others of the same plan as long as what it holds lives; None where what it holds may change."""
-        return None
-
-    @abstractmethod
-    def bound(self, plan: Plan) -> BoundRequest:
-        """Return the request bound to a plan; DefinitionError where there is no such thing."""
+def bound(plan: Plan, request: RequestLike) -> BoundRequest:
+    """Return a request bound to a plan; DefinitionError where there is nothing of that name, or no saying by which stroke."""
+    return (request if isinstance(request, Request) else Ratio(request, order=0)).bound(plan)
 
 
-def watched(plan: Plan, what: BoundRequest) -> list[Node]:
-    """Return the nodes that are above zero where a request is far from every singular pose."""
-    what.nodes(plan)  # directions of its own are noted then
-    return plan.trace.watched(what.names(plan), what.regular)
+def all_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[BoundRequest, ...]:
+    """Return a list of requests bound to a plan; DefinitionError for a lone one, whose letters would be taken for names."""
+    if isinstance(requests, (str, Member, Request)):
+        raise DefinitionError(f"{plan.title}: {requests!r}: a list of what is asked for is expected, [{requests!r}].")
+    if not isinstance(requests, Iterable) or isinstance(requests, (Mapping, Set, np.ndarray)):
+        raise DefinitionError(f'{plan.title}: {cited(requests)}: a list of what is asked for is expected, such as ["G"].')
+    return tuple(bound(plan, request) for request in requests)
 
 
-def near_singular(grid: Grid, what: BoundRequest) -> Mask:
-    """Return the mask of poses at which a request has to be looked at closely."""
-    watch = grid.plan.made(("watch", what.key), lambda twin: Kernel(watched(twin, what)))
-    if not watch.plan.outputs:
-        return np.zeros(grid.shape, bool)
-    with np.errstate(invalid="ignore"):
-        return np.asarray(~np.all(grid.full(watch(grid.flat).values) > 0.0, axis=0))
+def identity_of(plan: Plan, request: RequestLike) -> Hashable:
+    """Return what tells something asked for from others; None for a quantity that only itself is, and for what may change."""
+    if type(request) is str:
+        return request
+    if isinstance(request, Request):
+        identity = request.identity(plan)
+        try:
+            hash(identity)
+        except TypeError:  # what was given is anything as yet, and refused where it is bound
+            return None
+        return identity
+    identity = request.identity if isinstance(request, Quantity) else request.name if isinstance(request, Member) else None
+    return None if identity is request else identity or None
 
 
-def examined(plan: Plan, what: BoundRequest, inputs: Mapping[str, Any], reading: ArrayReading) -> Judged:
-    """Return how far poses are from singular ones for a request: inputs as floats or (n,), and the eager reading there."""
-    what.read_own(reading)
-    rounding = plan.made(("rounding", what.key), lambda twin: Rounding.of(twin, what.nodes(twin)))
-    error = what.error(plan, rounding.at(inputs))
-    found = judged(plan, reading, what.differentiated(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
-    return found.as_loops() if what.stands_for_others else found
+def identities_of(plan: Plan, requests: Sequence[RequestLike]) -> Hashable:
+    """Return what tells a list of requests from others; None where one of them has no identity, or it is no list."""
+    found = tuple([identity_of(plan, each) for each in requests]) if type(requests) in (list, tuple) else (None,)
+    return None if None in found else found
 
 
-def other_law_error(plan: Plan, what: BoundRequest) -> DefinitionError:
-    """Return the error for poses where a law goes another way than the one that was traced."""
-    laws = ", ".join(dict.fromkeys(what.notes(plan).assumed.values()))
-    return DefinitionError(
-        f"{plan.title}: {what}: at some of these poses {f'the law of {laws}' if laws else 'a law'} goes another way than the one traced, "
-        "or has no finite value. Leave them out, choose by np.where in the law, or take finite differences of the forces."
-    )
+def stroke_of(plan: Plan, name: str | None, keyword: str = "wrt") -> str:
+    """Return the stroke that is meant; DefinitionError where there are several and none is named by the keyword."""
+    if name is None and len(plan.strokes) == 1:
+        return next(iter(plan.strokes))
+    if name is None:
+        raise DefinitionError(f"{plan.title} has {len(plan.strokes)} strokes: say {keyword}= one of {', '.join(plan.strokes)}.")
+    return checked_name("Stroke", name, plan.strokes, plan.title)
 
 
-WORST = 1e16
-"""The largest condition over 2 / 0.3 that is told."""
-MINOR = 1e-3
-"""Of the fastest point's ratio: what a slower one's error is compared with where both go into a force."""
+def dimensions_of(plan: Plan, names: Any) -> list[tuple[str, int]]:
+    """Return design variables by any of their spellings, with signs; DefinitionError for what is none of them."""
+    if isinstance(names, str):
+        raise DefinitionError(f'{plan.title}: wrt="{names}": a list of dimensions is expected, wrt=["{names}"].')
+    if not isinstance(names, Iterable) or isinstance(names, np.ndarray):
+        raise DefinitionError(f"{plan.title}: wrt={cited(names)}: a list of dimensions is expected.")
+    names = [checked_name("Dimension", name, (*plan.table.spellings, *plan.table.following, *plan.points), plan.title) for name in names]
+    for name in names:
+        if f"{name}.x" in plan.table.spellings or f"{name}.y" in plan.table.spellings:
+            raise DefinitionError(f'{plan.title}: wrt="{name}": a point has two coordinates; say "{name}.x" or "{name}.y".')
+        if name in plan.table.following and name not in plan.table.spellings:
+            raise DefinitionError(f"{plan.title}: {name} follows {plan.table.following[name]}; take the gradient by what it follows.")
+    return [plan.table.spellings[checked_name("Dimension", name, plan.table.spellings, plan.title)] for name in names]
 
+
+# Values, and ratios of any order.
 
 @final
 @dataclass(frozen=True)
@@ -168,15 +190,16 @@ class Ratio(Request):
         return Value(plan.members[checked_name("Name", self.target, plan.named(), plan.title)], along)
 
 
-RequestLike: TypeAlias = str | Member | Request
-
-
 def ratio(target: str | Member, wrt: str | None = None, order: int = 1) -> Ratio:
     """Return the request for the derivative of a point or a quantity by a stroke, in `evaluate` and `gradient`.
 
     `ratio("G")` is dG/dS, `ratio("G", order=2)` d2G/dS2; `wrt="S2"` where there are several strokes.
     """
     return Ratio(target, wrt, order_of(order))
+
+
+SMALL = 1e-9
+"""A result of no known size [SI] that is smaller counts as so large where its relative error is told."""
 
 
 @final
@@ -253,6 +276,12 @@ def natural_size(member: Any, size: FloatArray) -> Any:
     return np.ones_like(size) if member.measures == "angle" else None
 
 
+# Conditions: how near poses are to singular ones.
+
+WORST = 1e16
+"""The largest condition over 2 / 0.3 that is told."""
+
+
 @final
 @dataclass(frozen=True)
 class Condition(Request):
@@ -308,6 +337,12 @@ class ConditionOf(BoundRequest):
 
     def __str__(self) -> str:
         return f"the condition of {self.of}"
+
+
+# What forces go through, and what a motion works out first.
+
+MINOR = 1e-3
+"""Of the fastest point's ratio: what a slower one's error is compared with where both go into a force."""
 
 
 @final
@@ -378,76 +413,7 @@ class Places(BoundRequest):
         return "the places"
 
 
-def bound(plan: Plan, request: RequestLike) -> BoundRequest:
-    """Return a request bound to a plan; DefinitionError where there is nothing of that name, or no saying by which stroke."""
-    return (request if isinstance(request, Request) else Ratio(request, order=0)).bound(plan)
-
-
-def all_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[BoundRequest, ...]:
-    """Return a list of requests bound to a plan; DefinitionError for a lone one, whose letters would be taken for names."""
-    if isinstance(requests, (str, Member, Request)):
-        raise DefinitionError(f"{plan.title}: {requests!r}: a list of what is asked for is expected, [{requests!r}].")
-    if not isinstance(requests, Iterable) or isinstance(requests, (Mapping, Set, np.ndarray)):
-        raise DefinitionError(f'{plan.title}: {cited(requests)}: a list of what is asked for is expected, such as ["G"].')
-    return tuple(bound(plan, request) for request in requests)
-
-
-def identity_of(plan: Plan, request: RequestLike) -> Hashable:
-    """Return what tells something asked for from others; None for a quantity that only itself is, and for what may change."""
-    if type(request) is str:
-        return request
-    if isinstance(request, Request):
-        identity = request.identity(plan)
-        try:
-            hash(identity)
-        except TypeError:  # what was given is anything as yet, and refused where it is bound
-            return None
-        return identity
-    identity = request.identity if isinstance(request, Quantity) else request.name if isinstance(request, Member) else None
-    return None if identity is request else identity or None
-
-
-def identities_of(plan: Plan, requests: Sequence[RequestLike]) -> Hashable:
-    """Return what tells a list of requests from others; None where one of them has no identity, or it is no list."""
-    found = tuple([identity_of(plan, each) for each in requests]) if type(requests) in (list, tuple) else (None,)
-    return None if None in found else found
-
-
-def stroke_of(plan: Plan, name: str | None, keyword: str = "wrt") -> str:
-    """Return the stroke that is meant; DefinitionError where there are several and none is named by the keyword."""
-    if name is None and len(plan.strokes) == 1:
-        return next(iter(plan.strokes))
-    if name is None:
-        raise DefinitionError(f"{plan.title} has {len(plan.strokes)} strokes: say {keyword}= one of {', '.join(plan.strokes)}.")
-    return checked_name("Stroke", name, plan.strokes, plan.title)
-
-
-def dimensions_of(plan: Plan, names: Any) -> list[tuple[str, int]]:
-    """Return design variables by any of their spellings, with signs; DefinitionError for what is none of them."""
-    if isinstance(names, str):
-        raise DefinitionError(f'{plan.title}: wrt="{names}": a list of dimensions is expected, wrt=["{names}"].')
-    if not isinstance(names, Iterable) or isinstance(names, np.ndarray):
-        raise DefinitionError(f"{plan.title}: wrt={cited(names)}: a list of dimensions is expected.")
-    names = [checked_name("Dimension", name, (*plan.table.spellings, *plan.table.following, *plan.points), plan.title) for name in names]
-    for name in names:
-        if f"{name}.x" in plan.table.spellings or f"{name}.y" in plan.table.spellings:
-            raise DefinitionError(f'{plan.title}: wrt="{name}": a point has two coordinates; say "{name}.x" or "{name}.y".')
-        if name in plan.table.following and name not in plan.table.spellings:
-            raise DefinitionError(f"{plan.title}: {name} follows {plan.table.following[name]}; take the gradient by what it follows.")
-    return [plan.table.spellings[checked_name("Dimension", name, plan.table.spellings, plan.title)] for name in names]
-
-
 # Derivatives by dimensions: reverse mode through the program, all dimensions at once.
-
-@dataclass(frozen=True, eq=False)
-class Slopes:
-    """The kernel of a request's derivatives by some dimensions, then of what it assumes, then of its switches by those dimensions."""
-
-    kernel: Kernel
-    angles: Angles
-    assumed: int
-    touched: tuple[str, ...]
-
 
 @final
 @dataclass(frozen=True)
@@ -476,6 +442,16 @@ class Slope(BoundRequest):
         return f"the gradient of {self.what}"
 
 
+@dataclass(frozen=True, eq=False)
+class Slopes:
+    """The kernel of a request's derivatives by some dimensions, then of what it assumes, then of its switches by those dimensions."""
+
+    kernel: Kernel
+    angles: Angles
+    assumed: int
+    touched: tuple[str, ...]
+
+
 def slopes_of(plan: Plan, what: BoundRequest, names: Sequence[str]) -> Slopes:
     """Return the derivatives of a request by dimensions, as a kernel."""
     inputs = [plan.trace.inputs[name] for name in names]
@@ -488,3 +464,38 @@ def slopes_of(plan: Plan, what: BoundRequest, names: Sequence[str]) -> Slopes:
     ]
     kernel = Kernel([*shares, *notes.assumed, *(switch for switch, _ in touched)])
     return Slopes(kernel, angles_of(plan, shares), len(notes.assumed), tuple(words for _, words in touched))
+
+
+# Near singular poses.
+
+def watched(plan: Plan, what: BoundRequest) -> list[Node]:
+    """Return the nodes that are above zero where a request is far from every singular pose."""
+    what.nodes(plan)  # directions of its own are noted then
+    return plan.trace.watched(what.names(plan), what.regular)
+
+
+def near_singular(grid: Grid, what: BoundRequest) -> Mask:
+    """Return the mask of poses at which a request has to be looked at closely."""
+    watch = grid.plan.made(("watch", what.key), lambda twin: Kernel(watched(twin, what)))
+    if not watch.plan.outputs:
+        return np.zeros(grid.shape, bool)
+    with np.errstate(invalid="ignore"):
+        return np.asarray(~np.all(grid.full(watch(grid.flat).values) > 0.0, axis=0))
+
+
+def examined(plan: Plan, what: BoundRequest, inputs: Mapping[str, Any], reading: ArrayReading) -> Judged:
+    """Return how far poses are from singular ones for a request: inputs as floats or (n,), and the eager reading there."""
+    what.read_own(reading)
+    rounding = plan.made(("rounding", what.key), lambda twin: Rounding.of(twin, what.nodes(twin)))
+    error = what.error(plan, rounding.at(inputs))
+    found = judged(plan, reading, what.differentiated(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
+    return found.as_loops() if what.stands_for_others else found
+
+
+def other_law_error(plan: Plan, what: BoundRequest) -> DefinitionError:
+    """Return the error for poses where a law goes another way than the one that was traced."""
+    laws = ", ".join(dict.fromkeys(what.notes(plan).assumed.values()))
+    return DefinitionError(
+        f"{plan.title}: {what}: at some of these poses {f'the law of {laws}' if laws else 'a law'} goes another way than the one traced, "
+        "or has no finite value. Leave them out, choose by np.where in the law, or take finite differences of the forces."
+    )

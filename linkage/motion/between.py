@@ -155,10 +155,6 @@ class Between:
         )  # fmt: skip
         return motion, self.sense * values_of(self.f, motion)
 
-    def strokes(self, leg: Index, t: FloatArray) -> Mapping[str, FloatArray]:
-        """Return the strokes [SI] at places, shape as these."""
-        return self.route.strokes(leg, t)
-
 
 def nearest_reached(reached: Mask) -> Index:
     """Return for every sample (D, n) the nearest that is reached; itself where none is."""

@@ -23,81 +23,6 @@ from .peaks import last_holding
 
 SAMPLES = 1441
 
-Scan = Callable[[FloatArray], "Scanned"]
-"""A look at some stroke values: which are reached, and what fails."""
-
-
-def stroke_number(value: float, unit: str, digits: int = 9) -> str:
-    """Return a value of a stroke [m or rad] as it is read, without its unit; angles in degrees."""
-    return f"{value / factor(display_unit(UNITS[unit][1])):.{digits}g}"
-
-
-def stroke_text(value: float, unit: str, digits: int = 9) -> str:
-    """Return a value of a stroke [m or rad] as it is read: `0.25 m`, `90 deg`."""
-    return f"{stroke_number(value, unit, digits)} {display_unit(UNITS[unit][1])}"
-
-
-@refuses_changes
-@dataclass(frozen=True)
-class Scanned:
-    """What was seen at some stroke values: the mask of those reached."""
-
-    reached: Any
-    failing: Callable[[int], str]
-    """The step that fails at one of the values."""
-    stops: tuple[float, ...] = ()
-    """Ends that are known already: those of groups, found on the way."""
-
-
-@refuses_changes
-@dataclass(frozen=True)
-class Interval:
-    """A reachable range of a stroke, and the step that stops it at either end ("" where the scan ends first) [m or rad]."""
-
-    low: float
-    high: float
-    low_stop: str = ""
-    high_stop: str = ""
-
-    def __contains__(self, value: float) -> bool:
-        return self.low <= value <= self.high
-
-
-@refuses_changes
-@dataclass(frozen=True)
-class Extreme:
-    """The least transmission angle of a joint, folded to 0 ... pi/2 [rad], and the stroke where it stands."""
-
-    joint: str
-    angle: float
-    stroke: float
-
-
-@refuses_changes
-@dataclass(frozen=True)
-class Held:
-    """A stroke that is held, and where [m or rad, which its unit says]."""
-
-    stroke: str
-    value: float
-    unit: str
-
-    def __str__(self) -> str:
-        return f"{self.stroke} = {stroke_text(self.value, self.unit, 6)}"
-
-
-@refuses_changes
-@dataclass(frozen=True)
-class Open:
-    """The pins of groups that do not stand where they began after one turn, and after how many they do; 0 where not after six."""
-
-    pins: tuple[str, ...]
-    turns: int
-
-    def __str__(self) -> str:
-        end = f"the motion repeats after {self.turns} turns ({360 * self.turns} deg)" if self.turns else "nor after a few more"
-        return f"after one turn the pins {' '.join(self.pins)} do not stand where they began; {end}"
-
 
 @refuses_changes
 @dataclass(frozen=True)
@@ -153,6 +78,74 @@ class Limits(FrozenDict[str, StrokeLimits]):
 
     def __str__(self) -> str:
         return "\n".join(map(str, self.values()))
+
+
+@refuses_changes
+@dataclass(frozen=True)
+class Interval:
+    """A reachable range of a stroke, and the step that stops it at either end ("" where the scan ends first) [m or rad]."""
+
+    low: float
+    high: float
+    low_stop: str = ""
+    high_stop: str = ""
+
+    def __contains__(self, value: float) -> bool:
+        return self.low <= value <= self.high
+
+
+@refuses_changes
+@dataclass(frozen=True)
+class Extreme:
+    """The least transmission angle of a joint, folded to 0 ... pi/2 [rad], and the stroke where it stands."""
+
+    joint: str
+    angle: float
+    stroke: float
+
+
+@refuses_changes
+@dataclass(frozen=True)
+class Held:
+    """A stroke that is held, and where [m or rad, which its unit says]."""
+
+    stroke: str
+    value: float
+    unit: str
+
+    def __str__(self) -> str:
+        return f"{self.stroke} = {stroke_text(self.value, self.unit, 6)}"
+
+
+@refuses_changes
+@dataclass(frozen=True)
+class Open:
+    """The pins of groups that do not stand where they began after one turn, and after how many they do; 0 where not after six."""
+
+    pins: tuple[str, ...]
+    turns: int
+
+    def __str__(self) -> str:
+        end = f"the motion repeats after {self.turns} turns ({360 * self.turns} deg)" if self.turns else "nor after a few more"
+        return f"after one turn the pins {' '.join(self.pins)} do not stand where they began; {end}"
+
+
+# The search for the ends of what is reached.
+
+Scan = Callable[[FloatArray], "Scanned"]
+"""A look at some stroke values: which are reached, and what fails."""
+
+
+@refuses_changes
+@dataclass(frozen=True)
+class Scanned:
+    """What was seen at some stroke values: the mask of those reached."""
+
+    reached: Any
+    failing: Callable[[int], str]
+    """The step that fails at one of the values."""
+    stops: tuple[float, ...] = ()
+    """Ends that are known already: those of groups, found on the way."""
 
 
 def search(scan: Scan, low: float, high: float, gaps: Sequence[float] = ()) -> list[Interval]:
@@ -228,6 +221,8 @@ def si_span(values: Any, unit: str) -> str:
     return f"{low:.4f} {unit}" if low == high else f"{low:.4f} to {high:.4f} {unit}"
 
 
+# Strokes as they are read.
+
 def span_text(values: Any, unit: str) -> str:
     """Return the range of some stroke values as it is read: `0 to 0.25 m`, `90 deg`."""
     if not np.size(values):
@@ -241,6 +236,16 @@ def place_text(value: Any, unit: str) -> str:
     digits, shown = 2 if unit == "rad" else 4, display_unit(UNITS[unit][1])
     ends = dict.fromkeys(f"{float(each) / factor(shown) + 0.0:.{digits}f}" for each in (np.min(value), np.max(value)))
     return f"{' to '.join(ends)} {shown}"
+
+
+def stroke_text(value: float, unit: str, digits: int = 9) -> str:
+    """Return a value of a stroke [m or rad] as it is read: `0.25 m`, `90 deg`."""
+    return f"{stroke_number(value, unit, digits)} {display_unit(UNITS[unit][1])}"
+
+
+def stroke_number(value: float, unit: str, digits: int = 9) -> str:
+    """Return a value of a stroke [m or rad] as it is read, without its unit; angles in degrees."""
+    return f"{value / factor(display_unit(UNITS[unit][1])):.{digits}g}"
 
 
 def stroke_display_unit(plan: Plan, name: str, length: str = "m") -> str:

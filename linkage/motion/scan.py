@@ -36,6 +36,123 @@ from .limits import Limits as Limits
 from .peaks import SAMPLES, Index, Mask, bisected, highest, samples
 from .strokes import check_any
 
+KEPT = 64
+"""The designs of a plan whose clear stretches are kept."""
+Moved = Callable[[Mapping[str, Any]], MotionLike]
+"""The motion at other strokes, unreachable poses as NaN."""
+
+
+def limits(motion: MotionLike) -> Limits:
+    """Return the limits along every stroke of one design; other strokes are held at the motion's first values."""
+    if motion._design_shape:
+        title, shape = motion.plan.title, motion._design_shape
+        raise DefinitionError(f"{title}: limits are worked out for one design at a time; this motion has {shape}.")
+    check_any(motion.strokes, motion.plan)
+    held = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
+    return Limits({name: stroke_limits(motion, name, held) for name in motion.strokes})
+
+
+def stroke_limits(motion: MotionLike, name: str, held: Mapping[str, float]) -> StrokeLimits:
+    """Return the limits along one stroke, looked for one span beyond its declared range, a crank over a full turn."""
+    stroke = motion.plan.strokes[name]
+    unit = stroke_unit(motion.plan, name)
+    start, end = min(stroke.start, stroke.end), max(stroke.start, stroke.end)
+    span = end - start
+    turn = max(0.0, np.pi - 0.5 * span)
+    low, high = (start - span, end + span) if unit == "m" else (start - turn, end + turn)
+    between = Course(motion.plan, motion._grid.flat, name, held).interruptions(low, high)
+    found = search(scanner(motion.moved, name, held), low, high, [each.deepest for each in between if each.is_gap])
+    crossings = tuple((each.deepest, called(motion.plan, each.step)) for each in between if not each.is_gap)
+    others = tuple(Held(each, value, stroke_unit(motion.plan, each)) for each, value in held.items() if each != name)
+    least = transmission(motion, name, held, found)
+    turns = open_turn(motion, name, held, found) if unit == "rad" else None
+    still = dead_points(motion, name, held, [(each.low, each.high) for each in found])
+    return StrokeLimits(name, unit, stroke.start, stroke.end, tuple(found), crossings, least, others, turns, tuple(still))
+
+
+def scanner(moved: Moved, name: str, held: Mapping[str, float]) -> Callable[[FloatArray], Scanned]:
+    """Return a look at values of one stroke."""
+
+    def scan(at: FloatArray) -> Scanned:
+        motion = moved({**held, name: at})
+        return Scanned(motion.reached, lambda place: failing(moved({**held, name: at[place : place + 1]})), motion._grid.solved.stops)
+
+    return scan
+
+
+def failing(motion: MotionLike) -> str:
+    """Return what cannot be placed first at a motion's pose, by its name."""
+    return next((called(motion.plan, name) for name, mask in failures(motion.plan, motion._reading, motion.shape) if mask.any()), "")
+
+
+# The least transmission angles along a stroke: of every dyad whose angle changes with it.
+
+UNCHANGED = 1e-9
+"""A transmission angle that changes by less [rad] does not follow the stroke."""
+
+
+def transmission(motion: MotionLike, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> tuple[Extreme, ...]:
+    """Return the least transmission angle of every dyad that moves with a stroke, over its declared and reachable part."""
+    ends = sorted((motion.plan.strokes[name].start, motion.plan.strokes[name].end))
+    parts = np.array([(max(each.low, ends[0]), min(each.high, ends[1])) for each in found if each.low < ends[1] and each.high > ends[0]])
+    if not parts.size:
+        return ()
+    low, high, long = parts[:, 0], parts[:, 1], np.ptp(parts, axis=1)
+    counts = [max(int(np.ceil(SAMPLES * each)), 2) for each in long / (ends[1] - ends[0])]
+
+    def stroke(leg: Index, t: FloatArray) -> FloatArray:
+        return np.where(t == 1.0, high[leg], low[leg] + long[leg] * t)
+
+    def look(leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
+        wide = motion.moved({**held, name: stroke(leg, t).ravel()})
+        return -np.array([[folded(wide, joint)] for joint in moving]), wide.reached[None]
+
+    wide = motion.moved({**held, name: stroke(*samples(counts))})
+    moving = [joint for joint in wide._joints if changes(wide.transmission_angle(joint))]
+    if not moving:
+        return ()
+    least = highest(look, counts)
+    strokes = stroke(least.leg, least.t)
+    return tuple(Extreme(joint, -float(least.value[row, 0]), float(strokes[row, 0])) for row, joint in enumerate(moving))
+
+
+def changes(angle: FloatArray) -> bool:
+    """Return whether an angle [rad] changes along a motion."""
+    return bool(np.nanmax(angle) - np.nanmin(angle) > UNCHANGED)
+
+
+def folded(motion: MotionLike, joint: str) -> FloatArray:
+    """Return a joint's transmission angle folded to 0 ... pi/2 [rad]; NaN where it is not reached."""
+    angle = motion.transmission_angle(joint)
+    return np.minimum(angle, np.pi - angle)
+
+
+# How many turns a crank makes until the pins of a group stand where they began.
+#
+# A dyad returns with its parents, because its side holds. A group of class III has up to six poses for one pose of its
+# drive, and a full turn may lead from one to another. Source: T. R. Chase, J. A. Mirth, Circuits and branches of
+# single-degree-of-freedom planar linkages, J. Mech. Design 115 (1993) 223-230.
+
+TURN = 2.0 * np.pi
+MOST = 6
+CLOSED = 1e-6
+"""Pins that are so near to where they began, compared with the linkage, have returned."""
+
+
+def open_turn(motion: MotionLike, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> Open | None:
+    """Return the pins that do not return after one turn of a stroke [rad], and how many turns they take; None where all do."""
+    pins = [pin for group in motion.plan.groups.values() for pin in group.pins if name in motion.plan.reaches(pin)]
+    whole = next((each for each in found if each.high - each.low > TURN * (1.0 - 1e-9)), None)
+    if not pins or whole is None:
+        return None
+    turned = motion.moved({**held, name: whole.low + TURN * np.arange(MOST + 1)})
+    every = np.array([turned[point][:, 0] for point in motion.plan.points])
+    gaps = {pin: np.hypot(*(turned[pin] - turned[pin][:, :1])) / np.ptp(every, axis=0).max() for pin in pins}
+    away = tuple(pin for pin, gap in gaps.items() if gap[1] > CLOSED)
+    back = np.all([gaps[pin] <= CLOSED for pin in pins], axis=0)
+    return Open(away, int(np.argmax(back[1:])) + 1 if back[1:].any() else 0) if away else None
+
+
 # Where a cylinder's length stands still against a stroke: its dead points, at which its thrust moves nothing.
 
 NEAR = 1e-8
@@ -136,123 +253,7 @@ def passes(rate: Callable[[FloatArray], FloatArray], root: float, near: float, s
     return bool(before > 0.0 > behind and abs(here) < 0.5 * min(before, -behind))
 
 
-# The least transmission angles along a stroke: of every dyad whose angle changes with it.
-
-UNCHANGED = 1e-9
-"""A transmission angle that changes by less [rad] does not follow the stroke."""
-
-
-def transmission(motion: MotionLike, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> tuple[Extreme, ...]:
-    """Return the least transmission angle of every dyad that moves with a stroke, over its declared and reachable part."""
-    ends = sorted((motion.plan.strokes[name].start, motion.plan.strokes[name].end))
-    parts = np.array([(max(each.low, ends[0]), min(each.high, ends[1])) for each in found if each.low < ends[1] and each.high > ends[0]])
-    if not parts.size:
-        return ()
-    low, high, long = parts[:, 0], parts[:, 1], np.ptp(parts, axis=1)
-    counts = [max(int(np.ceil(SAMPLES * each)), 2) for each in long / (ends[1] - ends[0])]
-
-    def stroke(leg: Index, t: FloatArray) -> FloatArray:
-        return np.where(t == 1.0, high[leg], low[leg] + long[leg] * t)
-
-    def look(leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
-        wide = motion.moved({**held, name: stroke(leg, t).ravel()})
-        return -np.array([[folded(wide, joint)] for joint in moving]), wide.reached[None]
-
-    wide = motion.moved({**held, name: stroke(*samples(counts))})
-    moving = [joint for joint in wide._joints if changes(wide.transmission_angle(joint))]
-    if not moving:
-        return ()
-    least = highest(look, counts)
-    strokes = stroke(least.leg, least.t)
-    return tuple(Extreme(joint, -float(least.value[row, 0]), float(strokes[row, 0])) for row, joint in enumerate(moving))
-
-
-def changes(angle: FloatArray) -> bool:
-    """Return whether an angle [rad] changes along a motion."""
-    return bool(np.nanmax(angle) - np.nanmin(angle) > UNCHANGED)
-
-
-def folded(motion: MotionLike, joint: str) -> FloatArray:
-    """Return a joint's transmission angle folded to 0 ... pi/2 [rad]; NaN where it is not reached."""
-    angle = motion.transmission_angle(joint)
-    return np.minimum(angle, np.pi - angle)
-
-
-# How many turns a crank makes until the pins of a group stand where they began.
-#
-# A dyad returns with its parents, because its side holds. A group of class III has up to six poses for one pose of its
-# drive, and a full turn may lead from one to another. Source: T. R. Chase, J. A. Mirth, Circuits and branches of
-# single-degree-of-freedom planar linkages, J. Mech. Design 115 (1993) 223-230.
-
-TURN = 2.0 * np.pi
-MOST = 6
-CLOSED = 1e-6
-"""Pins that are so near to where they began, compared with the linkage, have returned."""
-
-
-def open_turn(motion: MotionLike, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> Open | None:
-    """Return the pins that do not return after one turn of a stroke [rad], and how many turns they take; None where all do."""
-    pins = [pin for group in motion.plan.groups.values() for pin in group.pins if name in motion.plan.reaches(pin)]
-    whole = next((each for each in found if each.high - each.low > TURN * (1.0 - 1e-9)), None)
-    if not pins or whole is None:
-        return None
-    turned = motion.moved({**held, name: whole.low + TURN * np.arange(MOST + 1)})
-    every = np.array([turned[point][:, 0] for point in motion.plan.points])
-    gaps = {pin: np.hypot(*(turned[pin] - turned[pin][:, :1])) / np.ptp(every, axis=0).max() for pin in pins}
-    away = tuple(pin for pin, gap in gaps.items() if gap[1] > CLOSED)
-    back = np.all([gaps[pin] <= CLOSED for pin in pins], axis=0)
-    return Open(away, int(np.argmax(back[1:])) + 1 if back[1:].any() else 0) if away else None
-
-
-KEPT = 64
-"""The designs of a plan whose clear stretches are kept."""
-
-Moved = Callable[[Mapping[str, Any]], MotionLike]
-"""The motion at other strokes, unreachable poses as NaN."""
-
-
-def limits(motion: MotionLike) -> Limits:
-    """Return the limits along every stroke of one design; other strokes are held at the motion's first values."""
-    if motion._design_shape:
-        title, shape = motion.plan.title, motion._design_shape
-        raise DefinitionError(f"{title}: limits are worked out for one design at a time; this motion has {shape}.")
-    check_any(motion.strokes, motion.plan)
-    held = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
-    return Limits({name: stroke_limits(motion, name, held) for name in motion.strokes})
-
-
-def stroke_limits(motion: MotionLike, name: str, held: Mapping[str, float]) -> StrokeLimits:
-    """Return the limits along one stroke, looked for one span beyond its declared range, a crank over a full turn."""
-    stroke = motion.plan.strokes[name]
-    unit = stroke_unit(motion.plan, name)
-    start, end = min(stroke.start, stroke.end), max(stroke.start, stroke.end)
-    span = end - start
-    turn = max(0.0, np.pi - 0.5 * span)
-    low, high = (start - span, end + span) if unit == "m" else (start - turn, end + turn)
-    between = Course(motion.plan, motion._grid.flat, name, held).interruptions(low, high)
-    found = search(scanner(motion.moved, name, held), low, high, [each.deepest for each in between if each.is_gap])
-    crossings = tuple((each.deepest, called(motion.plan, each.step)) for each in between if not each.is_gap)
-    others = tuple(Held(each, value, stroke_unit(motion.plan, each)) for each, value in held.items() if each != name)
-    least = transmission(motion, name, held, found)
-    turns = open_turn(motion, name, held, found) if unit == "rad" else None
-    still = dead_points(motion, name, held, [(each.low, each.high) for each in found])
-    return StrokeLimits(name, unit, stroke.start, stroke.end, tuple(found), crossings, least, others, turns, tuple(still))
-
-
-def scanner(moved: Moved, name: str, held: Mapping[str, float]) -> Callable[[FloatArray], Scanned]:
-    """Return a look at values of one stroke."""
-
-    def scan(at: FloatArray) -> Scanned:
-        motion = moved({**held, name: at})
-        return Scanned(motion.reached, lambda place: failing(moved({**held, name: at[place : place + 1]})), motion._grid.solved.stops)
-
-    return scan
-
-
-def failing(motion: MotionLike) -> str:
-    """Return what cannot be placed first at a motion's pose, by its name."""
-    return next((called(motion.plan, name) for name, mask in failures(motion.plan, motion._reading, motion.shape) if mask.any()), "")
-
+# What lies between the poses of a sweep, and what is said of it.
 
 def is_watched(motion: MotionLike) -> bool:
     """Return whether it is looked at between the poses: of one design along one stroke, from two poses on."""
@@ -284,19 +285,6 @@ def between_words(found: Sequence[Interruption] | None) -> str:
     if found is None:
         return ", not looked at between the poses"
     return "".join(f", interrupted: {each}" for each in found)
-
-
-def group_change_point_error(motion: MotionLike, crossed: Any) -> SingularError:
-    """Return the error for poses that a group's pins reach only through a change point."""
-    numbers = np.unique(motion._grid.full(motion._grid.solved.crossed[None].astype(float))[0][crossed])
-    named = list(motion.plan.groups.items())
-    groups = ", ".join(f"{name} = {group}" for name, group in (named[int(number) - 1] for number in numbers))
-    where = where_words(motion.plan, crossed, motion.strokes)
-    return SingularError(
-        f"{motion.plan.title} passes a change point before the poses {where}: the branches of {groups} cross on the way from the sketch. "
-        'Stop before it, start from a sketch on the other side, or ask with unreachable="nan".',
-        point=named[int(numbers[0]) - 1][0], mask=crossed, motion=motion,
-    )  # fmt: skip
 
 
 def stop_words(motion: MotionLike) -> str:
@@ -362,4 +350,17 @@ def change_point_error(motion: MotionLike, found: Interruption) -> SingularError
         f"{motion.plan.title} passes {what}: {why}. Stop the sweep before it, take the poses on each side "
         'in sweeps of their own, or ask with unreachable="nan".',
         point=loop, mask=np.asarray(motion.strokes[name] >= value), motion=motion,
+    )  # fmt: skip
+
+
+def group_change_point_error(motion: MotionLike, crossed: Any) -> SingularError:
+    """Return the error for poses that a group's pins reach only through a change point."""
+    numbers = np.unique(motion._grid.full(motion._grid.solved.crossed[None].astype(float))[0][crossed])
+    named = list(motion.plan.groups.items())
+    groups = ", ".join(f"{name} = {group}" for name, group in (named[int(number) - 1] for number in numbers))
+    where = where_words(motion.plan, crossed, motion.strokes)
+    return SingularError(
+        f"{motion.plan.title} passes a change point before the poses {where}: the branches of {groups} cross on the way from the sketch. "
+        'Stop before it, start from a sketch on the other side, or ask with unreachable="nan".',
+        point=named[int(numbers[0]) - 1][0], mask=crossed, motion=motion,
     )  # fmt: skip

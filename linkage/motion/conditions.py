@@ -18,7 +18,6 @@ import numpy as np
 from ..errors import SingularError, SingularWarning, warn
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Iterated, Node, scatter
-from ..quantities import Member
 from ..steps import Point
 from .grid import MotionLike
 from .limits import Mask, called, opening, where_words
@@ -178,12 +177,9 @@ def conditions(plan: Plan, reading: ArrayReading, names: set[str]) -> dict[str, 
 
 def loops(plan: Plan, reading: ArrayReading) -> dict[str, Any]:
     """Return the sines of the loops that move; a triangle rigid in itself is none."""
-    return {name: sine for name, sine in reading.sines.items() if plan.moves(member := plan.members[name]) and closes_loop(member)}
-
-
-def closes_loop(member: Member) -> bool:
-    """Return whether a member closes a loop."""
-    return member.closes if isinstance(member, Point) else True
+    members = {name: plan.members[name] for name in reading.sines}
+    closing = [name for name, member in members.items() if not isinstance(member, Point) or member.closes]
+    return {name: reading.sines[name] for name in closing if plan.moves(members[name])}
 
 
 def condition(sine: FloatArray) -> FloatArray:

@@ -8,7 +8,7 @@ else divided by eight, down to 1e-9 of the way.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -93,16 +93,7 @@ class Course:
     def __init__(self, plan: Plan, designs: Mapping[str, Any], name: str, held: Mapping[str, float]) -> None:
         self.plan, self.designs, self.name, self.held = plan, designs, name, held
         self.clearances = plan.made("clearances", Clearances.of)
-
-    @property
-    def unit(self) -> str:
-        """The stroke's unit."""
-        return stroke_unit(self.plan, self.name)
-
-    @property
-    def loops(self) -> tuple[Loop, ...]:
-        """The loops that are watched."""
-        return self.clearances.loops
+        self.loops, self.unit = self.clearances.loops, stroke_unit(plan, name)
 
     def inputs(self, x: FloatArray) -> dict[str, Any]:
         """Return the inputs of the program at values of the stroke."""
@@ -194,7 +185,7 @@ class Course:
 
 
 def divided(
-    look: Any, x: FloatArray, seen: FloatArray, bends: FloatArray, noise: FloatArray, wanted: Any
+    look: Callable[[FloatArray], FloatArray], x: FloatArray, seen: FloatArray, bends: FloatArray, noise: FloatArray, rows: Mask
 ) -> tuple[FloatArray, FloatArray]:
     """Return all values looked at, in order, and what was seen there, shape (loops, n): intervals divided where a loop may reach zero."""
     wide = np.pad(np.where(np.isfinite(bends), bends, 0.0), ((0, 0), (2, 2)), mode="edge")
@@ -204,7 +195,7 @@ def divided(
     least = DEPTH * float(x[-1] - x[0])
     while left.size:
         lower = np.minimum(first, last)
-        low = (lower <= BENDS * bend + noise) & (np.maximum(first, last) >= -noise) & wanted[:, None]
+        low = (lower <= BENDS * bend + noise) & (np.maximum(first, last) >= -noise) & rows[:, None]
         pick = np.flatnonzero(low.any(axis=0) & (right - left > least))[:MOST]
         if not pick.size:
             break

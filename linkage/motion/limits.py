@@ -141,7 +141,7 @@ Scan = Callable[[FloatArray], "Scanned"]
 class Scanned:
     """What was seen at some stroke values: the mask of those reached."""
 
-    reached: Any
+    reached: Mask
     failing: Callable[[int], str]
     """The step that fails at one of the values."""
     stops: tuple[float, ...] = ()
@@ -158,7 +158,7 @@ def search(scan: Scan, low: float, high: float, gaps: Sequence[float] = ()) -> l
     return intervals(scan, at[order], reached[order])
 
 
-def intervals(scan: Scan, at: FloatArray, reached: Any) -> list[Interval]:
+def intervals(scan: Scan, at: FloatArray, reached: Mask) -> list[Interval]:
     """Return the reachable ranges among samples, their ends found by bisection."""
     found: list[Interval] = []
     edges = np.flatnonzero(np.diff(np.concatenate([[False], reached, [False]]).astype(int)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeAlias
 
@@ -71,8 +71,8 @@ class Motion:
         self.plan, self.unreachable = plan, unreachable
         self.shape, self._design_shape = self._grid.shape, self._grid.design_shape
         self._tangent = tangent
-        self._values: dict[Any, FloatArray] = {}
-        self._watched: dict[Any, bool] = {}
+        self._values: dict[Hashable, FloatArray] = {}
+        self._watched: dict[Hashable, bool] = {}
         self.reached: Mask = np.ones(self.shape, bool)
         result = plan.kernel(plan.moving, guarded=True)(self._grid.flat)
         self._places = self._grid.full(result.values)

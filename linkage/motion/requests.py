@@ -44,7 +44,7 @@ class BoundRequest(ABC):
 
     @property
     @abstractmethod
-    def key(self) -> Any:
+    def key(self) -> Hashable:
         """What tells this request from others of the same plan."""
 
     @abstractmethod
@@ -211,12 +211,12 @@ class Value(BoundRequest):
     along: tuple[str, ...]
 
     @property
-    def target(self) -> Any:
+    def target(self) -> str | Quantity:
         """The member by its name, or itself where it has none."""
-        return self.member.name or self.member
+        return self.member if isinstance(self.member, Quantity) and not self.member.name else self.member.name
 
     @property
-    def key(self) -> Any:
+    def key(self) -> Hashable:
         return self.member.identity if isinstance(self.member, Quantity) else self.target, self.along
 
     @property
@@ -269,11 +269,10 @@ class Value(BoundRequest):
         return f"the ratio of {what} by {self.along[0]}" if self.along else what
 
 
-def natural_size(member: Any, size: FloatArray) -> Any:
+def natural_size(member: Member, size: FloatArray) -> FloatArray | None:
     """Return what a position, a length or an angle is compared with: the machine's size [m], or 1 rad; None for other quantities."""
-    if isinstance(member, (Point, Arrow)) or member.measures == "length":
-        return size
-    return np.ones_like(size) if member.measures == "angle" else None
+    measures = member.measures if isinstance(member, Quantity) else "length"
+    return size if measures == "length" else np.ones_like(size) if measures == "angle" else None
 
 
 # Conditions: how near poses are to singular ones.
@@ -321,7 +320,7 @@ class ConditionOf(BoundRequest):
     of: str
 
     @property
-    def key(self) -> Any:
+    def key(self) -> Hashable:
         return "condition", self.value and self.value.key
 
     @property
@@ -353,7 +352,7 @@ class Ratios(BoundRequest):
     members: frozenset[str]
 
     @property
-    def key(self) -> Any:
+    def key(self) -> Hashable:
         return "ratios", self.members
 
     @property
@@ -395,7 +394,7 @@ class Places(BoundRequest):
     points: tuple[str, ...]
 
     @property
-    def key(self) -> Any:
+    def key(self) -> Hashable:
         return "places", self.points
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
@@ -424,7 +423,7 @@ class Slope(BoundRequest):
     by: tuple[str, ...]
 
     @property
-    def key(self) -> Any:
+    def key(self) -> Hashable:
         return "slope", self.what.key, self.by
 
     @property

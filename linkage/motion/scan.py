@@ -108,17 +108,13 @@ def transmission(motion: MotionLike, name: str, held: Mapping[str, float], found
         return -np.array([[folded(wide, joint)] for joint in moving]), wide.reached[None]
 
     wide = motion.moved({**held, name: stroke(*samples(counts))})
-    moving = [joint for joint in wide._joints if changes(wide.transmission_angle(joint))]
+    angles = {joint: wide.transmission_angle(joint) for joint in wide._joints}
+    moving = [joint for joint, angle in angles.items() if np.nanmax(angle) - np.nanmin(angle) > UNCHANGED]
     if not moving:
         return ()
     least = highest(look, counts)
     strokes = stroke(least.leg, least.t)
     return tuple(Extreme(joint, -float(least.value[row, 0]), float(strokes[row, 0])) for row, joint in enumerate(moving))
-
-
-def changes(angle: FloatArray) -> bool:
-    """Return whether an angle [rad] changes along a motion."""
-    return bool(np.nanmax(angle) - np.nanmin(angle) > UNCHANGED)
 
 
 def folded(motion: MotionLike, joint: str) -> FloatArray:
@@ -267,7 +263,7 @@ def interruptions(motion: MotionLike) -> tuple[Interruption, ...]:
     """
     ((name, values),) = motion.strokes.items()
     low, high = float(values.min()), float(values.max())
-    clear: dict[Any, tuple[float, float]] = motion.plan.made("clear", lambda _: {})
+    clear: dict[tuple[float, ...], tuple[float, float]] = motion.plan.made("clear", lambda _: {})
     key = tuple(map(float, motion.designs.values()))
     known = clear.get(key)
     if known is not None and known[0] <= low and high <= known[1]:
@@ -353,7 +349,7 @@ def change_point_error(motion: MotionLike, found: Interruption) -> SingularError
     )  # fmt: skip
 
 
-def group_change_point_error(motion: MotionLike, crossed: Any) -> SingularError:
+def group_change_point_error(motion: MotionLike, crossed: Mask) -> SingularError:
     """Return the error for poses that a group's pins reach only through a change point."""
     numbers = np.unique(motion._grid.full(motion._grid.solved.crossed[None].astype(float))[0][crossed])
     named = list(motion.plan.groups.items())

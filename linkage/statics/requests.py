@@ -123,7 +123,7 @@ class DriveForceOf(ForceOf):
     carriers: frozenset[str]
 
     @property
-    def key(self) -> Any:
+    def key(self) -> Hashable:
         return "drive force", self.drive, self.law
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
@@ -201,7 +201,7 @@ class PinForceOf(ForceOf):
     joint: str
 
     @property
-    def key(self) -> Any:
+    def key(self) -> Hashable:
         return "pin force", self.asked.point, self.asked.on, self.asked.component, self.law
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:

@@ -40,10 +40,6 @@ HEAVY = {"PIL", "imageio_ffmpeg", "matplotlib", "networkx", "numba", "pydantic",
 OPTIONAL = {"dask", "distributed", "ezdxf", "openpyxl", "pymoo"}  # extras: there may be nothing to import
 HEAVY_ROOMS = {f"linkage.{room}" for room in ("formulas", "study", "pictures", "reports", "files")}
 
-KNOWN_CIRCLES = [  # still there, each to be untied; a circle that is gone leaves this list, none joins it
-    ["linkage/motion/gradient.py", "linkage/motion/motion.py", "linkage/motion/requests.py", "linkage/motion/scan.py"],
-]
-
 
 def room(module: str) -> str:
     """Return the second name of a dotted module: `steps` of `linkage.steps.dyad`."""
@@ -186,8 +182,8 @@ def test_every_package_is_looked_at():
     assert {path.split("/")[0] for path in sources()} == set(MAY_IMPORT)
 
 
-def test_imports_go_in_no_circle_but_the_known_ones():
-    assert circles(sources()) == KNOWN_CIRCLES
+def test_imports_go_in_no_circle():
+    assert circles(sources()) == []
 
 
 @pytest.mark.parametrize(

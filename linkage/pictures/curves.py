@@ -15,7 +15,7 @@ from ..errors import DefinitionError, cited, unknown
 from ..motion import Column, Motion, columns_of
 from ..program import FloatArray
 from ..quantities import is_number
-from ..units import UNITS
+from ..units import factor
 from . import style
 from .sheet import panels, quiet
 from .strokes import StrokeAxis
@@ -74,7 +74,7 @@ class Limit(NamedTuple):
 
     def drawn(self, column: Column) -> float:
         """Return the value in the unit of a column."""
-        return self.value / (UNITS[column.unit][0] if column.unit else 1.0)
+        return self.value / factor(column.unit)
 
     def failing(self, values: FloatArray) -> FloatArray:
         """Return the mask of the values [SI] that fail."""

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -42,28 +42,7 @@ COLOURS: Mapping[str, str] = MappingProxyType(
 )
 WAYS: Mapping[str, str] = MappingProxyType({"moving up": "extending", "without friction": "frictionless", "moving down": "retracting"})
 CURVES: Mapping[str, str] = MappingProxyType({"F_R up": "moving up", "F_R down": "moving down"})
-SHOWN: Mapping[str, Callable[[], HeaderBalancer]] = MappingProxyType(
-    {
-        "2": lambda: with_header(1), "3": lambda: with_header(1), "4": lambda: with_header(2), "5": lambda: with_header(3),
-        "6": ImprovedBalancer, "7": lambda: with_header(1),
-    }
-)  # fmt: skip
 IMPROVED = ", improved mechanism"
-TITLES: Mapping[str, str] = MappingProxyType(
-    {
-        "2a": "Reaction of a shoe, hysteresis from the cylinders' seals only",
-        "2b": "What plain bearings at O add, as a force at a shoe",
-        "3a": "Pressure in the accumulators while following",
-        "3b": "Pressure needed to lift, over the whole stroke",
-        "4a": "Reaction of a shoe",
-        "4b": "Given and needed pressure",
-        "5a": "Reaction of a shoe",
-        "5b": "Given and needed pressure",
-        "6a": f"Reaction of a shoe{IMPROVED}",
-        "6b": f"Given and needed pressure{IMPROVED}",
-        "7": "Reaction of a shoe, calculated and measured",
-    }
-)
 
 
 def figure(number: int | str, machine: HeaderBalancer | None = None, measured: Sequence[Deviation] = ()) -> Figure:
@@ -72,19 +51,19 @@ def figure(number: int | str, machine: HeaderBalancer | None = None, measured: S
     It shows the header of the paper's figure, or the `machine` given. `measured` curves are laid over the reactions.
     """
     key = str(number).replace(" ", "").lower()
-    parts = [part for part in TITLES if key and part.startswith(key)]
+    parts = {name: part for name, part in PARTS.items() if key and name.startswith(key)}
     if not parts:
-        numbers = dict.fromkeys(name for part in TITLES for name in (part[0], part))
+        numbers = dict.fromkeys(each for name in PARTS for each in (name[0], name))
         raise DefinitionError(f"Figure {number} is unknown; there are {', '.join(numbers)}.")
-    shown = machine if machine is not None else SHOWN[key[0]]()
+    shown = machine if machine is not None else ImprovedBalancer() if key[0] == "6" else with_header({"4": 2, "5": 3}.get(key[0], 1))
     motion = over_following(shown.at(h=shown.strokes["h"].start))
     improved = "" if isinstance(shown, ImprovedBalancer) else IMPROVED
-    sheet, cells = _sheet({part: TITLES[part].removesuffix(improved) for part in parts}, _name(shown))
-    for part, ax in zip(parts, cells, strict=True):
-        DRAWN[part](ax, motion, measured)
+    sheet, cells = _sheet({name: part.title.removesuffix(improved) for name, part in parts.items()}, _name(shown))
+    for (name, part), ax in zip(parts.items(), cells, strict=True):
+        part.draw(ax, motion, measured)
         if key[0] == "6" and machine is None:
-            _as_it_stands(ax, part)
-        if part in REACTIONS:
+            _as_it_stands(ax, name)
+        if part.is_reaction:
             _hanging(ax)
         _finished(ax)
     return sheet
@@ -112,7 +91,7 @@ def reactions(ax: Axes, motion: Motion, measured: Sequence[Deviation] = (), with
     _measured(ax, motion, measured)
 
 
-def compared(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+def with_measured(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     """Draw figure 7: calculated solid, with the band of the paper's 7 %, measured dashed."""
     height, curves, text = HeaderState(motion).height, _reactions(motion), f"{ALLOWED:g} % about the calculated ones"
     moving = {label: curves[label] for label in CURVES.values()}
@@ -165,7 +144,7 @@ def bearings(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> No
 # -- pressures ---------------------------------------------------------------------------------------------
 
 
-def given(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+def given_pressure(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     """Draw the pressure in the accumulators over the shoe's height, and the charges of the pairs about there."""
     balance = HeaderState(motion)
     _curve(ax, balance.height, balance.pressure / kgf_cm2, style.CURVE, "in the accumulators")
@@ -173,7 +152,7 @@ def given(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     _charges(ax, balance)
 
 
-def needed(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+def needed_pressure(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     """Draw figure 3 b: the pressure at which the shoes carry nothing, up and down, from the shoe's lowest place to the stroke's end."""
     lowest, end = motion.strokes["h"][0], motion.plan.strokes["h"].end
     balance = HeaderState(motion.moved({"h": np.linspace(lowest, end, 101)}))
@@ -186,25 +165,40 @@ def needed(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None
     ax.set_ylabel("pressure, kgf/cm²")
 
 
-def matched(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+def both_pressures(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     """Draw given and needed pressure over the shoe's height, the latter with friction as a band."""
     balance = HeaderState(motion)
     up, down = (balance.required_while(way) / kgf_cm2 for way in ("extending", "retracting"))
     text = "with friction: up at the upper edge, down at the lower"
     ax.fill_between(balance.height / mm, down, up, color=style.ACCENT, alpha=0.12, linewidth=0, label=text)
     _curve(ax, balance.height, balance.required / kgf_cm2, style.ACCENT, "needed: the shoes carry nothing")
-    given(ax, motion)
+    given_pressure(ax, motion)
     ax.margins(y=0.14)  # room for the legend
 
 
-DRAWN: Mapping[str, Callable[[Any, Motion, Sequence[Deviation]], None]] = MappingProxyType(
-    {
-        "2a": seals_alone, "2b": bearings, "3a": given, "3b": needed, "4a": reactions, "4b": matched, "5a": reactions, "5b": matched,
-        "6a": reactions, "6b": matched, "7": compared,
-    }
-)  # fmt: skip
+class FigurePart(NamedTuple):
+    """A half of a figure: its title, what draws it, and whether it shows reactions, which may fall below zero."""
 
-REACTIONS = ("2a", "4a", "5a", "6a", "7")
+    title: str
+    draw: Callable[[Axes, Motion, Sequence[Deviation]], None]
+    is_reaction: bool = False
+
+
+PARTS: Mapping[str, FigurePart] = MappingProxyType(
+    {
+        "2a": FigurePart("Reaction of a shoe, hysteresis from the cylinders' seals only", seals_alone, is_reaction=True),
+        "2b": FigurePart("What plain bearings at O add, as a force at a shoe", bearings),
+        "3a": FigurePart("Pressure in the accumulators while following", given_pressure),
+        "3b": FigurePart("Pressure needed to lift, over the whole stroke", needed_pressure),
+        "4a": FigurePart("Reaction of a shoe", reactions, is_reaction=True),
+        "4b": FigurePart("Given and needed pressure", both_pressures),
+        "5a": FigurePart("Reaction of a shoe", reactions, is_reaction=True),
+        "5b": FigurePart("Given and needed pressure", both_pressures),
+        "6a": FigurePart(f"Reaction of a shoe{IMPROVED}", reactions, is_reaction=True),
+        "6b": FigurePart(f"Given and needed pressure{IMPROVED}", both_pressures),
+        "7": FigurePart("Reaction of a shoe, calculated and measured", with_measured, is_reaction=True),
+    }
+)
 
 
 def _as_it_stands(ax: Axes, part: str) -> None:

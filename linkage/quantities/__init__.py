@@ -9,6 +9,7 @@ from .quantity import (
     Function,
     Negative,
     Number,
+    Operand,
     Operation,
     Quantity,
     Ref,

@@ -41,10 +41,6 @@ class RollerCam(Point):
         line, angle = self.along(where)
         return line.at(where.value(self.base) + where.curve(self.lift, angle))
 
-    def constraints(self, where):
-        miss = where.at(self.name) - self.place(where)
-        return miss.x, miss.y
-
     def tangent(self, where):
         """Return the line along which the roller's centre moves over the cam; the cam pushes it to its left."""
         (line, angle), R = self.along(where), where.at(self.name)

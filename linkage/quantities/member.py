@@ -94,7 +94,7 @@ class Member:
                 object.__setattr__(changed, name, value)
         return changed
 
-    def enter(self, claims: Any) -> None:
+    def enter(self, table: Any) -> None:
         """Enter the labels of this member in the mechanism's table of dimensions."""
 
     def lengths(self) -> tuple[Any, ...]:

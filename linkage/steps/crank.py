@@ -6,7 +6,7 @@ from typing import Any
 
 from ..errors import DefinitionError
 from ..quantities import FRAME_SIDE, Driven, Joint, JointSide, Quantity, Reference, Where, quantity, spelled
-from ..vectors import Scalar, Vec
+from ..vectors import Vec
 from .labels import Slot
 from .primitives import Axis, Offset, Turn
 from .step import UNBOUND, Assignment, Bar, Step
@@ -37,8 +37,7 @@ class Crank(Step):
         return (Slot("PX", (self.P, self.X)),)
 
     def check(self) -> None:
-        if self.PX is UNBOUND:
-            raise self.missing(self.slots()[0])
+        super().check()
         if self.angle.is_constant:
             raise DefinitionError(f"{self.sentence()}: a crank needs a driven angle; a fixed point is a Ground, one on a body OnLink.")
 
@@ -47,10 +46,6 @@ class Crank(Step):
         arm = Vec(cos, sin) * where.value(self.PX)
         X: Vec = where.at(self.P) + arm
         return X
-
-    def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        miss = where.at(self.X) - self.place(where)
-        return miss.x, miss.y
 
     def bars(self) -> tuple[Bar, ...]:
         return (Bar(self.P, self.X, self.PX),)

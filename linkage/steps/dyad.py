@@ -23,6 +23,7 @@ class Dyad(Step):
     PX: Quantity = UNBOUND
     QX: Quantity = UNBOUND
     measures = "distances"
+    chooses = "two circles meet in two points"
     expects = (("P", "point"), ("Q", "point"), ("PX", "quantity"), ("QX", "quantity"))
 
     def __init__(
@@ -32,13 +33,6 @@ class Dyad(Step):
 
     def slots(self) -> tuple[Slot, ...]:
         return Slot("PX", (self.P, self.X)), Slot("QX", (self.Q, self.X))
-
-    def check(self) -> None:
-        for slot in self.slots():
-            if getattr(self, slot.attribute) is UNBOUND and self.drawn_at is None:
-                raise self.missing(slot)
-        if self.side is None and self.near is None and self.drawn_at is None:
-            raise self.needs_side("two circles meet in two points")
 
     def place(self, where: Where) -> Vec:
         P, base = where.at(self.P), where.at(self.Q) - where.at(self.P)

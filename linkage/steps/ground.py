@@ -8,7 +8,6 @@ from typing import Any
 from ..errors import DefinitionError, cited
 from ..quantities import Number, Quantity, Reference, Where, quantity, spelled
 from ..vectors import Vec
-from .labels import Claims
 from .step import Point
 
 
@@ -39,9 +38,6 @@ class Ground(Point):
     def having(self, values: Mapping[str, float]) -> Ground:
         x, y = (quantity(values.get(name, value)) for name, value in self.coordinates())
         return self.renewed(x=x, y=y)
-
-    def bind(self, X: str, claims: Claims) -> Ground:
-        return self
 
     def place(self, where: Where) -> Vec:
         return Vec(*(where.input(name) if value.is_constant else where.value(value) for name, value in self.coordinates()))

@@ -25,7 +25,6 @@ from ..quantities import (  # fmt: skip
     spelled,
 )
 from ..vectors import Line, Scalar, Vec
-from .labels import Claims
 from .step import Point, position
 
 
@@ -123,7 +122,6 @@ class Slide(Holding):
 class OnGuide(Point):
     """A point at a distance along a guide from its origin, driven or given: `C = OnGuide(rail, at=S)` [m]."""
 
-    X: str = ""
     expects = (("guide", "guide"),)
 
     def __init__(self, guide: Reference, *, at: Any) -> None:
@@ -132,16 +130,9 @@ class OnGuide(Point):
     def parts(self) -> tuple[Reference, ...]:
         return self.guide, self.along
 
-    def bind(self, X: str, claims: Claims) -> OnGuide:
-        return self
-
     def place(self, where: Where) -> Vec:
         line = where.line(self.guide)
         return line.at(where.value(self.along))
-
-    def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        miss = where.at(self.name) - self.place(where)
-        return miss.x, miss.y
 
     def joints(self) -> tuple[Joint, ...]:
         guide, drives = name_of(self.guide), (Driven(self.along, "t"),)

@@ -35,10 +35,10 @@ class Slot:
         return {forward: 1, back: 1 if self.kind == "length" else -1} if forward != back else {forward: 1}
 
 
-class Claims(Protocol):
+class DimensionTable(Protocol):
     """The table of a mechanism's dimensions: it gives each label its one quantity."""
 
-    def claim(self, slot: Slot, spelling: str, value: Operand, where: str) -> Quantity:
+    def dimension(self, slot: Slot, spelling: str, value: Operand, where: str) -> Quantity:
         """Return the quantity a label stands for; a number makes a design variable of that name."""
 
 

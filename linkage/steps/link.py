@@ -8,7 +8,7 @@ from typing import Any
 
 from ..errors import DefinitionError
 from ..quantities import Member, Reference, name_of, quantity
-from .labels import Claims, Slot, match, relabelled, written_labels
+from .labels import DimensionTable, Slot, match, relabelled, written_labels
 
 
 class Link(Member):
@@ -27,10 +27,10 @@ class Link(Member):
     def parts(self) -> tuple[Reference, ...]:
         return (*self.points, *(part for part in map(quantity, self.labels.values()) if not part.is_constant))
 
-    def enter(self, claims: Claims) -> None:
+    def enter(self, table: DimensionTable) -> None:
         """Enter the labels: distances and angles of its own points."""
         for slot, spelling, value in self.fitted():
-            claims.claim(slot, spelling, value, f"{self.name} = {self}")
+            table.dimension(slot, spelling, value, f"{self.name} = {self}")
 
     def fitted(self) -> list[tuple[Slot, str, Any]]:
         """Return what each label stands for, its spelling and its value; DefinitionError for one that does not fit the points."""

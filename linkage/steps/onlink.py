@@ -78,10 +78,6 @@ class OnLink(Step):
         base = where.link_length(self.P, self.Q)
         return (self.P + self.Q, base), (self.P + self.X, where.value(self.PX)), (self.Q + self.X, where.value(self.QX))
 
-    def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        miss = where.at(self.X) - self.place(where)
-        return miss.x, miss.y
-
     def joints(self) -> tuple[Joint, ...]:
         """Return what holds the arm that a driven label moves: along it, across it and against turning."""
         P, Q = self.P, self.Q

@@ -8,7 +8,7 @@ from ..errors import DefinitionError, cited
 from ..quantities import Member, Quantity, Reference, Where, is_number, name_of, quantity
 from ..vectors import Scalar, Vec
 from .guide import Guide, Slide
-from .labels import Claims, Slot
+from .labels import DimensionTable, Slot
 from .onlink import OnLink
 from .step import Bar, Point, position
 
@@ -81,10 +81,10 @@ class Group(Member):
         self.rods: tuple[Bar, ...] = ()
         self.rigid: tuple[OnLink, ...] = ()
 
-    def enter(self, claims: Claims) -> None:
+    def enter(self, table: DimensionTable) -> None:
         """Enter the group's dimensions: its rods' lengths and its links' shapes."""
-        self.rods = tuple(Bar(P, Q, claims.claim(Slot("", (P, Q)), P + Q, length, str(self))) for P, Q, length in self.given)
-        self.rigid = tuple(step.bind(X, claims) for X, step in self.attached)
+        self.rods = tuple(Bar(P, Q, table.dimension(Slot("", (P, Q)), P + Q, length, str(self))) for P, Q, length in self.given)
+        self.rigid = tuple(step.bind(X, table) for X, step in self.attached)
 
     @property
     def inputs(self) -> tuple[str, ...]:

@@ -147,7 +147,6 @@ class CosineAngle(Quantity):
 class Offset(Point):
     """The point P + vector [m]."""
 
-    X: str = ""
     expects = (("P", "point"), ("by", "vector"))
 
     def __init__(self, P: Reference, vector: Reference) -> None:
@@ -160,6 +159,9 @@ class Offset(Point):
 
     def place(self, where: Where) -> Vec:
         return where.at(self.P) + where.vector(self.by)
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        return ()
 
     @property
     def hangs_from(self) -> str:

@@ -20,6 +20,7 @@ class SliderDyad(Step):
     guide: str
     PX: Quantity = UNBOUND
     parent_letters = ("P", "guide")
+    chooses = "a circle meets a line in two points"
     expects = (("P", "point"), ("guide", "guide"))
 
     def __init__(self, P: Reference, guide: Reference, *, side: Side | str | None = None, near: Any = None, **lengths: Any) -> None:
@@ -27,12 +28,6 @@ class SliderDyad(Step):
 
     def slots(self) -> tuple[Slot, ...]:
         return (Slot("PX", (self.P, self.X)),)
-
-    def check(self) -> None:
-        if self.PX is UNBOUND:
-            raise self.missing(self.slots()[0])
-        if self.side is None and self.near is None:
-            raise self.needs_side("a circle meets a line in two points")
 
     def modes(self) -> tuple[Side, ...]:
         return Side.LEFT, Side.RIGHT
@@ -94,10 +89,6 @@ class PinSlotDyad(Step):
 
     def slots(self) -> tuple[Slot, ...]:
         return (Slot("PX", (self.P, self.X)),)
-
-    def check(self) -> None:
-        if self.PX is UNBOUND:
-            raise self.missing(self.slots()[0])
 
     def modes(self) -> tuple[Side, ...]:
         return Side.LEFT, Side.RIGHT
@@ -163,12 +154,6 @@ class GuideCross(Step):
     def __init__(self, guide: Reference, other: Reference) -> None:
         super().__init__(guide, other, labels={})
 
-    def slots(self) -> tuple[Slot, ...]:
-        return ()
-
-    def check(self) -> None:
-        """Two guides need no label."""
-
     def place(self, where: Where) -> Vec:
         first, second = where.line(self.guide), where.line(self.other)
         sine = where.margin(first.direction.cross(second.direction))
@@ -215,12 +200,6 @@ class YokeDyad(Step):
 
     def in_radians(self) -> tuple[Quantity, ...]:
         return (self.angle,)
-
-    def slots(self) -> tuple[Slot, ...]:
-        return ()
-
-    def check(self) -> None:
-        """A slot needs no label."""
 
     def place(self, where: Where) -> Vec:
         line, (cos, sin) = where.line(self.guide), where.turn(self.angle)

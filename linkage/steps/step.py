@@ -17,7 +17,7 @@ from ..frozen import refuses_changes
 from ..quantities import Holding, Member, Number, Quantity, Reference, Where, is_number, name_of, quantity
 from ..units import deg
 from ..vectors import Scalar, Side, Vec
-from .labels import Claims, Slot, match, relabelled, written_labels
+from .labels import DimensionTable, Slot, match, relabelled, written_labels
 
 
 class Unbound(Number):
@@ -64,18 +64,31 @@ class Assignment:
 class Point(Holding):
     """A named point of the mechanism.
 
-    A step of one's own says `parts`, `place`, `constraints` and `joints`; all the rest has a default that serves.
+    A step of one's own says `parts`, `place` and `joints`; all the rest has a default that serves.
     """
+
+    X: str = ""
+    """Its name once it is bound, in a class or in a group."""
 
     kind = "point"
 
-    def bind(self, X: str, claims: Claims) -> Self:
+    def bind(self, X: str, table: DimensionTable) -> Self:
         """Return this step with its name, its parents' names and its dimensions settled."""
         return self
 
     @abstractmethod
     def place(self, where: Where) -> Vec:
         """Return the position [m]; NaN where it cannot be assembled."""
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        """Return what must vanish at this point's place, in every reading: that it lies where it is placed, unless a step knows better.
+
+        A point that closes a loop says the equations whose root `place` chooses; a free construction says none.
+        """
+        if self.is_fixed:
+            return ()
+        miss = where.at(self.X or self.name) - self.place(where)
+        return miss.x, miss.y
 
     def expansion(self) -> tuple[Assignment, ...]:
         """Return the primitives that this step stands for, in the vector method's order; empty where its own rule is written out."""
@@ -141,11 +154,12 @@ class Step(Point):
     After binding, `X` and the parents are names and every slot holds a quantity.
     """
 
-    X: str = ""
     parents: tuple[Reference, ...]
     parent_letters: tuple[str, ...] = ("P", "Q")
     measures: str = ""
     """What `at=(x, y)` supplies: the `distances` from both parents, or one distance and the `angle`."""
+    chooses: str = ""
+    """Why a side must be said, in words; "" where there is one place only."""
 
     def __init__(
         self, *parents: Reference, labels: Mapping[str, Any], side: Side | str | None = None, near: Any = None, at: Any = None
@@ -156,18 +170,24 @@ class Step(Point):
         self.near = position(near, f"{type(self).__name__}(near=...)")
         self.drawn_at = position(at, f"{type(self).__name__}(at=...)")
 
-    @abstractmethod
     def slots(self) -> tuple[Slot, ...]:
         """Return the labels this step takes; the step knows its points' names by now."""
+        return ()
 
-    @abstractmethod
     def check(self) -> None:
         """Raise DefinitionError where something this step needs is missing or too much."""
+        if self.drawn_at is not None:
+            return
+        for slot in self.slots():
+            if getattr(self, slot.attribute) is UNBOUND:
+                raise self.missing(slot)
+        if self.chooses and self.side is None and self.near is None:
+            raise self.needs_side(self.chooses)
 
     def parts(self) -> tuple[Reference, ...]:
         return (*self.parents, *(part for part in map(quantity, self.labels.values()) if not part.is_constant))
 
-    def bind(self, X: str, claims: Claims) -> Self:
+    def bind(self, X: str, table: DimensionTable) -> Self:
         bound = copy(self)
         bound.X = X
         for letter, parent in zip(self.parent_letters, self.parents, strict=True):
@@ -175,8 +195,8 @@ class Step(Point):
         bound.check_points()
         for attribute, (slot, spelling, sign, value) in match(self.labels, bound.slots(), bound.sentence()).items():
             bound.check_sense(slot, spelling, sign, value)
-            claimed = claims.claim(slot, spelling, value, bound.sentence())
-            setattr(bound, attribute, claimed if sign > 0 else -claimed)
+            found = table.dimension(slot, spelling, value, bound.sentence())
+            setattr(bound, attribute, found if sign > 0 else -found)
         bound.check()
         return bound
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from ..errors import DefinitionError
-from ..quantities import FRAME_SIDE, Driven, Joint, JointSide, Quantity, Reference, Where, quantity, spelled
+from ..quantities import FRAME_SIDE, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity, spelled
 from ..vectors import Vec
 from .labels import Slot
 from .primitives import Axis, Offset, Turn
@@ -23,7 +21,7 @@ class Crank(Step):
     parent_letters = ("P",)
     expects = (("P", "point"), ("angle", "quantity"))
 
-    def __init__(self, P: Reference, *, angle: Any, **lengths: Any) -> None:
+    def __init__(self, P: Reference, *, angle: Operand, **lengths: Operand) -> None:
         super().__init__(P, labels=lengths)
         self.angle = quantity(angle)
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from ..quantities import Quantity, Reference, Where, distance
+from ..quantities import Operand, Quantity, Reference, Where, distance
 from ..vectors import Scalar, Side, Vec
 from .labels import Slot
 from .primitives import CosineAngle, Offset, Turn, Vector, triangle
-from .step import UNBOUND, Assignment, Bar, Step
+from .step import UNBOUND, Assignment, Bar, Position, Step
 
 
 class Dyad(Step):
@@ -27,7 +25,8 @@ class Dyad(Step):
     expects = (("P", "point"), ("Q", "point"), ("PX", "quantity"), ("QX", "quantity"))
 
     def __init__(
-        self, P: Reference, Q: Reference, *, side: Side | str | None = None, near: Any = None, at: Any = None, **lengths: Any
+        self, P: Reference, Q: Reference, *, side: Side | str | None = None,
+        near: Position | None = None, at: Position | None = None, **lengths: Operand,
     ) -> None:
         super().__init__(P, Q, labels=lengths, side=side, near=near, at=at)
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from ..errors import DefinitionError, cited
-from ..quantities import Number, Quantity, Reference, Where, quantity, spelled
+from ..quantities import Number, Operand, Quantity, Reference, Where, quantity, spelled
 from ..vectors import Vec
 from .step import Point
 
@@ -14,7 +13,7 @@ from .step import Point
 class Ground(Point):
     """A fixed point [m]. Its coordinates are design variables: `M.x`, `M.y`, or `M=(x, y)` at once."""
 
-    def __init__(self, x: Any, y: Any = None) -> None:
+    def __init__(self, x: Operand, y: Operand | None = None) -> None:
         if y is None:
             raise DefinitionError(f"Ground({cited(x)}): say both coordinates one after the other [m], Ground(0.7, 0.0).")
         self.x, self.y = quantity(x), quantity(y)

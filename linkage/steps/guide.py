@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from ..errors import DefinitionError
 from ..quantities import (  # fmt: skip
@@ -14,6 +13,7 @@ from ..quantities import (  # fmt: skip
     JointSide,
     Member,
     Number,
+    Operand,
     Quantity,
     Reference,
     Variable,
@@ -38,7 +38,7 @@ class Guide(Holding):
     kind = "guide"
     expects = (("P", "point"), ("Q", "point"))
 
-    def __init__(self, P: Reference | tuple[float, float], Q: Reference | None = None, *, angle: Any = None) -> None:
+    def __init__(self, P: Reference | tuple[float, float], Q: Reference | None = None, *, angle: Operand | None = None) -> None:
         if P is None or (Q is None) == (angle is None):
             raise DefinitionError("Guide: give its origin, and its direction by angle= or by a second point.")
         if Q is not None and (P is Q or (isinstance(P, str) and P == Q)):
@@ -124,7 +124,7 @@ class OnGuide(Point):
 
     expects = (("guide", "guide"),)
 
-    def __init__(self, guide: Reference, *, at: Any) -> None:
+    def __init__(self, guide: Reference, *, at: Operand) -> None:
         self.guide, self.along = guide, quantity(at)
 
     def parts(self) -> tuple[Reference, ...]:

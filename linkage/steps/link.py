@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import combinations
-from typing import Any
 
 from ..errors import DefinitionError
-from ..quantities import Member, Reference, name_of, quantity
+from ..quantities import Member, Operand, Reference, name_of, quantity
 from .labels import DimensionTable, Slot, match, relabelled, written_labels
 
 
@@ -16,7 +15,7 @@ class Link(Member):
 
     kind = "link"
 
-    def __init__(self, *points: Reference, **labels: Any) -> None:
+    def __init__(self, *points: Reference, **labels: Operand) -> None:
         if len(points) == 1 and isinstance(points[0], str):
             points = tuple(points[0].replace(",", " ").split())
         self.points, self.labels = points, labels
@@ -32,7 +31,7 @@ class Link(Member):
         for slot, spelling, value in self.fitted():
             table.dimension(slot, spelling, value, f"{self.name} = {self}")
 
-    def fitted(self) -> list[tuple[Slot, str, Any]]:
+    def fitted(self) -> list[tuple[Slot, str, Operand]]:
         """Return what each label stands for, its spelling and its value; DefinitionError for one that does not fit the points."""
         found = [(match({spelling: value}, self.slots(), f"{self.name} = {self}"), value) for spelling, value in self.labels.items()]
         return [(slot, spelling, value) for each, value in found for slot, spelling, _, _ in each.values()]

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from ..errors import DefinitionError
-from ..quantities import Driven, Joint, JointSide, Number, Quantity, Reference, Turning, Where, distance
+from ..quantities import Driven, Joint, JointSide, Number, Operand, Quantity, Reference, Turning, Where, distance
 from ..vectors import Line, Scalar, Side, Vec
 from .labels import Slot
 from .primitives import CosineAngle, Offset, Turn, Vector, triangle
-from .step import UNBOUND, Assignment, Step
+from .step import UNBOUND, Assignment, Position, Step
 
 
 class OnLink(Step):
@@ -28,7 +26,8 @@ class OnLink(Step):
     expects = (("P", "point"), ("Q", "point"))
 
     def __init__(
-        self, P: Reference, Q: Reference, *, side: Side | str | None = None, near: Any = None, at: Any = None, **labels: Any
+        self, P: Reference, Q: Reference, *, side: Side | str | None = None,
+        near: Position | None = None, at: Position | None = None, **labels: Operand,
     ) -> None:
         super().__init__(P, Q, labels=labels, side=side, near=near, at=at)
 

@@ -10,7 +10,7 @@ from ..vectors import Scalar, Vec
 from .guide import Guide, Slide
 from .labels import DimensionTable, Slot
 from .onlink import OnLink
-from .step import Bar, Point, position
+from .step import Bar, Point, Position, position
 
 
 class Pin(Point):
@@ -20,7 +20,7 @@ class Pin(Point):
     A pin that no dyad places belongs to a group, whose pins are found together.
     """
 
-    def __init__(self, *place: Any, near: Any = None, at: Any = None) -> None:
+    def __init__(self, *place: Any, near: Position | None = None, at: Position | None = None) -> None:
         if place:
             raise DefinitionError(f"Pin({', '.join(map(repr, place))}): say near=(x, y) for a place in a sketch or at=(x, y) in a drawing.")
         self.near, self.drawn_at = position(near, "Pin(near=...)"), position(at, "Pin(at=...)")

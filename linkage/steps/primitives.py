@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import Any
 
 import numpy as np
 
 from ..errors import DefinitionError
-from ..quantities import Length, Member, Quantity, Reference, Turning, Where, label, name_of, quantity, spelled
+from ..quantities import Length, Member, Operand, Quantity, Reference, Turning, Where, label, name_of, quantity, spelled
 from ..vectors import Scalar, Vec
 from .step import Point, direction
 
@@ -69,7 +68,7 @@ class Turn(Arrow):
 
     expects = (("base", "vector"), ("angle", "quantity"))
 
-    def __init__(self, vector: Reference, angle: Any, length: Any = None) -> None:
+    def __init__(self, vector: Reference, angle: Operand, length: Operand | None = None) -> None:
         self.base, self.angle = vector, direction(angle, "Turn")
         self.scaled_to = None if length is None else quantity(length)
 
@@ -114,7 +113,7 @@ class CosineAngle(Quantity):
     It closes a loop: NaN where the three sides [m] do not make a triangle.
     """
 
-    def __init__(self, a: Any, b: Any, c: Any) -> None:
+    def __init__(self, a: Operand, b: Operand, c: Operand) -> None:
         self.triangle = (quantity(a), quantity(b), quantity(c))
 
     @property

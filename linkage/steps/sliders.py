@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from ..quantities import Joint, JointSide, Number, Quantity, Reference, Where, guided, quantity, spelled
+from ..quantities import Joint, JointSide, Number, Operand, Quantity, Reference, Where, guided, quantity, spelled
 from ..vectors import Line, Scalar, Side, Vec
 from .labels import Slot
-from .step import UNBOUND, Bar, Step, direction
+from .step import UNBOUND, Bar, Position, Step, direction
 
 
 class SliderDyad(Step):
@@ -23,7 +21,9 @@ class SliderDyad(Step):
     chooses = "a circle meets a line in two points"
     expects = (("P", "point"), ("guide", "guide"))
 
-    def __init__(self, P: Reference, guide: Reference, *, side: Side | str | None = None, near: Any = None, **lengths: Any) -> None:
+    def __init__(
+        self, P: Reference, guide: Reference, *, side: Side | str | None = None, near: Position | None = None, **lengths: Operand
+    ) -> None:
         super().__init__(P, guide, labels=lengths, side=side, near=near)
 
     def slots(self) -> tuple[Slot, ...]:
@@ -79,7 +79,8 @@ class PinSlotDyad(Step):
     expects = (("P", "point"), ("Q", "point"))
 
     def __init__(
-        self, P: Reference, Q: Reference, *, offset: Any = 0.0, side: Side | str | None = None, near: Any = None, **lengths: Any
+        self, P: Reference, Q: Reference, *, offset: Operand = 0.0, side: Side | str | None = None,
+        near: Position | None = None, **lengths: Operand,
     ) -> None:
         super().__init__(P, Q, labels=lengths, side=Side.RIGHT if side is None and near is None else side, near=near)
         self.offset = quantity(offset)
@@ -191,7 +192,7 @@ class YokeDyad(Step):
     parent_letters = ("P", "guide")
     expects = (("P", "point"), ("guide", "guide"))
 
-    def __init__(self, P: Reference, guide: Reference, *, angle: Any = 1.5707963267948966) -> None:
+    def __init__(self, P: Reference, guide: Reference, *, angle: Operand = 1.5707963267948966) -> None:
         super().__init__(P, guide, labels={})
         self.angle = direction(angle, "YokeDyad")
 

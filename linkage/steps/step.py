@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass
 from math import pi
-from typing import Any, Self
+from typing import Any, Self, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
-from ..quantities import Holding, Member, Number, Quantity, Reference, Where, is_number, name_of, quantity
+from ..quantities import Holding, Member, Number, Operand, Quantity, Reference, Where, is_number, name_of, quantity
 from ..units import deg
 from ..vectors import Scalar, Side, Vec
 from .labels import DimensionTable, Slot, match, relabelled, written_labels
@@ -28,6 +28,9 @@ class Unbound(Number):
 
 
 UNBOUND = Unbound(float("nan"))
+
+Position: TypeAlias = Sequence[float] | npt.NDArray[np.float64]
+"""A place in a sketch or a drawing, (x, y) [m]."""
 
 TURN = 2.0 * pi * (1.0 + 1e-9)
 
@@ -162,7 +165,8 @@ class Step(Point):
     """Why a side must be said, in words; "" where there is one place only."""
 
     def __init__(
-        self, *parents: Reference, labels: Mapping[str, Any], side: Side | str | None = None, near: Any = None, at: Any = None
+        self, *parents: Reference, labels: Mapping[str, Operand], side: Side | str | None = None,
+        near: Position | None = None, at: Position | None = None,
     ) -> None:
         self.parents = parents
         self.labels = dict(labels)
@@ -209,7 +213,7 @@ class Step(Point):
         if len({self.X, *names}) < len(names) + 1:
             raise DefinitionError(f"{self.sentence()}: the points {', '.join([self.X, *names])} must be different.")
 
-    def check_sense(self, slot: Slot, spelling: str, sign: int, value: Any) -> None:
+    def check_sense(self, slot: Slot, spelling: str, sign: int, value: Operand) -> None:
         """Raise DefinitionError for an angle whose own sense would be turned once more by the side."""
         if slot.kind != "angle" or self.side is None:
             return
@@ -273,7 +277,7 @@ def side_of(side: Any, what: str) -> Side:
     return found
 
 
-def direction(given: Any, what: str) -> Quantity:
+def direction(given: Operand, what: str) -> Quantity:
     """Return an angle as a quantity; DefinitionError for a number of more than a full turn, which was given in degrees."""
     found = quantity(given)
     if isinstance(found, Number) and abs(found.number) > TURN:
@@ -282,7 +286,7 @@ def direction(given: Any, what: str) -> Quantity:
     return found
 
 
-def position(value: Any, what: str) -> tuple[float, float] | None:
+def position(value: Position | None, what: str) -> tuple[float, float] | None:
     """Return a sketch position as two floats; raise DefinitionError unless it is a pair of finite numbers."""
     if value is None:
         return None

@@ -20,7 +20,7 @@ class Dyad(Step):
     Q: str
     PX: Quantity = UNBOUND
     QX: Quantity = UNBOUND
-    measures = "distances"
+    from_drawing = "distances"
     chooses = "two circles meet in two points"
     expects = (("P", "point"), ("Q", "point"), ("PX", "quantity"), ("QX", "quantity"))
 

@@ -22,7 +22,7 @@ class OnLink(Step):
     PX: Quantity = UNBOUND
     QX: Quantity = UNBOUND
     QPX: Quantity = UNBOUND
-    measures = "angle"
+    from_drawing = "angle"
     expects = (("P", "point"), ("Q", "point"))
 
     def __init__(

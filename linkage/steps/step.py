@@ -159,7 +159,7 @@ class Step(Point):
 
     parents: tuple[Reference, ...]
     parent_letters: tuple[str, ...] = ("P", "Q")
-    measures: str = ""
+    from_drawing: str = ""
     """What `at=(x, y)` supplies: the `distances` from both parents, or one distance and the `angle`."""
     chooses: str = ""
     """Why a side must be said, in words; "" where there is one place only."""

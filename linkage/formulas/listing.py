@@ -13,7 +13,7 @@ from ..plan import Plan
 from ..quantities import Member, Quantity, Reference, Tabulated, Turning, Variable, name_of, spelled
 from ..steps import Arrow, Assignment, Axis, CosineAngle, Group, Guide, Offset, Point, Turn, Vector
 from ..vectors import Line
-from .names import Names
+from .names import SymbolNames
 from .printing import Text
 from .symbolic import ANGLE, FUNCTIONS, LENGTH, NUMBER, Place, Term, Unit, curve_function, input_units, term
 from .words import Direction, Norm, Tcos, TurnV, TurnVL, vector_symbol
@@ -99,7 +99,7 @@ class Listing:
     """A reading (see `linkage.quantities.Where`) whose scalars are terms; asking for a member writes its lines first."""
 
     def __init__(self, plan: Plan) -> None:
-        self.plan, self.names, self.units = plan, Names(plan), input_units(plan)
+        self.plan, self.names, self.units = plan, SymbolNames(plan), input_units(plan)
         self.lines: list[Written] = []
         self.unknowns: list[str] = []
         self._vectors: dict[Any, Any] = {}

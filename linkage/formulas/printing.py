@@ -20,7 +20,7 @@ def plain_number(value: float, digits: int = 6) -> str:
     return "0" if float(text) == 0.0 else text
 
 
-def in_order(terms: Sequence[Any]) -> list[Any]:
+def reading_order(terms: Sequence[Any]) -> list[Any]:
     """Return the terms of a sum as they are read: positive ones first, points before vectors, numbers last."""
     return sorted(terms, key=lambda each: (not each.free_symbols, is_negative(each), not isinstance(each, PointSymbol)))
 
@@ -37,7 +37,7 @@ def factors(expr: Any) -> tuple[Any, Any, Any]:
     return (*fraction(factor), vector)
 
 
-def signed(terms: Sequence[str]) -> str:
+def signed_sum(terms: Sequence[str]) -> str:
     """Return a sum of printed terms."""
     text = terms[0]
     for each in terms[1:]:
@@ -73,10 +73,10 @@ class Text(StrPrinter):  # type: ignore[misc]
         return plain_number(float(expr), 12)
 
     def _print_Add(self, expr: Any, order: Any = None) -> str:
-        return signed([self._print(each) for each in in_order(expr.args)])
+        return signed_sum([self._print(each) for each in reading_order(expr.args)])
 
     def _print_MatAdd(self, expr: Any) -> str:
-        return signed([self._print(each) for each in in_order(expr.args)])
+        return signed_sum([self._print(each) for each in reading_order(expr.args)])
 
     def _print_MatMul(self, expr: Any) -> str:
         over, under, vector = factors(expr)
@@ -143,10 +143,10 @@ class Latex(LatexPrinter):  # type: ignore[misc]
         return plain_number(float(expr), 12)
 
     def _print_Add(self, expr: Any, order: Any = None) -> str:
-        return signed([self._print(each) for each in in_order(expr.args)])
+        return signed_sum([self._print(each) for each in reading_order(expr.args)])
 
     def _print_MatAdd(self, expr: Any) -> str:
-        return signed([self._print(each) for each in in_order(expr.args)])
+        return signed_sum([self._print(each) for each in reading_order(expr.args)])
 
     def _print_MatMul(self, expr: Any) -> str:
         over, under, vector = factors(expr)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,14 +12,14 @@ from ..program import FloatArray
 from . import style
 from .scene import Places
 from .style import Look
-from .symbols import Part
+from .symbols import MovingPart
 
 REACH = (1.0, 1.4, 2.0, 2.8, 4.0)
 WAYS = np.radians(np.arange(60.0, 420.0, 22.5))
 """The places a label tries: distances, as multiples of the nearest, and directions [rad], the preferred one first."""
 
 
-class LabelPart(Part):
+class LabelPart(MovingPart):
     """A point's name at an offset [points]."""
 
     def __init__(self, ax: Axes, name: str, offset: FloatArray, look: Look) -> None:
@@ -87,8 +87,3 @@ def _covered(centre: FloatArray, half: FloatArray) -> FloatArray:
     """Return points that cover a label, weighted to keep others off, shape (n, 2)."""
     steps = np.linspace(-1.0, 1.0, 5)
     return np.array([centre + half * (u, v) for u in steps for v in steps for _ in range(3)])
-
-
-def labels(ax: Axes, spots: Mapping[str, FloatArray], look: Look) -> list[LabelPart]:
-    """Return the labels of some points."""
-    return [LabelPart(ax, name, offset, look) for name, offset in spots.items()]

@@ -26,7 +26,7 @@ MARGIN = 3.2
 
 
 @dataclass(frozen=True, eq=False)
-class Track:
+class SlideTrack:
     """A straight track: its origin [m] and its direction at every pose, shape (2, n), and the points that slide on it."""
 
     name: str
@@ -53,47 +53,46 @@ class Track:
         return {start: self.origin + (low - pad) * self.along, end: self.origin + (high + pad) * self.along}
 
 
-def tracks(motion: Motion) -> tuple[Track, ...]:
+def slide_tracks(motion: Motion) -> tuple[SlideTrack, ...]:
     """Return the tracks that something slides on."""
     return (*guides(motion), *slots(motion))
 
 
-def guides(motion: Motion) -> Iterator[Track]:
+def guides(motion: Motion) -> Iterator[SlideTrack]:
     """Yield the guides that points slide on."""
     plan = motion.plan
     for name, guide in plan.of_kind(Guide).items():
-        riders = tuple(dict.fromkeys(joint.point for joint in every(motion) if joint.track == (name,)))
+        riders = tuple(dict.fromkeys(joint.point for joint in slide_joints(motion) if joint.track == (name,)))
         if riders:
             fixed = set(guide.points) <= set(plan.ground) and (guide.angle is None or not plan.moves(guide.angle))
             line = motion.reading.line(guide)
-            yield Track(
-                name, row(motion, line.origin.x, line.origin.y), row(motion, line.direction.x, line.direction.y), riders, fixed
-            )  # fmt: skip
+            origin, along = over_poses(motion, line.origin.x, line.origin.y), over_poses(motion, line.direction.x, line.direction.y)
+            yield SlideTrack(name, origin, along, riders, fixed)
 
 
-def slots(motion: Motion) -> Iterator[Track]:
+def slots(motion: Motion) -> Iterator[SlideTrack]:
     """Yield the slots of bodies: each of a step of its own, with the pin in it."""
     guides = motion.plan.of_kind(Guide)
     for name, step in motion.plan.points.items():
         for joint in step.joints():
             if joint.track and joint.line is not None and joint.track[0] not in guides:
                 line = joint.line(motion.reading)
-                along = row(motion, line.direction.x, line.direction.y)
-                yield Track(f"{name}|slot", row(motion, line.origin.x, line.origin.y), along, (joint.point,), False)
+                along = over_poses(motion, line.direction.x, line.direction.y)
+                yield SlideTrack(f"{name}|slot", over_poses(motion, line.origin.x, line.origin.y), along, (joint.point,), False)
 
 
-def every(motion: Motion) -> Iterator[Joint]:
+def slide_joints(motion: Motion) -> Iterator[Joint]:
     """Yield all joints that points slide in, driven or not."""
     return (joint for member in motion.plan.holding.values() for joint in member.joints() if joint.track)
 
 
-def row(motion: Motion, x: object, y: object) -> FloatArray:
+def over_poses(motion: Motion, x: object, y: object) -> FloatArray:
     """Return two components over all poses, shape (2, n)."""
     return np.array([np.broadcast_to(np.asarray(each, float), motion.shape).ravel() for each in (x, y)])
 
 
 Places: TypeAlias = dict[str, FloatArray]
-Box: TypeAlias = tuple[float, float, float, float]
+Bounds: TypeAlias = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True)
@@ -220,7 +219,7 @@ class Scene:
                 driven.discard(pair)
             else:
                 by_pair.setdefault(pair, []).append(Hung(*element.ends, element.drawn_as))
-        return tuple(each for members in by_pair.values() for each in beside(members))
+        return tuple(each for members in by_pair.values() for each in side_by_side(members))
 
     @cached_property
     def rams(self) -> tuple[Ram, ...]:
@@ -272,14 +271,14 @@ class Scene:
         return Motion(plan, self.motion.designs, values, "nan")
 
     @cached_property
-    def tracks(self) -> tuple[Track, ...]:
+    def tracks(self) -> tuple[SlideTrack, ...]:
         """The guides and slots that something slides on."""
-        return tracks(self.motion)
+        return slide_tracks(self.motion)
 
     @cached_property
     def rims(self) -> Places:
         """The two ends of every track at every pose, shape (2, n) each [m]."""
-        wide = [] if self.over is None else list(zip(tracks(self.over), self.tracks, strict=True))
+        wide = [] if self.over is None else list(zip(slide_tracks(self.over), self.tracks, strict=True))
         reach = {track.name: track.travel(self.places) for track in self.tracks}
         for other, track in wide:
             low, high = other.travel(Scene(self.over).places) if self.over is not None else reach[track.name]
@@ -322,7 +321,7 @@ class Scene:
     # -- sizes -----------------------------------------------------------------------------------------
 
     @cached_property
-    def extent(self) -> Box:
+    def extent(self) -> Bounds:
         """The least and greatest x and y of all points over all poses [m]."""
         every = np.concatenate([np.empty((2, 0)), *self.places.values(), *map(self._swept, self.contours)], axis=1)
         every = every[:, np.isfinite(every).all(axis=0)]
@@ -350,7 +349,7 @@ class Scene:
         gaps = [float(np.hypot(*(self.places[P] - self.places[Q])[:, pose])) for pose in self.picks(3) for P, Q in pairs]
         return min((gap for gap in gaps if gap > 0), default=np.inf)
 
-    def box(self, margin: float = 5.0) -> Box:
+    def box(self, margin: float = 5.0) -> Bounds:
         """Return the extent with a margin around it, in sizes [m]."""
         left, right, bottom, top = self.extent
         pad, near = margin * self.size, 2.5 * self.size
@@ -360,7 +359,7 @@ class Scene:
         return min(left - pad, float(x0)), max(right + pad, float(x1)), min(bottom - pad, float(y0)), max(top + pad, float(y1))
 
 
-def beside(members: list[Hung]) -> list[Hung]:
+def side_by_side(members: list[Hung]) -> list[Hung]:
     """Return members on the same two points side by side about the line between these; a single one stays on it."""
     middle = 0.5 * (len(members) - 1)
     placed = []

@@ -15,10 +15,10 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator, ScalarFormatter
 
 from ..disk import check_place, replacing
 from . import style
-from .scene import Box
+from .scene import Bounds
 
 
-def sheet(ax: Axes, box: Box) -> None:
+def sheet(ax: Axes, box: Bounds) -> None:
     """Set up axes for a mechanism within a box [m]; they show more of the plane where their shape is another."""
     left, right, bottom, top = filling(ax, box)
     in_metres = max(right - left, top - bottom) > 1.0
@@ -38,7 +38,7 @@ def millimetres(value: float, _: int | None = None) -> str:
     return f"{value * 1e3:.6g}".replace("-", "\N{MINUS SIGN}")
 
 
-def filling(ax: Axes, box: Box) -> Box:
+def filling(ax: Axes, box: Bounds) -> Bounds:
     """Return a box [m] made wider or higher until it has the shape of the axes."""
     figure = ax.figure.figure  # of axes in a subfigure, too
     assert figure is not None

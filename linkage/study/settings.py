@@ -14,7 +14,7 @@ from ..program import FloatArray
 from ..quantities import is_number
 from ..units import show, unit_or_none
 from .box import range_of
-from .checks import Asked, one_design, poses_of, title_of, unit_of, values
+from .checks import QuantityLike, check_one_design, poses_of, quantity_values, title_of, unit_of
 
 SAMPLES = 1025
 ROUNDS = 12  # each looks 33 times closer
@@ -36,14 +36,21 @@ class Settings:
 
 
 def settings_for(
-    machine: Mechanism, name: str, quantity: Asked, target: float = 0.0, *, between: tuple[float, float], unit: str = "", **strokes: float
+    machine: Mechanism,
+    name: str,
+    quantity: QuantityLike,
+    target: float = 0.0,
+    *,
+    between: tuple[float, float],
+    unit: str = "",
+    **strokes: float,
 ) -> Settings:
     """Return every value of a dimension in a range at which a quantity has a target value [SI], at one pose of one design.
 
     `settings_for(hitch, "MK", "tilt", 0.0, between=(0.5, 1.3), S=0.1)`. Roots are found to rounding; two that lie closer than a
     thousandth of the range may be missed. Settings that cannot be assembled are passed over. `unit` is the quantity's in the sentence.
     """
-    one_design(machine)
+    check_one_design(machine)
     known_name("Dimension", name, machine.plan.table.spellings, where=machine.plan.title)
     unit_or_none(unit, where="settings_for(unit=...)")
     low, high = range_of("between", between)
@@ -56,14 +63,14 @@ def settings_for(
     base = machine.at(unreachable="nan", **{each: [value] for each, value in strokes.items()})
 
     def curve(at: FloatArray) -> FloatArray:
-        return values(poses_of(machine, {name: at}, base, np.zeros(at.shape, int)), quantity) - target
+        return quantity_values(poses_of(machine, {name: at}, base, np.zeros(at.shape, int)), quantity) - target
 
     at = np.linspace(low, high, SAMPLES)
     at = ends_of_reach(curve, at)
     off = curve(at)
-    found = [root for root in (*crossings(curve, at, off), *touchings(curve, at, off)) if is_root(curve, root, off)]
+    found = [root for root in (*sign_changes(curve, at, off), *touchings(curve, at, off)) if is_root(curve, root, off)]
     unique = [root for place, root in enumerate(sorted(found)) if not place or root - sorted(found)[place - 1] > 1e-9 * (high - low)]
-    words = Words(name, unit_of(machine.plan, name), title_of(quantity), unit)
+    words = SettingWords(name, unit_of(machine.plan, name), title_of(quantity), unit)
     return Settings(name, tuple(unique), words.roots(unique, target) if unique else words.none(at, off + target, target))
 
 
@@ -82,29 +89,39 @@ def ends_of_reach(curve: Curve, at: FloatArray) -> FloatArray:
 
 def end_between(curve: Curve, inside: float, outside: float) -> float:
     """Return the last value with a result, between one that has it and one that has not."""
-    for _ in range(ROUNDS):
-        near = np.linspace(inside, outside, 33)
+
+    def ends(near: FloatArray) -> tuple[int, int]:
         lost = int(np.argmax(~np.isfinite(curve(near))))
-        inside, outside = float(near[max(lost - 1, 0)]), float(near[lost])
-    return inside
+        return max(lost - 1, 0), lost
+
+    return narrowed(inside, outside, ends)[0]
 
 
-def crossings(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
+def narrowed(low: float, high: float, ends: Callable[[FloatArray], tuple[int, int]]) -> tuple[float, float]:
+    """Return an interval narrowed round by round to the samples (33,), by their places, that `ends` chooses."""
+    for _ in range(ROUNDS):
+        near = np.linspace(low, high, 33)
+        first, last = ends(near)
+        low, high = float(near[first]), float(near[last])
+    return low, high
+
+
+def sign_changes(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
     """Return where the curve goes through zero."""
     with np.errstate(invalid="ignore"):
         places = np.flatnonzero((np.sign(off[1:]) * np.sign(off[:-1])) < 0.0)
-    return [*at[off == 0.0].tolist(), *(crossing(curve, float(at[place]), float(at[place + 1])) for place in places)]
+    return [*at[off == 0.0].tolist(), *(zero_between(curve, float(at[place]), float(at[place + 1])) for place in places)]
 
 
-def crossing(curve: Curve, low: float, high: float) -> float:
-    """Return the zero between two values of opposite sign."""
-    for _ in range(ROUNDS):
-        near = np.linspace(low, high, 33)
+def zero_between(curve: Curve, low: float, high: float) -> float:
+    """Return the zero between two values of opposite sign; NaN where the curve has a gap there."""
+
+    def ends(near: FloatArray) -> tuple[int, int]:
         off = curve(near)
-        if np.isnan(off).any():
-            return float("nan")
         turn = int(np.argmax(np.sign(off) != np.sign(off[0])))
-        low, high = float(near[turn - 1]), float(near[turn])
+        return (0, 0) if np.isnan(off).any() else (turn - 1, turn)
+
+    low, high = narrowed(low, high, ends)
     return low if abs(curve(np.array([low]))[0]) < abs(curve(np.array([high]))[0]) else high
 
 
@@ -114,16 +131,18 @@ def touchings(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
     with np.errstate(invalid="ignore"):
         dips = (size[1:-1] <= size[:-2]) & (size[1:-1] <= size[2:]) & (np.sign(off[2:]) == np.sign(off[:-2]))
         dips &= (size[1:-1] < size[:-2]) | (size[1:-1] < size[2:])  # along a level stretch it comes no nearer
-    return [nearest(curve, float(at[place]), float(at[place + 2])) for place in np.flatnonzero(dips)]
+    return [nearest_between(curve, float(at[place]), float(at[place + 2])) for place in np.flatnonzero(dips)]
 
 
-def nearest(curve: Curve, low: float, high: float) -> float:
+def nearest_between(curve: Curve, low: float, high: float) -> float:
     """Return where the curve is nearest to zero between two values."""
-    for _ in range(ROUNDS):
-        near = np.linspace(low, high, 33)
-        place = int(np.argmin(np.where(np.isnan(off := np.abs(curve(near))), np.inf, off)))
-        low, high = float(near[max(place - 1, 0)]), float(near[min(place + 1, 32)])
-    return 0.5 * (low + high)
+
+    def ends(near: FloatArray) -> tuple[int, int]:
+        off = np.abs(curve(near))
+        place = int(np.argmin(np.where(np.isnan(off), np.inf, off)))
+        return max(place - 1, 0), min(place + 1, len(near) - 1)
+
+    return 0.5 * sum(narrowed(low, high, ends))
 
 
 def is_root(curve: Curve, root: float, off: FloatArray) -> bool:
@@ -133,8 +152,8 @@ def is_root(curve: Curve, root: float, off: FloatArray) -> bool:
 
 
 @dataclass(frozen=True)
-class Words:
-    """How a dimension and a quantity are spoken of: names and units, "" for plain SI."""
+class SettingWords:
+    """How a dimension and a quantity stand in a sentence: names and units, "" for plain SI."""
 
     name: str
     unit: str
@@ -143,19 +162,14 @@ class Words:
 
     def roots(self, roots: Sequence[float], target: float) -> str:
         """Return the settings that give the target."""
-        return f"{self.what} = {spoken(target, self.shown_in)} with {self.name} = {' or '.join(spoken(root, self.unit) for root in roots)}."
+        return f"{self.what} = {show(target, self.shown_in)} with {self.name} = {' or '.join(show(root, self.unit) for root in roots)}."
 
     def none(self, at: FloatArray, value: FloatArray, target: float) -> str:
         """Return why no setting gives the target."""
-        known, looked = np.isfinite(value), f"{self.name} between {spoken(at[0], self.unit)} and {spoken(at[-1], self.unit)}"
+        known, looked = np.isfinite(value), f"{self.name} between {show(at[0], self.unit)} and {show(at[-1], self.unit)}"
         if not known.any():
             return f"No {looked} can be assembled there, so that {self.what} has no value. Look farther, or change the stroke."
-        least, most = (spoken(float(end), self.shown_in) for end in (value[known].min(), value[known].max()))
-        first, last = (spoken(float(end), self.unit) for end in (at[known].min(), at[known].max()))
+        least, most = (show(float(end), self.shown_in) for end in (value[known].min(), value[known].max()))
+        first, last = (show(float(end), self.unit) for end in (at[known].min(), at[known].max()))
         reach = f"it can be assembled from {first} to {last}, where {self.what} goes from {least} to {most}"
-        return f"No {looked} gives {self.what} = {spoken(target, self.shown_in)}: {reach}."
-
-
-def spoken(value: float, unit: str) -> str:
-    """Return an SI value in a unit; as it is where the unit is ""."""
-    return show(value, unit) if unit else f"{value:.6g}"
+        return f"No {looked} gives {self.what} = {show(target, self.shown_in)}: {reach}."

@@ -7,7 +7,7 @@ from argparse import ArgumentParser, Namespace
 from linkage import Column, DefinitionError, Motion
 from linkage.cli.command import Command, figure_path, machine_arguments, motion_arguments, picture_argument
 from linkage.cli.machines import find_like
-from linkage.cli.settings import design, motion
+from linkage.cli.settings import design, motion_at
 from linkage.cli.table import csv_argument, write_table
 
 from .categories import CATEGORIES
@@ -43,7 +43,7 @@ class Capacity(Command):
     def run(self, options: Namespace) -> int:
         machine = chosen(options)
         path = figure_path(options, type(machine), self.name)
-        over = motion(machine, options.strokes, options.count)
+        over = motion_at(machine, options.strokes, options.count)
         if options.category:
             print(f"{CATEGORIES[options.category]}.\n")
         columns = zone_table(machine, over) if options.zones else hitch_table(machine, over)

@@ -27,7 +27,7 @@ def blocks(every, daily):
 def pasted(machine):
     """Return the class that a printed plan makes when it is pasted back."""
     body = "\n".join(f"    {line}" for line in str(machine.plan).splitlines())
-    names = {name: value for name, value in vars(linkage).items() if not name.startswith("_")}
+    names = {name: getattr(linkage, name) for name in linkage.__all__}
     names |= {name: getattr(np, name) for name in ("sqrt", "cos", "sin", "tan", "arctan2")}
     exec(f"class Pasted(Mechanism):\n{body}", names)
     return names["Pasted"]

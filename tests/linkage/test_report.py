@@ -12,7 +12,6 @@ from rich.console import Console
 
 from linkage import Column, Crank, DefinitionError, Dimension, Dyad, Ground, Mechanism, Stroke, deg, kgf, kgf_cm2
 from linkage.reports import (  # fmt: skip
-    aligned,
     below_zero,
     closely,
     design_rows,
@@ -152,10 +151,6 @@ def test_unit_of_a_dimension_is_a_known_one():
     with pytest.raises(DefinitionError, match="Unit 'kgff' is unknown in Dimension"):
         Dimension(1.0, unit="kgff")
     assert str(Lift.load) == f'Dimension({900 * kgf!r}, unit="kgf")'
-
-
-def test_rows_are_aligned():
-    assert list(aligned([("a", "1", ""), ("bcd", "20", "x")])) == ["a    1", "bcd  20  x"]
 
 
 # -- stroke ranges -----------------------------------------------------------------------------------------

@@ -12,12 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from ..vectors import pick
 from .linear import solve_arrays, solve_floats
-
-
-def pick(a: Any, b: Any, x: Any, y: Any) -> Any:
-    """Return x where a <= b, else y."""
-    return np.where(a <= b, x, y)
 
 
 def component(values: Any, place: Any) -> Any:

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
 from ..frozen import read_only, refuses_changes
-from ..vectors import Scalar
+from ..vectors import Scalar, pick
 from .member import Pick, Reference, Where
 from .quantity import Quantity, is_number, quantity, real, spelled
 
@@ -21,11 +21,6 @@ Floats = npt.NDArray[np.float64]
 
 ROUNDING = 1e-12
 """So far beyond its ends, as a share of its length, a table still has a value."""
-
-
-def pick(a: Scalar, b: Scalar, x: Scalar, y: Scalar) -> Scalar:
-    """Return x where a <= b, else y."""
-    return np.where(a <= b, x, y)
 
 
 def wrap(angle: Scalar) -> Scalar:

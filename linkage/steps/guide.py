@@ -8,8 +8,8 @@ from ..errors import DefinitionError
 from ..quantities import (  # fmt: skip
     FRAME_SIDE,
     Driven,
-    Holding,
     Joint,
+    Jointed,
     JointSide,
     Member,
     Number,
@@ -28,7 +28,7 @@ from ..vectors import Line, Scalar, Vec
 from .step import Point, position
 
 
-class Guide(Holding):
+class Guide(Jointed):
     """A straight line to slide on: `Guide((0.0, -0.2), angle=0)` in the frame, `Guide(P, Q)` the line of two points.
 
     The first point is the guide's origin, its direction goes by the angle [rad] or from P to Q. Numbers are design
@@ -93,7 +93,7 @@ class Guide(Holding):
         return f"Guide({start}, {end})"
 
 
-class Slide(Holding):
+class Slide(Jointed):
     """A point that slides on a guide: `shoe = Slide("C", rail)`."""
 
     expects = (("point", "point"), ("guide", "guide"))

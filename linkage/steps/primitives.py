@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..quantities import Length, Member, Operand, Quantity, Reference, Turning, Where, label, name_of, quantity, spelled
 from ..vectors import Scalar, Vec
-from .step import Point, direction
+from .step import Point, angle_given
 
 
 class Arrow(Member):
@@ -69,7 +69,7 @@ class Turn(Arrow):
     expects = (("base", "vector"), ("angle", "quantity"))
 
     def __init__(self, vector: Reference, angle: Operand, length: Operand | None = None) -> None:
-        self.base, self.angle = vector, direction(angle, "Turn")
+        self.base, self.angle = vector, angle_given(angle, "Turn")
         self.scaled_to = None if length is None else quantity(length)
 
     def parts(self) -> tuple[Reference, ...]:

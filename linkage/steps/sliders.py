@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..quantities import Joint, JointSide, Number, Operand, Quantity, Reference, Where, guided, quantity, spelled
 from ..vectors import Line, Scalar, Side, Vec
 from .labels import Slot
-from .step import UNBOUND, Bar, Position, Step, direction
+from .step import UNBOUND, Bar, Position, Step, angle_given
 
 
 class SliderDyad(Step):
@@ -194,7 +194,7 @@ class YokeDyad(Step):
 
     def __init__(self, P: Reference, guide: Reference, *, angle: Operand = 1.5707963267948966) -> None:
         super().__init__(P, guide, labels={})
-        self.angle = direction(angle, "YokeDyad")
+        self.angle = angle_given(angle, "YokeDyad")
 
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), self.angle)

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
-from ..quantities import Holding, Member, Number, Operand, Quantity, Reference, Where, is_number, name_of, quantity
+from ..quantities import Jointed, Member, Number, Operand, Quantity, Reference, Where, is_number, name_of, quantity
 from ..units import deg
 from ..vectors import Scalar, Side, Vec
 from .labels import DimensionTable, Slot, match, relabelled, written_labels
@@ -64,7 +64,7 @@ class Assignment:
     value: Member
 
 
-class Point(Holding):
+class Point(Jointed):
     """A named point of the mechanism.
 
     A step of one's own says `parts`, `place` and `joints`; all the rest has a default that serves.
@@ -277,7 +277,7 @@ def side_of(side: Any, what: str) -> Side:
     return found
 
 
-def direction(given: Operand, what: str) -> Quantity:
+def angle_given(given: Operand, what: str) -> Quantity:
     """Return an angle as a quantity; DefinitionError for a number of more than a full turn, which was given in degrees."""
     found = quantity(given)
     if isinstance(found, Number) and abs(found.number) > TURN:

@@ -17,6 +17,11 @@ Scalar: TypeAlias = Any
 """A number, an array or a traced node: whatever the reading at hand works on."""
 
 
+def pick(a: Scalar, b: Scalar, x: Scalar, y: Scalar) -> Scalar:
+    """Return x where a <= b, else y, of numbers and arrays."""
+    return np.where(a <= b, x, y)
+
+
 class Side(IntEnum):
     """The assembly mode of a point: LEFT or RIGHT of its first parent -> second parent."""
 

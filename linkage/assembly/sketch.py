@@ -82,7 +82,7 @@ def sided(name: str, step: Step, settled: Mapping[str, Member], title: str) -> S
     distance = {side: float(np.hypot(*np.subtract(sketch.at(name), place))) for side, sketch in sketches.items()}
     side, other = sorted(distance, key=lambda each: distance[each])
     apart = float(np.hypot(*np.subtract(sketches[side].at(name), sketches[other].at(name))))
-    flat = type(step).measures == "angle" and apart <= 1e-6 * extent(step, sketches[side])  # a straight link has no sides
+    flat = type(step).from_drawing == "angle" and apart <= 1e-6 * extent(step, sketches[side])  # a straight link has no sides
     if not flat and distance[other] - distance[side] <= 1e-6 * max(apart, 1e-12):
         raise DefinitionError(
             f"{title}: {name} = {step} does not choose an assembly mode: both poses are equally near, the sketch lies on the dead line. "
@@ -124,11 +124,11 @@ def missing_labels(name: str, step: Step, parents: list[str], X: Any, place: Cal
     given = set(step.labels)
     found: dict[str, float] = {}
     first = parents[0]
-    wanted = parents if type(step).measures == "distances" else parents[:1]
+    wanted = parents if type(step).from_drawing == "distances" else parents[:1]
     for parent in wanted:
         if not {parent + name, name + parent} & given:
             found[parent + name] = float(np.hypot(*away[parent]))
-    if type(step).measures == "angle":
+    if type(step).from_drawing == "angle":
         second = parents[1]
         angles = {second + first + name, name + first + second, second + name, name + second}
         if not angles & given:

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
 from ..frozen import keep_own
-from ..quantities import Holding, Member, Number, Quantity, Reference, label, name_of, quantity, real, spelled
+from ..quantities import Jointed, Member, Number, Quantity, Reference, label, name_of, quantity, real, spelled
 from ..quantities.quantity import plain
 from ..steps import Point
 
@@ -108,7 +108,7 @@ class Friction:
     guide: str = ""
 
 
-class ForceElement(Holding):
+class ForceElement(Jointed):
     """The base of everything that puts forces on a mechanism. A subclass says `loads(motion)`.
 
     `places` are its attributes that hold points, `parameters` those that hold numbers, with the unit they are shown in.

@@ -15,8 +15,8 @@ from ..frozen import FrozenDict
 from ..quantities import (
     Distance,
     Function,
-    Holding,
     Joint,
+    Jointed,
     Length,
     Member,
     Negative,
@@ -121,7 +121,7 @@ def turning(members: Mapping[str, Member]) -> frozenset[str]:
 def angles(members: Mapping[str, Member]) -> Iterator[Quantity]:
     """Yield the quantities that stand for angles."""
     for member in members.values():
-        yield from member.angles()
+        yield from member.in_radians()
 
 
 Kind = TypeVar("Kind", bound=Member)
@@ -265,13 +265,13 @@ class Members:
         return tuple((name, joint) for name, member in self.holding.items() for joint in member.joints() if self.is_there(joint))
 
     @cached_property
-    def holding(self) -> dict[str, Holding]:
+    def holding(self) -> dict[str, Jointed]:
         """The members that hold others without being a load: points first, then guides and slides."""
-        others = {name: member for name, member in self.of_kind(Holding).items() if member.kind != "load"}
+        others = {name: member for name, member in self.of_kind(Jointed).items() if member.kind != "load"}
         return FrozenDict({**self.points, **others})
 
     @cached_property
-    def sliding(self) -> dict[str, Holding]:
+    def sliding(self) -> dict[str, Jointed]:
         """The members beside points that let a point slide on a line."""
         found = {name: member for name, member in self.holding.items() if any(joint.track for joint in member.joints())}
         return FrozenDict({name: member for name, member in found.items() if name not in self.points})

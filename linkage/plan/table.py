@@ -59,7 +59,7 @@ class Table:
             owner = self.entries[self.spellings[name][0]]
             raise DefinitionError(f"{where}: the name {name} already belongs to {owner.name} of {owner.where}; rename one of them.")
 
-    def claim(self, slot: Slot, spelling: str, value: Operand, where: str) -> Quantity:
+    def dimension(self, slot: Slot, spelling: str, value: Operand, where: str) -> Quantity:
         """Return the quantity a label stands for; a number makes a design variable of that name."""
         given = quantity(value)
         key = frozenset(slot.points) if slot.kind == "length" else (slot.points[1], frozenset((slot.points[0], slot.points[2])))

@@ -11,13 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..vectors import FloatArray, Numbers, Scalar
+from ..vectors import Numbers, pick
 from .linear import solve_arrays, solve_floats
-
-
-def pick(a: Numbers, b: Numbers, x: Numbers, y: Numbers) -> FloatArray:
-    """Return x where a <= b, else y."""
-    return np.where(a <= b, x, y)
 
 
 def component(values: Sequence[Numbers], place: float) -> Numbers:

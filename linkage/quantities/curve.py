@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
 from ..frozen import read_only, refuses_changes
-from ..vectors import Scalar
+from ..vectors import Scalar, pick
 from .member import Pick, Reference, Where
 from .quantity import Quantity, is_number, quantity, real, spelled
 
@@ -21,11 +21,6 @@ Floats = npt.NDArray[np.float64]
 
 ROUNDING = 1e-12
 """So far beyond its ends, as a share of its length, a table still has a value."""
-
-
-def pick(a: Scalar, b: Scalar, x: Scalar, y: Scalar) -> Scalar:
-    """Return x where a <= b, else y."""
-    return np.where(a <= b, x, y)
 
 
 def wrap(angle: Scalar) -> Scalar:
@@ -185,7 +180,7 @@ class CurveValue(Quantity):
     def parts(self) -> tuple[Reference, ...]:
         return (self.x,)
 
-    def angles(self) -> tuple[Quantity, ...]:
+    def in_radians(self) -> tuple[Quantity, ...]:
         return (self.x,) if self.curve.period is not None and abs(self.curve.period - 2.0 * pi) < 1e-9 else ()
 
     def rule(self, where: Where) -> Scalar:

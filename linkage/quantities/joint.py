@@ -77,7 +77,7 @@ class Joint:
         return "n" in self.holds and not self.arm
 
 
-class Holding(Member):
+class Jointed(Member):
     """A member that may hold others: a step, a guide, a force element."""
 
     def joints(self) -> tuple[Joint, ...]:

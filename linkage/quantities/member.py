@@ -105,14 +105,14 @@ class Member:
                 object.__setattr__(changed, name, value)
         return changed
 
-    def enter(self, claims: Any) -> None:
+    def enter(self, table: Any) -> None:
         """Enter the labels of this member in the mechanism's table of dimensions."""
 
     def lengths(self) -> tuple[Member, ...]:
         """Return the quantities that stand for lengths in this member, beside its labels: none may be negative."""
         return ()
 
-    def angles(self) -> tuple[Any, ...]:
+    def in_radians(self) -> tuple[Any, ...]:
         """Return the quantities that stand for angles in this member: strokes and dimensions that they are sums of are in rad."""
         return ()
 

@@ -4,7 +4,7 @@ from .crank import Crank
 from .dyad import Dyad
 from .ground import Ground
 from .guide import Guide, OnGuide, Slide
-from .labels import Claims, Slot, match
+from .labels import DimensionTable, Slot, match
 from .link import Link
 from .onlink import OnLink
 from .pin import Drawn, Group, Pin, drawn

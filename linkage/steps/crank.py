@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from ..errors import DefinitionError
-from ..quantities import FRAME_SIDE, Driven, Joint, JointSide, Quantity, Reference, Where, quantity, spelled
-from ..vectors import Scalar, Vec
+from ..quantities import FRAME_SIDE, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity, spelled
+from ..vectors import Vec
 from .labels import Slot
 from .primitives import Axis, Offset, Turn
 from .step import UNBOUND, Assignment, Bar, Step
@@ -23,22 +21,21 @@ class Crank(Step):
     parent_letters = ("P",)
     expects = (("P", "point"), ("angle", "quantity"))
 
-    def __init__(self, P: Reference, *, angle: Any, **lengths: Any) -> None:
+    def __init__(self, P: Reference, *, angle: Operand, **lengths: Operand) -> None:
         super().__init__(P, labels=lengths)
         self.angle = quantity(angle)
 
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), self.angle)
 
-    def angles(self) -> tuple[Quantity, ...]:
+    def in_radians(self) -> tuple[Quantity, ...]:
         return (self.angle,)
 
     def slots(self) -> tuple[Slot, ...]:
         return (Slot("PX", (self.P, self.X)),)
 
     def check(self) -> None:
-        if self.PX is UNBOUND:
-            raise self.missing(self.slots()[0])
+        super().check()
         if self.angle.is_constant:
             raise DefinitionError(f"{self.sentence()}: a crank needs a driven angle; a fixed point is a Ground, one on a body OnLink.")
 
@@ -47,10 +44,6 @@ class Crank(Step):
         arm = Vec(cos, sin) * where.value(self.PX)
         X: Vec = where.at(self.P) + arm
         return X
-
-    def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        miss = where.at(self.X) - self.place(where)
-        return miss.x, miss.y
 
     def bars(self) -> tuple[Bar, ...]:
         return (Bar(self.P, self.X, self.PX),)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from ..quantities import Quantity, Reference, Where, distance
+from ..quantities import Operand, Quantity, Reference, Where, distance
 from ..vectors import Scalar, Side, Vec
 from .labels import Slot
 from .primitives import CosineAngle, Offset, Turn, Vector, triangle
-from .step import UNBOUND, Assignment, Bar, Step
+from .step import UNBOUND, Assignment, Bar, Position, Step
 
 
 class Dyad(Step):
@@ -22,23 +20,18 @@ class Dyad(Step):
     Q: str
     PX: Quantity = UNBOUND
     QX: Quantity = UNBOUND
-    measures = "distances"
+    from_drawing = "distances"
+    chooses = "two circles meet in two points"
     expects = (("P", "point"), ("Q", "point"), ("PX", "quantity"), ("QX", "quantity"))
 
     def __init__(
-        self, P: Reference, Q: Reference, *, side: Side | str | None = None, near: Any = None, at: Any = None, **lengths: Any
+        self, P: Reference, Q: Reference, *, side: Side | str | None = None,
+        near: Position | None = None, at: Position | None = None, **lengths: Operand,
     ) -> None:
         super().__init__(P, Q, labels=lengths, side=side, near=near, at=at)
 
     def slots(self) -> tuple[Slot, ...]:
         return Slot("PX", (self.P, self.X)), Slot("QX", (self.Q, self.X))
-
-    def check(self) -> None:
-        for slot in self.slots():
-            if getattr(self, slot.attribute) is UNBOUND and self.drawn_at is None:
-                raise self.missing(slot)
-        if self.side is None and self.near is None and self.drawn_at is None:
-            raise self.needs_side("two circles meet in two points")
 
     def place(self, where: Where) -> Vec:
         P, base = where.at(self.P), where.at(self.Q) - where.at(self.P)

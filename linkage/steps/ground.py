@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 from ..errors import DefinitionError, cited
-from ..quantities import Number, Quantity, Reference, Where, quantity, spelled
+from ..quantities import Number, Operand, Quantity, Reference, Where, quantity, spelled
 from ..vectors import Vec
-from .labels import Claims
 from .step import Point
 
 
 class Ground(Point):
     """A fixed point [m]. Its coordinates are design variables: `M.x`, `M.y`, or `M=(x, y)` at once."""
 
-    def __init__(self, x: Any, y: Any = None) -> None:
+    def __init__(self, x: Operand, y: Operand | None = None) -> None:
         if y is None:
             raise DefinitionError(f"Ground({cited(x)}): say both coordinates one after the other [m], Ground(0.7, 0.0).")
         self.x, self.y = quantity(x), quantity(y)
@@ -39,9 +37,6 @@ class Ground(Point):
     def having(self, values: Mapping[str, float]) -> Ground:
         x, y = (quantity(values.get(name, value)) for name, value in self.coordinates())
         return self.renewed(x=x, y=y)
-
-    def bind(self, X: str, claims: Claims) -> Ground:
-        return self
 
     def place(self, where: Where) -> Vec:
         return Vec(*(where.input(name) if value.is_constant else where.value(value) for name, value in self.coordinates()))

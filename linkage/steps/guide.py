@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Any
 
 from ..errors import DefinitionError
 from ..quantities import (  # fmt: skip
     FRAME_SIDE,
     Driven,
-    Holding,
     Joint,
+    Jointed,
     JointSide,
     Member,
     Number,
+    Operand,
     Quantity,
     Reference,
     Variable,
@@ -26,11 +26,10 @@ from ..quantities import (  # fmt: skip
     spelled,
 )
 from ..vectors import Line, Scalar, Vec
-from .labels import Claims
 from .step import Point, position
 
 
-class Guide(Holding):
+class Guide(Jointed):
     """A straight line to slide on: `Guide((0.0, -0.2), angle=0)` in the frame, `Guide(P, Q)` the line of two points.
 
     The first point is the guide's origin, its direction goes by the angle [rad] or from P to Q. Numbers are design
@@ -41,7 +40,7 @@ class Guide(Holding):
     expects = (("P", "point"), ("Q", "point"))
     argument_kinds = MappingProxyType({"P": "origin", "angle": "direction"})
 
-    def __init__(self, P: Reference | tuple[float, float], Q: Reference | None = None, *, angle: Any = None) -> None:
+    def __init__(self, P: Reference | tuple[float, float], Q: Reference | None = None, *, angle: Operand | None = None) -> None:
         if P is None or (Q is None) == (angle is None):
             raise DefinitionError("Guide: give its origin, and its direction by angle= or by a second point.")
         if Q is not None and (P is Q or (isinstance(P, str) and P == Q)):
@@ -55,7 +54,7 @@ class Guide(Holding):
         angle = () if self.angle is None or self.angle.is_constant else (self.angle,)
         return (*(point for point in (self.P, self.Q) if point is not None), *angle)
 
-    def angles(self) -> tuple[Quantity, ...]:
+    def in_radians(self) -> tuple[Quantity, ...]:
         return () if self.angle is None else (self.angle,)
 
     @property
@@ -96,7 +95,7 @@ class Guide(Holding):
         return f"Guide({start}, {end})"
 
 
-class Slide(Holding):
+class Slide(Jointed):
     """A point that slides on a guide: `shoe = Slide("C", rail)`."""
 
     expects = (("point", "point"), ("guide", "guide"))
@@ -125,25 +124,17 @@ class Slide(Holding):
 class OnGuide(Point):
     """A point at a distance along a guide from its origin, driven or given: `C = OnGuide(rail, at=S)` [m]."""
 
-    X: str = ""
     expects = (("guide", "guide"),)
 
-    def __init__(self, guide: Reference, *, at: Any) -> None:
+    def __init__(self, guide: Reference, *, at: Operand) -> None:
         self.guide, self.along = guide, quantity(at)
 
     def parts(self) -> tuple[Reference, ...]:
         return self.guide, self.along
 
-    def bind(self, X: str, claims: Claims) -> OnGuide:
-        return self
-
     def place(self, where: Where) -> Vec:
         line = where.line(self.guide)
         return line.at(where.value(self.along))
-
-    def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        miss = where.at(self.name) - self.place(where)
-        return miss.x, miss.y
 
     def joints(self) -> tuple[Joint, ...]:
         guide, drives = name_of(self.guide), (Driven(self.along, "t"),)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
 from ..errors import DefinitionError
 from ..frozen import refuses_changes
@@ -35,31 +35,31 @@ class Slot:
         return {forward: 1, back: 1 if self.kind == "length" else -1} if forward != back else {forward: 1}
 
 
-class Claims(Protocol):
+class DimensionTable(Protocol):
     """The table of a mechanism's dimensions: it gives each label its one quantity."""
 
-    def claim(self, slot: Slot, spelling: str, value: Operand, where: str) -> Quantity:
+    def dimension(self, slot: Slot, spelling: str, value: Operand, where: str) -> Quantity:
         """Return the quantity a label stands for; a number makes a design variable of that name."""
 
 
-def written_labels(labels: Mapping[str, Any], slots: Iterable[Slot]) -> list[str]:
+def written_labels(labels: Mapping[str, Operand], slots: Iterable[Slot]) -> list[str]:
     """Return labels as they are written, `OB=0.3`: the numbers of those that are angles in degrees."""
     angles = {spelling for slot in slots if slot.kind == "angle" for spelling in slot.spellings}
     return [f"{label}={spelled(quantity(value), 0, 'angle' if label in angles else '')}" for label, value in labels.items()]
 
 
-def relabelled(labels: Mapping[str, Any], values: Mapping[str, float]) -> dict[str, Any]:
+def relabelled(labels: Mapping[str, Operand], values: Mapping[str, float]) -> dict[str, Operand]:
     """Return labels whose numbers have other values; a label that follows something keeps it."""
     return {label: values[label] if label in values and quantity(value).is_constant else value for label, value in labels.items()}
 
 
-def match(labels: Mapping[str, Any], slots: Iterable[Slot], what: str) -> dict[str, tuple[Slot, str, int, Any]]:
+def match(labels: Mapping[str, Operand], slots: Iterable[Slot], what: str) -> dict[str, tuple[Slot, str, int, Operand]]:
     """Return, for each slot filled, its slot, spelling, sign and value.
 
     Raises DefinitionError for a label that fits no slot or a slot filled twice.
     """
     places = list(slots)
-    found: dict[str, tuple[Slot, str, int, Any]] = {}
+    found: dict[str, tuple[Slot, str, int, Operand]] = {}
     for spelling, value in labels.items():
         fitting = [slot for slot in places if spelling in slot.spellings]
         if not fitting:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import combinations
 from types import MappingProxyType
-from typing import Any
 
 from ..errors import DefinitionError
-from ..quantities import Member, Reference, name_of, quantity
-from .labels import Claims, Slot, match, relabelled, written_labels
+from ..quantities import Member, Operand, Reference, name_of, quantity
+from .labels import DimensionTable, Slot, match, relabelled, written_labels
 
 
 class Link(Member):
@@ -18,7 +17,7 @@ class Link(Member):
     kind = "link"
     argument_kinds = MappingProxyType({"points": "points"})
 
-    def __init__(self, *points: Reference, **labels: Any) -> None:
+    def __init__(self, *points: Reference, **labels: Operand) -> None:
         if len(points) == 1 and isinstance(points[0], str):
             points = tuple(points[0].replace(",", " ").split())
         self.points, self.labels = points, labels
@@ -29,12 +28,12 @@ class Link(Member):
     def parts(self) -> tuple[Reference, ...]:
         return (*self.points, *(part for part in map(quantity, self.labels.values()) if not part.is_constant))
 
-    def enter(self, claims: Claims) -> None:
+    def enter(self, table: DimensionTable) -> None:
         """Enter the labels: distances and angles of its own points."""
         for slot, spelling, value in self.fitted():
-            claims.claim(slot, spelling, value, f"{self.name} = {self}")
+            table.dimension(slot, spelling, value, f"{self.name} = {self}")
 
-    def fitted(self) -> list[tuple[Slot, str, Any]]:
+    def fitted(self) -> list[tuple[Slot, str, Operand]]:
         """Return what each label stands for, its spelling and its value; DefinitionError for one that does not fit the points."""
         found = [(match({spelling: value}, self.slots(), f"{self.name} = {self}"), value) for spelling, value in self.labels.items()]
         return [(slot, spelling, value) for each, value in found for slot, spelling, _, _ in each.values()]

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from ..errors import DefinitionError
-from ..quantities import Driven, Joint, JointSide, Number, Quantity, Reference, Turning, Where, distance
+from ..quantities import Driven, Joint, JointSide, Number, Operand, Quantity, Reference, Turning, Where, distance
 from ..vectors import Line, Scalar, Side, Vec
 from .labels import Slot
 from .primitives import CosineAngle, Offset, Turn, Vector, triangle
-from .step import UNBOUND, Assignment, Step
+from .step import UNBOUND, Assignment, Position, Step
 
 
 class OnLink(Step):
@@ -24,11 +22,12 @@ class OnLink(Step):
     PX: Quantity = UNBOUND
     QX: Quantity = UNBOUND
     QPX: Quantity = UNBOUND
-    measures = "angle"
+    from_drawing = "angle"
     expects = (("P", "point"), ("Q", "point"))
 
     def __init__(
-        self, P: Reference, Q: Reference, *, side: Side | str | None = None, near: Any = None, at: Any = None, **labels: Any
+        self, P: Reference, Q: Reference, *, side: Side | str | None = None,
+        near: Position | None = None, at: Position | None = None, **labels: Operand,
     ) -> None:
         super().__init__(P, Q, labels=labels, side=side, near=near, at=at)
 
@@ -48,7 +47,7 @@ class OnLink(Step):
         """Return the quantities of its labels."""
         return tuple(each for each in (self.PX, self.QX, self.QPX) if each is not UNBOUND)
 
-    def angles(self) -> tuple[Quantity, ...]:
+    def in_radians(self) -> tuple[Quantity, ...]:
         return () if self.QPX is UNBOUND else (self.QPX,)
 
     def modes(self) -> tuple[Side, ...]:
@@ -77,10 +76,6 @@ class OnLink(Step):
             return ()
         base = where.link_length(self.P, self.Q)
         return (self.P + self.Q, base), (self.P + self.X, where.value(self.PX)), (self.Q + self.X, where.value(self.QX))
-
-    def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        miss = where.at(self.X) - self.place(where)
-        return miss.x, miss.y
 
     def joints(self) -> tuple[Joint, ...]:
         """Return what holds the arm that a driven label moves: along it, across it and against turning."""

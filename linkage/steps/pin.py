@@ -9,9 +9,9 @@ from ..errors import DefinitionError, cited
 from ..quantities import Member, Quantity, Reference, Where, is_number, name_of, quantity
 from ..vectors import Scalar, Vec
 from .guide import Guide, Slide
-from .labels import Claims, Slot
+from .labels import DimensionTable, Slot
 from .onlink import OnLink
-from .step import Bar, Point, position
+from .step import Bar, Point, Position, position
 
 
 class Pin(Point):
@@ -23,7 +23,7 @@ class Pin(Point):
 
     argument_kinds = MappingProxyType({"near": "place", "at": "place"})
 
-    def __init__(self, *place: Any, near: Any = None, at: Any = None) -> None:
+    def __init__(self, *place: Any, near: Position | None = None, at: Position | None = None) -> None:
         if place:
             raise DefinitionError(f"Pin({', '.join(map(repr, place))}): say near=(x, y) for a place in a sketch or at=(x, y) in a drawing.")
         self.near, self.drawn_at = position(near, "Pin(near=...)"), position(at, "Pin(at=...)")
@@ -84,18 +84,18 @@ class Group(Member):
         self.rods: tuple[Bar, ...] = ()
         self.rigid: tuple[OnLink, ...] = ()
 
-    def enter(self, claims: Claims) -> None:
+    def enter(self, table: DimensionTable) -> None:
         """Enter the group's dimensions: its rods' lengths and its links' shapes."""
-        self.rods = tuple(Bar(P, Q, claims.claim(Slot("", (P, Q)), P + Q, length, str(self))) for P, Q, length in self.given)
-        self.rigid = tuple(step.bind(X, claims) for X, step in self.attached)
+        self.rods = tuple(Bar(P, Q, table.dimension(Slot("", (P, Q)), P + Q, length, str(self))) for P, Q, length in self.given)
+        self.rigid = tuple(step.bind(X, table) for X, step in self.attached)
 
     @property
     def inputs(self) -> tuple[str, ...]:
         """The names of what its solution supplies: coordinates [m] and the sine that tells how near it is to a singular pose."""
         return (*(f"{pin}.{axis}" for pin in self.pins for axis in "xy"), f"{self.name}.sine")
 
-    def angles(self) -> tuple[Quantity, ...]:
-        return tuple(angle for step in self.rigid for angle in step.angles())
+    def in_radians(self) -> tuple[Quantity, ...]:
+        return tuple(angle for step in self.rigid for angle in step.in_radians())
 
     def parts(self) -> tuple[Reference, ...]:
         points = [point for P, Q, _ in self.given for point in (P, Q)]

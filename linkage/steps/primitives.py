@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 
 from ..errors import DefinitionError
-from ..quantities import Length, Member, Quantity, Reference, Turning, Where, label, name_of, quantity, spelled
+from ..quantities import Length, Member, Operand, Quantity, Reference, Turning, Where, label, name_of, quantity, spelled
 from ..vectors import Scalar, Vec
-from .step import Point, direction
+from .step import Point, angle_given
 
 
 class Arrow(Member):
@@ -70,14 +69,14 @@ class Turn(Arrow):
 
     expects = (("base", "vector"), ("angle", "quantity"))
 
-    def __init__(self, vector: Reference, angle: Any, length: Any = None) -> None:
-        self.base, self.angle = vector, direction(angle, "Turn")
+    def __init__(self, vector: Reference, angle: Operand, length: Operand | None = None) -> None:
+        self.base, self.angle = vector, angle_given(angle, "Turn")
         self.scaled_to = None if length is None else quantity(length)
 
     def parts(self) -> tuple[Reference, ...]:
         return (self.base, self.angle) if self.scaled_to is None else (self.base, self.angle, self.scaled_to)
 
-    def angles(self) -> tuple[Quantity, ...]:
+    def in_radians(self) -> tuple[Quantity, ...]:
         return (self.angle,)
 
     def lengths(self) -> tuple[Quantity, ...]:
@@ -115,7 +114,7 @@ class CosineAngle(Quantity):
     It closes a loop: NaN where the three sides [m] do not make a triangle.
     """
 
-    def __init__(self, a: Any, b: Any, c: Any) -> None:
+    def __init__(self, a: Operand, b: Operand, c: Operand) -> None:
         self.triangle = (quantity(a), quantity(b), quantity(c))
 
     @property
@@ -148,7 +147,6 @@ class CosineAngle(Quantity):
 class Offset(Point):
     """The point P + vector [m]."""
 
-    X: str = ""
     expects = (("P", "point"), ("by", "vector"))
     argument_kinds = MappingProxyType({"vector": "vector"})
 
@@ -162,6 +160,9 @@ class Offset(Point):
 
     def place(self, where: Where) -> Vec:
         return where.at(self.P) + where.vector(self.by)
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        return ()
 
     @property
     def hangs_from(self) -> str:

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from ..quantities import Joint, JointSide, Number, Quantity, Reference, Where, guided, quantity, spelled
+from ..quantities import Joint, JointSide, Number, Operand, Quantity, Reference, Where, guided, quantity, spelled
 from ..vectors import Line, Scalar, Side, Vec
 from .labels import Slot
-from .step import UNBOUND, Bar, Step, direction
+from .step import UNBOUND, Bar, Position, Step, angle_given
 
 
 class SliderDyad(Step):
@@ -20,19 +18,16 @@ class SliderDyad(Step):
     guide: str
     PX: Quantity = UNBOUND
     parent_letters = ("P", "guide")
+    chooses = "a circle meets a line in two points"
     expects = (("P", "point"), ("guide", "guide"))
 
-    def __init__(self, P: Reference, guide: Reference, *, side: Side | str | None = None, near: Any = None, **lengths: Any) -> None:
+    def __init__(
+        self, P: Reference, guide: Reference, *, side: Side | str | None = None, near: Position | None = None, **lengths: Operand
+    ) -> None:
         super().__init__(P, guide, labels=lengths, side=side, near=near)
 
     def slots(self) -> tuple[Slot, ...]:
         return (Slot("PX", (self.P, self.X)),)
-
-    def check(self) -> None:
-        if self.PX is UNBOUND:
-            raise self.missing(self.slots()[0])
-        if self.side is None and self.near is None:
-            raise self.needs_side("a circle meets a line in two points")
 
     def modes(self) -> tuple[Side, ...]:
         return Side.LEFT, Side.RIGHT
@@ -84,7 +79,8 @@ class PinSlotDyad(Step):
     expects = (("P", "point"), ("Q", "point"))
 
     def __init__(
-        self, P: Reference, Q: Reference, *, offset: Any = 0.0, side: Side | str | None = None, near: Any = None, **lengths: Any
+        self, P: Reference, Q: Reference, *, offset: Operand = 0.0, side: Side | str | None = None,
+        near: Position | None = None, **lengths: Operand,
     ) -> None:
         super().__init__(P, Q, labels=lengths, side=Side.RIGHT if side is None and near is None else side, near=near)
         self.offset = quantity(offset)
@@ -94,10 +90,6 @@ class PinSlotDyad(Step):
 
     def slots(self) -> tuple[Slot, ...]:
         return (Slot("PX", (self.P, self.X)),)
-
-    def check(self) -> None:
-        if self.PX is UNBOUND:
-            raise self.missing(self.slots()[0])
 
     def modes(self) -> tuple[Side, ...]:
         return Side.LEFT, Side.RIGHT
@@ -163,12 +155,6 @@ class GuideCross(Step):
     def __init__(self, guide: Reference, other: Reference) -> None:
         super().__init__(guide, other, labels={})
 
-    def slots(self) -> tuple[Slot, ...]:
-        return ()
-
-    def check(self) -> None:
-        """Two guides need no label."""
-
     def place(self, where: Where) -> Vec:
         first, second = where.line(self.guide), where.line(self.other)
         sine = where.margin(first.direction.cross(second.direction))
@@ -206,21 +192,15 @@ class YokeDyad(Step):
     parent_letters = ("P", "guide")
     expects = (("P", "point"), ("guide", "guide"))
 
-    def __init__(self, P: Reference, guide: Reference, *, angle: Any = 1.5707963267948966) -> None:
+    def __init__(self, P: Reference, guide: Reference, *, angle: Operand = 1.5707963267948966) -> None:
         super().__init__(P, guide, labels={})
-        self.angle = direction(angle, "YokeDyad")
+        self.angle = angle_given(angle, "YokeDyad")
 
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), self.angle)
 
-    def angles(self) -> tuple[Quantity, ...]:
+    def in_radians(self) -> tuple[Quantity, ...]:
         return (self.angle,)
-
-    def slots(self) -> tuple[Slot, ...]:
-        return ()
-
-    def check(self) -> None:
-        """A slot needs no label."""
 
     def place(self, where: Where) -> Vec:
         line, (cos, sin) = where.line(self.guide), where.turn(self.angle)

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass
 from math import pi
 from types import MappingProxyType
-from typing import Any, Self
+from typing import Any, Self, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
-from ..quantities import Holding, Member, Number, Quantity, Reference, Where, is_number, name_of, quantity
+from ..quantities import Jointed, Member, Number, Operand, Quantity, Reference, Where, is_number, name_of, quantity
 from ..units import deg
 from ..vectors import Scalar, Side, Vec
-from .labels import Claims, Slot, match, relabelled, written_labels
+from .labels import DimensionTable, Slot, match, relabelled, written_labels
 
 
 class Unbound(Number):
@@ -29,6 +29,9 @@ class Unbound(Number):
 
 
 UNBOUND = Unbound(float("nan"))
+
+Position: TypeAlias = Sequence[float] | npt.NDArray[np.float64]
+"""A place in a sketch or a drawing, (x, y) [m]."""
 
 TURN = 2.0 * pi * (1.0 + 1e-9)
 
@@ -62,22 +65,35 @@ class Assignment:
     value: Member
 
 
-class Point(Holding):
+class Point(Jointed):
     """A named point of the mechanism.
 
-    A step of one's own says `parts`, `place`, `constraints` and `joints`; all the rest has a default that serves.
+    A step of one's own says `parts`, `place` and `joints`; all the rest has a default that serves.
     """
+
+    X: str = ""
+    """Its name once it is bound, in a class or in a group."""
 
     kind = "point"
     file_section = "points"
 
-    def bind(self, X: str, claims: Claims) -> Self:
+    def bind(self, X: str, table: DimensionTable) -> Self:
         """Return this step with its name, its parents' names and its dimensions settled."""
         return self
 
     @abstractmethod
     def place(self, where: Where) -> Vec:
         """Return the position [m]; NaN where it cannot be assembled."""
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        """Return what must vanish at this point's place, in every reading: that it lies where it is placed, unless a step knows better.
+
+        A point that closes a loop says the equations whose root `place` chooses; a free construction says none.
+        """
+        if self.is_fixed:
+            return ()
+        miss = where.at(self.X or self.name) - self.place(where)
+        return miss.x, miss.y
 
     def expansion(self) -> tuple[Assignment, ...]:
         """Return the primitives that this step stands for, in the vector method's order; empty where its own rule is written out."""
@@ -143,15 +159,17 @@ class Step(Point):
     After binding, `X` and the parents are names and every slot holds a quantity.
     """
 
-    X: str = ""
     parents: tuple[Reference, ...]
     parent_letters: tuple[str, ...] = ("P", "Q")
     argument_kinds = MappingProxyType({"side": "side", "near": "place", "at": "place"})
-    measures: str = ""
+    from_drawing: str = ""
     """What `at=(x, y)` supplies: the `distances` from both parents, or one distance and the `angle`."""
+    chooses: str = ""
+    """Why a side must be said, in words; "" where there is one place only."""
 
     def __init__(
-        self, *parents: Reference, labels: Mapping[str, Any], side: Side | str | None = None, near: Any = None, at: Any = None
+        self, *parents: Reference, labels: Mapping[str, Operand], side: Side | str | None = None,
+        near: Position | None = None, at: Position | None = None,
     ) -> None:
         self.parents = parents
         self.labels = dict(labels)
@@ -159,18 +177,24 @@ class Step(Point):
         self.near = position(near, f"{type(self).__name__}(near=...)")
         self.drawn_at = position(at, f"{type(self).__name__}(at=...)")
 
-    @abstractmethod
     def slots(self) -> tuple[Slot, ...]:
         """Return the labels this step takes; the step knows its points' names by now."""
+        return ()
 
-    @abstractmethod
     def check(self) -> None:
         """Raise DefinitionError where something this step needs is missing or too much."""
+        if self.drawn_at is not None:
+            return
+        for slot in self.slots():
+            if getattr(self, slot.attribute) is UNBOUND:
+                raise self.missing(slot)
+        if self.chooses and self.side is None and self.near is None:
+            raise self.needs_side(self.chooses)
 
     def parts(self) -> tuple[Reference, ...]:
         return (*self.parents, *(part for part in map(quantity, self.labels.values()) if not part.is_constant))
 
-    def bind(self, X: str, claims: Claims) -> Self:
+    def bind(self, X: str, table: DimensionTable) -> Self:
         bound = copy(self)
         bound.X = X
         for letter, parent in zip(self.parent_letters, self.parents, strict=True):
@@ -178,8 +202,8 @@ class Step(Point):
         bound.check_points()
         for attribute, (slot, spelling, sign, value) in match(self.labels, bound.slots(), bound.sentence()).items():
             bound.check_sense(slot, spelling, sign, value)
-            claimed = claims.claim(slot, spelling, value, bound.sentence())
-            setattr(bound, attribute, claimed if sign > 0 else -claimed)
+            found = table.dimension(slot, spelling, value, bound.sentence())
+            setattr(bound, attribute, found if sign > 0 else -found)
         bound.check()
         return bound
 
@@ -192,7 +216,7 @@ class Step(Point):
         if len({self.X, *names}) < len(names) + 1:
             raise DefinitionError(f"{self.sentence()}: the points {', '.join([self.X, *names])} must be different.")
 
-    def check_sense(self, slot: Slot, spelling: str, sign: int, value: Any) -> None:
+    def check_sense(self, slot: Slot, spelling: str, sign: int, value: Operand) -> None:
         """Raise DefinitionError for an angle whose own sense would be turned once more by the side."""
         if slot.kind != "angle" or self.side is None:
             return
@@ -256,7 +280,7 @@ def side_of(side: Any, what: str) -> Side:
     return found
 
 
-def direction(given: Any, what: str) -> Quantity:
+def angle_given(given: Operand, what: str) -> Quantity:
     """Return an angle as a quantity; DefinitionError for a number of more than a full turn, which was given in degrees."""
     found = quantity(given)
     if isinstance(found, Number) and abs(found.number) > TURN:
@@ -265,7 +289,7 @@ def direction(given: Any, what: str) -> Quantity:
     return found
 
 
-def position(value: Any, what: str) -> tuple[float, float] | None:
+def position(value: Position | None, what: str) -> tuple[float, float] | None:
     """Return a sketch position as two floats; raise DefinitionError unless it is a pair of finite numbers."""
     if value is None:
         return None

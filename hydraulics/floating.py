@@ -21,7 +21,7 @@ from linkage.loads.two_point import end_forces
 from linkage.motion import Motion
 from linkage.plan import ArrayReading
 from linkage.quantities import Reference, label, name_of
-from linkage.statics import Case, Loads, stroke_followed
+from linkage.statics import Case, Loads, plan_of, stroke_followed
 
 from .accumulator import AccumulatorBlock
 from .inputs import Array, finite, in_pascals, is_traced
@@ -133,7 +133,7 @@ class FloatCircuit(Circuit):
         return np.asarray(free - np.sign(ram.growth(motion, rates)) * friction)
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
-        return [Push(self.ram(motion), self.thrust(motion, rates if rates.rubs else AT_REST))]
+        return [Push(self.ram(motion), self.thrust(motion, rates if rates.has_friction else AT_REST))]
 
     def loads(self, motion: Poses) -> list[Load]:
         return self.moving(motion, AT_REST)
@@ -144,7 +144,8 @@ class FloatCircuit(Circuit):
 
 def length_at(motion: Poses, ram: Cylinder, at: Array) -> Any:
     """Return a cylinder's length [m] where the line is charged: the stroke that it follows at `at`, others at the sketch; broadcasts."""
-    plan, stroke = motion.plan, stroke_followed(motion.plan, ram)
+    plan = plan_of(motion)
+    stroke = stroke_followed(plan, ram)
     reading = ArrayReading(plan.members, plan.table.lengths, {**motion.inputs, **plan.sketch_strokes, stroke: at})
     length = plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
     if length is not None:

@@ -14,8 +14,7 @@ import numpy as np
 
 from linkage.errors import DefinitionError, known_name, unknown
 from linkage.motion import Motion, Span, below_zero, greatest, lowest, reached, require_motion
-from linkage.statics import Case, Loads, elements_of
-from linkage.statics.holding import same
+from linkage.statics import Case, Loads, elements_of, same
 from linkage.units import UNITS, litre, mm, show
 
 from .cylinder import CylinderSize, standard_bores

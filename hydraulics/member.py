@@ -22,8 +22,7 @@ from linkage.frozen import refuses_changes
 from linkage.loads import AT_REST, DrawnAs, ForceElement, LoadCase, Poses, Push, Rates, TwoPoint, require_poses
 from linkage.motion import Column, Motion, Tabled, greatest, lowest, require_motion
 from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import Case, Loads, elements_of, member_thrust
-from linkage.statics.holding import same
+from linkage.statics import Case, Loads, elements_of, member_thrust, same
 from linkage.units import mm
 
 from .buckling import Buckling

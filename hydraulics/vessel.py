@@ -10,7 +10,7 @@ import numpy as np
 
 from linkage.errors import DefinitionError
 from linkage.frozen import keep_own, refuses_changes
-from linkage.loads.element import written
+from linkage.loads.element import value_text
 
 from .inputs import finite, in_pascals, not_negative
 from .settings import follows
@@ -50,4 +50,4 @@ class Accumulator:
         return changed
 
     def __str__(self) -> str:
-        return f"Accumulator(volume={written(self.volume)}, charge={written(self.charge)})"
+        return f"Accumulator(volume={value_text(self.volume)}, charge={value_text(self.charge)})"

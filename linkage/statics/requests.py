@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
@@ -13,15 +13,14 @@ from ..errors import DefinitionError, cited, known_name
 from ..motion import BoundRequest, Motion, Request
 from ..plan import Plan
 from ..program import Node, Notes
+from ..vectors import Scalar
 from .acting import Case, Loads, drive_of
-from .driving import driving_force
 from .equilibrium import System
-from .forces import pin_forces
+from .joint_forces import JointForce, joint_on, joints_of, pin_forces
 from .joints import Contact, Structure
-from .result import met
-from .solution import Solved
-from .traced_loads import Law, eliminated_system, held
-from .work import by_work
+from .solution import Solution
+from .traced_loads import TracedLoads, checked_length, eliminated_forces
+from .work import by_work, driving_force
 
 
 @final
@@ -35,8 +34,8 @@ class DriveForce(Request):
 
     def bound(self, plan: Plan) -> DriveForceOf:
         drive = drive_of(plan, self.drive)
-        law = Law.of(plan, self.loads, self.case)
-        return DriveForceOf(self.loads, self.case, drive, law.key, frozenset(law.names), frozenset(law.carriers))
+        traced = TracedLoads.apart(plan, self.loads, self.case)
+        return DriveForceOf(self.loads, self.case, drive, traced.key, frozenset(traced.names), frozenset(traced.carriers))
 
 
 def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None) -> DriveForce:
@@ -68,11 +67,11 @@ class ForceOf(BoundRequest):
         return True
 
     def notes(self, plan: Plan) -> Notes:
-        return self.laws(plan).notes
+        return self.traced(plan).notes
 
-    def laws(self, plan: Plan) -> Law:
+    def traced(self, plan: Plan) -> TracedLoads:
         """Return the loads traced on a plan's program."""
-        return Law.on(plan, self.loads, self.case)
+        return TracedLoads.on(plan, self.loads, self.case)
 
 
 @final
@@ -81,18 +80,18 @@ class DriveForceOf(ForceOf):
     """A drive's force bound to a plan: its drive, the key of its loads, the members it reads, and those it is differentiated through."""
 
     drive: str
-    law: tuple[Any, ...]
+    loads_key: tuple[Hashable, ...]
     read: frozenset[str]
     carriers: frozenset[str]
 
     @property
-    def key(self) -> Any:
-        return "drive force", self.drive, self.law
+    def key(self) -> Hashable:
+        return "drive force", self.drive, self.loads_key
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        law = self.laws(plan)
-        (force,) = by_work(law.poses, law.loaded, self.drive)
-        return (law.motion.node(force),)
+        traced = self.traced(plan)
+        (force,) = by_work(traced.poses, traced.acting, self.drive)
+        return (traced.motion.node(force),)
 
     def names(self, plan: Plan) -> set[str]:
         return set(self.read)
@@ -107,8 +106,10 @@ class DriveForceOf(ForceOf):
         return f"the driving force of {self.drive}"
 
 
-#: What can be asked of a force, from its parts.
-COMPONENTS: Mapping[str, Callable[[Any, Any], Any]] = MappingProxyType({"x": lambda x, y: x, "y": lambda x, y: y, "size": np.hypot})
+COMPONENTS: Mapping[str, Callable[[Scalar, Scalar], Scalar]] = MappingProxyType(
+    {"x": lambda x, y: x, "y": lambda x, y: y, "size": np.hypot}
+)
+"""What can be asked of a force, from its parts."""
 
 
 @final
@@ -124,13 +125,13 @@ class PinForce(Request):
 
     def bound(self, plan: Plan) -> PinForceOf:
         known_name("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
-        law = Law.of(plan, self.loads, self.case)
-        structure = Structure(plan, law.loaded.elements, law.loaded.pushing)
-        asked = replace(self, on=structure.called(self.on))
-        joint, _ = joint_of(structure, self.point, asked.on)
+        traced = TracedLoads.apart(plan, self.loads, self.case)
+        structure = Structure(plan, traced.acting.elements, traced.acting.thrusts)
+        request = replace(self, on=structure.full_name(self.on))
+        _, joint, _ = contact_of(structure, self.point, request.on)
         spans = tuple((strut.name, strut.P, strut.Q) for strut in structure.struts)
-        length = plan.made(("held", spans), lambda _: held(plan, law.loaded))
-        return PinForceOf(self.loads, self.case, asked, (*law.key, spans), length, str(joint))
+        length = plan.made(("checked length", spans), lambda _: checked_length(plan, traced.acting))
+        return PinForceOf(self.loads, self.case, request, (*traced.key, spans), length, str(joint))
 
 
 def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = None, case: Case = None) -> PinForce:
@@ -139,7 +140,7 @@ def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = 
     It is that of the frictionless `pin_forces(motion, loads, case=case).force(point, on)`: on the body `on` from the other one.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
-    names: tuple[Any, ...] = point, on
+    names: tuple[object, ...] = point, on
     if not all(isinstance(each, str) for each in names):
         said = "the names of a point and of a body are expected"
         raise DefinitionError(f'pin_force({cited(point)}, {cited(on)}): {said}, such as pin_force("G", "arm").')
@@ -149,26 +150,25 @@ def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = 
 @final
 @dataclass(frozen=True, eq=False)
 class PinForceOf(ForceOf):
-    """A pin force bound to a plan: what was asked, the key of its loads, a length of the mechanism [m], and the joint in words."""
+    """A pin force bound to a plan: the request, the key of its loads, a length of the mechanism [m], and the joint in words."""
 
-    asked: PinForce
-    law: tuple[Any, ...]
+    request: PinForce
+    loads_key: tuple[Hashable, ...]
     length: float
     joint: str
 
     @property
-    def key(self) -> Any:
-        return "pin force", self.asked.point, self.asked.on, self.asked.component, self.law
+    def key(self) -> Hashable:
+        return "pin force", self.request.point, self.request.on, self.request.component, self.loads_key
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        law = self.laws(plan)
-        structure, motion = Structure(plan, law.loaded.elements, law.loaded.pushing), law.motion
-        system = System(structure, law.poses, law.loaded.acting, length=self.length)
-        u = eliminated_system(system, motion)
-        none = np.zeros((1, 0))
-        joint, sign = joint_of(structure, self.asked.point, self.asked.on)
-        force, _ = Solved(system, u, none, np.zeros(1, bool), []).transmitted(joint.contact)
-        return (motion.node(COMPONENTS[self.asked.component](*(sign * force[:, 0]))),)
+        traced = self.traced(plan)
+        structure, motion = traced.structure, traced.motion
+        system = System(structure, traced.poses, traced.acting.loads, length=self.length)
+        u = eliminated_forces(system, motion)
+        contact, _, sign = contact_of(structure, self.request.point, self.request.on)
+        force, _ = Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), []).transmitted(contact)
+        return (motion.node(COMPONENTS[self.request.component](*(sign * force[:, 0]))),)
 
     def names(self, plan: Plan) -> set[str]:
         return set(plan.members)
@@ -177,33 +177,12 @@ class PinForceOf(ForceOf):
         pin_forces(motion, self.loads, case=self.case)
 
     def __str__(self) -> str:
-        what = "the size" if self.asked.component == "size" else f"the {self.asked.component} component"
+        what = "the size" if self.request.component == "size" else f"the {self.request.component} component"
         return f"{what} of the force at {self.joint}"
 
 
-@dataclass(frozen=True)
-class Met:
-    """A joint by the names of its bodies."""
-
-    contact: Contact
-    on: str
-    by: str
-
-    @property
-    def point(self) -> str:
-        """The point it is at."""
-        return self.contact.point
-
-    @property
-    def has_force(self) -> bool:
-        """Whether it transmits a force."""
-        return self.contact.has_force
-
-    def __str__(self) -> str:
-        return f"{self.point} ({self.contact.kind}) on {self.on} from {self.by}"
-
-
-def joint_of(structure: Structure, point: str, on: str) -> tuple[Met, float]:
-    """Return the joint that is meant, and the sign of its force on the body."""
-    joints = [Met(each, structure.name(each.on), structure.name(each.by)) for each in structure.contacts]
-    return met(joints, point, on, structure.plan.title)
+def contact_of(structure: Structure, point: str, on: str) -> tuple[Contact, JointForce, float]:
+    """Return the contact that is meant, its joint without a value, and the sign of its force on the body."""
+    joints = joints_of(structure, [(np.zeros(2), np.zeros(()))] * len(structure.contacts))
+    joint, sign = joint_on(joints, point, on, structure.plan.title)
+    return structure.contacts[joints.index(joint)], joint, sign

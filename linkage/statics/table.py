@@ -12,8 +12,7 @@ import numpy as np
 from ..errors import DefinitionError, cited, unwarned
 from ..motion import greatest
 from ..units import deg, kN
-from .joints import JointForce
-from .result import PinForces
+from .joint_forces import JointForce, PinForces
 
 
 @dataclass(frozen=True)

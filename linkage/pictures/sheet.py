@@ -40,7 +40,7 @@ def millimetres(value: float, _: int | None = None) -> str:
 
 def filling(ax: Axes, box: Box) -> Box:
     """Return a box [m] made wider or higher until it has the shape of the axes."""
-    figure = ax.get_figure(root=True)
+    figure = ax.figure.figure  # of axes in a subfigure, too
     assert figure is not None
     place = ax.get_position(original=True)
     shape = place.width * figure.get_figwidth() / (place.height * figure.get_figheight())
@@ -66,7 +66,7 @@ def points_a_metre(ax: Axes) -> float:
     """Return the drawing's scale, printer's points a metre, once its limits and place stand."""
     ax.apply_aspect()
     ends = ax.transData.transform([(0.0, 0.0), (1.0, 0.0)])
-    figure = ax.get_figure(root=True)
+    figure = ax.figure.figure  # of axes in a subfigure, too
     assert figure is not None
     return float(np.hypot(*(ends[1] - ends[0]))) * 72.0 / figure.dpi
 

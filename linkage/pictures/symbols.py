@@ -129,7 +129,7 @@ def support(pin: FloatArray, way: float, size: float) -> tuple[FloatArray, Float
 
 # Sliding: rails with their hatching, slots on moving bodies, and the blocks that slide along them.
 
-LONG, HALF, SLOT, HATCH = 2.1, 1.25, 0.7, 0.9
+LONG, ACROSS, SLOT = 2.1, 1.25, 0.7
 """Half a block's length and width, half a slot's width, and the depth of the hatching, in sizes."""
 
 
@@ -155,7 +155,7 @@ class BlockPart(Part):
         self.points, self.half, self.size = (rider, *ends), half, size
         fill, edge = look.colour(style.RULE), look.colour(style.INK)
         shape = Polygon(np.zeros((1, 2)), facecolor=fill, edgecolor=edge, linewidth=style.OUTLINE, joinstyle="round")
-        shape.set_zorder(look.level + (0.17 if half == HALF else 0.32))
+        shape.set_zorder(look.level + (0.17 if half == ACROSS else 0.32))
         self.face = added(ax, shape)
         self.artists = (self.face,)
 
@@ -180,7 +180,7 @@ def sliders(ax: Axes, scene: Scene, look: Look) -> list[Part]:
 
 def width(fixed: bool) -> float:
     """Return half a block's width, in sizes: in a slot it fits the slot."""
-    return HALF if fixed else SLOT
+    return ACROSS if fixed else SLOT
 
 
 def rails(ax: Axes, scene: Scene, look: Look) -> None:
@@ -209,7 +209,7 @@ def rail(start: FloatArray, end: FloatArray, pins: list[FloatArray], size: float
     held = [pin - start for pin in pins]
     if any(-2 * size < pin @ along < long + 2 * size and -size < pin @ below < 4 * size for pin in held):
         below = -below
-    shift = HALF * size * below
+    shift = ACROSS * size * below
     places = np.arange(0.0, long - HATCH * size, 1.1 * HATCH * size)
     lines = [(start + shift, end + shift)]
     lines += [(start + shift + (s + HATCH * size) * along, start + shift + s * along + HATCH * size * below) for s in places]

@@ -126,7 +126,7 @@ def check_random(seed):
     agree(first.values[: len(steps), 0], steps, good)
 
 
-@pytest.mark.parametrize("start", range(0, 200, 20))
+@pytest.mark.parametrize("start", [0, 20, *(pytest.param(n, marks=pytest.mark.slow) for n in range(40, 200, 20))])
 def test_all_ways_agree_over_random_mechanisms(start):
     for seed in range(start, start + 20):
         check_random(seed)

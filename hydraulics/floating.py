@@ -169,4 +169,4 @@ def length_by_groups(motion: Poses, ram: Cylinder, stroke: str, at: Array) -> Ar
     found = Motion(motion.plan, motion.designs, {name: strokes[name] for name in motion.strokes}, "nan").distance(ram.A, ram.B)
     if not np.all(np.isfinite(found)):
         raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {stroke} = {value:.6g}.")
-    return np.asarray(found.reshape((*motion.design_shape, *(1,) * len(motion.stroke_shape))))
+    return np.asarray(found.reshape((*motion._design_shape, *(1,) * len(motion._stroke_shape))))

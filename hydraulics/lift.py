@@ -475,5 +475,5 @@ def least_of(each: Sequence[Array]) -> Array:
 
 def for_designs(motion: Motion, value: ArrayLike) -> Array:
     """Return a value that broadcasts against the motion and is the same at all poses, as one of each design."""
-    array, tail = np.asarray(value), (1,) * len(motion.stroke_shape)
+    array, tail = np.asarray(value), (1,) * len(motion._stroke_shape)
     return np.asarray(array.reshape(array.shape[: array.ndim - len(tail)]) if array.ndim else array)

@@ -292,8 +292,8 @@ def rubs(motion: Motion, loads: Loads) -> bool:
 def one_design(motion: Motion, what: str) -> None:
     """Raise DefinitionError for a motion of several designs, and for what is no motion."""
     require_motion(motion)
-    if motion.design_shape:
-        raise DefinitionError(f"{what} is judged for one design at a time; this motion has {motion.design_shape}. Take one.")
+    if motion._design_shape:
+        raise DefinitionError(f"{what} is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
 
 
 def one_area(size: CylinderSize, thrust: float) -> float:

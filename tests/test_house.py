@@ -39,7 +39,6 @@ OPTIONAL = {"dask", "distributed", "ezdxf", "openpyxl", "pymoo"}  # extras: ther
 HEAVY_ROOMS = {f"linkage.{room}" for room in ("formulas", "study", "pictures", "reports", "files")}
 
 KNOWN_CIRCLES = [  # still there, each to be untied; a circle that is gone leaves this list, none joins it
-    ["linkage/motion/gradient.py", "linkage/motion/motion.py", "linkage/motion/requests.py", "linkage/motion/scan.py"],
 ]
 
 

@@ -243,7 +243,7 @@ class Equations(Sequence[Equation]):
         """Return the plain symbols of everything given, with their values [SI]."""
         pose, names = self._pose(at), self._listing.names
         motion = self.machine.at(**pose)
-        if motion.design_shape:
+        if motion._design_shape:
             raise DefinitionError(f"{self.machine.plan.title}: its equations take one design, each dimension a single number.")
         given = {names.quantity(name): value for name, value in {**self.machine.dimensions, **pose}.items()}
         for point in (*self.machine.plan.ground, *self._listing.unknowns):

@@ -1,10 +1,10 @@
 """Where everything is over the stroke: positions, ratios, angles, distances."""
 
-from .evaluation import PoseFunction, evaluate, function_of, source_of
+from .evaluation import PoseFunction, evaluate, evaluate_grid, source_of
 from .extremes import Extremum, Span, below_zero, greatest, lowest, reached
 from .grid import Grid
 from .limits import stroke_unit
-from .motion import Motion, Target, paired, require_motion
+from .motion import Motion, Target, out_of_reach, paired, require_motion
 from .requests import BoundRequest, Ratio, Request, RequestLike, Value, condition, ratio
 from .strokes import as_given, at_values, check_any, rates_of, sweep_values
 from .table import Column, Tabled, columns_of

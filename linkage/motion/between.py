@@ -146,11 +146,11 @@ class Between:
         near = np.take_along_axis(self._reached, places, axis=-1)
 
         def shaped(values: Any) -> Any:
-            return values.reshape(*first.design_shape, t.shape[-1])
+            return values.reshape(*first._design_shape, t.shape[-1])
 
         strokes = {name: shaped(value) for name, value in self.route.strokes(leg, t).items()}
         motion = Motion(
-            first.plan, first.designs, strokes, "nan", own=True, joining=Beside(first.grid, shaped(near)),
+            first.plan, first.designs, strokes, "nan", own=True, joining=Beside(first._grid, shaped(near)),
             tangent=tangent and {name: shaped(value) for name, value in tangent.items()},
         )  # fmt: skip
         return motion, self.sense * values_of(self.f, motion)

@@ -9,18 +9,18 @@ the request's own program tells what rounding leaves of it (`Rounding`).
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from ..errors import SingularError, SingularWarning
+from ..errors import SingularError, SingularWarning, warn
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Iterated, Node, scatter
 from ..quantities import Member
 from ..steps import Point
+from .grid import MotionLike
 from .limits import Mask, called, opening, where_words
 
 WARN = 1e4
@@ -194,7 +194,7 @@ def condition(sine: FloatArray) -> FloatArray:
         return worst
 
 
-def refusal(found: Judged, mask: Mask, strokes: Mapping[str, Any], what: str, motion: Any) -> SingularError:
+def refusal(found: Judged, mask: Mask, strokes: Mapping[str, Any], what: str, motion: MotionLike) -> SingularError:
     """Return the error for a result asked at singular poses; `found` is of these alone, `mask` in the motion's shape."""
     plan = found.plan
     near = found.culprit()
@@ -236,26 +236,21 @@ def be(what: str) -> str:
     return "are" if what.split(" of ")[0].endswith("s") else "is"
 
 
-def crosses(motion: Any, name: str) -> bool:
+def crosses(motion: MotionLike, name: str) -> bool:
     """Return whether a loop in line can be assembled on both sides of the pose, so that two branches cross there."""
-    if len(motion.strokes) != 1 or motion.design_shape or name not in motion.loop_sines:
+    if len(motion.strokes) != 1 or motion._design_shape or name not in motion._loop_sines:
         return False
     ((stroke, values),) = motion.strokes.items()
-    place = int(np.argmin(np.nan_to_num(np.abs(np.broadcast_to(motion.loop_sines[name], motion.shape)))))
+    place = int(np.argmin(np.nan_to_num(np.abs(np.broadcast_to(motion._loop_sines[name], motion.shape)))))
     step = 1e-4 * abs(motion.plan.strokes[stroke].end - motion.plan.strokes[stroke].start)
     return bool(motion.moved({stroke: np.ravel(values)[place] + np.array([-step, step])}).reached.all())
 
 
-def warn(found: Judged, what: str, level: int = 4, be: str = "is") -> None:
+def warn_near(found: Judged, what: str, be: str = "is") -> None:
     """Warn of poses next to a singular one, with the estimate of what is lost; `found` is of these alone."""
     near = found.culprit()
     plan, name, estimate = found.plan, near.member, float(np.max(found.error))
     how = str(near) if near.condition is None else f"{be} near a dead point ({near})"
     who = f"{called(plan, name) if name else 'it'} {how}" if how else ""
-    warnings.warn(
-        SingularWarning(
-            f"{what}: {who or 'its parts nearly cancel'}; expect a relative error of about {estimate:.0e}.",
-            estimate=estimate,
-        ),
-        stacklevel=level,
-    )
+    text = f"{what}: {who or 'its parts nearly cancel'}; expect a relative error of about {estimate:.0e}."
+    warn(SingularWarning(text, estimate=estimate))

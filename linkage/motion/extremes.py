@@ -52,7 +52,7 @@ def below_zero(motion: Motion, f: Function) -> tuple[Span, ...]:
     dips below zero between two of 4097 samples like an extreme is, see `peaks`.
     """
     require_function(motion, f)
-    if motion.design_shape or len(motion.stroke_shape) > 1:
+    if motion._design_shape or len(motion._stroke_shape) > 1:
         raise DefinitionError(f"{motion.plan.title}: ranges are told for one design along one stroke or one path; this is {motion.shape}.")
     between = Between(motion, f)
     if between.front:
@@ -165,10 +165,10 @@ class Box:
 
     def look(self, unit: FloatArray) -> tuple[FloatArray, Mask]:
         """Return the values (K, D, c, n) at places (D, c, n, k), each design at its own, and which poses (D, c, n) are reached."""
-        shape = (*self.first.design_shape, *unit.shape[1:-1])
+        shape = (*self.first._design_shape, *unit.shape[1:-1])
         strokes = {name: value.reshape(shape) for name, value in self.strokes(unit).items()}
         near = self._near(unit).reshape(shape)
-        motion = Motion(self.first.plan, self.first.designs, strokes, "nan", own=True, joining=Beside(self.first.grid, near))
+        motion = Motion(self.first.plan, self.first.designs, strokes, "nan", own=True, joining=Beside(self.first._grid, near))
         seen = self.sense * values_of(self.f, motion)
         return seen.reshape(-1, *unit.shape[:-1]), motion.reached.reshape(unit.shape[:-1])
 
@@ -323,13 +323,13 @@ def extremum(motion: Motion, f: Function, sense: float) -> Extremum:
     if not motion.strokes:
         raise DefinitionError(f"{motion.plan.title} has no stroke, so there is nothing between its poses.")
     units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
-    if len(motion.stroke_shape) > 1 and len(moving(motion)) > 1:
+    if len(motion._stroke_shape) > 1 and len(moving(motion)) > 1:
         box = Box(motion, f, sense)
-        top, shape = highest_in(box), (*box.front, *motion.design_shape)
+        top, shape = highest_in(box), (*box.front, *motion._design_shape)
         strokes = {name: given(value, shape) for name, value in box.strokes(top.unit).items()}
         return Extremum(given(sense * top.value, shape), strokes, given(top.unbounded, shape), units)
     between = Between(motion, f, sense)
-    found, shape = highest(between.look, between.route.counts), (*between.front, *motion.design_shape)
+    found, shape = highest(between.look, between.route.counts), (*between.front, *motion._design_shape)
     strokes = {name: given(value, shape) for name, value in between.route.strokes(found.leg, found.t).items()}
     return Extremum(given(sense * found.value, shape), strokes, given(found.unbounded, shape), units)
 

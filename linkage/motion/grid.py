@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import prod
-from typing import Any, TypeAlias
+from typing import Any, Protocol, Self, TypeAlias
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from ..errors import DefinitionError
 from ..frozen import FrozenDict, read_only
 from ..plan import ArrayReading, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node, Way, ancestors, interpret
+from ..quantities import Member, Quantity
 from .limits import Mask
 
 # Angles made continuous along the stroke.
@@ -214,6 +215,36 @@ class Beside:
 def varies(value: Any) -> bool:
     """Return whether a dimension differs from design to design."""
     return type(value) is not float and np.ndim(value) > 0
+
+
+class MotionLike(Protocol):
+    """What limits, conditions and requests ask of a motion, which itself is made with them; see `Motion`."""
+
+    @property
+    def plan(self) -> Plan: ...
+    @property
+    def _grid(self) -> Grid: ...
+    @property
+    def shape(self) -> tuple[int, ...]: ...
+    @property
+    def _design_shape(self) -> tuple[int, ...]: ...
+    @property
+    def designs(self) -> Mapping[str, Any]: ...
+    @property
+    def strokes(self) -> Mapping[str, FloatArray]: ...
+    @property
+    def reached(self) -> Mask: ...
+    @property
+    def _reading(self) -> ArrayReading: ...
+    @property
+    def _joints(self) -> tuple[str, ...]: ...
+    @property
+    def _loop_sines(self) -> Mapping[str, Any]: ...
+    def __getitem__(self, name: str) -> FloatArray: ...
+    def moved(self, strokes: Mapping[str, Any]) -> Self: ...
+    def value(self, quantity: Quantity) -> FloatArray: ...
+    def transmission_angle(self, point: str) -> FloatArray: ...
+    def ratio(self, target: str | Member, *, wrt: str | None = None, order: int = 1) -> FloatArray: ...
 
 
 # What follows from directions: nodes worked out again where an angle is continued past half a turn along the stroke.

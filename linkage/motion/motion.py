@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeAlias
 
 import numpy as np
 
 from ..assembly import parted
-from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, cited, one_word, unwarned
+from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, cited, one_word, unwarned, warn
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Kernel
 from ..quantities import Angle, Distance, Member, Quantity, needs
@@ -20,10 +19,23 @@ from . import conditions, scan
 from . import differences as numeric
 from . import limits as reach
 from .conditions import Judged
-from .gradient import gradient_of
 from .grid import Beside, Grid, Joining, angles_of, as_they_are, in_order, to_rounding
 from .limits import Mask
-from .requests import BoundRequest, Everywhere, RequestLike, Value, examined, near_of, stroke_of, watched
+from .requests import (
+    BoundRequest,
+    Everywhere,
+    RequestLike,
+    Slope,
+    Value,
+    astray,
+    bound,
+    dimensions_of,
+    examined,
+    near_of,
+    slopes_of,
+    stroke_of,
+    watched,
+)
 from .strokes import method_of, named, order_of, rates_of
 
 Target: TypeAlias = str | Member
@@ -55,19 +67,19 @@ class Motion:
         ):  # fmt: skip
             raise DefinitionError("Motion(...) is made by a design: machine.sweep(...) or machine.at(...).")
         one_word("unreachable", unreachable, ("raise", "nan"))
-        self.grid = Grid(plan, designs, strokes, own=own, joining=joining)
+        self._grid = Grid(plan, designs, strokes, own=own, joining=joining)
         self.plan, self.unreachable = plan, unreachable
-        self.shape, self.design_shape = self.grid.shape, self.grid.design_shape
+        self.shape, self._design_shape = self._grid.shape, self._grid.design_shape
         self._tangent = tangent
         self._values: dict[Any, FloatArray] = {}
         self._watched: dict[Any, bool] = {}
         self.reached: Mask = np.ones(self.shape, bool)
-        result = plan.kernel(plan.moving, guarded=True)(self.grid.flat)
-        self._places = self.grid.full(result.values)
-        self.is_near_singular = not np.all(result.guards > 0.0)
-        if self.is_near_singular or plan.may_overflow:
+        result = plan.kernel(plan.moving, guarded=True)(self._grid.flat)
+        self._places = self._grid.full(result.values)
+        self._is_near_singular = not np.all(result.guards > 0.0)
+        if self._is_near_singular or plan.may_overflow:
             self._settle_unreached()
-        if self.is_near_singular:
+        if self._is_near_singular:
             self._settle_lost()
         self._places.flags.writeable = self.reached.flags.writeable = False
         if unreachable == "raise" and scan.is_watched(self):
@@ -78,32 +90,32 @@ class Motion:
     @property
     def designs(self) -> dict[str, Any]:
         """The design variables by name [SI]."""
-        return self.grid.designs
+        return self._grid.designs
 
     @property
     def strokes(self) -> dict[str, FloatArray]:
         """The strokes by name [m or rad], arrays of one shape."""
-        return self.grid.strokes
+        return self._grid.strokes
 
     @property
     def inputs(self) -> dict[str, Any]:
         """Design variables and strokes by name, shaped to broadcast against results."""
-        return self.grid.inputs
+        return self._grid.inputs
 
-    def array(self, values: Any) -> FloatArray:
+    def _array(self, values: Any) -> FloatArray:
         """Return numbers as arrays of floats."""
         return np.asarray(values, float)
 
     @property
-    def stroke_shape(self) -> tuple[int, ...]:
+    def _stroke_shape(self) -> tuple[int, ...]:
         """The shape of the poses of each design."""
-        return self.grid.stroke_shape
+        return self._grid.stroke_shape
 
     def __repr__(self) -> str:
         spans = [f"{name} = {reach.span_read(values, reach.stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
         poses = f"{', '.join(spans) or 'no stroke'}; shape {self.shape}"
         reached = "all reached" if self.reached.all() else f"{int(self.reached.sum())} of {self.reached.size} reached"
-        return f"<Motion of {self.plan.title}: {poses}, {reached}{scan.between_words(self)}>"
+        return f"<Motion of {self.plan.title}: {poses}, {reached}{scan.between_words(self.interruptions)}>"
 
     @cached_property
     def interruptions(self) -> tuple[scan.Interruption, ...] | None:
@@ -112,7 +124,7 @@ class Motion:
         Empty where nothing does; it then leads from every pose to every other. None where it is not looked for: of batches and
         of several strokes. Asked with unreachable="raise", a motion that is interrupted is refused.
         """
-        if self.grid.size[1] < 2:
+        if self._grid.size[1] < 2:
             return ()
         if not scan.is_watched(self):
             return None
@@ -120,10 +132,10 @@ class Motion:
 
     def _refuse_parted(self) -> None:
         """Raise SingularError where an angle that is followed from the sketch changes by a turn from one pose to the next."""
-        m, shape = self.grid.size[0], self.stroke_shape
-        solved = self.grid.solved.inputs
-        references = {name: np.broadcast_to(solved[name], self.grid.size).reshape(m, *shape) for name in self.plan.followed}
-        designs = {name: np.broadcast_to(value, self.design_shape) if np.ndim(value) else value for name, value in self.designs.items()}
+        m, shape = self._grid.size[0], self._stroke_shape
+        solved = self._grid.solved.inputs
+        references = {name: np.broadcast_to(solved[name], self._grid.size).reshape(m, *shape) for name in self.plan.followed}
+        designs = {name: np.broadcast_to(value, self._design_shape) if np.ndim(value) else value for name, value in self.designs.items()}
         name = parted(self.plan, designs, self.strokes, references)
         if name:
             raise SingularError(
@@ -150,12 +162,6 @@ class Motion:
         text = f"{self.plan.title}: a motion is not gone through pose by pose"
         raise DefinitionError(f'{text}; its poses are the last axis of what it gives, such as motion["G"].')
 
-    def refusal(self) -> AssemblyError:
-        """Return the error for the poses that are not reached: out of reach, or behind a change point."""
-        if self.crossed.any():
-            return scan.group_crossing(self, self.crossed)
-        return reach.refusal(self.plan, self.grid.read_at(~self.reached), ~self.reached, self.strokes, scan.stop_words(self))
-
     def limits(self) -> scan.Limits:
         """Return, for every stroke, how far it can go and what stops it; printed as sentences.
 
@@ -173,7 +179,7 @@ class Motion:
             failed |= reach.negative(self.plan, ArrayReading(self.plan.members, self.plan.table.lengths, self.inputs), self.shape)
         if not failed.any():
             return
-        reading = self.grid.read_at(failed)
+        reading = self._grid.read_at(failed)
         lost = np.zeros(int(failed.sum()), bool)
         for _, mask in reach.failures(self.plan, reading, lost.shape):
             lost |= mask
@@ -184,12 +190,12 @@ class Motion:
                 self._places[2 * index + axis, ...][failed] = np.where(lost, np.nan, part)
         self.reached[failed] = ~lost
         if self.unreachable == "raise" and lost.any():
-            raise self.refusal()
+            raise out_of_reach(self)
 
     def _settle_lost(self) -> None:
         """Refuse or mask the poses of which rounding leaves nothing, as where two points that another hangs from come together."""
         words = f"The places of {self.plan.title}"
-        lost = self._refused_near(Everywhere(self.plan.moving), words, lambda found, mask: conditions.lost(found, mask, self.strokes), 7)
+        lost = self._refused_near(Everywhere(self.plan.moving), words, lambda found, mask: conditions.lost(found, mask, self.strokes))
         if lost.any():
             self._places = np.where(lost, np.nan, self._places)
             self.reached &= ~lost
@@ -197,25 +203,20 @@ class Motion:
     # -- looked at again ---------------------------------------------------------------------------------
 
     @property
-    def group_stops(self) -> tuple[float, ...]:
-        """The strokes at which a group's pins could not be followed farther from the sketch."""
-        return self.grid.solved.stops
-
-    @property
-    def crossed(self) -> Mask:
+    def _crossed(self) -> Mask:
         """The poses that a group's pins reach only through a change point."""
-        return np.asarray(np.broadcast_to(self.grid.full(self.grid.solved.crossed[None].astype(float))[0] > 0.0, self.shape))
+        return np.asarray(np.broadcast_to(self._grid.full(self._grid.solved.crossed[None].astype(float))[0] > 0.0, self.shape))
 
     @cached_property
-    def reading(self) -> ArrayReading:
+    def _reading(self) -> ArrayReading:
         """The eager reading of all poses."""
         with np.errstate(all="ignore"):
             return self.plan.read(self.inputs)
 
     @cached_property
-    def loop_sines(self) -> dict[str, Any]:
+    def _loop_sines(self) -> dict[str, Any]:
         """The sine of the angle between the two links of every moving loop; zero at a dead point."""
-        return conditions.loops(self.plan, self.reading)
+        return conditions.loops(self.plan, self._reading)
 
     def moved(self, strokes: Mapping[str, Any]) -> Self:
         """Return the same designs at other strokes [SI], each at its own where the arrays begin with the designs; NaN out of reach."""
@@ -228,8 +229,8 @@ class Motion:
         except (TypeError, ValueError, OverflowError):
             said = "numbers or arrays that fit each other are expected"
             raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): {said}.") from None
-        own = self.grid.own and arrays[0].shape[: len(self.design_shape)] == self.design_shape
-        joining = in_order if self.grid.is_special else None
+        own = self._grid.own and arrays[0].shape[: len(self._design_shape)] == self._design_shape
+        joining = in_order if self._grid.is_special else None
         with unwarned():
             return type(self)(self.plan, self.designs, dict(zip(self.strokes, arrays, strict=True)), "nan", own=own, joining=joining)
 
@@ -258,8 +259,8 @@ class Motion:
         if not isinstance(member, Quantity):
             raise DefinitionError(f'{self.plan.title}: {member.name} is no quantity; ask for motion["{member.name}"].')
         words = str(member.name or member)
-        refused = self.refused(Value(member, ()), words)
-        return self.finite(np.where(self.reached & ~refused, self._evaluated(member, ()), np.nan), refused, words)
+        refused = self._refused(Value(member, ()), words)
+        return self._finite(np.where(self.reached & ~refused, self._evaluated(member, ()), np.nan), refused, words)
 
     @cached_property
     def _placed(self) -> ArrayReading:
@@ -269,7 +270,7 @@ class Motion:
             reading.positions[name] = Vec(*self._place(name))
         return reading
 
-    def finite(self, values: FloatArray, excused: Mask, what: str) -> FloatArray:
+    def _finite(self, values: FloatArray, excused: Mask, what: str) -> FloatArray:
         """Return values that are finite at every pose reached; NaN where they are not and NaN was asked for."""
         finite = np.isfinite(values)
         if finite.all():
@@ -318,14 +319,14 @@ class Motion:
         name = named("Point", point, self.plan.points, self.plan.title)
         directions = self._meeting(name)
         if not directions:
-            raise reach.no_joint(self.plan, name, self.joints)
+            raise reach.no_joint(self.plan, name, self._joints)
         u, w = directions
         with np.errstate(all="ignore"):
             angle = np.arctan2(np.abs(u.cross(w)), u.dot(w))
         return np.where(self.reached, np.broadcast_to(angle, self.shape), np.nan)
 
     @cached_property
-    def joints(self) -> tuple[str, ...]:
+    def _joints(self) -> tuple[str, ...]:
         """The points that have a transmission angle: the joints of dyads."""
         return tuple(name for name in self.plan.points if self._meeting(name))
 
@@ -346,11 +347,11 @@ class Motion:
 
         Half the way from the pose before to the pose after [SI]: its signs and ratios mean something, its length does not.
         """
-        if self.grid.is_special:
+        if self._grid.is_special:
             return self._tangent
-        if len(self.strokes) < 2 or len(self.stroke_shape) != 1 or self.stroke_shape[0] < 2:
+        if len(self.strokes) < 2 or len(self._stroke_shape) != 1 or self._stroke_shape[0] < 2:
             return None
-        if self.stroke_shape[0] == 2:
+        if self._stroke_shape[0] == 2:
             return {name: np.gradient(value) for name, value in self.strokes.items()}
         # of second order at the ends too; a stroke that is held stays exactly so
         return {name: np.gradient(value, edge_order=2) * float(np.ptp(value) > 0.0) for name, value in self.strokes.items()}
@@ -359,7 +360,7 @@ class Motion:
         """Return what a quantity is at the sketch pose of each design [SI], shaped to broadcast against results."""
         strokes = {name: np.asarray(value) for name, value in self.plan.sketch_strokes.items()}
         found = Motion(self.plan, self.designs, strokes, "nan").value(quantity)
-        return found.reshape((*self.design_shape, *(1,) * len(self.stroke_shape)))
+        return found.reshape((*self._design_shape, *(1,) * len(self._stroke_shape)))
 
     # -- ratios ----------------------------------------------------------------------------------------
 
@@ -375,11 +376,11 @@ class Motion:
         stroke = stroke_of(self.plan, wrt)
         order, method = order_of(order), method_of(method, step)
         member = self._member(target)
-        refused = self.refused(Value(member, (stroke,) * order), f"The ratio of {member.name or member}")
+        refused = self._refused(Value(member, (stroke,) * order), f"The ratio of {member.name or member}")
         step = None if step is None else float(step)
         found = self._evaluated(member, (stroke,) * order) if method == "exact" else self._numeric(member, stroke, order, step)
         found = np.where(refused, np.nan, found) if refused.any() else found
-        return self.finite(found, refused, f"The ratio of {member.name or member} by {stroke}")
+        return self._finite(found, refused, f"The ratio of {member.name or member} by {stroke}")
 
     def _evaluated(self, member: Member, along: tuple[str, ...]) -> FloatArray:
         """Return a value or a derivative through the program; the first derivatives of all points come in one pass, kept."""
@@ -394,12 +395,12 @@ class Motion:
                 kernel = self.plan.kernel(targets, along)
             else:
                 kernel = self.plan.made(("watched", what.key), lambda twin: Kernel(what.nodes(twin), watched(twin, what)))
-            result = kernel(self.grid.flat, size=self.grid.size)
-            found = self.grid.full(result.values)
+            result = kernel(self._grid.flat, size=self._grid.size)
+            found = self._grid.full(result.values)
             self._watched[what.key] = not np.all(result.guards > 0.0)
-            if self.is_near_singular and not along:
+            if self._is_near_singular and not along:
                 at_end = self.reached & ~np.isfinite(found).all(axis=0)
-                found = to_rounding(found, at_end, kernel.plan.outputs, self.grid.inputs_at(at_end)) if at_end.any() else found
+                found = to_rounding(found, at_end, kernel.plan.outputs, self._grid.inputs_at(at_end)) if at_end.any() else found
             continued = self._continued(what) if isinstance(member, Quantity) else None
             self._values[key] = found if continued is None else continued
             self._values[key].flags.writeable = False
@@ -413,7 +414,7 @@ class Motion:
 
     def _continued(self, what: Value) -> FloatArray | None:
         """Return what holds angles, which are continued along the stroke; None where they need not be."""
-        return self.plan.made(("angles", what.key), lambda plan: angles_of(plan, what.nodes(plan))).continued(self.grid, self.reached)
+        return self.plan.made(("angles", what.key), lambda plan: angles_of(plan, what.nodes(plan))).continued(self._grid, self.reached)
 
     def _numeric(self, member: Member, stroke: str, order: int, step: float | None) -> FloatArray:
         def values(offsets: FloatArray) -> FloatArray:
@@ -435,30 +436,30 @@ class Motion:
         if lost > numeric.WARN[order]:
             other = "the exact one is not" if step is None else "without a step it is chosen at every pose"
             text = f"{what} is off by up to about {lost:.0e} of its greatest value; {other}."
-            warnings.warn(SingularWarning(text, estimate=lost), stacklevel=3)
+            warn(SingularWarning(text, estimate=lost))
         return np.where(useless, np.nan, found)
 
-    def refused(self, what: BoundRequest, words: str) -> Mask:
+    def _refused(self, what: BoundRequest, words: str) -> Mask:
         """Return the mask of poses where a result is refused; raise or warn as asked. `words` begin a sentence about it."""
         if not self._is_near(what):
             return np.zeros(self.shape, bool)
-        return self._refused_near(what, words, lambda found, mask: conditions.refusal(found, mask, self.strokes, words, self), 5)
+        return self._refused_near(what, words, lambda found, mask: conditions.refusal(found, mask, self.strokes, words, self))
 
-    def _refused_near(self, what: BoundRequest, words: str, error: Callable[[Judged, Mask], SingularError], level: int) -> Mask:
+    def _refused_near(self, what: BoundRequest, words: str, error: Callable[[Judged, Mask], SingularError]) -> Mask:
         """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked.
 
-        `error` makes what is raised of how the refused poses are judged and of their mask; `level` is that of the warning's caller.
+        `error` makes what is raised of how the refused poses are judged and of their mask.
         """
         refused, doubtful = np.zeros(self.shape, bool), np.zeros(self.shape, bool)
-        near = near_of(self.grid, what) & self.reached
+        near = near_of(self._grid, what) & self.reached
         if not near.any():
             return refused
-        found = examined(self.plan, what, self.grid.inputs_at(near), self.grid.read_at(near))
+        found = examined(self.plan, what, self._grid.inputs_at(near), self._grid.read_at(near))
         refused[near], doubtful[near] = found.refused, found.doubtful
         if refused.any() and self.unreachable == "raise":
             raise error(found.at(found.refused), refused)
         if doubtful.any():
-            conditions.warn(found.at(found.doubtful), f"{words} {reach.where_words(self.plan, doubtful, self.strokes)}", level)
+            conditions.warn_near(found.at(found.doubtful), f"{words} {reach.where_words(self.plan, doubtful, self.strokes)}")
         return refused
 
     def _is_near(self, what: BoundRequest) -> bool:
@@ -466,7 +467,7 @@ class Motion:
         if isinstance(what, Value) and not isinstance(what.member, Point):
             self._evaluated(what.member, what.along)
             return self._watched[what.key]
-        return self.is_near_singular
+        return self._is_near_singular
 
     def gradient(self, of: RequestLike, wrt: Sequence[str]) -> FloatArray:
         """Return the exact derivatives of a position, an output, a ratio or a force by dimensions, all in one reverse pass.
@@ -475,7 +476,34 @@ class Motion:
         how the transfer ratio follows the dimensions, `gradient(thrust(), wrt=["OB", "load.mass"])` how the drive's force does.
         Raises SingularError at a dead point, DefinitionError for the law of a load that cannot be traced.
         """
-        return gradient_of(self, of, wrt)
+        plan = self.plan
+        what, dimensions = bound(plan, of), dimensions_of(plan, wrt)
+        names, title = tuple(name for name, _ in dimensions), f"The gradient of {what}"
+        refused = self._refused(Slope(what, names), title)
+        good = self.reached & ~refused
+        slopes = plan.made(("gradient", what.key, names), lambda plan: slopes_of(plan, what, names))
+        rest = what.rows * len(names)
+        values, assumed, switches = np.split(self._grid.full(slopes.kernel(self._grid.flat).values), [rest, rest + slopes.assumed])
+        self._check_laws(what, good, assumed, zip(slopes.touched, switches, strict=True))
+        continued = slopes.angles.continued(self._grid, self.reached)
+        signs = np.tile([float(sign) for _, sign in dimensions], what.rows).reshape(-1, *(1,) * len(self.shape))
+        found = values if continued is None else continued
+        if not (good.all() and np.all(signs > 0.0) and found.flags.writeable):
+            found = np.where(good, found * signs, np.nan)
+        rows = self._finite(found, refused, title)
+        return np.stack(np.split(rows, what.rows), axis=1) if what.rows > 1 else rows
+
+    def _check_laws(self, what: BoundRequest, good: Mask, assumed: FloatArray, switches: Iterable[tuple[str, FloatArray]]) -> None:
+        """Raise the error of poses where a law is another than the one traced, or changes to another with a dimension."""
+        if np.any(good & ~np.all(assumed > 0.0, axis=0)):
+            what.refuse(self)
+            raise astray(self.plan, what)
+        for words, values in switches:
+            if np.any(good & (values > 0.0)):
+                raise DefinitionError(
+                    f"{self.plan.title}: {what} has no derivative by {words} that it equals here, and is another law next to it. "
+                    "Leave that dimension out of wrt=, or set it beside that number."
+                )
 
     # -- velocity --------------------------------------------------------------------------------------
 
@@ -490,7 +518,7 @@ class Motion:
         driven = rates_of("accelerations", {} if accelerations is None else accelerations, self.strokes, self.shape, self.plan.title)
         member = self._member(target)
         along = [tuple(sorted((first, second))) for first in given for second in given]
-        masks = [self.refused(Value(member, each), f"The acceleration of {member.name or member}") for each in dict.fromkeys(along)]
+        masks = [self._refused(Value(member, each), f"The acceleration of {member.name or member}") for each in dict.fromkeys(along)]
         refused = np.any(masks, axis=0)
         total = sum((self.ratio(target, wrt=name) * value for name, value in driven.items()), self._still(target))
         for first, u in given.items():
@@ -513,11 +541,20 @@ def paired(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], l
     size = np.broadcast_shapes((1,), *(np.shape(value) for value in (*designs.values(), *strokes.values())))
     of_each = {name: np.broadcast_to(np.asarray(value, float), size) for name, value in designs.items()}
     at_each = {name: np.broadcast_to(np.asarray(value, float), size) for name, value in strokes.items()}
-    joining = as_they_are if like is None else Beside(like.grid, at)
+    joining = as_they_are if like is None else Beside(like._grid, at)
     return Motion(plan, of_each, at_each, "nan", own=True, joining=joining)
 
 
-def require_motion(given: Any) -> None:
-    """Raise DefinitionError for what is no motion."""
+def out_of_reach(motion: Motion) -> AssemblyError:
+    """Return the error for the poses of a motion that are not reached: out of reach, or behind a change point."""
+    if motion._crossed.any():
+        return scan.group_crossing(motion, motion._crossed)
+    missing = ~motion.reached
+    return reach.refusal(motion.plan, motion._grid.read_at(missing), missing, motion.strokes, scan.stop_words(motion))
+
+
+def require_motion(given: object) -> Motion:
+    """Return the motion that was given; DefinitionError for anything else."""
     if not isinstance(given, Motion):
         raise DefinitionError(f"{given!r:.60} is no motion; give machine.sweep(...) or machine.at(...).")
+    return given

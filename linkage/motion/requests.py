@@ -7,24 +7,21 @@ where it has no value, and the error that rounding leaves of it. Kernels, functi
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Hashable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
 from ..errors import DefinitionError, cited
 from ..plan import NEAR, REGULAR, ArrayReading, Plan
-from ..program import FloatArray, Kernel, Node, Notes
+from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
 from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Judged, Left, Rounding, judged
-from .grid import Grid
+from .grid import Angles, Grid, MotionLike, angles_of
 from .limits import Mask
 from .strokes import named, order_of
-
-if TYPE_CHECKING:
-    from .motion import Motion
 
 SMALL = 1e-9
 """A result of no known size [SI] that is smaller counts as so large where its relative error is told."""
@@ -50,7 +47,7 @@ class BoundRequest(ABC):
     def __str__(self) -> str:
         """Return what it is, in words: `the ratio of G by S`."""
 
-    def refuse(self, motion: Motion) -> None:  # noqa: B027
+    def refuse(self, motion: MotionLike) -> None:  # noqa: B027
         """Raise the error of a motion's poses where it has no value; nothing where it has one at all of them, or another refuses it."""
 
     def notes(self, plan: Plan) -> Notes:
@@ -101,6 +98,10 @@ class BoundRequest(ABC):
 
 class Request(ABC):
     """Something to ask of a mechanism that is no member of it: a ratio, a thrust, a pin force."""
+
+    def identity(self, plan: Plan) -> Hashable:
+        """Return what tells it from others of the same plan as long as what it holds lives; None where what it holds may change."""
+        return None
 
     @abstractmethod
     def bound(self, plan: Plan) -> BoundRequest:
@@ -155,6 +156,10 @@ class Ratio(Request):
     wrt: str | None = None
     order: int = 1
 
+    def identity(self, plan: Plan) -> Hashable:
+        target = identity_of(plan, self.target)
+        return None if target is None else ("ratio", target, self.wrt, self.order)
+
     def bound(self, plan: Plan) -> Value:
         along = (stroke_of(plan, self.wrt),) * self.order if self.order else ()
         if isinstance(self.target, Quantity) and not self.target.name:
@@ -205,7 +210,7 @@ class Value(BoundRequest):
     def names(self, plan: Plan) -> set[str]:
         return plan.reaches(self.target)
 
-    def refuse(self, motion: Motion) -> None:
+    def refuse(self, motion: MotionLike) -> None:
         if self.along:
             motion.ratio(self.target, wrt=self.along[0], order=self.order)
         elif isinstance(self.member, Quantity):
@@ -255,11 +260,15 @@ class Condition(Request):
 
     target: str | Member | None = None
 
+    def identity(self, plan: Plan) -> Hashable:
+        target = None if self.target is None else identity_of(plan, self.target)
+        return None if target is None and self.target is not None else ("condition", target)
+
     def bound(self, plan: Plan) -> ConditionOf:
         if self.target is None:
-            return ConditionOf(frozenset(plan.members), plan.title)
-        value = bound(plan, self.target)
-        return ConditionOf(frozenset(value.names(plan)), str(value))
+            return ConditionOf(None, frozenset(set[str]().union(*map(plan.reaches, plan.points))), plan.title)
+        value = Ratio(self.target, order=0).bound(plan)
+        return ConditionOf(value, frozenset(value.names(plan)), str(value))
 
 
 def condition(target: str | Member | None = None) -> Condition:
@@ -267,7 +276,8 @@ def condition(target: str | Member | None = None) -> Condition:
 
     Next to a singular pose it is 2 over the sine of the loop in line, and the product of such where several follow one another or a
     direction is taken between points that come close: above 1e4 a ratio is off by some 0.3 eps cond^2, above 1e6 it is refused.
-    `condition("G")` is of what G is built from, `condition()` of the whole machine.
+    `condition("G")` is of what G is built from, `condition(angle("A", "P"))` of what the angle is built from and of its own direction,
+    `condition()` of all points of the machine. What else is asked beside it makes no difference.
     """
     return Condition(target)
 
@@ -275,21 +285,22 @@ def condition(target: str | Member | None = None) -> Condition:
 @final
 @dataclass(frozen=True)
 class ConditionOf(BoundRequest):
-    """The condition of some members, bound to a plan; never refused."""
+    """The condition of a value, or of all points where it is None, bound to a plan with the members behind it; never refused."""
 
+    value: Value | None
     members: frozenset[str]
     of: str
 
     @property
     def key(self) -> Any:
-        return "condition", self.members
+        return "condition", self.value and self.value.key
 
     @property
     def regular(self) -> float:
         return -1.0
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        near = plan.trace.nearness(self.members, exact=True)
+        near = plan.trace.alone(self.value and self.value.member).nearness(self.members, exact=True)
         return ((2.0 / REGULAR) / np.sqrt(near.graph.apply("maximum", near, WORST**-2)),)
 
     def names(self, plan: Plan) -> set[str]:
@@ -381,6 +392,27 @@ def all_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[BoundRequest
     return tuple(bound(plan, request) for request in requests)
 
 
+def identity_of(plan: Plan, request: RequestLike) -> Hashable:
+    """Return what tells something asked for from others; None for a quantity that only itself is, and for what may change."""
+    if type(request) is str:
+        return request
+    if isinstance(request, Request):
+        identity = request.identity(plan)
+        try:
+            hash(identity)
+        except TypeError:  # what was given is anything as yet, and refused where it is bound
+            return None
+        return identity
+    identity = request.identity if isinstance(request, Quantity) else request.name if isinstance(request, Member) else None
+    return None if identity is request else identity or None
+
+
+def identities_of(plan: Plan, requests: Sequence[RequestLike]) -> Hashable:
+    """Return what tells a list of requests from others; None where one of them has no identity, or it is no list."""
+    found = tuple([identity_of(plan, each) for each in requests]) if type(requests) in (list, tuple) else (None,)
+    return None if None in found else found
+
+
 def stroke_of(plan: Plan, name: str | None) -> str:
     """Return the stroke that is meant; DefinitionError where there are several and none is named."""
     if name is None and len(plan.strokes) == 1:
@@ -403,3 +435,56 @@ def dimensions_of(plan: Plan, names: Any) -> list[tuple[str, int]]:
         if name in plan.table.following and name not in plan.table.spellings:
             raise DefinitionError(f"{plan.title}: {name} follows {plan.table.following[name]}; take the gradient by what it follows.")
     return [plan.table.spellings[named("Dimension", name, plan.table.spellings, plan.title)] for name in names]
+
+
+# Derivatives by dimensions: reverse mode through the program, all dimensions at once.
+
+@dataclass(frozen=True, eq=False)
+class Slopes:
+    """The kernel of a request's derivatives by some dimensions, then of what it assumes, then of its switches by those dimensions."""
+
+    kernel: Kernel
+    angles: Angles
+    assumed: int
+    touched: tuple[str, ...]
+
+
+@final
+@dataclass(frozen=True)
+class Slope(BoundRequest):
+    """The derivatives of a request by some dimensions, as a request that is looked at near singular poses."""
+
+    what: BoundRequest
+    by: tuple[str, ...]
+
+    @property
+    def key(self) -> Any:
+        return "slope", self.what.key, self.by
+
+    @property
+    def order(self) -> int:
+        return 1 + self.what.order
+
+    def nodes(self, plan: Plan) -> tuple[Node, ...]:
+        inputs = [plan.trace.inputs[name] for name in self.by]
+        return tuple(share for node in self.what.nodes(plan) for share in gradient(node, inputs))
+
+    def names(self, plan: Plan) -> set[str]:
+        return self.what.names(plan)
+
+    def __str__(self) -> str:
+        return f"the gradient of {self.what}"
+
+
+def slopes_of(plan: Plan, what: BoundRequest, names: Sequence[str]) -> Slopes:
+    """Return the derivatives of a request by dimensions, as a kernel."""
+    inputs = [plan.trace.inputs[name] for name in names]
+    shares, notes = Slope(what, tuple(names)).nodes(plan), what.notes(plan)
+    touched = [
+        (switch, f"{name}: the law of {owner} compares what follows {name} with a number")
+        for switch, owner in notes.switches.items()
+        for name, each in zip(names, inputs, strict=True)
+        if each in ancestors([switch])
+    ]
+    kernel = Kernel([*shares, *notes.assumed, *(switch for switch, _ in touched)])
+    return Slopes(kernel, angles_of(plan, shares), len(notes.assumed), tuple(words for _, words in touched))

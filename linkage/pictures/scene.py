@@ -65,7 +65,7 @@ def guides(motion: Motion) -> Iterator[Track]:
         riders = tuple(dict.fromkeys(joint.point for joint in every(motion) if joint.track == (name,)))
         if riders:
             fixed = set(guide.points) <= set(plan.ground) and (guide.angle is None or not plan.moves(guide.angle))
-            line = motion.reading.line(guide)
+            line = motion._reading.line(guide)
             yield Track(
                 name, row(motion, line.origin.x, line.origin.y), row(motion, line.direction.x, line.direction.y), riders, fixed
             )  # fmt: skip
@@ -77,7 +77,7 @@ def slots(motion: Motion) -> Iterator[Track]:
     for name, step in motion.plan.points.items():
         for joint in step.joints():
             if joint.track and joint.line is not None and joint.track[0] not in guides:
-                line = joint.line(motion.reading)
+                line = joint.line(motion._reading)
                 along = row(motion, line.direction.x, line.direction.y)
                 yield Track(f"{name}|slot", row(motion, line.origin.x, line.origin.y), along, (joint.point,), False)
 
@@ -153,9 +153,9 @@ class Scene:
     def __post_init__(self) -> None:
         require_motion(self.motion)
         plan = self.motion.plan
-        if self.motion.design_shape:
+        if self.motion._design_shape:
             raise DefinitionError(
-                f"{plan.title}: this motion holds {np.prod(self.motion.design_shape)} designs and a picture shows one; "
+                f"{plan.title}: this motion holds {np.prod(self.motion._design_shape)} designs and a picture shows one; "
                 "draw them one at a time, each dimension a single number."
             )
         flat = {name: self.motion[name].reshape(2, -1) for name in plan.points}
@@ -170,7 +170,7 @@ class Scene:
 
     def index(self, pose: int | tuple[int, ...]) -> int:
         """Return the flat index of a pose; DefinitionError where there is none such."""
-        shape = self.motion.stroke_shape
+        shape = self.motion._stroke_shape
         try:
             return int(range(int(np.prod(shape, dtype=int)))[pose] if isinstance(pose, int) else np.ravel_multi_index(pose, shape))
         except (IndexError, ValueError):

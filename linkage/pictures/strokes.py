@@ -39,7 +39,7 @@ def driven(motion: Motion) -> str:
     require_motion(motion)
     check_any(motion.strokes, motion.plan)
     plan = motion.plan
-    if motion.design_shape or len(motion.stroke_shape) != 1:
+    if motion._design_shape or len(motion._stroke_shape) != 1:
         raise DefinitionError(
             f"{plan.title}: curves over a stroke need one design and one row of poses, this motion has the shape {motion.shape}; "
             f"sweep one stroke and give every other a value: {', '.join(plan.strokes)}."

@@ -12,7 +12,7 @@ import numpy as np
 from .. import motion as between
 from ..errors import DefinitionError, cited, unknown
 from ..mechanism import Mechanism
-from ..motion import Motion, require_motion
+from ..motion import Motion, out_of_reach, require_motion
 from ..program import FloatArray
 from ..quantities import is_number, real
 
@@ -35,7 +35,7 @@ def reached_span(motion: Motion) -> Range:
     """
     found = below_zero(motion, lambda each: -np.ones(each.shape))
     if not found:
-        raise motion.refusal()
+        raise out_of_reach(motion)
     return found[0][0], found[-1][1]
 
 

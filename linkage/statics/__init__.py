@@ -3,7 +3,7 @@
 from .acting import Case, Loads, elements_of
 from .holding import same, stroke_followed
 from .joint_forces import JointForce, PinForces, pin_forces
-from .poses import MotionLike, plan_of
+from .poses import AnyMotion, plan_of
 from .requests import drive_force, pin_force
 from .supports import reaction
 from .table import PinLoad, max_table, table_text

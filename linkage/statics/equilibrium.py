@@ -199,7 +199,7 @@ class System:
         """Return an unknown of a contact, signed; a couple in Nm."""
         factor = sign * (self.scale if letter == "c" else 1.0)
         row = self.poses.zeros(len(self.columns))
-        row[:, self.first[contact] + contact.holds.index(letter)] = self.poses.motion.array(factor)
+        row[:, self.first[contact] + contact.holds.index(letter)] = self.poses.motion._array(factor)
         return LinearForm(row, self.poses.zeros(len(self.frictions)), self.poses.zeros())
 
     def thrust(self, strut: Strut) -> LinearForm:

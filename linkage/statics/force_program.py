@@ -119,12 +119,12 @@ def traced_program(plan: Plan, loads: Loads, case: Case, movement: Movement, pla
     """Return the program traced on a plan of its own."""
     traced = TracedLoads.on(plan, loads, case, movement)
     structure, motion = traced.structure, traced.motion
-    inputs = [motion.reading.graph.input(friction_name(place), Level.POSE) for place in range(len(places))]
+    inputs = [motion._reading.graph.input(friction_name(place), Level.POSE) for place in range(len(places))]
     length = checked_length(plan, traced.acting)
     contacts = [structure.contacts[index] for index in places]
     units = tuple(unit_friction(contact, traced.poses) for contact in contacts)
     system = System(structure, traced.poses, traced.acting.loads, units, length)
-    q = motion.array([inputs])
+    q = motion._array([inputs])
     u = eliminated_forces(system, motion, inputs)
     frictions = [JointFriction(unit, np.zeros(1), np.zeros(1), np.zeros(1)) for unit in units]
     solution = Solution(system, u, q, np.zeros(1, bool), frictions)
@@ -159,7 +159,7 @@ def friction_kernels(
     system: System, u: FloatArray, contacts: Sequence[Contact], inputs: Sequence[Node], traced: TracedLoads, guards: list[Node]
 ) -> FrictionKernels:
     """Return the kernels of the forces that press the joints with friction."""
-    graph = traced.motion.reading.graph
+    graph = traced.motion._reading.graph
     tangents = [Tangent(graph, {each: 1.0}) for each in inputs]
     levers = [graph.input(lever_name(place), Level.POSE) for place in range(len(inputs))]
     forces: list[Node] = []
@@ -184,9 +184,9 @@ def run_at(
     motion: Motion, program: ForceProgram, structure: Structure, poses: FlatPoses, acting: ActingLoads, frictions: list[JointFriction]
 ) -> PoseForces | None:
     """Return the forces by the kernels; None where an assumption of a law fails or a pose that should has no value."""
-    size, q, locked = motion.grid.size, np.zeros((0, poses.count)), np.zeros(poses.count, bool)
+    size, q, locked = motion._grid.size, np.zeros((0, poses.count)), np.zeros(poses.count, bool)
     rates = {name: np.broadcast_to(np.asarray(rate, float), motion.shape) for name, rate in acting.movement.rates.items()}
-    inputs = motion.grid.flat | {rate_name(name): rate.reshape(size) for name, rate in rates.items()}
+    inputs = motion._grid.flat | {rate_name(name): rate.reshape(size) for name, rate in rates.items()}
     if program.friction is not None:
         try:
             q, locked = frictions_at(motion, program, program.friction, structure, poses, frictions, inputs)
@@ -227,8 +227,8 @@ def frictions_at(
     rows = PressingRows(tuple(structure.contacts[index].presses for index in program.places))
     lever, coefficient = np.stack([each.lever for each in frictions]), np.stack([each.coefficient for each in frictions])
     q, locked = np.zeros((len(frictions), poses.count)), np.zeros(poses.count, bool)
-    places = poses.full(np.arange(poses.count, dtype=float)).reshape(motion.grid.size)
-    for band, part in pieces(*motion.grid.size, PIECE):
+    places = poses.full(np.arange(poses.count, dtype=float)).reshape(motion._grid.size)
+    for band, part in pieces(*motion._grid.size, PIECE):
         inputs = {name: cut_out(value, band, part, name in poses.plan.table.entries) for name, value in given.items()}
         good = np.isfinite(places[band, part])
         at = places[band, part][good].astype(int)

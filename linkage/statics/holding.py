@@ -9,7 +9,6 @@ such poses are refused like any other singular one, by the condition of the leve
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import permutations
@@ -17,7 +16,7 @@ from typing import final
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError, SingularWarning, unwarned
+from ..errors import DefinitionError, SingularError, SingularWarning, unwarned, warn
 from ..loads import ForceElement, TwoPinned, TwoPoint
 from ..motion import Motion
 from ..motion.conditions import REFUSE, WARN, be, condition
@@ -303,11 +302,11 @@ def lever_of(poses: FlatPoses, cylinder: TwoPoint, stroke: str) -> tuple[FloatAr
     return poses.growth(P, Q, stroke), np.hypot(*(poses.rate(Q, stroke) - poses.rate(P, stroke)))
 
 
-def refused_where(poses: FlatPoses, values: FloatArray, cond: FloatArray, what: str, reason: str, level: int = 5) -> FloatArray:
+def refused_where(poses: FlatPoses, values: FloatArray, cond: FloatArray, what: str, reason: str) -> FloatArray:
     """Return values (..., n), NaN where a condition (n,) is above that at which ratios are refused.
 
     SingularError there unless the motion was asked for with `unreachable="nan"`; a warning with the error to expect near it. `what`
-    opens the sentence, `reason` ends it; `level` is how far above the caller stands whom a warning is for.
+    opens the sentence, `reason` ends it.
     """
     lost = ~(cond <= REFUSE)
     near, motion = (cond > WARN) & ~lost, poses.motion
@@ -324,7 +323,7 @@ def refused_where(poses: FlatPoses, values: FloatArray, cond: FloatArray, what: 
         # one division by a difference that is lost: the error goes with the condition, not its square
         error = f"expect a relative error of about {np.finfo(float).eps * worst:.0e}"
         text = f"{what} {be(what)} nearly refused {where}, for close by {reason} (condition {worst:.1e}); {error}."
-        warnings.warn(text, SingularWarning, stacklevel=level)
+        warn(SingularWarning(text))
     return np.where(lost, np.nan, values)
 
 

@@ -28,10 +28,10 @@ class FlatPoses:
     motion was asked for with `unreachable="nan"`; warns near one. The policy is that of the transfer ratios.
     """
 
-    def __init__(self, motion: MotionLike, what: str, names: set[str] | None = None) -> None:
+    def __init__(self, motion: AnyMotion, what: str, names: set[str] | None = None) -> None:
         self.motion, self.plan = motion, motion.plan
         behind = frozenset(self.plan.members if names is None else names)
-        self.good: Mask = motion.reached & ~motion.refused(Ratios(behind), what)
+        self.good: Mask = motion.reached & ~motion._refused(Ratios(behind), what)
         self.count = int(self.good.sum())
         self._at: dict[str, FloatArray] = {}
         self._rates: dict[tuple[str, str], FloatArray] = {}
@@ -53,15 +53,15 @@ class FlatPoses:
     @property
     def reading(self) -> Reading:
         """Every rule read at the motion's poses."""
-        return self.motion.reading
+        return self.motion._reading
 
     def zeros(self, *shape: int) -> FloatArray:
         """Return zeros to write results into, shape (n, *shape)."""
-        return self.motion.array(np.zeros((self.count, *shape)))
+        return self.motion._array(np.zeros((self.count, *shape)))
 
     def flat(self, values: ArrayLike) -> FloatArray:
         """Return values over the motion, shape (..., *shape) or broadcast to it, as (..., n)."""
-        array = self.motion.array(values)
+        array = self.motion._array(values)
         lead = array.shape[: max(0, array.ndim - len(self.motion.shape))]
         whole = np.broadcast_to(array, (*lead, *self.motion.shape))
         return whole.reshape((*lead, self.count)) if self.is_whole else np.asarray(whole[..., self.good])
@@ -112,7 +112,7 @@ class FlatPoses:
         return np.stack([self.flat(x), self.flat(y)])
 
 
-class MotionLike(Poses, Protocol):
+class AnyMotion(Poses, Protocol):
     """What the statics ask of a motion, besides what force elements ask: all that is known of it at its poses."""
 
     @property
@@ -131,13 +131,13 @@ class MotionLike(Poses, Protocol):
         """What is done about other poses: "raise" or "nan"."""
 
     @property
-    def reading(self) -> Reading:
+    def _reading(self) -> Reading:
         """Every rule of the plan read at the poses."""
 
-    def refused(self, what: BoundRequest, words: str) -> Mask:
+    def _refused(self, what: BoundRequest, words: str) -> Mask:
         """Return the mask of poses where a result is refused; raise or warn as asked."""
 
-    def array(self, values: ArrayLike) -> FloatArray:
+    def _array(self, values: ArrayLike) -> FloatArray:
         """Return numbers as the arrays it works with."""
 
 

@@ -93,4 +93,4 @@ def way_along(poses: FlatPoses, support: Support, drive: str, name: str) -> Floa
     with np.errstate(divide="ignore", invalid="ignore"):
         cond = condition(np.where(size > 0.0, along / np.where(size > 0.0, size, 1.0), 0.0))
     why = f"its point {point} does not move along its direction with {drive}, so that no reaction balances the drive"
-    return refused_where(poses, along, cond, f"The reaction of {name}", why, level=4)
+    return refused_where(poses, along, cond, f"The reaction of {name}", why)

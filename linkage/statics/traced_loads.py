@@ -65,7 +65,7 @@ class TracedLoads:
         node = self.motion.node
         loads = ((each.load.point, each.load.on, *(node(part).number for part in each.force)) for each in self.acting.loads)
         thrusts = ((each.name, each.ends, node(each.thrust).number) for each in self.acting.thrusts)
-        return self.motion.reading.graph, *loads, *thrusts, *self.notes.assumed, None, *self.notes.switches
+        return self.motion._reading.graph, *loads, *thrusts, *self.notes.assumed, None, *self.notes.switches
 
     @property
     def notes(self) -> Notes:
@@ -112,12 +112,12 @@ class TracedMotion:
     unreachable = "raise"
 
     def __init__(self, plan: Plan, trace: Trace) -> None:
-        self.plan, self.reading = plan, trace
+        self.plan, self._reading = plan, trace
         self.notes = Notes()
         self.read: set[str] = set()
         self._tangents: dict[str, Tangent] = {}
 
-    def refused(self, what: BoundRequest, words: str) -> Mask:
+    def _refused(self, what: BoundRequest, words: str) -> Mask:
         """Return that no pose is refused: what is made of the program here is looked at where it is asked for."""
         return np.zeros((), bool)
 
@@ -125,13 +125,13 @@ class TracedMotion:
 
     def number(self, value: Scalar) -> FloatArray:
         """Return a number of the program as a traced one."""
-        return cast(FloatArray, Traced(self.reading.graph.node(node_of(value)), self.notes))
+        return cast(FloatArray, Traced(self._reading.graph.node(node_of(value)), self.notes))
 
     def input(self, name: str) -> FloatArray:
         """Return an input of the program at the poses, besides those of the plan, as a traced number."""
-        return self.number(self.reading.graph.input(name, Level.POSE))
+        return self.number(self._reading.graph.input(name, Level.POSE))
 
-    def array(self, values: ArrayLike | Sequence[Node] | Sequence[Sequence[Node]]) -> FloatArray:
+    def _array(self, values: ArrayLike | Sequence[Node] | Sequence[Sequence[Node]]) -> FloatArray:
         """Return numbers of the program as an array of traced ones."""
         given = np.asarray(values, object)
         found = np.empty(given.shape, object)
@@ -141,7 +141,7 @@ class TracedMotion:
 
     def node(self, number: Scalar) -> Node:
         """Return the node of a number."""
-        return self.reading.graph.node(node_of(number))
+        return self._reading.graph.node(node_of(number))
 
     def fit(self, values: ArrayLike, vector: int, name: str, what: str) -> FloatArray:
         """Return a force as traced numbers, shape () or of a `vector` (2,); DefinitionError for another shape."""
@@ -152,14 +152,14 @@ class TracedMotion:
                 f"its {what} has the shape {array.shape}, where {expected} is expected; what varies over poses or designs comes from a "
                 f"point, a quantity or a parameter of {owner} declared in the class."
             )
-        return self.array(array) if vector else self.number(array[()])
+        return self._array(array) if vector else self.number(array[()])
 
     # -- what a motion tells ---------------------------------------------------------------------------------
 
     @cached_property
     def inputs(self) -> dict[str, FloatArray]:
         """Design variables and strokes by name."""
-        return {name: self.number(node) for name, node in self.reading.inputs.items()}
+        return {name: self.number(node) for name, node in self._reading.inputs.items()}
 
     @property
     def strokes(self) -> Mapping[str, FloatArray]:
@@ -176,12 +176,12 @@ class TracedMotion:
         )
         self.read |= self.plan.reaches(member.name or member)
         if isinstance(member, (Point, Arrow)):
-            place = self.reading.at(member) if isinstance(member, Point) else self.reading.vector(member)
+            place = self._reading.at(member) if isinstance(member, Point) else self._reading.vector(member)
             return place.x, place.y
-        return (self.reading.value(member),)
+        return (self._reading.value(member),)
 
     def _shaped(self, nodes: tuple[Scalar, ...]) -> FloatArray:
-        return self.array(nodes) if len(nodes) == 2 else self.number(nodes[0])
+        return self._array(nodes) if len(nodes) == 2 else self.number(nodes[0])
 
     def value(self, quantity: Quantity) -> FloatArray:
         """Return a quantity."""
@@ -215,7 +215,7 @@ class TracedMotion:
         """Return the derivative of a point, a vector or a quantity by a stroke."""
         stroke = stroke_of(self.plan, wrt)
         if stroke not in self._tangents:
-            self._tangents[stroke] = Tangent(self.reading.graph, {self.reading.inputs[stroke]: 1.0})
+            self._tangents[stroke] = Tangent(self._reading.graph, {self._reading.inputs[stroke]: 1.0})
         return self._shaped(tuple(self._tangents[stroke].of(self.node(each)) for each in self._nodes(target)))
 
 
@@ -232,7 +232,7 @@ def eliminated_forces(system: System, motion: TracedMotion, friction: Sequence[N
     sides = [motion.node(row[0]) for row in right]
     for place, each in enumerate(friction):
         sides = [side + motion.node(row[1 + place]) * each for side, row in zip(sides, right, strict=True)]
-    return motion.array([eliminated([[motion.node(each) for each in row] for row in A], sides)])
+    return motion._array([eliminated([[motion.node(each) for each in row] for row in A], sides)])
 
 
 def checked_length(plan: Plan, acting: ActingLoads) -> float:

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from ..errors import DefinitionError, SingularWarning
 from ..frozen import refuses_changes
 from ..mechanism import Mechanism
-from ..motion import Motion, at_values
+from ..motion import Motion, at_values, out_of_reach
 from ..program import FloatArray
 from .box import Box, setting_words
 from .checks import Asked, called, one_design, poses_of, title_of, values
@@ -204,7 +204,7 @@ def remarks(machine: Mechanism, quantity: Asked, box: Box, strokes: Mapping[str,
     lost = ~motion.reached
     said = []
     if lost.any():
-        said.append(f"{left_out(lost, motion, settings)} cannot be assembled and are left out of the zone. {motion.refusal()}")
+        said.append(f"{left_out(lost, motion, settings)} cannot be assembled and are left out of the zone. {out_of_reach(motion)}")
     empty = np.isnan(seen.T) & motion.reached
     if empty.any():
         said.append(f"{left_out(empty, motion, settings)} have no value of {title_of(quantity)} and are left out of the zone.")

@@ -47,7 +47,7 @@ def stroke_of(motion: Motion, height: float) -> float:
     require_header(motion)
     if not is_number(height):
         raise DefinitionError(f"height={cited(height)}: one number in m is expected, above the horizon.")
-    if motion.design_shape:
+    if motion._design_shape:
         raise DefinitionError("The following range is found for one design at a time; this motion has a batch of them.")
     given = motion.inputs
     with np.errstate(all="ignore"):

@@ -6,6 +6,7 @@ import numpy as np
 
 from hydraulics import Verdict, lift_verdicts
 from linkage import Column, ForceElement, Mechanism, Motion, pin_forces
+from linkage.motion import out_of_reach
 from linkage.program import FloatArray
 from linkage.reports import below_zero, closely, spans_in_words
 from linkage.statics import max_table, table_text
@@ -62,14 +63,14 @@ def verdicts(hitch: Mechanism, motion: Motion) -> list[str]:
     """Return the sentences on a motion; of a batch, how many designs fall short."""
     if not motion.reached.any():
         return ["No pose of this motion can be assembled; there is nothing to lift."]
-    if motion.design_shape:
+    if motion._design_shape:
         return [batch_verdict(motion)]
     pressure = lift_verdicts(circuit_of(motion), motion, unit="MPa")
     found = [
         weakest_verdict(motion), limit_verdict(motion), *pressure, *cylinder_verdicts(motion), test_verdict(motion),
         upper_link_verdict(motion), balance_verdict(motion), mast_verdict(hitch, motion),
     ]  # fmt: skip
-    apart = [] if motion.reached.all() else [Verdict("reach", False, f"poses out of reach are left out of this. {motion.refusal()}")]
+    apart = [] if motion.reached.all() else [Verdict("reach", False, f"poses out of reach are left out of this. {out_of_reach(motion)}")]
     return [str(each) for each in (*found, *apart)]
 
 
@@ -98,7 +99,7 @@ def mast_verdict(hitch: Mechanism, motion: Motion) -> Verdict:
 
 def batch_verdict(motion: Motion) -> str:
     """Return how many designs of a batch cannot lift their implement or lose the front axle, and the extremes."""
-    poses = tuple(range(len(motion.design_shape), len(motion.shape)))
+    poses = tuple(range(len(motion._design_shape), len(motion.shape)))
     lifted = np.min(np.where(np.isnan(capacity(motion)), np.inf, capacity(motion)), axis=poses)
     weight = np.broadcast_to(motion.inputs["load.mass"] * g0, motion.shape).min(axis=poses)
     front = front_axle(motion) / (motion.inputs["vehicle_mass"] * g0) - motion.inputs["least_front"]

@@ -46,7 +46,7 @@ def given(machine, poses, beyond=0.3, seed=3):
     random = np.random.default_rng(seed)
     ends = {name: (stroke.start, stroke.end - stroke.start) for name, stroke in machine.plan.strokes.items()}
     strokes = {name: start + span * random.uniform(-beyond, 1.0 + beyond, poses) for name, (start, span) in ends.items()}
-    return machine().at(unreachable="nan", **strokes).grid.flat
+    return machine().at(unreachable="nan", **strokes)._grid.flat
 
 
 def firm(machine, inputs):

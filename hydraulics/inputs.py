@@ -47,8 +47,10 @@ def one_number(value: ArrayLike, what: str) -> float:
     return float(array)
 
 
-def positive(value: ArrayLike, what: str, remedy: str = "give a positive number in SI units") -> Array:
+def positive(value: float | ArrayLike, what: str, remedy: str = "give a positive number in SI units") -> Array:
     """Return the value as floats, its shape kept; DefinitionError unless every one is finite and above zero."""
+    if isinstance(value, float) and 0.0 < value < np.inf:
+        return np.asarray(value)
     array = finite(value, what)
     if np.any(array <= 0.0):
         raise DefinitionError(f"{what} = {np.min(array):.6g} is not above zero; {remedy}.")

@@ -12,7 +12,7 @@ import numpy as np
 from ..assembly import places_at
 from ..errors import AssemblyError, DefinitionError
 from ..plan import Plan, Reading, Trace, merged, strokes_text
-from ..program import FloatArray, Level, Node, Tangent, interpret
+from ..program import FloatArray, Level, Node, Tangent, ancestors, interpret
 from ..quantities import name_of
 from ..steps import Link, Offset, Slide
 from ..units import mm
@@ -67,10 +67,13 @@ def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Any]) -> Rows:
     held = held_points(plan, {owner for owner, _ in nodes if owner in plan.points})
     seeds: dict[str, Node] = {f"{name}.{axis}": getattr(trace.positions[name], axis) for name in held for axis in "xy"}
     seeds |= {name: trace.inputs[name] for name in plan.strokes}
-    tangents = [Tangent(trace.graph, {seed: 1.0}) for seed in seeds.values()]
-    entries = [tangent.of(node) for _, node in nodes for tangent in tangents]
+    columns = {seed: column for column, seed in enumerate(seeds.values())}
+    tangents = [Tangent(trace.graph, {seed: 1.0}) for seed in columns]
+    behind = [(row, columns[each], node) for row, (_, node) in enumerate(nodes) for each in ancestors([node]) if each in columns]
     at = dict(inputs) | {f"@{name}.{axis}": places[name][k] for name in plan.points for k, axis in enumerate("xy")}
-    matrix = np.array([float(value) for value in interpret(entries, at)]).reshape(len(nodes), len(seeds))
+    matrix = np.zeros((len(nodes), len(seeds)))
+    for (row, column, _), value in zip(behind, interpret([tangents[column].of(node) for _, column, node in behind], at), strict=True):
+        matrix[row, column] = float(value)
     return Rows(unit(matrix), tuple(owner for owner, _ in nodes), tuple(seeds))
 
 
@@ -221,7 +224,8 @@ def check(plan: Plan) -> None:
         bodies = ", ".join(body.name for body in plan.links)
         raise DefinitionError(
             f"{plan.title}: the mobility is {found.rank}, the strokes are {found.strokes} ({', '.join(plan.strokes) or 'none'}). "
-            f"Gruebler count {found.gruebler} of the bodies {bodies}. {remedy(found)}"
+            f"Gruebler count {found.gruebler} of the bodies {bodies}. {remedy(found)}",
+            member=found.locking[0] if found.locking else "",
         )
     check_lengths(plan)
     check_slides(plan)
@@ -247,7 +251,8 @@ def check_lengths(plan: Plan) -> None:
             if change > 1e-9 * max(lengths, default=1.0):
                 raise DefinitionError(
                     f"{plan.title}: {name} = {link}: the distance {P}{Q} changes by {change / mm:.3g} mm over the stroke, "
-                    "but a link is rigid. Take it out, or correct a length."
+                    "but a link is rigid. Take it out, or correct a length.",
+                    member=name,
                 )
 
 
@@ -266,7 +271,8 @@ def check_slides(plan: Plan) -> None:
                 where = strokes_text(plan, strokes)
                 raise DefinitionError(
                     f"{plan.title}: {name} = {slide}: {name_of(slide.point)} is {off / mm:.3g} mm off the guide at {where}. "
-                    "Take the slide out, or let it place the point: declare the point as a Pin."
+                    "Take the slide out, or let it place the point: declare the point as a Pin.",
+                    member=name,
                 )
 
 

@@ -39,7 +39,7 @@ class Reading:
                 self.positions[name] = step.place(self)
             except ArithmeticError as error:
                 text = f"{name} = {step}: a value overflows or is divided by zero ({error}); look for extreme numbers and lengths of zero."
-                raise DefinitionError(text) from error
+                raise DefinitionError(text, member=name) from error
             self.positions[name] = self.closed(step, self.positions[name])
             self.placing.pop()
         return self.positions[name]

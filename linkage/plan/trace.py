@@ -10,7 +10,7 @@ from functools import cached_property, reduce
 import numpy as np
 
 from ..errors import DefinitionError
-from ..program import Graph, Level, Node
+from ..program import Graph, Level, Node, Tangent
 from ..quantities import Member, Quantity, Turning
 from ..steps import Arrow, Ground, Point
 from ..vectors import Scalar, Vec
@@ -63,15 +63,22 @@ class Trace(Reading):
         inputs = {name: self.graph.input(name, level) for name, level in levels.items()}
         super().__init__(members, lengths, inputs)
         self.guards: list[Guard] = []
-        self.measures: list[Measure] = []
+        self.measures: dict[Measure, None] = {}
         self.loops: list[Loop] = []
         self.noted: dict[str, Node] = {}
         self.angles: list[Node] = []
+        self._tangents: dict[str, Tangent] = {}
+
+    def tangent(self, name: str) -> Tangent:
+        """Return the derivatives by an input, shared by all who ask: those of a loop are worked out once."""
+        if name not in self._tangents:
+            self._tangents[name] = Tangent(self.graph, {self.inputs[name]: 1.0})
+        return self._tangents[name]
 
     def view(self) -> Trace:
         """Return this trace as it stands, for reading more: what is read there leaves nothing here but nodes."""
         view = copy(self)
-        view.guards, view.measures, view.loops, view.angles = list(self.guards), list(self.measures), list(self.loops), list(self.angles)
+        view.guards, view.measures, view.loops, view.angles = list(self.guards), dict(self.measures), list(self.loops), list(self.angles)
         view.placing = []
         view.positions, view.noted, view._values = dict(self.positions), dict(self.noted), dict(self._values)
         view.directions = dict(self.directions)
@@ -112,8 +119,8 @@ class Trace(Reading):
                 self.loops.append(Loop(self.owner, "guides", (sine,)))
             self.noted[self.owner] = sine
         elif sine == 0.0:
-            step = self.members[self.owner]
-            raise DefinitionError(f"{self.owner} = {step}: the lines that meet in it are parallel at every pose; change an angle.")
+            text = f"{self.owner} = {self.members[self.owner]}: the lines that meet in it are parallel at every pose; change an angle."
+            raise DefinitionError(text, member=self.owner)
         return sine
 
     def apart(self, square: Scalar) -> Scalar:
@@ -132,8 +139,7 @@ class Trace(Reading):
 
     def _measure(self, node: Node, exact: Node | None = None) -> None:
         found = Measure(self.owner, node, node if exact is None else exact)
-        if found not in self.measures:
-            self.measures.append(found)
+        self.measures.setdefault(found)
 
     def stays(self, value: Scalar) -> bool:
         return self.graph.node(value).level is not Level.POSE

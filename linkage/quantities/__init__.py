@@ -8,6 +8,7 @@ from .quantity import (
     Function,
     Negative,
     Number,
+    Operand,
     Operation,
     Quantity,
     Ref,

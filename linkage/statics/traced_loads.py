@@ -17,7 +17,7 @@ from ..motion.limits import Mask
 from ..motion.requests import stroke_of
 from ..motion.strokes import named
 from ..plan import ArrayReading, Plan, Trace
-from ..program import FloatArray, Level, Node, Notes, Tangent, Traced, eliminated, node_of
+from ..program import FloatArray, Level, Node, Notes, Traced, eliminated, node_of
 from ..quantities import Angle, Distance, Member, Quantity, Reference
 from ..steps import Arrow, Point
 from ..vectors import Scalar
@@ -75,7 +75,7 @@ class TracedLoads:
     @property
     def carriers(self) -> set[str]:
         """The members that the loaded points are built from."""
-        return set[str]().union(*map(self.motion.plan.reaches, self.acting.points))
+        return self.motion.plan.reaches(*self.acting.points)
 
     @property
     def names(self) -> set[str]:
@@ -115,7 +115,6 @@ class TracedMotion:
         self.plan, self._reading = plan, trace
         self.notes = Notes()
         self.read: set[str] = set()
-        self._tangents: dict[str, Tangent] = {}
 
     def _refused(self, what: BoundRequest, words: str) -> Mask:
         """Return that no pose is refused: what is made of the program here is looked at where it is asked for."""
@@ -214,9 +213,7 @@ class TracedMotion:
     def ratio(self, target: Reference, *, wrt: str | None = None) -> FloatArray:
         """Return the derivative of a point, a vector or a quantity by a stroke."""
         stroke = stroke_of(self.plan, wrt)
-        if stroke not in self._tangents:
-            self._tangents[stroke] = Tangent(self._reading.graph, {self._reading.inputs[stroke]: 1.0})
-        return self._shaped(tuple(self._tangents[stroke].of(self.node(each)) for each in self._nodes(target)))
+        return self._shaped(tuple(self._reading.tangent(stroke).of(self.node(each)) for each in self._nodes(target)))
 
 
 # The equations of equilibrium on the nodes of a program, eliminated symbolically.

@@ -65,9 +65,9 @@ class ThreePointHitch(Mechanism):
         super().__init__(**dimensions)
         for name in ("vehicle_mass", "wheelbase"):
             positive(self[name], name)
-        if np.any(np.abs(np.asarray(self["slope"])) >= 60 * deg):
+        if np.count_nonzero(abs(self["slope"]) >= 60 * deg):
             raise DefinitionError(f"slope = {np.max(np.abs(self['slope'])) / deg:.4g} deg; no tractor stands on 60 deg, give less.")
-        if np.any(np.asarray(self["least_front"]) < 0.0) or np.any(np.asarray(self["least_front"]) >= 1.0):
+        if np.count_nonzero(self["least_front"] < 0.0) or np.count_nonzero(self["least_front"] >= 1.0):
             raise DefinitionError(f"least_front = {self['least_front']}: a share of the tractor's weight is expected, from 0 to below 1.")
 
     def columns(self, motion: Motion) -> list[Column]:

@@ -9,6 +9,8 @@ from pathlib import Path, PurePosixPath
 import networkx as nx
 import pytest
 
+from linkage import steps
+
 ROOT = Path(__file__).parents[1]
 
 FLOORS = (
@@ -145,6 +147,37 @@ def sources() -> dict[str, str]:
 def test_files_keep_the_floors():
     found = [fault for path, text in sources().items() for fault in faults(path, text)]
     assert not found, "\n".join(found)
+
+
+def step_kinds() -> set[str]:
+    """Return the names of the shipped steps, each a class that places a point or lets one slide."""
+    shipped = [each for each in vars(steps).values() if isinstance(each, type)]
+    return {each.__name__ for each in shipped if issubclass(each, (steps.Point, steps.Slide))} - {"Point", "Step"}
+
+
+def named_steps(path: str, source: str) -> list[str]:
+    """Return the kinds of steps that a file names: only `steps` knows them, `assembly` makes dyads, `files` lists what it may hold.
+
+    In equations Offset is one of the words that all steps are written in, no kind among others.
+    """
+    kinds = step_kinds() - ({"Offset"} if path.startswith("linkage/formulas/") else set())
+    tree = ast.parse(source, path)
+    names = [node.id for node in ast.walk(tree) if isinstance(node, ast.Name)]
+    names += [node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)]
+    names += [alias.name for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) for alias in node.names]
+    return sorted(kinds.intersection(names))
+
+
+def test_no_room_names_kinds_of_steps():
+    free = ("linkage/steps/", "linkage/assembly/", "linkage/files/", "linkage/__init__.py", "mechanisms/")
+    found = {path: named_steps(path, text) for path, text in sources().items() if not path.startswith(free)}
+    assert {path: names for path, names in found.items() if names} == {}
+
+
+def test_a_kind_of_step_is_found():
+    assert {"Crank", "Dyad", "Ground", "OnLink", "Pin", "Slide", "YokeDyad"} <= step_kinds()
+    assert named_steps("linkage/plan/plan.py", "from ..steps import Dyad, Point\nisinstance(a, steps.Crank)") == ["Crank", "Dyad"]
+    assert named_steps("linkage/formulas/listing.py", "from ..steps import Offset, Pin") == ["Pin"]
 
 
 def test_every_package_is_looked_at():

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from functools import lru_cache
+from math import isnan
+from typing import Any, ClassVar
 
 import sympy
 from sympy.matrices.expressions.matadd import MatAdd
@@ -14,8 +16,7 @@ from sympy.matrices.expressions.matmul import MatMul
 from ..errors import DefinitionError
 from ..motion import stroke_unit
 from ..plan import Plan
-from ..quantities import Quantity, unnamed
-from ..steps import CosineAngle, Turn
+from ..quantities import Quantity, Tabulated, unnamed
 from ..units import UNITS, deg
 from .words import Cross, Deg, Dot, Norm, TurnV
 
@@ -88,8 +89,7 @@ def used_as_lengths(plan: Plan) -> list[Quantity]:
     found = list(plan.table.lengths.values())
     for member in plan.members.values():
         for part in (member, *unnamed(member)):
-            found += part.triangle if isinstance(part, CosineAngle) else ()
-            found += [part.scaled_to] if isinstance(part, Turn) and part.scaled_to is not None else ()
+            found += part.lengths()
     return found
 
 
@@ -214,6 +214,40 @@ FUNCTIONS: dict[str, Callable[..., Term]] = {
     "minimum": keeping(sympy.Min),
     "maximum": keeping(sympy.Max),
 }
+
+
+# Tabulated functions: a name in the equations, polynomials of its pieces when they are written out.
+
+class CurveFunction(sympy.Function):  # type: ignore[misc]
+    """A tabulated function, or a derivative of it, by its name."""
+
+    nargs = 1
+    is_real = True
+    curve: ClassVar[Tabulated]
+    order: ClassVar[int]
+
+    def fdiff(self, argindex: int = 1) -> Any:
+        return curve_function(self.curve, self.order + 1)(self.args[0])
+
+    def doit(self, **options: Any) -> Any:
+        return self.curve.value(Term(self.args[0].doit()), self.order, either, within_half_a_turn).expr
+
+
+@lru_cache(maxsize=256)
+def curve_function(curve: Tabulated, order: int) -> type[CurveFunction]:
+    """Return the function that a table, or its derivative of an order, is in SymPy: `lift`, `lift'`."""
+    return type(curve.name + "'" * order, (CurveFunction,), {"curve": curve, "order": order})
+
+
+def either(a: Any, b: Any, x: Any, y: Any) -> Term:
+    """Return x where a <= b, else y."""
+    value, other = (sympy.nan if isinstance(each, float) and isnan(each) else term(each).expr for each in (x, y))
+    return Term(sympy.Piecewise((value, term(a).expr <= term(b).expr), (other, True), evaluate=False))
+
+
+def within_half_a_turn(angle: Term) -> Term:
+    """Return an angle [rad] within half a turn, as a plain number."""
+    return Term(sympy.atan2(sympy.sin(angle.expr), sympy.cos(angle.expr)))
 
 
 # Points and vectors of the symbolic reading: SymPy vectors that obey the plane's algebra, as the rules of steps ask.

@@ -106,9 +106,10 @@ def scenery(scene: Scene, paths: Sequence[str]) -> dict[str, Any]:
         "rams": [
             {"P": index[ram.P], "Q": index[ram.Q]} | {name: pixels.length(getattr(ram, name)) for name in RAM} for ram in scene.rams
         ],
-        "straights": [
-            {"P": index[each.P], "Q": index[each.Q], "lines": [stretched(line, pixels) for line in each.lines]} for each in scene.straights
-        ],
+        **{
+            kind: [{"P": index[each.P], "Q": index[each.Q], "lines": [stretched(line, pixels) for line in each.lines]} for each in found]
+            for kind, found in (("contours", scene.contours), ("straights", scene.straights))
+        },
         **sliding(scene, pixels, index),
         "widths": WIDTH,
         "thick": THICK,

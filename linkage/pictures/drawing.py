@@ -46,11 +46,11 @@ class BodyPart(Part):
 # Springs, dampers and struts between two points, and the yokes of what stands beside its pins.
 
 class StraightPart(Part):
-    """A straight element from P to Q as some lines."""
+    """A straight element from P to Q, or what a step draws of itself, as some lines."""
 
-    def __init__(self, ax: Axes, straight: Straight, look: Look) -> None:
+    def __init__(self, ax: Axes, straight: Straight, look: Look, above: float = 0.5) -> None:
         self.straight, self.points = straight, (straight.P, straight.Q)
-        self.pieces = [(line, added(ax, self._piece(line, look.level + 0.5 + 0.01 * i, look))) for i, line in enumerate(straight.lines)]
+        self.pieces = [(line, added(ax, self._piece(line, look.level + above + 0.01 * i, look))) for i, line in enumerate(straight.lines)]
         self.artists = tuple(piece for _, piece in self.pieces)
 
     @staticmethod
@@ -112,7 +112,7 @@ class Drawing:
 
     def __init__(self, ax: Axes, scene: Scene, look: Look = STRONG) -> None:
         self.ax, self.scene, self.look = ax, scene, look
-        made = bodies, sliders, cylinders, points
+        made = contours, bodies, sliders, cylinders, points
         self.parts: list[Part] = [part for kind in made for part in kind(ax, scene, look)]
 
     def ground(self) -> None:
@@ -138,6 +138,11 @@ class Drawing:
     def artists(self) -> list[Artist]:
         """All that moves, from the lowest layer up."""
         return sorted((artist for part in self.parts for artist in part.artists), key=lambda artist: artist.get_zorder())
+
+
+def contours(ax: Axes, scene: Scene, look: Look) -> list[Part]:
+    """Return what steps draw of themselves, behind the bodies."""
+    return [StraightPart(ax, each, look, -0.1) for each in scene.contours]
 
 
 def bodies(ax: Axes, scene: Scene, look: Look) -> list[Part]:

@@ -16,8 +16,8 @@ from ..loads import TwoPoint
 from ..motion import Motion, require_motion
 from ..program import FloatArray
 from ..quantities import Joint
-from ..steps import Guide, Offset, Slide
-from .shapes import APART, HALF, OUTLINES, Outline, hull, yokes
+from ..steps import Guide
+from .shapes import APART, HALF, OUTLINES, Outline, hull, turning_with, yokes
 
 # What points slide along: fixed rails and slots on moving bodies, each as long as the travel asks.
 
@@ -84,8 +84,7 @@ def slots(motion: Motion) -> Iterator[Track]:
 
 def every(motion: Motion) -> Iterator[Joint]:
     """Yield all joints that points slide in, driven or not."""
-    members = {**motion.plan.points, **motion.plan.of_kind(Slide)}
-    return (joint for member in members.values() for joint in member.joints() if joint.track)
+    return (joint for member in motion.plan.holding.values() for joint in member.joints() if joint.track)
 
 
 def row(motion: Motion, x: object, y: object) -> FloatArray:
@@ -252,6 +251,12 @@ class Scene:
                 found.append(Straight(hung.P, hung.Q, tuple(lines)))
         return tuple(found)
 
+    @cached_property
+    def contours(self) -> tuple[Straight, ...]:
+        """What steps draw of themselves, behind the bodies."""
+        found = [each for step in self.motion.plan.points.values() for each in step.outline(self.motion._reading)]
+        return tuple(Straight(each.P, each.Q, (turning_with(each),)) for each in found)
+
     def _lengths(self, hung: Hung) -> tuple[float, float]:
         """Return the least and the greatest distance of two points over the motions and the declared strokes' ends [m]; inf, 0 for none."""
         seen = [motion for motion in (self.motion, self.over, self._ends) if motion is not None]
@@ -286,7 +291,7 @@ class Scene:
     def stays(self) -> tuple[tuple[str, str], ...]:
         """Pairs that a construction joins and no body does: drawn as thin lines."""
         bodies = [set(body.points) for body in self.motion.plan.links] + [{each.P, each.Q} for each in self.hung]
-        pairs = [(step.P if isinstance(step.P, str) else step.P.name, name) for name, step in self.motion.plan.of_kind(Offset).items()]
+        pairs = [(point.hangs_from, name) for name, point in self.motion.plan.points.items() if point.hangs_from]
         return tuple((P, X) for P, X in pairs if not any({P, X} <= body for body in bodies))
 
     @cached_property
@@ -319,12 +324,17 @@ class Scene:
     @cached_property
     def extent(self) -> Box:
         """The least and greatest x and y of all points over all poses [m]."""
-        every = np.concatenate([np.empty((2, 0)), *self.places.values()], axis=1)
+        every = np.concatenate([np.empty((2, 0)), *self.places.values(), *map(self._swept, self.contours)], axis=1)
         every = every[:, np.isfinite(every).all(axis=0)]
         if not every.size:
             raise DefinitionError(f"{self.motion.plan.title}: there is nothing to draw, no point stands anywhere.")
         low, high = every.min(axis=1), every.max(axis=1)
         return float(low[0]), float(high[0]), float(low[1]), float(high[1])
+
+    def _swept(self, contour: Straight) -> FloatArray:
+        """Return the box that a contour turns in about its first point, its corners at every pose, shape (2, n) [m]."""
+        reach = max(float(np.max(np.hypot(*line.rows.T[1:]), initial=0.0)) for line in contour.lines)
+        return np.concatenate([self.places[contour.P] + reach * np.array([[x], [y]]) for x, y in product((-1.0, 1.0), repeat=2)], axis=1)
 
     @cached_property
     def size(self) -> float:

@@ -15,6 +15,7 @@ from ..frozen import FrozenDict
 from ..quantities import (
     Distance,
     Function,
+    Holding,
     Joint,
     Length,
     Member,
@@ -31,7 +32,7 @@ from ..quantities import (
     quantity,
     unnamed,
 )
-from ..steps import Arrow, Bar, Drawn, Ground, Group, Guide, Link, Point, Slide
+from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point
 from ..units import deg
 from .bodies import Body, gruebler, merged
 from .table import Table
@@ -67,8 +68,8 @@ def gruebler_count(plan: Members) -> int:
 
 
 def half_joints(point: Point) -> int:
-    """Return how many guides and slots take one freedom each at a step."""
-    return sum(1 for joint in point.joints() if joint.track)
+    """Return how many guides, slots and contacts take one freedom each at a step."""
+    return sum(1 for joint in point.joints() if joint.is_half)
 
 
 # A plan as text: lines that can be pasted into a class.
@@ -119,10 +120,8 @@ def turning(members: Mapping[str, Member]) -> frozenset[str]:
 
 def angles(members: Mapping[str, Member]) -> Iterator[Quantity]:
     """Yield the quantities that stand for angles."""
-    rigid = [step for member in members.values() if isinstance(member, Group) for step in member.rigid]
-    for member in (*members.values(), *rigid):
-        found = [getattr(member, "angle", None), getattr(member, "QPX", None)]
-        yield from (angle for angle in found if isinstance(angle, Quantity))
+    for member in members.values():
+        yield from member.angles()
 
 
 Kind = TypeVar("Kind", bound=Member)
@@ -177,7 +176,7 @@ class Members:
     @cached_property
     def ground(self) -> tuple[str, ...]:
         """The names of the fixed points."""
-        return tuple(self.of_kind(Ground))
+        return tuple(name for name, point in self.points.items() if point.is_fixed)
 
     def _check_kinds(self) -> None:
         """Raise DefinitionError where a point, a vector or a quantity stands in the place of another kind."""
@@ -199,7 +198,7 @@ class Members:
         if isinstance(member, Stroke) and name in self.turning and abs(member.end - member.start) > TURNS * 2.0 * pi:
             text = f"{self.title}: {name} = {member} is an angle in radians, {abs(member.end - member.start) / (2.0 * pi):.3g} turns"
             raise DefinitionError(f"{text}; write Stroke({member.start:.6g} * deg, {member.end:.6g} * deg).")
-        if isinstance(member, Ground) and self.moves(member):
+        if isinstance(member, Point) and member.is_fixed and self.moves(member):
             text = f"{self.title}: {name} = {member} follows a stroke, but is fixed; drive a point by OnGuide, Dyad or Crank."
             raise DefinitionError(text)
 
@@ -266,8 +265,19 @@ class Members:
     @cached_property
     def joints(self) -> tuple[tuple[str, Joint], ...]:
         """What the steps, guides and slides hold, each with its member's name; driven joints only where a stroke drives them."""
-        holding = {**self.of_kind(Point), **self.of_kind(Guide), **self.of_kind(Slide)}
-        return tuple((name, joint) for name, member in holding.items() for joint in member.joints() if self.is_there(joint))
+        return tuple((name, joint) for name, member in self.holding.items() for joint in member.joints() if self.is_there(joint))
+
+    @cached_property
+    def holding(self) -> dict[str, Holding]:
+        """The members that hold others without being a load: points first, then guides and slides."""
+        others = {name: member for name, member in self.of_kind(Holding).items() if member.kind != "load"}
+        return FrozenDict({**self.points, **others})
+
+    @cached_property
+    def sliding(self) -> dict[str, Holding]:
+        """The members beside points that let a point slide on a line."""
+        found = {name: member for name, member in self.holding.items() if any(joint.track for joint in member.joints())}
+        return FrozenDict({name: member for name, member in found.items() if name not in self.points})
 
     def is_there(self, joint: Joint) -> bool:
         """Return whether a joint holds two bodies apart: one whose drives all stand still makes them one body."""

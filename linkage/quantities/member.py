@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from functools import lru_cache
 from inspect import Parameter, Signature, signature
 from math import inf
@@ -101,6 +101,10 @@ class Member:
         """Return the quantities that stand for lengths in this member, beside its labels: none may be negative."""
         return ()
 
+    def angles(self) -> tuple[Any, ...]:
+        """Return the quantities that stand for angles in this member: strokes and dimensions that they are sums of are in rad."""
+        return ()
+
     def examine(self, members: Any, title: str) -> None:
         """Raise DefinitionError for what only the whole class tells to be wrong: its members by name, its title."""
 
@@ -185,6 +189,30 @@ Turning: TypeAlias = tuple[Scalar, Scalar]
 """The cosine and the sine of an angle: how angles are carried between steps."""
 
 
+Pick: TypeAlias = Callable[[Scalar, Scalar, Scalar, Scalar], Scalar]
+"""What returns its third argument where the first is not above the second, else its fourth."""
+
+
+class Tabulated(Protocol):
+    """A tabulated function, such as `linkage.Curve`."""
+
+    @property
+    def name(self) -> str:
+        """What equations call it."""
+
+    @property
+    def ends(self) -> tuple[float, float] | None:
+        """The least and greatest x that it has a value for; None where it goes on for ever."""
+
+    def __hash__(self) -> int: ...
+
+    def value(self, x: Scalar, order: int = 0, pick: Pick = ..., wrap: Callable[[Scalar], Scalar] = ...) -> Scalar:
+        """Return its value, or a derivative of that order; NaN outside it.
+
+        It is made of arithmetic, `pick(a, b, x, y)`, which is x where a <= b, else y, and `wrap(angle)`, the angle within half a turn.
+        """
+
+
 class Where(Protocol):
     """A reading of the mechanism: it knows where the points are and what the quantities amount to."""
 
@@ -227,6 +255,9 @@ class Where(Protocol):
 
     def direction(self, P: str, Q: str) -> Vec:
         """Return the vector from one point to another [m], noted as one whose direction is taken."""
+
+    def curve(self, curve: Tabulated, x: Scalar, order: int = 0) -> Scalar:
+        """Return what a table gives for x, or its derivative of that order; NaN outside it."""
 
     def link_length(self, P: str, Q: str) -> Scalar:
         """Return the distance of two points [m]; the link's own length where one body holds both."""

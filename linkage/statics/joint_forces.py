@@ -18,7 +18,7 @@ from ..units import kN
 from .acting import ActingLoad, ActingLoads, Case, Loads, acting_loads, drive_of, movement_of
 from .bodies import FRAME_NAME
 from .force_program import forces_at
-from .joints import Structure
+from .joints import Structure, direction_of
 from .poses import FlatPoses
 from .solution import PoseForces, locked_words
 from .work import by_work, poses_held, work_gap
@@ -48,7 +48,7 @@ def pin_forces(
     acting = acting_loads(motion, loads, case, movement)
     found = forces_at(poses_held(motion, acting, "The joint forces"), acting, loads, case, split)
     structure = found.structure
-    remarks = [*locked_words(found, direction), *self_locking_words(found), *at_rest_words(acting)]
+    remarks = [*locked_words(found, direction), *lift_off_words(found), *self_locking_words(found), *at_rest_words(acting)]
     borne = tuple((structure.name(structure.bearer(each.load)), each) for each in acting.loads)
     again = partial(pin_forces, loads=loads, case=case, direction=direction, drive=drive, rates=rates, split=split)
     return PinForces(
@@ -227,6 +227,23 @@ def range_text(values: FloatArray, unit: str) -> str:
         return "no value"
     ends = dict.fromkeys(f"{float(value):.6g}" for value in (finite.min(), finite.max()))
     return f"{' to '.join(ends)} {unit}"
+
+
+def lift_off_words(found: PoseForces) -> list[str]:
+    """Return the words for contacts that would have to pull to hold their bodies together: there these come apart."""
+    poses, structure, words = found.poses, found.structure, []
+    for contact, (force, _) in zip(structure.contacts, found.contacts, strict=True):
+        if contact.joint is None or not contact.joint.pushes:
+            continue
+        push = (poses.flat(force) * direction_of(contact, "n", poses)).sum(axis=0)
+        mask = poses.mask(push < 0.0)
+        if mask.any():
+            bodies = f"{structure.name(contact.on)} from {structure.name(contact.by)}"
+            words.append(
+                f"{contact.owner} lifts off ({contact.kind}, {bodies}) {where_words(poses.plan, mask, poses.motion.strokes)}: there the "
+                f"contact would have to pull, with up to {-float(np.nanmin(push)):.6g} N. Press it on with a spring or a weight."
+            )
+    return words
 
 
 def self_locking_words(found: PoseForces) -> list[str]:

@@ -53,6 +53,9 @@ class Guide(Holding):
         angle = () if self.angle is None or self.angle.is_constant else (self.angle,)
         return (*(point for point in (self.P, self.Q) if point is not None), *angle)
 
+    def angles(self) -> tuple[Quantity, ...]:
+        return () if self.angle is None else (self.angle,)
+
     @property
     def points(self) -> tuple[str, ...]:
         """The names of the points the guide goes through."""
@@ -106,6 +109,9 @@ class Slide(Holding):
         """Return the point's distance from the guide [m], positive on its left: zero when it slides on it."""
         line = where.line(self.guide)
         return line.direction.cross(where.at(self.point) - line.origin)
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        return (self.miss(where),)
 
     def joints(self) -> tuple[Joint, ...]:
         return (guided(name_of(self.point), name_of(self.guide)),)

@@ -91,6 +91,9 @@ class Group(Member):
         """The names of what its solution supplies: coordinates [m] and the sine that tells how near it is to a singular pose."""
         return (*(f"{pin}.{axis}" for pin in self.pins for axis in "xy"), f"{self.name}.sine")
 
+    def angles(self) -> tuple[Quantity, ...]:
+        return tuple(angle for step in self.rigid for angle in step.angles())
+
     def parts(self) -> tuple[Reference, ...]:
         points = [point for P, Q, _ in self.given for point in (P, Q)]
         points += [name_of(parent) for _, step in self.attached for parent in step.parents]

@@ -10,10 +10,11 @@ from math import pi
 from typing import Any, Self
 
 import numpy as np
+import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
-from ..quantities import Holding, Number, Quantity, Reference, Where, is_number, name_of, quantity
+from ..quantities import Holding, Member, Number, Quantity, Reference, Where, is_number, name_of, quantity
 from ..units import deg
 from ..vectors import Scalar, Side, Vec
 from .labels import Claims, Slot, match, relabelled, written_labels
@@ -41,8 +42,30 @@ class Bar:
     length: Quantity
 
 
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Contour:
+    """A closed line that is drawn and moves with the points P and Q: its corners along P -> Q and to its left from P, shape (2, n) [m]."""
+
+    P: str
+    Q: str
+    corners: npt.NDArray[np.float64]
+
+
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Assignment:
+    """A name given to a primitive of the vector method, `OAB = CosineAngle(...)`; to a quantity, it is the label of a length."""
+
+    name: str
+    value: Member
+
+
 class Point(Holding):
-    """A named point of the mechanism."""
+    """A named point of the mechanism.
+
+    A step of one's own says `parts`, `place`, `constraints` and `joints`; all the rest has a default that serves.
+    """
 
     kind = "point"
 
@@ -54,9 +77,23 @@ class Point(Holding):
     def place(self, where: Where) -> Vec:
         """Return the position [m]; NaN where it cannot be assembled."""
 
-    def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        """Return what must vanish at this point's place, in every reading; empty for a free construction."""
+    def expansion(self) -> tuple[Assignment, ...]:
+        """Return the primitives that this step stands for, in the vector method's order; empty where its own rule is written out."""
         return ()
+
+    @property
+    def is_fixed(self) -> bool:
+        """Whether it belongs to the frame."""
+        return False
+
+    def coordinates(self) -> tuple[tuple[str, Quantity], ...]:
+        """Return the names and values of both coordinates, where it is given by them."""
+        return ()
+
+    @property
+    def hangs_from(self) -> str:
+        """The point that a construction alone leads from, drawn as a thin line where no body joins them; empty where others hold it."""
+        return ""
 
     @property
     def closes(self) -> bool:
@@ -92,6 +129,10 @@ class Point(Holding):
     def shortage(self, where: Where) -> tuple[str, Scalar]:
         """Return what is too short to place this point, in words, and by how much [m]."""
         return "its point lies nowhere", float("nan")
+
+    def outline(self, where: Where) -> tuple[Contour, ...]:
+        """Return what is drawn of this step beside bodies, guides and pins."""
+        return ()
 
 
 class Step(Point):

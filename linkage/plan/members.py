@@ -121,7 +121,7 @@ def turning(members: Mapping[str, Member]) -> frozenset[str]:
 def angles(members: Mapping[str, Member]) -> Iterator[Quantity]:
     """Yield the quantities that stand for angles."""
     for member in members.values():
-        yield from member.angles()
+        yield from member.in_radians()
 
 
 Kind = TypeVar("Kind", bound=Member)

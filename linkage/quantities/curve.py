@@ -185,7 +185,7 @@ class CurveValue(Quantity):
     def parts(self) -> tuple[Reference, ...]:
         return (self.x,)
 
-    def angles(self) -> tuple[Quantity, ...]:
+    def in_radians(self) -> tuple[Quantity, ...]:
         return (self.x,) if self.curve.period is not None and abs(self.curve.period - 2.0 * pi) < 1e-9 else ()
 
     def rule(self, where: Where) -> Scalar:

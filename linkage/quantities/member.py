@@ -101,7 +101,7 @@ class Member:
         """Return the quantities that stand for lengths in this member, beside its labels: none may be negative."""
         return ()
 
-    def angles(self) -> tuple[Any, ...]:
+    def in_radians(self) -> tuple[Any, ...]:
         """Return the quantities that stand for angles in this member: strokes and dimensions that they are sums of are in rad."""
         return ()
 

@@ -30,7 +30,7 @@ class Crank(Step):
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), self.angle)
 
-    def angles(self) -> tuple[Quantity, ...]:
+    def in_radians(self) -> tuple[Quantity, ...]:
         return (self.angle,)
 
     def slots(self) -> tuple[Slot, ...]:

@@ -53,7 +53,7 @@ class Guide(Holding):
         angle = () if self.angle is None or self.angle.is_constant else (self.angle,)
         return (*(point for point in (self.P, self.Q) if point is not None), *angle)
 
-    def angles(self) -> tuple[Quantity, ...]:
+    def in_radians(self) -> tuple[Quantity, ...]:
         return () if self.angle is None else (self.angle,)
 
     @property

@@ -48,7 +48,7 @@ class OnLink(Step):
         """Return the quantities of its labels."""
         return tuple(each for each in (self.PX, self.QX, self.QPX) if each is not UNBOUND)
 
-    def angles(self) -> tuple[Quantity, ...]:
+    def in_radians(self) -> tuple[Quantity, ...]:
         return () if self.QPX is UNBOUND else (self.QPX,)
 
     def modes(self) -> tuple[Side, ...]:

@@ -91,8 +91,8 @@ class Group(Member):
         """The names of what its solution supplies: coordinates [m] and the sine that tells how near it is to a singular pose."""
         return (*(f"{pin}.{axis}" for pin in self.pins for axis in "xy"), f"{self.name}.sine")
 
-    def angles(self) -> tuple[Quantity, ...]:
-        return tuple(angle for step in self.rigid for angle in step.angles())
+    def in_radians(self) -> tuple[Quantity, ...]:
+        return tuple(angle for step in self.rigid for angle in step.in_radians())
 
     def parts(self) -> tuple[Reference, ...]:
         points = [point for P, Q, _ in self.given for point in (P, Q)]

@@ -76,7 +76,7 @@ class Turn(Arrow):
     def parts(self) -> tuple[Reference, ...]:
         return (self.base, self.angle) if self.scaled_to is None else (self.base, self.angle, self.scaled_to)
 
-    def angles(self) -> tuple[Quantity, ...]:
+    def in_radians(self) -> tuple[Quantity, ...]:
         return (self.angle,)
 
     def lengths(self) -> tuple[Quantity, ...]:

@@ -15,7 +15,7 @@ from ..mechanism import Mechanism, declared
 from ..quantities import Member, Number, Quantity, is_number, label, name_of, quantity, spelled
 from ..quantities.quantity import plain
 from ..steps import Link, Pin, Step
-from ..units import UNITS, parse
+from ..units import factor, parse
 from .expression import arrow, expression
 from .form import form, own_form
 from .names import Names
@@ -93,10 +93,10 @@ def in_degrees(value: float) -> float | str:
 
 def in_unit(value: float, unit: str) -> float | str:
     """Return a value [SI] as text in a unit where that is short and reads back as the same, else as it is."""
-    factor = UNITS[unit][0] if unit else 1.0
-    if factor == 1.0 or not isinstance(value, float) or value == 0.0 or not isfinite(value / factor):
+    size = factor(unit)
+    if size == 1.0 or not isinstance(value, float) or value == 0.0 or not isfinite(value / size):
         return value
-    text = f"{value / factor:.9g} {unit}"
+    text = f"{value / size:.9g} {unit}"
     return text if parse(text) == value else value
 
 

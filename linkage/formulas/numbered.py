@@ -13,7 +13,8 @@ import sympy
 
 from ..errors import DefinitionError, cited, unknown
 from ..mechanism import Mechanism, declared, require_mechanism
-from ..quantities import Stroke, is_whole
+from ..motion.requests import stroke_of
+from ..quantities import is_whole
 from .listing import X_AXIS, Listing, Written
 from .printing import Latex, Text, plain_number
 from .rates import needed, ratio_lines
@@ -359,7 +360,7 @@ def differentiated(design: Mechanism, listing: Listing, target: str, wrt: str | 
     known = named(listing)
     if target not in known:
         raise unknown("Point or output", target, known, where=plan.title)
-    stroke = stroke_of(plan.strokes, wrt, plan.title)
+    stroke = stroke_of(plan, wrt)
     together = {listing.names.vector(pin) for pin in listing.unknowns}
     if together & {known[target], *(symbol for line in needed(listing.lines, known[target]) for symbol in line.rhs.free_symbols)}:
         pins = " ".join(listing.unknowns)
@@ -372,13 +373,3 @@ def named(listing: Listing) -> dict[str, Any]:
     lines = {line.lhs for line in listing.lines}
     symbols = {name: listing.symbol_of(name) for name in listing.plan.named()}
     return {name: symbol for name, symbol in symbols.items() if symbol in lines or name in listing.unknowns}
-
-
-def stroke_of(strokes: Mapping[str, Stroke], wrt: str | None, title: str) -> str:
-    """Return the stroke to differentiate by; DefinitionError where it has to be said."""
-    if wrt is None and len(strokes) != 1:
-        raise DefinitionError(f"{title} has {len(strokes)} strokes: say wrt= one of {', '.join(strokes)}.")
-    name = next(iter(strokes)) if wrt is None else wrt
-    if name not in strokes:
-        raise unknown("Stroke", name, strokes, where=title)
-    return name

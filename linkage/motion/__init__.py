@@ -3,8 +3,9 @@
 from .evaluation import PoseFunction, evaluate, evaluate_grid, source_of
 from .extremes import Extremum, Span, below_zero, greatest, lowest, reached
 from .grid import Grid
-from .limits import stroke_unit
+from .limits import stroke_display_unit, stroke_unit
 from .motion import Motion, Target, out_of_reach, paired, require_motion
+from .peaks import highest, last_holding
 from .requests import BoundRequest, Ratio, Request, RequestLike, Value, condition, ratio
 from .strokes import as_given, at_values, check_any, rates_of, sweep_values
 from .table import Column, Tabled, columns_of

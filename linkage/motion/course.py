@@ -19,6 +19,7 @@ from ..plan import Loop, Plan
 from ..program import FloatArray, Kernel, Level, Way
 from .grid import Grid
 from .limits import as_read, number, stroke_unit
+from .peaks import Mask, last_holding
 
 GRID = 128
 """Intervals of the grid; an angle has so many for each turn of it."""
@@ -184,17 +185,11 @@ class Course:
         return found
 
     def _border(self, row: int, x: FloatArray, place: int, side: int, noise: float) -> float:
-        """Return the end of a stretch that is out of reach, on one side of a value in it, by bisection."""
-        inside, outside = float(x[place]), float(x[min(max(place + side, 0), len(x) - 1)])
-        while abs(outside - inside) > 4e-16 * max(abs(inside), abs(outside)):
-            at = inside + (outside - inside) * INNER
-            under = self.seen(at)[row] < -noise
-            count = PARTS - 1 if under.all() else int(np.argmin(under))
-            points = [inside, *at.tolist(), outside]
-            if (points[count], points[count + 1]) == (inside, outside):
-                break
-            inside, outside = points[count], points[count + 1]
-        return outside
+        """Return the end of a stretch that is out of reach, on one side of a value in it."""
+        def is_under(at: FloatArray) -> Mask:
+            return np.asarray(self.seen(at)[row] < -noise)
+
+        return float(last_holding(is_under, x[place], x[min(max(place + side, 0), len(x) - 1)])[1])
 
 
 def divided(

@@ -18,12 +18,10 @@ from ..plan import missing_words as missing_words
 from ..plan import negative as negative
 from ..plan import opening as opening
 from ..program import FloatArray
-from ..units import deg
+from ..units import UNITS, deg, display_unit, factor
+from .peaks import last_holding
 
 SAMPLES = 1441
-
-READ_IN = {"m": (1.0, "m"), "rad": (deg, "deg")}
-"""The unit of a stroke -> the one it is read in: its factor and its name."""
 
 Scan = Callable[[FloatArray], "Scanned"]
 """A look at some stroke values: which are reached, and what fails."""
@@ -31,12 +29,12 @@ Scan = Callable[[FloatArray], "Scanned"]
 
 def number(value: float, unit: str, digits: int = 9) -> str:
     """Return a value of a stroke [m or rad] as it is read, without its unit; angles in degrees."""
-    return f"{value / READ_IN[unit][0]:.{digits}g}"
+    return f"{value / factor(display_unit(UNITS[unit][1])):.{digits}g}"
 
 
 def as_read(value: float, unit: str, digits: int = 9) -> str:
     """Return a value of a stroke [m or rad] as it is read: `0.25 m`, `90 deg`."""
-    return f"{number(value, unit, digits)} {READ_IN[unit][1]}"
+    return f"{number(value, unit, digits)} {display_unit(UNITS[unit][1])}"
 
 
 @refuses_changes
@@ -147,7 +145,7 @@ class StrokeLimits:
             return [f"  reachable all the way from {number(interval.low, self.unit)} to {as_read(interval.high, self.unit)}"]
         low, high = (number(value, self.unit) + ("" if stop else " (looked no farther)") for value, stop in ends)
         stops = [f"    {number(value, self.unit)}: dead point of {stop}" for value, stop in ends if stop]
-        return [f"  reachable from {low} to {high} {READ_IN[self.unit][1]}", *stops]
+        return [f"  reachable from {low} to {high} {display_unit(UNITS[self.unit][1])}", *stops]
 
 
 class Limits(FrozenDict[str, StrokeLimits]):
@@ -172,27 +170,22 @@ def intervals(scan: Scan, at: FloatArray, reached: Any) -> list[Interval]:
     found: list[Interval] = []
     edges = np.flatnonzero(np.diff(np.concatenate([[False], reached, [False]]).astype(int)))
     for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
-        low, low_stop = (at[first], "") if first == 0 else bisected(scan, at[first], at[first - 1])
-        high, high_stop = (at[last], "") if last == len(at) - 1 else bisected(scan, at[last], at[last + 1])
+        low, low_stop = (at[first], "") if first == 0 else end_of_reach(scan, at[first], at[first - 1])
+        high, high_stop = (at[last], "") if last == len(at) - 1 else end_of_reach(scan, at[last], at[last + 1])
         found.append(Interval(float(low), float(high), low_stop, high_stop))
     return found
 
 
-def bisected(scan: Scan, inside: float, outside: float) -> tuple[float, str]:
+def end_of_reach(scan: Scan, inside: float, outside: float) -> tuple[float, str]:
     """Return the last stroke reached between one inside and one outside, and the step that fails beyond it."""
-    for _ in range(8):
-        at = np.linspace(inside, outside, 65)
-        seen = scan(at)
-        place = int(np.argmin(seen.reached))
-        known = [stop for stop in seen.stops if min(inside, outside) <= stop <= max(inside, outside)]
-        if known:
-            return known[0], seen.failing(place)
-        if seen.reached[place]:
-            return inside, ""
-        inside, outside = float(at[max(place - 1, 0)]), float(at[place])
-        if abs(outside - inside) <= 4e-16 * max(abs(inside), abs(outside)):
-            break
-    return inside, seen.failing(place)
+    seen = scan(np.linspace(inside, outside, 65))
+    known = [stop for stop in seen.stops if min(inside, outside) <= stop <= max(inside, outside)]
+    if known:
+        return known[0], seen.failing(int(np.argmin(seen.reached)))
+    if np.all(seen.reached):
+        return inside, ""
+    last, beyond = last_holding(lambda at: np.array(scan(at).reached), inside, outside, parts=64)
+    return float(last), scan(np.array([beyond])).failing(0)
 
 
 # Where a mechanism cannot be assembled, in words: the strokes, and what is missing there.
@@ -245,9 +238,14 @@ def span_read(values: Any, unit: str) -> str:
 
 def place_read(value: Any, unit: str) -> str:
     """Return a stroke [m or rad], or the range of several, as a place of it is read: `0.1234 m`, `25.00 deg`, `0.1000 to 0.2000 m`."""
-    digits, (factor, name) = 2 if unit == "rad" else 4, READ_IN[unit]
-    ends = dict.fromkeys(f"{float(each) / factor + 0.0:.{digits}f}" for each in (np.min(value), np.max(value)))
-    return f"{' to '.join(ends)} {name}"
+    digits, shown = 2 if unit == "rad" else 4, display_unit(UNITS[unit][1])
+    ends = dict.fromkeys(f"{float(each) / factor(shown) + 0.0:.{digits}f}" for each in (np.min(value), np.max(value)))
+    return f"{' to '.join(ends)} {shown}"
+
+
+def stroke_display_unit(plan: Plan, name: str, length: str = "m") -> str:
+    """Return the unit that a stroke is shown in: deg where it is an angle, else that of a length."""
+    return display_unit(UNITS[stroke_unit(plan, name)][1], length)
 
 
 def stroke_unit(plan: Plan, name: str) -> str:

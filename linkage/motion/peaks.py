@@ -207,13 +207,28 @@ def borders(look: Look, missing: Mask, values: FloatArray, leg: Index, t: FloatA
 
 def bisected(look: Look, leg: Index, inside: FloatArray, outside: FloatArray) -> FloatArray:
     """Return the last places (K, D, c) with a value between those that have one and those that have none."""
-    while np.max(np.abs(outside - inside)) > CLOSE:
-        t = inside[..., None] + (outside - inside)[..., None] * np.linspace(0.0, 1.0, FINE)
-        missing = np.isnan(own(look, leg, t)[0])
-        missing[..., -1] = True
-        last = np.maximum(np.argmax(missing, axis=-1)[..., None], 1)
-        inside, outside = (np.take_along_axis(t, last - back, axis=-1)[..., 0] for back in (1, 0))
-    return inside
+    return last_holding(lambda t: ~np.isnan(own(look, leg, t)[0]), inside, outside, CLOSE)[0]
+
+
+def last_holding(
+    holds: Callable[[FloatArray], Mask], inside: npt.ArrayLike, outside: npt.ArrayLike, close: float = 0.0, parts: int = FINE - 1
+) -> tuple[FloatArray, FloatArray]:
+    """Return the last places (...) at which something holds, and the next ones, at which it does not, at most `close` apart.
+
+    It holds `inside` and not `outside`; `holds` is asked of the places (..., n) that cut what lies between into so many parts, again and
+    again, by itself to the last digit.
+    """
+    inside, outside = np.array(inside, float), np.array(outside, float)
+    while np.max(np.abs(outside - inside)) > close:
+        t = inside[..., None] + (outside - inside)[..., None] * np.linspace(0.0, 1.0, parts + 1)
+        fails = ~holds(t)
+        fails[..., -1] = True
+        first = np.maximum(np.argmax(fails, axis=-1)[..., None], 1)
+        ends = [np.asarray(np.take_along_axis(t, first - back, axis=-1)[..., 0]) for back in (1, 0)]
+        if np.array_equal(ends, [inside, outside]):
+            break
+        inside, outside = ends
+    return inside, outside
 
 
 def towards(look: Look, edges: Tops) -> Tops:

@@ -413,12 +413,12 @@ def identities_of(plan: Plan, requests: Sequence[RequestLike]) -> Hashable:
     return None if None in found else found
 
 
-def stroke_of(plan: Plan, name: str | None) -> str:
-    """Return the stroke that is meant; DefinitionError where there are several and none is named."""
+def stroke_of(plan: Plan, name: str | None, keyword: str = "wrt") -> str:
+    """Return the stroke that is meant; DefinitionError where there are several and none is named by the keyword."""
     if name is None and len(plan.strokes) == 1:
         return next(iter(plan.strokes))
     if name is None:
-        raise DefinitionError(f"{plan.title} has {len(plan.strokes)} strokes: say wrt= one of {', '.join(plan.strokes)}.")
+        raise DefinitionError(f"{plan.title} has {len(plan.strokes)} strokes: say {keyword}= one of {', '.join(plan.strokes)}.")
     return named("Stroke", name, plan.strokes, plan.title)
 
 

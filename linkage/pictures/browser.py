@@ -15,7 +15,7 @@ from matplotlib.ticker import MaxNLocator
 from ..errors import DefinitionError, cited, known_name
 from ..motion import Column, Motion
 from ..program import FloatArray
-from ..units import UNITS
+from ..units import factor
 from . import free_space as room
 from . import strokes, style
 from .curves import limit, span, typeset
@@ -35,7 +35,7 @@ def chart(motion: Motion, column: Column, bound: Sequence[Any] | None) -> dict[s
     edge: dict[str, Any] | None = None
     if bound is not None:
         found = limit(bound)
-        value = found.value / (UNITS[column.unit][0] if column.unit else 1.0)
+        value = found.value / factor(column.unit)
         low, high = min(low, value - 0.06 * (high - low)), max(high, value + 0.06 * (high - low))
         edge = {"value": value, "text": found.text, "above": found.fails == "above"}
     unit = strokes.unit(motion.plan, moving)

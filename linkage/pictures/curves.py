@@ -16,7 +16,7 @@ from ..errors import DefinitionError, cited, unknown
 from ..motion import Column, Motion, columns_of
 from ..program import FloatArray
 from ..quantities import is_number
-from ..units import UNITS
+from ..units import factor
 from . import strokes, style
 from .sheet import Picture, quiet
 
@@ -91,7 +91,7 @@ def span(values: FloatArray) -> tuple[float, float]:
 
 def bar(ax: Axes, along: FloatArray, column: Column, bound: Limit, unit: str) -> None:
     """Draw a limit, shade the side that fails, and mark where the curve crosses it."""
-    value = bound.value / (UNITS[column.unit][0] if column.unit else 1.0)
+    value = bound.value / factor(column.unit)
     low, high = ax.get_ylim()
     low, high = min(low, value - 0.06 * (high - low)), max(high, value + 0.06 * (high - low))
     bottom, top = (value, high) if bound.fails == "above" else (low, value)

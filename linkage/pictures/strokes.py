@@ -10,22 +10,22 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, known_name
 from ..mechanism import Mechanism
-from ..motion import Column, Motion, check_any, require_motion, stroke_unit
+from ..motion import Column, Motion, check_any, last_holding, require_motion, stroke_display_unit
 from ..plan import Plan
 from ..program import FloatArray
 from ..reports import NOTHING, At, Run, results, run_of
-from ..units import UNITS
+from ..units import factor
 from . import strokes
 
 
 def unit(plan: Plan, name: str) -> str:
     """Return the unit a stroke is shown in: mm, or deg where it turns something."""
-    return "deg" if stroke_unit(plan, name) == "rad" else "mm"
+    return stroke_display_unit(plan, name, "mm")
 
 
 def shown(plan: Plan, name: str, value: Any) -> Any:
     """Return stroke values [SI] in the unit they are shown in."""
-    return np.asarray(value) / UNITS[unit(plan, name)][0]
+    return np.asarray(value) / factor(unit(plan, name))
 
 
 def words(plan: Plan, name: str, value: float, *, fixed: bool = False) -> str:
@@ -69,10 +69,8 @@ def unreached(motion: Motion, moving: str) -> str:
 
 def _last(motion: Motion, moving: str, inside: float, outside: float) -> float:
     """Return the last value of a stroke in reach between one that is and one that is not [SI]."""
-    between = np.linspace(inside, outside, 501)
-    held_at = {name: np.full(between.size, np.ravel(value)[0]) for name, value in motion.strokes.items()}
-    near = Motion(motion.plan, motion.designs, held_at | {moving: between}, "nan").reached
-    return float(between[max(int(np.argmin(near)) - 1, 0)])
+    held_at = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
+    return float(last_holding(lambda at: np.array(motion.moved(held_at | {moving: at}).reached), inside, outside)[0])
 
 
 def held(plan: Plan, strokes: Mapping[str, Any], moving: str) -> str:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from ..errors import DefinitionError, SingularError, cited, known_name, told, unknown
 from ..loads import Damper, ForceElement, Friction, Load, LoadCase, Poses, Rate, Rates, TwoPinned
 from ..motion import Motion, rates_of, require_motion
+from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import name_of
@@ -295,7 +296,7 @@ def movement_of(motion: Motion, direction: str, rates: Mapping[str, ArrayLike] |
         return Movement(direction, given, bool(sense), True)
     if not sense:
         return AT_REST
-    tangent: Mapping[str, Rate] = path_tangent(motion) or {drive_of(motion.plan, drive): 1.0}
+    tangent: Mapping[str, Rate] = path_tangent(motion) or {stroke_of(motion.plan, drive, "drive"): 1.0}
     return Movement(direction, {name: sense * rate for name, rate in tangent.items()}, True)
 
 
@@ -308,12 +309,3 @@ def path_tangent(motion: Motion) -> dict[str, FloatArray]:
     """Return how strokes change along a path on which several of them move, shaped as the poses; empty where it is none."""
     moving = {name: rate for name, rate in (motion.tangent or {}).items() if np.any(rate != 0.0)}
     return moving if len(moving) > 1 else {}
-
-
-def drive_of(plan: Plan, drive: str | None) -> str:
-    """Return the stroke that is meant: the only one, where none is named."""
-    if drive is None and len(plan.strokes) == 1:
-        return next(iter(plan.strokes))
-    if drive is None:
-        raise DefinitionError(f"{plan.title} has {len(plan.strokes)} strokes: say drive= one of {', '.join(plan.strokes)}.")
-    return known_name("Stroke", drive, plan.strokes, where=plan.title)

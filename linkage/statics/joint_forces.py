@@ -13,9 +13,10 @@ from numpy.typing import ArrayLike
 from ..errors import DefinitionError, known_name, unknown
 from ..motion import Motion, require_motion, stroke_unit
 from ..motion.limits import Mask, where_words
+from ..motion.requests import stroke_of
 from ..program import FloatArray
 from ..units import kN
-from .acting import ActingLoad, ActingLoads, Case, Loads, acting_loads, drive_of, movement_of
+from .acting import ActingLoad, ActingLoads, Case, Loads, acting_loads, movement_of
 from .bodies import FRAME_NAME
 from .force_program import forces_at
 from .joints import Structure, direction_of
@@ -44,7 +45,7 @@ def pin_forces(
     """
     movement = movement_of(motion, direction, rates, drive)
     if drive is not None:
-        drive_of(motion.plan, drive)
+        stroke_of(motion.plan, drive, "drive")
     acting = acting_loads(motion, loads, case, movement)
     found = forces_at(poses_held(motion, acting, "The joint forces"), acting, loads, case, split)
     structure = found.structure

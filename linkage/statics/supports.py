@@ -11,9 +11,10 @@ from ..errors import DefinitionError, known_name
 from ..loads import Support
 from ..motion import Motion, require_motion
 from ..motion.conditions import condition
+from ..motion.requests import stroke_of
 from ..program import FloatArray
 from ..quantities import name_of, real
-from .acting import Case, Loads, acting_loads, drive_of, movement_of
+from .acting import Case, Loads, acting_loads, movement_of
 from .holding import refused_where
 from .joints import Wrench
 from .poses import FlatPoses
@@ -41,7 +42,7 @@ def reaction(
     """
     require_motion(motion)
     name, held = support_of(motion, support)
-    stroke = drive_of(motion.plan, drive)
+    stroke = stroke_of(motion.plan, drive, "drive")
     acting = acting_loads(motion, loads, case, movement_of(motion, direction, rates, stroke), without=name)
     poses = FlatPoses(motion, f"The reaction of {name}")
     known = poses.flat(known_force(motion, drive_force))

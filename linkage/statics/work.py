@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from ..errors import DefinitionError
 from ..loads import Rate, TwoPoint
 from ..motion import Motion, require_motion
+from ..motion.requests import stroke_of
 from ..program import FloatArray
 from ..quantities import is_number
 from .acting import (
@@ -19,7 +20,6 @@ from .acting import (
     Movement,
     acting_elements,
     acting_loads,
-    drive_of,
     member_title,
     movement_of,
     path_tangent,
@@ -51,7 +51,7 @@ def driving_force(
     it drives. Raises SingularError at a dead point and where friction locks the mechanism.
     """
     require_motion(motion)
-    stroke = drive_of(motion.plan, drive)
+    stroke = stroke_of(motion.plan, drive, "drive")
     movement = movement_of(motion, direction, rates, stroke)
     acting = acting_loads(motion, loads, case, movement)
     names = {name for point in acting.points for name in motion.plan.reaches(point)}

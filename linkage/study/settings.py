@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, known_name
 from ..mechanism import Mechanism
+from ..motion import highest, last_holding
 from ..program import FloatArray
 from ..quantities import is_number
 from ..units import show, unit_or_none
@@ -17,7 +18,6 @@ from .box import range_of
 from .checks import Asked, one_design, poses_of, title_of, unit_of, values
 
 SAMPLES = 1025
-ROUNDS = 12  # each looks 33 times closer
 TOUCH = 1e-9  # of the values' span: what comes as near as this to the target touches it
 
 Curve: TypeAlias = Callable[[FloatArray], FloatArray]
@@ -76,17 +76,9 @@ def ends_of_reach(curve: Curve, at: FloatArray) -> FloatArray:
     """Return the samples with the ends of every reachable range added."""
     known = np.isfinite(curve(at))
     edges = np.flatnonzero(known[1:] != known[:-1])
-    ends = [end_between(curve, *(at[[edge, edge + 1]] if known[edge] else at[[edge + 1, edge]])) for edge in edges]
+    pairs = [at[[edge, edge + 1] if known[edge] else [edge + 1, edge]] for edge in edges]
+    ends = [float(last_holding(lambda x: np.isfinite(curve(x)), inside, outside)[0]) for inside, outside in pairs]
     return np.sort(np.concatenate([at, ends]))
-
-
-def end_between(curve: Curve, inside: float, outside: float) -> float:
-    """Return the last value with a result, between one that has it and one that has not."""
-    for _ in range(ROUNDS):
-        near = np.linspace(inside, outside, 33)
-        lost = int(np.argmax(~np.isfinite(curve(near))))
-        inside, outside = float(near[max(lost - 1, 0)]), float(near[lost])
-    return inside
 
 
 def crossings(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
@@ -97,15 +89,11 @@ def crossings(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
 
 
 def crossing(curve: Curve, low: float, high: float) -> float:
-    """Return the zero between two values of opposite sign."""
-    for _ in range(ROUNDS):
-        near = np.linspace(low, high, 33)
-        off = curve(near)
-        if np.isnan(off).any():
-            return float("nan")
-        turn = int(np.argmax(np.sign(off) != np.sign(off[0])))
-        low, high = float(near[turn - 1]), float(near[turn])
-    return low if abs(curve(np.array([low]))[0]) < abs(curve(np.array([high]))[0]) else high
+    """Return the zero between two values of opposite sign; NaN where the curve ends before it."""
+    sign = np.sign(curve(np.array([low]))[0])
+    near = np.array(last_holding(lambda at: np.sign(curve(at)) == sign, low, high))
+    off = np.abs(curve(near))
+    return float(near[np.argmin(off)]) if np.isfinite(off).all() else float("nan")
 
 
 def touchings(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
@@ -119,11 +107,11 @@ def touchings(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
 
 def nearest(curve: Curve, low: float, high: float) -> float:
     """Return where the curve is nearest to zero between two values."""
-    for _ in range(ROUNDS):
-        near = np.linspace(low, high, 33)
-        place = int(np.argmin(np.where(np.isnan(off := np.abs(curve(near))), np.inf, off)))
-        low, high = float(near[max(place - 1, 0)]), float(near[min(place + 1, 32)])
-    return 0.5 * (low + high)
+    def look(_: Any, t: FloatArray) -> tuple[FloatArray, Any]:
+        off = curve(low + (high - low) * t.ravel())
+        return -np.abs(off).reshape(1, 1, -1), np.isfinite(off)[None]
+
+    return low + (high - low) * float(highest(look, [32]).t.item())
 
 
 def is_root(curve: Curve, root: float, off: FloatArray) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import final
 
@@ -12,7 +11,8 @@ from hydraulics import AccumulatorBlock, adiabatic, isothermal
 from hydraulics.gas import Gas
 from linkage import DefinitionError, Motion
 from linkage.errors import cited
-from linkage.motion import lowest
+from linkage.motion import last_holding, lowest
+from linkage.motion.limits import Mask
 from linkage.program import FloatArray
 from linkage.quantities import is_number
 from linkage.units import kgf_cm2, mm, show
@@ -78,7 +78,12 @@ def charge_limits(motion: Motion, way: Way) -> FloatArray:
     slow = np.where(allowed < lowest, block.pressure_holding(np.maximum(left, 0.0)), block.pressure(held, -left))
     if way.exponent is None:
         return np.asarray(slow)
-    return bisected(lambda p: block.fast_pressure(p, left, way.exponent) - allowed, np.full_like(slow, lowest), 4.0 * slow)
+
+    def falls_short(charges: FloatArray) -> Mask:
+        return np.asarray((block.fast_pressure(charges.T, left, way.exponent) <= allowed).T)
+
+    last, beyond = last_holding(falls_short, np.full_like(slow, lowest), 4.0 * slow, close=1e-6)
+    return 0.5 * (last + beyond)
 
 
 def block_in(motion: Motion, way: Way) -> AccumulatorBlock:
@@ -96,14 +101,3 @@ def refuse_light(motion: Motion, allowed: FloatArray, left: FloatArray, lowest: 
             f"The header is too light for these accumulators: at h = {motion.strokes['h'][where] / mm:.1f} mm the shoe lifts off from "
             f"{allowed[where] / kgf_cm2:.2f} kgf/cm2 on, and the lowest gas charge is {lowest / kgf_cm2:.2f} kgf/cm2. Lower the gas charge."
         )
-
-
-def bisected(excess: Callable[[FloatArray], FloatArray], low: FloatArray, high: FloatArray) -> FloatArray:
-    """Return where an increasing function of a pressure [Pa] comes to zero at each pose, to 1e-6 Pa; `low` where it is positive there."""
-    while np.max(high - low) > 1e-6:
-        middle = 0.5 * (low + high)
-        above = excess(middle) > 0.0
-        low, high = np.where(above, low, middle), np.where(above, middle, high)
-        if np.all((middle == low) | (middle == high)) and np.max(high - low) < 1e-3:
-            break
-    return 0.5 * (low + high)

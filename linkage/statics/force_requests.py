@@ -14,11 +14,11 @@ from ..errors import DefinitionError, cited, known_name
 from ..loads import ForceElement, LoadCase
 from ..motion import BoundRequest, Request, require_motion
 from ..motion.grid import MotionLike
-from ..motion.requests import identity_of
+from ..motion.requests import identity_of, stroke_of
 from ..plan import Plan
 from ..program import Node, Notes
 from ..vectors import Scalar
-from .acting import Case, Loads, drive_of
+from .acting import Case, Loads
 from .equilibrium import System
 from .joint_forces import JointForce, joint_on, joints_of, pin_forces
 from .joints import Contact, Structure
@@ -70,7 +70,7 @@ class DriveForce(Request):
         return bound_once(plan, self, self._bound) if self.loads is None else self._bound(plan)
 
     def _bound(self, plan: Plan) -> DriveForceOf:
-        drive = drive_of(plan, self.drive)
+        drive = stroke_of(plan, self.drive, "drive")
         traced = TracedLoads.apart(plan, self.loads, self.case)
         return DriveForceOf(self.loads, self.case, drive, traced.key, frozenset(traced.names), frozenset(traced.carriers))
 

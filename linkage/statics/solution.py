@@ -247,7 +247,7 @@ class Equilibrium:
         return (
             f"{self.system.structure.plan.title}: with its drives locked it can still move in {count} way{'s' if count > 1 else ''}: "
             f"{', '.join(self.loose())} not held. Declare what holds: Link(...) for bodies placed by Offset, "
-            "a cylinder by Dyad(..., AB=...)."
+            "a cylinder by Dyad(..., AB=...), joints() of a step of one's own."
         )
 
     def loose(self) -> Iterator[str]:

@@ -82,7 +82,8 @@ def acting_loads(motion: Motion, loads: Loads, case: Case, movement: Movement, w
     """Return the loads that act; DefinitionError for what is no force element or gives no proper force."""
     elements = acting_elements(motion.plan, loads, case, without)
     label = "given loads" if case is None and loads is not None else case_of(motion.plan, case).label
-    found = together(motion.plan, elements, label, movement, lambda each: parts_of(each, motion, movement, partial(over_poses, motion)))
+    fit = partial(over_poses, motion)
+    found = all_acting(motion.plan, elements, label, movement, lambda each: element_parts(each, motion, movement, fit))
     frictions = [(each.factor, friction) for each in elements if movement.has_friction for friction in each.element.frictions(motion)]
     scaled = tuple(replace(friction, coefficient=friction.coefficient * factor) for factor, friction in frictions)
     at_rest = tuple(each.name for each in elements if isinstance(each.element, Damper) and not movement.is_timed)
@@ -103,7 +104,7 @@ class ActingElement:
 Parts: TypeAlias = tuple[list[ActingLoad], list[ActingThrust]]
 
 
-def together(
+def all_acting(
     plan: Plan, elements: Sequence[ActingElement], label: str, movement: Movement, parts: Callable[[ActingElement], Parts]
 ) -> ActingLoads:
     """Return what some elements do as all that acts, without friction; DefinitionError for a load at a point that there is not."""
@@ -115,12 +116,12 @@ def together(
     return ActingLoads(loads, thrusts, (), tuple(each.element for each in elements), label, movement)
 
 
-def parts_of(each: ActingElement, motion: Poses, movement: Movement, fit: Callable[[ArrayLike, int, str, str], FloatArray]) -> Parts:
+def element_parts(each: ActingElement, motion: Poses, movement: Movement, fit: Callable[[ArrayLike, int, str, str], FloatArray]) -> Parts:
     """Return the loads and the thrusts of one element as they act; `fit` brings forces into the motion's shape."""
     element, rates, name = each.in_case, movement.known, each.name
     pushes = element.pushes(motion, rates)
     thrusts = [
-        ActingThrust(member_name(push.member, name), push.member, fit(push.thrust, 0, name, "thrust") * each.factor) for push in pushes
+        ActingThrust(thrust_name(push.member, name), push.member, fit(push.thrust, 0, name, "thrust") * each.factor) for push in pushes
     ]
     if pushes:
         return [], thrusts
@@ -165,7 +166,7 @@ def check_points(load: Load, plan: Plan, name: str) -> None:
             raise unknown("Point", point, plan.points, where=f"{plan.title}: {name}")
 
 
-def member_name(member: TwoPinned, owner: str) -> str:
+def thrust_name(member: TwoPinned, owner: str) -> str:
     """Return the name under which a two-point member is a body: its own, or that of the element which gives its thrust."""
     return member_title(member) if member.name or not owner.isidentifier() else owner
 

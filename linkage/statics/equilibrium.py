@@ -148,7 +148,8 @@ class System:
         if not forms:
             raise DefinitionError(
                 f"{self.structure.plan.title}: the joints know no drive of {stroke}; "
-                f"declare it by Dyad(..., AB=... + {stroke}), Crank, OnGuide or OnLink, or by the drives in the joints() of a step of one's own."
+                f"declare it by Dyad(..., AB=... + {stroke}), Crank, OnGuide or OnLink, "
+                "or by the drives in the joints() of a step of one's own."
             )
         return sum(forms[1:], forms[0])
 

@@ -35,7 +35,7 @@ def loads_identity(loads: Loads, case: Case) -> Hashable:
     Members that were declared do not, nor do frozen dataclasses. What their laws compute with is taken not to change either.
     """
     listed = () if loads is None else loads if isinstance(loads, (list, tuple)) else (loads,)
-    parts = [each if each is None or isinstance(each, str) else ref(each) if is_fixed(each) else ... for each in (case, *listed)]
+    parts = [each if each is None or isinstance(each, str) else ref(each) if is_unchanging(each) else ... for each in (case, *listed)]
     return None if ... in parts else (loads is None, *parts)
 
 
@@ -45,7 +45,7 @@ def bound_once(plan: Plan, request: Request, bound: Callable[[Plan], Bound]) -> 
     return bound(plan) if identity is None else plan.made(("bound", identity), lambda _: bound(plan))
 
 
-def is_fixed(thing: object) -> bool:
+def is_unchanging(thing: object) -> bool:
     """Return whether loads or a load case cannot change: members of a class, and frozen dataclasses."""
     if not isinstance(thing, (ForceElement, LoadCase)):
         return False

@@ -161,7 +161,7 @@ class Structure:
             if drive.along in contact.holds and drive.along:
                 parts = [(1.0, drive.quantity)]
                 if drive.along == "c" and contact.joint is not None and contact.joint.by == FRAME_SIDE:
-                    parts = [(sign, term) for sign, term in terms(self.plan, drive.quantity) if not follows_points(self.plan, term)]
+                    parts = [(sign, term) for sign, term in signed_terms(self.plan, drive.quantity) if not follows_points(self.plan, term)]
                 yield from ((term, drive.along, drive.sign * sign) for sign, term in parts)
 
     # -- who owns what -------------------------------------------------------------------------------------
@@ -295,7 +295,7 @@ def measured_from(plan: Plan, joint: Joint, owner: str) -> tuple[str, str] | Non
     for drive in joint.drives:
         if drive.along != "c":
             continue
-        moving = [(sign, term) for sign, term in terms(plan, drive.quantity) if follows_points(plan, term)]
+        moving = [(sign, term) for sign, term in signed_terms(plan, drive.quantity) if follows_points(plan, term)]
         if not moving:
             continue
         (sign, term), *others = moving
@@ -308,17 +308,17 @@ def measured_from(plan: Plan, joint: Joint, owner: str) -> tuple[str, str] | Non
     return None
 
 
-def terms(plan: Plan, quantity: Quantity, sign: float = 1.0) -> Iterator[tuple[float, Quantity]]:
+def signed_terms(plan: Plan, quantity: Quantity, sign: float = 1.0) -> Iterator[tuple[float, Quantity]]:
     """Yield the terms of a sum with their signs, names resolved."""
     if isinstance(quantity, Ref):
         member = plan.members[quantity.target]
         assert isinstance(member, Quantity)
-        yield from terms(plan, member, sign)
+        yield from signed_terms(plan, member, sign)
     elif isinstance(quantity, Sum):
-        yield from terms(plan, quantity.a, sign)
-        yield from terms(plan, quantity.b, sign)
+        yield from signed_terms(plan, quantity.a, sign)
+        yield from signed_terms(plan, quantity.b, sign)
     elif isinstance(quantity, Negative):
-        yield from terms(plan, quantity.a, -sign)
+        yield from signed_terms(plan, quantity.a, -sign)
     else:
         yield sign, quantity
 

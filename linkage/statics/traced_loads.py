@@ -21,7 +21,7 @@ from ..program import FloatArray, Level, Node, Notes, Traced, eliminated, node_o
 from ..quantities import Angle, Distance, Member, Quantity, Reference
 from ..steps import Arrow, Point
 from ..vectors import Scalar
-from .acting import AT_REST, ActingElement, ActingLoads, Case, Loads, Movement, Parts, acting_elements, case_of, parts_of, together
+from .acting import AT_REST, ActingElement, ActingLoads, Case, Loads, Movement, Parts, acting_elements, all_acting, case_of, element_parts
 from .equilibrium import System
 from .joints import Structure
 from .poses import FlatPoses
@@ -39,7 +39,7 @@ class TracedLoads:
         self.motion = motion
         movement = replace(movement, rates={name: motion.input(rate_name(name)) for name in movement.rates})
         elements, label = acting_elements(motion.plan, loads, case), case_of(motion.plan, case).label
-        self.acting: ActingLoads = together(motion.plan, elements, label, movement, partial(traced_parts, motion, movement))
+        self.acting: ActingLoads = all_acting(motion.plan, elements, label, movement, partial(traced_parts, motion, movement))
         self.poses = FlatPoses(motion, "")
 
     @classmethod
@@ -92,7 +92,7 @@ def traced_parts(motion: TracedMotion, movement: Movement, each: ActingElement) 
     """Return the loads and the thrusts of one element, as nodes; DefinitionError, with its name, for a law that cannot be traced."""
     motion.notes.owner, motion.notes.tests = each.name, 0
     try:
-        return parts_of(each, motion, movement, motion.fit)
+        return element_parts(each, motion, movement, motion.fit)
     except Exception as error:
         raise DefinitionError(
             f"{motion.plan.title}: the law of {each.name} cannot be traced: {str(error).rstrip('.')}. "

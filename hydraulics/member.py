@@ -10,16 +10,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from abc import abstractmethod
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, Literal, final
+from typing import ClassVar, Literal, cast, final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, unknown, unwarned
 from linkage.frozen import refuses_changes
-from linkage.loads import AT_REST, DrawnAs, ForceElement, LoadCase, Poses, Push, Rates, TwoPoint, require_poses
+from linkage.loads import AT_REST, DrawnAs, ForceElement, LoadCase, Parameter, Poses, Push, Rates, TwoPoint, require_poses
 from linkage.motion import Column, Motion, Tabled, greatest, lowest, require_motion
 from linkage.quantities import Member, Reference, label, name_of
 from linkage.statics import Case, Loads, elements_of, member_thrust, same
@@ -48,8 +50,8 @@ class Cylinder(TwoPoint, Tabled):
 
     A: Reference
     B: Reference
-    bore: Any
-    rod: Any
+    bore: Parameter
+    rod: Parameter
     count: int = 1
     works: Literal["piston", "rod", "both"] = "piston"
     stroke: float | None = None
@@ -62,12 +64,11 @@ class Cylinder(TwoPoint, Tabled):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        bore, rod = (2.0, 1.0) if self._follows else (self.bore, self.rod)
-        CylinderSize(bore, rod, self.count, self.works)
+        size = CylinderSize(2.0, 1.0, self.count, self.works) if self._follows else self.size
         Buckling(1.0, self.mounting, self.safety)
         for value, what in ((self.stroke, "Stroke of the cylinder"), (self.closed, "Closed length of the cylinder")):
             if value is not None:
-                positive(stroke_in_metres(one_number(value, what), what, None if self._follows else self.bore), what)
+                positive(stroke_in_metres(one_number(value, what), what, None if self._follows else size.bore), what)
 
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:
         """Return nothing: it has no law of its own."""
@@ -97,7 +98,7 @@ class Cylinder(TwoPoint, Tabled):
         """The size as it is written here; DefinitionError where a bore or rod follows something else."""
         if self._follows:
             raise DefinitionError(f"{self}: its size follows the design; ask for sized(motion).")
-        return CylinderSize(self.bore, self.rod, self.count, self.works)
+        return CylinderSize(cast("float | Array", self.bore), cast("float | Array", self.rod), self.count, self.works)
 
     @property
     def _follows(self) -> bool:
@@ -138,7 +139,13 @@ class Cylinder(TwoPoint, Tabled):
     # -- what it carries -----------------------------------------------------------------------------------
 
     def thrust(
-        self, motion: Motion, loads: Loads = None, *, case: Case = None, direction: str = "frictionless", rates: Any = None
+        self,
+        motion: Motion,
+        loads: Loads = None,
+        *,
+        case: Case = None,
+        direction: str = "frictionless",
+        rates: Mapping[str, ArrayLike] | None = None,
     ) -> Array:
         """Return what this cylinder carries, whatever drives the machine, shape (...) [N], positive where it pushes its ends apart.
 
@@ -224,8 +231,8 @@ class Cylinder(TwoPoint, Tabled):
         cases: Iterable[Case] = [case] if case is not None else [None, *motion.plan.of_kind(LoadCase).values()]
         worst: tuple[float, float, float, str] | None = None
         for each in cases:
-            for direction in DIRECTIONS if rubs(motion, loads) else DIRECTIONS[:1]:
-                found = greatest(motion, lambda at, each=each, direction=direction: self._use(at, rod, loads, each, direction))  # type: ignore[misc]
+            for direction in DIRECTIONS if changes_in_motion(motion, loads) else DIRECTIONS[:1]:
+                found = greatest(motion, self._use(rod, loads, each, direction))
                 if np.isnan(found.value) or (worst is not None and found.value <= worst[0]):
                     continue
                 place = motion.moved(found.strokes)
@@ -236,10 +243,14 @@ class Cylinder(TwoPoint, Tabled):
             return [Verdict("buckling", True, "the rod is never pushed.")]
         return [rod.judged(worst[1], worst[2], worst[3], unbounded=not np.isfinite(worst[0]))]
 
-    def _use(self, motion: Motion, rod: Buckling, loads: Loads, case: Case, direction: str) -> Array:
-        """Return the utilisation of a rod over a motion: one cylinder's push times the safety over the force at which it buckles."""
-        push = self.thrust(motion, loads, case=case, direction=direction) / self.count
-        return np.where(push > 0.0, push / rod.allowed(motion.distance(self.A, self.B)), 0.0) + 0.0 * push
+    def _use(self, rod: Buckling, loads: Loads, case: Case, direction: str) -> Callable[[Motion], Array]:
+        """Return the utilisation of a rod, of a motion: one cylinder's push times the safety over the force at which it buckles."""
+
+        def use(motion: Motion) -> Array:
+            push = self.thrust(motion, loads, case=case, direction=direction) / self.count
+            return np.where(push > 0.0, push / rod.allowed(motion.distance(self.A, self.B)), 0.0) + 0.0 * push
+
+        return use
 
     @property
     def _pins(self) -> str:
@@ -275,16 +286,16 @@ class Circuit(ForceElement):
 
     places: ClassVar[tuple[str, ...]] = ()
 
-    def members(self, members: Mapping[str, Any]) -> tuple[Cylinder, ...]:
+    @abstractmethod
+    def members(self, members: Mapping[str, Member]) -> tuple[Cylinder, ...]:
         """Return its cylinders, as a class has them."""
-        raise NotImplementedError
 
+    @abstractmethod
     def pressure_in(self, cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
         """Return the pressure on the working side of one of its cylinders, shape (...) [Pa gauge]."""
-        raise NotImplementedError
 
 
-def rubs(motion: Motion, loads: Loads) -> bool:
+def changes_in_motion(motion: Motion, loads: Loads) -> bool:
     """Return whether there is friction among some loads, or an element that acts otherwise while it moves."""
     return any(each.frictions(motion) or each.feeds(motion.plan.members) for _, each in elements_of(motion.plan, loads))
 
@@ -316,7 +327,7 @@ def the_cylinder(motion: Poses, reference: Reference) -> Cylinder:
     return _cylinder(reference, "The circuit")
 
 
-def found_in(members: Mapping[str, Any], reference: Reference, where: str) -> Cylinder:
+def found_in(members: Mapping[str, Member], reference: Reference, where: str) -> Cylinder:
     """Return the cylinder a reference stands for in a class; DefinitionError where there is none."""
     name = name_of(reference)
     if name in members:
@@ -326,7 +337,7 @@ def found_in(members: Mapping[str, Any], reference: Reference, where: str) -> Cy
     return _cylinder(reference, where)
 
 
-def _cylinder(found: Any, where: str) -> Cylinder:
+def _cylinder(found: object, where: str) -> Cylinder:
     if not isinstance(found, Cylinder):
         raise DefinitionError(f"{where}: {found} is no Cylinder; name one.")
     return found
@@ -335,6 +346,7 @@ def _cylinder(found: Any, where: str) -> Cylinder:
 TOLERANCE = 1e-9  # m: a length that is met to rounding is met
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True)
 class OneSize:
@@ -359,5 +371,5 @@ def _near(value: float, series: tuple[int, ...], what: str) -> str:
     return f"the {what} is not of ISO 3320, next to it {'are' if below and above else 'is'} {_listed([*below, *above])} mm"
 
 
-def _listed(values: Any) -> str:
+def _listed(values: Iterable[float]) -> str:
     return " and ".join(f"{value:.0f}" for value in values)

@@ -27,7 +27,7 @@ from linkage.vectors import Scalar
 
 from .accumulator import AccumulatorBlock
 from .inputs import Array, finite, in_pascals, is_traced
-from .member import Circuit, Cylinder, found_in, is_named, the_cylinder
+from .member import Circuit, Cylinder, the_cylinder
 from .settings import follows, number_set
 
 Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
@@ -62,8 +62,6 @@ class FloatCircuit(Circuit):
         for name in ("charge_pressure", "seal_friction"):
             if not follows(getattr(self, name)):
                 in_pascals(getattr(self, name), name.replace("_", " ").capitalize())
-        if not is_named(self.cylinder) and not isinstance(self.cylinder, Cylinder):
-            raise DefinitionError(f"FloatCircuit: {cited(self.cylinder)} is no Cylinder; name one.")
         if not follows(self.exponent) and np.any(finite(cast(ArrayLike, self.exponent), "Exponent") < 1.0):
             raise DefinitionError(f"FloatCircuit: exponent={cited(self.exponent)} is below 1; 1 is a slow movement, 1.4 a fast one.")
         if not isinstance(self.block, AccumulatorBlock) and (not callable(self.block) or isinstance(self.block, type)):
@@ -72,11 +70,15 @@ class FloatCircuit(Circuit):
 
     def parts(self) -> tuple[Reference, ...]:
         followed = self.block.following if isinstance(self.block, AccumulatorBlock) else ()
-        return (*([self.cylinder] if is_named(self.cylinder) else []), *super().parts(), *followed)
+        return (*super().parts(), *followed)
+
+    @property
+    def references(self) -> tuple[Reference, ...]:
+        return (self.cylinder,)
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
-        found = found_in(members, self.cylinder, f"{title}.{self.name}") if is_named(self.cylinder) else self.cylinder
-        if isinstance(found, Cylinder) and found.works == "both":
+        super().examine(members, title)
+        if any(found.works == "both" for found in self.members(members)):
             what = f"{title}.{self.name}: {label(self.cylinder)} works with both sides, but a charged line fills one"
             raise DefinitionError(f'{what}; say works="piston" or works="rod".')
 
@@ -86,10 +88,6 @@ class FloatCircuit(Circuit):
 
     def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         return self.members(members)
-
-    def members(self, members: Mapping[str, Member]) -> tuple[Cylinder, ...]:
-        found = found_in(members, self.cylinder, str(self)) if is_named(self.cylinder) else self.cylinder
-        return (found,) if isinstance(found, Cylinder) else ()
 
     def pressure_in(self, cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
         return self.pressure(motion)

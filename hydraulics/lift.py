@@ -28,7 +28,7 @@ from linkage.statics import Case, Loads, elements_of
 
 from .cylinder import CylinderSize
 from .inputs import Array, efficient, finite, in_cubic_metres, in_pascals, is_traced, not_negative, one_number, positive
-from .member import DIRECTIONS, Circuit, Cylinder, found_in, is_named, the_cylinder
+from .member import DIRECTIONS, Circuit, Cylinder, the_cylinder
 from .settings import follows, number_set
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
@@ -69,9 +69,6 @@ class LiftCircuit(Circuit):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        for each in self.references:
-            if not is_named(each) and not isinstance(each, Cylinder):
-                raise DefinitionError(f"LiftCircuit: {cited(each)} is no Cylinder; name one.")
         for name in ("pressure", "relief", "back_pressure"):
             if name in self.numbers and not follows(getattr(self, name)):
                 what = f"{name.replace('_', ' ').capitalize()} of the circuit"
@@ -86,30 +83,19 @@ class LiftCircuit(Circuit):
 
     @property
     def references(self) -> tuple[Reference, ...]:
-        """Its cylinders, as they were given."""
         given = self.cylinder
         return tuple(given) if isinstance(given, (list, tuple)) else (cast(Reference, given),)
-
-    def parts(self) -> tuple[Reference, ...]:
-        return (*(each for each in self.references if is_named(each)), *super().parts())
 
     def examine(self, members: Mapping[str, Member], title: str) -> None:
         if not self.references:
             raise DefinitionError(f"{title}.{self.name}: the circuit has no cylinder; name one, LiftCircuit(lift, pressure=...).")
-        for each in self.references:
-            if is_named(each):
-                found_in(members, each, f"{title}.{self.name}")
+        super().examine(members, title)
 
     def loads(self, motion: Poses) -> list[Load]:
         return []
 
     def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         return self.members(members)
-
-    def members(self, members: Mapping[str, Member]) -> tuple[Cylinder, ...]:
-        title = self.name or "LiftCircuit"
-        found = (found_in(members, each, title) if is_named(each) else each for each in self.references)
-        return tuple(each for each in found if isinstance(each, Cylinder))
 
     def __str__(self) -> str:
         names = ", ".join(label(each) for each in self.references)

@@ -286,9 +286,30 @@ class Circuit(ForceElement):
 
     places: ClassVar[tuple[str, ...]] = ()
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for each in self.references:
+            if not is_named(each) and not isinstance(each, Cylinder):
+                raise DefinitionError(f"{type(self).__name__}: {cited(each)} is no Cylinder; name one.")
+
+    @property
     @abstractmethod
+    def references(self) -> tuple[Reference, ...]:
+        """Its cylinders, as they were given."""
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (*(each for each in self.references if is_named(each)), *super().parts())
+
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
+        for each in self.references:
+            if is_named(each):
+                found_in(members, each, f"{title}.{self.name}")
+
     def members(self, members: Mapping[str, Member]) -> tuple[Cylinder, ...]:
         """Return its cylinders, as a class has them."""
+        title = self.name or type(self).__name__
+        found = (found_in(members, each, title) if is_named(each) else each for each in self.references)
+        return tuple(each for each in found if isinstance(each, Cylinder))
 
     @abstractmethod
     def pressure_in(self, cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Protocol, final
+from typing import final
 
 import numpy as np
 
@@ -102,20 +102,7 @@ class Solution:
         return force, couple
 
 
-class WithFriction(Protocol):
-    """Forces with friction: where they are, in which joints, and where that leaves no bounded ones (n,)."""
-
-    @property
-    def poses(self) -> FlatPoses: ...
-
-    @property
-    def frictions(self) -> list[JointFriction]: ...
-
-    @property
-    def locked(self) -> Mask: ...
-
-
-def locked_words(found: WithFriction, direction: str) -> list[str]:
+def locked_words(found: PoseForces | Solution, direction: str) -> list[str]:
     """Return the words for poses that friction locks; raise them where NaN was not asked for."""
     if not found.locked.any():
         return []

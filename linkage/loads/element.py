@@ -272,11 +272,11 @@ class ForceElement(Holding):
             if strays:
                 what = f"{self.name or self}: {name} = {value_text(given)} depends on the whole turns of {strays[0]}, which are followed"
                 raise DefinitionError(f"{what} for the loads of a class only; declare it in the class, or use sines and cosines.")
-            followed = motion.value(quantity(given))
-            if name in self.not_negative and np.any(followed < 0.0):
-                what = f"{self.name or self}: {name} = {value_text(given)} is negative, {np.nanmin(followed):.6g}"
+            at_poses = motion.value(quantity(given))
+            if name in self.not_negative and np.any(at_poses < 0.0):
+                what = f"{self.name or self}: {name} = {value_text(given)} is negative, {np.nanmin(at_poses):.6g}"
                 raise DefinitionError(f"{what}; let it follow what stays at or above zero.")
-            return followed
+            return at_poses
         return np.asarray(given, float)
 
     def position(self, motion: Poses, place: str) -> Array:

@@ -181,16 +181,16 @@ def member_title(member: TwoPinned) -> str:
 
 def acting_elements(plan: Plan, loads: Loads, case: Case, without: str = "") -> list[ActingElement]:
     """Return the force elements that count in a load case; DefinitionError for what is none, and for names that no load has."""
-    chosen, present = case_of(plan, case), elements_of(plan, loads)
+    load_case, present = case_of(plan, case), elements_of(plan, loads)
     known = dict.fromkeys(name for name, _ in [*present, *elements_of(plan, None)])
-    for name in chosen.mentioned:
+    for name in load_case.mentioned:
         if name not in known:
-            raise unknown("Load", name, known, where=f"{plan.title}, {chosen.label}")
+            raise unknown("Load", name, known, where=f"{plan.title}, {load_case.label}")
     found = []
     for name, element in present:  # one without a name, which is given to count, is not left out by `only`
-        factor = chosen.factor(name) if element.name else float(chosen.scale.get(name, 1.0))
+        factor = load_case.factor(name) if element.name else float(load_case.scale.get(name, 1.0))
         if name != without and factor != 0.0:
-            found.append(ActingElement(name, element, chosen.on(element), factor))
+            found.append(ActingElement(name, element, load_case.on(element), factor))
     return found
 
 

@@ -63,8 +63,8 @@ def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[ActingThrust]) -
         if frozenset(body.points) not in inner and not holds_an_arm(plan, body.points)
     ]
     driven = [with_host(plan, strut, links) for strut in driven_lengths(plan, holders)]
-    held = [Strut(member_title(each), *each.ends, line=line) for line in holders.lines for each in line.cylinders]
-    struts = [*driven, *(replace(strut, far=frozenset({strut.Q})) for strut in (*held, *known_struts(thrusts)))]
+    cylinders = [Strut(member_title(each), *each.ends, line=line) for line in holders.lines for each in line.cylinders]
+    struts = [*driven, *(replace(strut, far=frozenset({strut.Q})) for strut in (*cylinders, *known_struts(thrusts)))]
     twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
     if twice:
         raise DefinitionError(f"{plan.title}: two elements are called {twice}; give each a name of its own in the class.")

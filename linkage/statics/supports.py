@@ -41,18 +41,18 @@ def reaction(
     where the support's point does not move along its direction with the drive.
     """
     require_motion(motion)
-    name, held = support_of(motion, support)
+    name, element = support_of(motion, support)
     stroke = stroke_of(motion.plan, drive, "drive")
     acting = acting_loads(motion, loads, case, movement_of(motion, direction, rates, stroke), without=name)
     poses = FlatPoses(motion, f"The reaction of {name}")
     known = poses.flat(known_force(motion, drive_force))
-    lever = way_along(poses, held, stroke, name)
+    lever = way_along(poses, element, stroke, name)
     if not acting.frictions:
         return poses.full((by_work(poses, acting, stroke) - known) / lever)
     # with friction: the reaction at which it, the joint forces and the known drive force agree
     system, frictions = system_with_friction(poses, acting)
-    column, point = np.zeros((poses.count, system.height, 1)), name_of(held.point)
-    push = Wrench(poses.at(point), np.zeros((2, poses.count)) + held.unit[:, None], np.zeros(poses.count))
+    column, point = np.zeros((poses.count, system.height, 1)), name_of(element.point)
+    push = Wrench(poses.at(point), np.zeros((2, poses.count)) + element.unit[:, None], np.zeros(poses.count))
     system.put(column[:, :, 0], system.structure.holder(point), push)
     bound = (*system.known(), (system.drive(stroke), known))
     found = Equilibrium(system, frictions, bound=bound, supports=column).solution()

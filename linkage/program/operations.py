@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..vectors import Numbers, pick
+from ..vectors import Numbers, Scalar, pick
 from .linear import solve_arrays, solve_floats
 
 

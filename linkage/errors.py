@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -32,7 +33,7 @@ def about(member: str) -> Iterator[None]:
 
 
 class DefinitionError(LinkageError, ValueError):
-    """What a class, a file or a setting says cannot be."""
+    """What a class, a file or a setting says cannot be. `member` is the name of the member at fault, "" where it is no single one."""
 
 
 class AssemblyError(LinkageError):
@@ -64,6 +65,14 @@ class SingularWarning(UserWarning):
     def __init__(self, message: str = "", *, estimate: float = float("nan")) -> None:
         super().__init__(message)
         self.estimate = estimate
+
+
+def warn(warning: SingularWarning) -> None:
+    """Warn at the line that called the package, however many of its functions lie between."""
+    frame, level = sys._getframe(1), 2
+    while str(frame.f_globals.get("__name__")).partition(".")[0] == __package__ and frame.f_back is not None:
+        frame, level = frame.f_back, level + 1
+    warnings.warn(warning, stacklevel=level)
 
 
 @contextmanager

@@ -19,11 +19,9 @@ from .errors import DefinitionError, cited, told, unknown
 from .mobility import FourBar, Mobility, check, four_bars, mobility
 from .motion import (
     Column,
-    Grid,
     Motion,
     PoseFunction,
     RequestLike,
-    as_given,
     at_values,
     columns_of,
     evaluate,
@@ -252,8 +250,7 @@ class Mechanism(metaclass=Structure):
         change points between them. Raises AssemblyError out of reach and SingularError for ratios at a dead point, unless
         `unreachable="nan"`.
         """
-        grid = Grid(self.plan, self._values, at_values(strokes, self.plan, as_given))
-        return evaluate(grid, of, out, Way(backend, threads), unreachable)
+        return evaluate(self.plan, self._values, strokes, of, out, Way(backend, threads), unreachable)
 
     @of_a_design
     def function(self, of: Sequence[RequestLike]) -> PoseFunction:

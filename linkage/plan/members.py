@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
 from math import pi
@@ -15,6 +15,7 @@ from ..frozen import FrozenDict
 from ..quantities import (
     Distance,
     Function,
+    Holding,
     Joint,
     Length,
     Member,
@@ -31,7 +32,7 @@ from ..quantities import (
     quantity,
     unnamed,
 )
-from ..steps import Arrow, Bar, Drawn, Ground, Group, Guide, Link, Point, Slide
+from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point
 from ..units import deg
 from .bodies import Body, gruebler, merged
 from .table import Table
@@ -60,7 +61,9 @@ class Members:
         strokes = self.of_kind(Stroke)
         self.strokes: Mapping[str, Stroke] = FrozenDict({name: strokes[name] for name in members if name in strokes})
         self.members = FrozenDict(self.members)
-        self._check_kinds()
+        for name, member in self.members.items():
+            with about(name):
+                self._check_kinds(name, member)
 
     def _needs(self, name: str, member: Member) -> list[str]:
         """Return the names that a member needs; DefinitionError, with the place, where a part of it cannot be one."""
@@ -88,15 +91,10 @@ class Members:
     @cached_property
     def ground(self) -> tuple[str, ...]:
         """The names of the fixed points."""
-        return tuple(self.of_kind(Ground))
+        return tuple(name for name, point in self.points.items() if point.is_fixed)
 
-    def _check_kinds(self) -> None:
+    def _check_kinds(self, name: str, member: Member) -> None:
         """Raise DefinitionError where a point, a vector or a quantity stands in the place of another kind."""
-        for name, member in self.members.items():
-            with about(name):
-                self._check_kind(name, member)
-
-    def _check_kind(self, name: str, member: Member) -> None:
         member.examine(self.members, self.title)
         for part in self.with_parts(name):
             for length in part.lengths():
@@ -110,7 +108,7 @@ class Members:
         if isinstance(member, Stroke) and name in self.turning and abs(member.end - member.start) > TURNS * 2.0 * pi:
             text = f"{self.title}: {name} = {member} is an angle in radians, {abs(member.end - member.start) / (2.0 * pi):.3g} turns"
             raise DefinitionError(f"{text}; write Stroke({member.start:.6g} * deg, {member.end:.6g} * deg).")
-        if isinstance(member, Ground) and self.moves(member):
+        if isinstance(member, Point) and member.is_fixed and self.moves(member):
             text = f"{self.title}: {name} = {member} follows a stroke, but is fixed; drive a point by OnGuide, Dyad or Crank."
             raise DefinitionError(text)
 
@@ -177,8 +175,19 @@ class Members:
     @cached_property
     def joints(self) -> tuple[tuple[str, Joint], ...]:
         """What the steps, guides and slides hold, each with its member's name; driven joints only where a stroke drives them."""
-        holding = {**self.of_kind(Point), **self.of_kind(Guide), **self.of_kind(Slide)}
-        return tuple((name, joint) for name, member in holding.items() for joint in member.joints() if self.is_there(joint))
+        return tuple((name, joint) for name, member in self.holding.items() for joint in member.joints() if self.is_there(joint))
+
+    @cached_property
+    def holding(self) -> dict[str, Holding]:
+        """The members that hold others without being a load: points first, then guides and slides."""
+        others = {name: member for name, member in self.of_kind(Holding).items() if member.kind != "load"}
+        return FrozenDict({**self.points, **others})
+
+    @cached_property
+    def sliding(self) -> dict[str, Holding]:
+        """The members beside points that let a point slide on a line."""
+        found = {name: member for name, member in self.holding.items() if any(joint.track for joint in member.joints())}
+        return FrozenDict({name: member for name, member in found.items() if name not in self.points})
 
     def is_there(self, joint: Joint) -> bool:
         """Return whether a joint holds two bodies apart: one whose drives all stand still makes them one body."""
@@ -219,7 +228,7 @@ class Members:
     @cached_property
     def turning(self) -> frozenset[str]:
         """The names of what angles are sums of: strokes and dimensions in rad."""
-        return frozenset().union(*map(self.terms, angles_among(self.members)))
+        return frozenset().union(*(self.terms(angle) for member in self.members.values() for angle in member.angles()))
 
     @cached_property
     def following(self) -> tuple[tuple[str, Quantity], ...]:
@@ -318,19 +327,11 @@ def gruebler_count(plan: Members) -> int:
     """Return 3 (n - 1) - 2 j1 - j2; a point that only guides hold counts as a pin of its own."""
     rest = resting(plan)
     free = {name: point for name, point in plan.points.items() if name not in rest}
-    tracks = {name: sum(1 for joint in point.joints() if joint.track) for name, point in free.items()}  # each takes one freedom
-    halves = sum(tracks.values()) + sum(len(group.slides) for group in plan.groups.values())
+    halves_of = {name: sum(1 for joint in point.joints() if joint.is_half) for name, point in free.items()}  # each takes one freedom
+    halves = sum(halves_of.values()) + sum(len(group.slides) for group in plan.groups.values())
     bodies = {name for body in plan.links for name in body.points} | {end for bar in plan.cylinders for end in (bar.P, bar.Q)}
-    lone = sum(1 for name in free if name not in bodies and (tracks[name] or name in plan.telescopes))
+    lone = sum(1 for name in free if name not in bodies and (halves_of[name] or name in plan.telescopes))
     return gruebler(plan.links, [(bar.P, bar.Q) for bar in plan.cylinders]) - halves - len(plan.telescopes) + 2 * lone
-
-
-def angles_among(members: Mapping[str, Member]) -> Iterator[Quantity]:
-    """Yield the quantities that stand for angles: of cranks, guides and turned vectors, and of labels."""
-    rigid = [step for member in members.values() if isinstance(member, Group) for step in member.rigid]
-    for member in (*members.values(), *rigid):
-        found = [getattr(member, "angle", None), getattr(member, "QPX", None)]
-        yield from (angle for angle in found if isinstance(angle, Quantity))
 
 
 def printed(plan: Members, values: Mapping[str, float] = MappingProxyType({})) -> dict[str, str]:

@@ -11,8 +11,8 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..program import Graph, Level, Node, Tangent
-from ..quantities import Member, Quantity, Turning
-from ..steps import Ground, Point
+from ..quantities import Member, Quantity, Tabulated, Turning
+from ..steps import Arrow, Point
 from ..vectors import Scalar, Vec
 from .reading import ArrayReading, Reading
 
@@ -84,6 +84,17 @@ class Trace(Reading):
         view.directions = dict(self.directions)
         return view
 
+    def alone(self, member: Member | None) -> Trace:
+        """Return this trace with nothing read that has no name, and then a quantity or a vector read: what is measured is its own."""
+        view = self.view()
+        view.measures = dict.fromkeys(measure for measure in view.measures if measure.member)
+        view._values = {key: known for key, known in view._values.items() if isinstance(key[1], str)}
+        if isinstance(member, Quantity):
+            view.value(member)
+        elif isinstance(member, Arrow):
+            view.vector(member)
+        return view
+
     def root(self, radicand: Scalar, scale: Scalar, size: Scalar, most: Scalar | None = None) -> Scalar:
         radicand = self.graph.node(radicand)
         if radicand.level is not Level.POSE:  # a triangle of the design may be flat: rounding must not open it
@@ -126,6 +137,17 @@ class Trace(Reading):
             self.loops.append(Loop(self.owner, "meeting", (length,)))
         return length
 
+    def curve(self, curve: Tabulated, x: Scalar, order: int = 0) -> Scalar:
+        at = self.graph.node(x)
+        point = next((name for name in reversed(self.placing) if isinstance(self.members[name], Point)), "")
+        if point and curve.ends is not None:  # of an output it is enough that it has no value there
+            low, high = curve.ends
+            inside = self.graph.apply("minimum", at - low, high - at)
+            if Guard(point, inside) not in self.guards:
+                self.guards.append(Guard(point, inside))
+                self.loops += [Loop(point, "length", (inside,))] if inside.level is Level.POSE else []
+        return curve.value(at, order, self.graph.pick)
+
     def _measure(self, node: Node, exact: Node | None = None) -> None:
         found = Measure(self.owner, node, node if exact is None else exact)
         self.measures.setdefault(found)
@@ -136,7 +158,7 @@ class Trace(Reading):
     @cached_property
     def away(self) -> Node:
         """What is above zero where the fixed points stand near enough to the origin."""
-        places = [self.at(name) for name, member in self.members.items() if isinstance(member, Ground)]
+        places = [self.at(name) for name, member in self.members.items() if isinstance(member, Point) and member.is_fixed]
         coordinates = [part for place in places for part in (place.x, place.y)]
         return self.graph.node(self.extent * AWAY**2 - reduce(np.maximum, (part * part for part in coordinates), 0.0))
 

@@ -1,18 +1,18 @@
-"""The traced program read by SymPy: an independent source of exact derivatives, for short chains. Slow; for tests.
+"""The traced program read by SymPy: an independent source of exact derivatives, for short chains. Slow.
 
 It is not the engine: one closed form of a three-point hitch has millions of operations.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import sympy
 
-from ..errors import DefinitionError
-from ..plan import Plan
-from ..program import Node
+from linkage import DefinitionError
+from linkage.plan import Plan
+from linkage.program import Node
 
 READINGS: dict[str, Callable[..., Any]] = {
     "add": lambda a, b: a + b,
@@ -43,17 +43,12 @@ def program_expressions(plan: Plan, target: str) -> tuple[Any, ...]:
 
     Their symbols are `sympy.Symbol(name, real=True)`. Raises DefinitionError for what has no closed form.
     """
-    return read(plan.nodes(target))
-
-
-def read(nodes: Sequence[Node]) -> tuple[Any, ...]:
-    """Return nodes of a program as SymPy expressions; numbers exactly as the floats they are."""
     found: dict[Node, Any] = {}
-    return tuple(_expression(node, found) for node in nodes)
+    return tuple(_expression(node, found) for node in plan.nodes(target))
 
 
 def _expression(node: Node, found: dict[Node, Any]) -> Any:
-    if node not in found:
+    if node not in found:  # numbers are exactly the floats they are
         if node.op == "constant":
             found[node] = sympy.Rational(node.value)
         elif node.op == "input":

@@ -1,14 +1,10 @@
 """The ordered steps, their dimensions, and their program."""
 
 from .bodies import Body, gruebler, merged
-from .members import ordered, printed, strokes_text
+from .members import construction_order, printed, strokes_text
 from .missing import Mask, called, failures, missing_words, negative, opening
 from .plan import Plan
 from .reading import ArrayReading, Reading
 from .table import Entry, Table
 from .trace import NEAR, REGULAR, Guard, Loop, Measure, Trace
 
-
-
-
-# Dependencies and order, rigid bodies and the Gruebler count.

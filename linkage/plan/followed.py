@@ -41,9 +41,9 @@ def followed_angles(plan: Members, trace: Trace, loads: Sequence[Quantity]) -> t
     """
     ends = [node for place in trace.positions.values() for node in (trace.graph.node(place.x), trace.graph.node(place.y))]
     ends += [guard.node for guard in trace.guards] + [trace.graph.node(trace.value(each)) for each in loads]
-    found = told_apart(trace, ends)
-    closures = dict.fromkeys(root.closure for group in plan.groups.values() for pin in group.pins for root in roots(trace, pin))
-    grouped = told_apart(trace, [residual for closure in closures if closure for residual in closure.residuals])
+    found = angles_that_count(trace, ends)
+    closures = dict.fromkeys(root.closure for group in plan.groups.values() for pin in group.pins for root in pin_nodes(trace, pin))
+    grouped = angles_that_count(trace, [residual for closure in closures if closure for residual in closure.residuals])
     if grouped:
         pins = ", ".join(pin for group in plan.groups.values() for pin in group.pins)
         raise DefinitionError(
@@ -55,13 +55,13 @@ def followed_angles(plan: Members, trace: Trace, loads: Sequence[Quantity]) -> t
     return found
 
 
-def roots(trace: Trace, pin: str) -> Iterator[Node]:
+def pin_nodes(trace: Trace, pin: str) -> Iterator[Node]:
     """Yield the nodes of a pin's coordinates."""
     place = trace.at(pin)
     yield from (trace.graph.node(place.x), trace.graph.node(place.y))
 
 
-def told_apart(trace: Trace, ends: Sequence[Node]) -> tuple[str, ...]:
+def angles_that_count(trace: Trace, ends: Sequence[Node]) -> tuple[str, ...]:
     """Return the moving angles of a trace whose whole turns change some nodes, in the order in which they were worked out."""
     nodes = ancestors(ends)
     behind, wanted = set(nodes), set(ancestors_of(ends))
@@ -69,7 +69,7 @@ def told_apart(trace: Trace, ends: Sequence[Node]) -> tuple[str, ...]:
     for name, vector in trace.directions.items():
         angle = trace.graph.node(np.arctan2(vector.y, vector.x))
         if angle in behind and angle.level is Level.POSE:
-            changes = turned(nodes, angle)
+            changes = whole_turns(nodes, angle)
             if any(changes[end] != 0.0 for end in wanted):
                 found.append(name)
     return tuple(found)
@@ -83,7 +83,7 @@ def ancestors_of(ends: Sequence[Node]) -> Iterator[Node]:
         yield end
 
 
-def turned(nodes: Sequence[Node], angle: Node) -> dict[Node, float | None]:
+def whole_turns(nodes: Sequence[Node], angle: Node) -> dict[Node, float | None]:
     """Return by how many turns each of some nodes, in order of dependence, changes with a whole turn of an angle; None: in another way."""
     found: dict[Node, float | None] = {}
     for node in nodes:
@@ -93,11 +93,11 @@ def turned(nodes: Sequence[Node], angle: Node) -> dict[Node, float | None]:
         elif not any(changes) and None not in changes:
             found[node] = 0.0
         else:
-            found[node] = change(node, changes)
+            found[node] = turns_of_operation(node, changes)
     return found
 
 
-def change(node: Node, changes: Sequence[float | None]) -> float | None:
+def turns_of_operation(node: Node, changes: Sequence[float | None]) -> float | None:
     """Return by how many turns an operation changes where its arguments change by so many; None where it changes in another way."""
     if any(each is None for each in changes):
         return None

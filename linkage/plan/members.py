@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
-from functools import cached_property, singledispatch
+from collections.abc import Iterable, Mapping
+from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
 from math import pi
 from types import MappingProxyType
@@ -37,93 +37,6 @@ from ..units import deg
 from .bodies import Body, gruebler, merged
 from .table import Table
 
-# The rigid bodies that the steps and links of a plan make, and the Gruebler count of their joints.
-
-def rigid_bodies(plan: Members) -> tuple[Body, ...]:
-    """Return the rigid bodies, the frame first."""
-    groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in plan.rods]
-    groups += [body for name, point in plan.points.items() if name not in plan.telescopes for body in point.bodies()]
-    groups += [link.point_names for link in plan.of_kind(Link).values() if len(link.point_names) > 2 or not plan.is_cylinder(link)]
-    rest = resting(plan)
-    still = [name for name, guide in rest.items() if not guide.points]
-    groups += [(*guide.points, name) for name, guide in rest.items() if len(guide.points) == 2]
-    return merged(groups, (*plan.ground, *still))
-
-
-def resting(plan: Members) -> dict[str, Guide]:
-    """Return the points at a fixed place on a guide, which are rigid with it."""
-    found = [(joint.point, joint) for point in plan.points.values() for joint in point.joints() if joint.drives and joint.track]
-    guides = plan.of_kind(Guide)
-    return {point: guides[joint.track[0]] for point, joint in found if not plan.is_there(joint)}
-
-
-def gruebler_count(plan: Members) -> int:
-    """Return 3 (n - 1) - 2 j1 - j2; a point that only guides hold counts as a pin of its own."""
-    rest = resting(plan)
-    free = {name: point for name, point in plan.points.items() if name not in rest}
-    halves = sum(map(half_joints, free.values())) + sum(len(group.slides) for group in plan.groups.values())
-    bodies = {name for body in plan.links for name in body.points} | {end for bar in plan.cylinders for end in (bar.P, bar.Q)}
-    lone = sum(1 for name, point in free.items() if name not in bodies and (half_joints(point) or name in plan.telescopes))
-    return gruebler(plan.links, [(bar.P, bar.Q) for bar in plan.cylinders]) - halves - len(plan.telescopes) + 2 * lone
-
-
-def half_joints(point: Point) -> int:
-    """Return how many guides, slots and contacts take one freedom each at a step."""
-    return sum(1 for joint in point.joints() if joint.is_half)
-
-
-# A plan as text: lines that can be pasted into a class.
-
-def printed(plan: Members, values: Mapping[str, float] = MappingProxyType({})) -> dict[str, str]:
-    """Return every member as it would be written, by name; the design variables among `values` [SI] have those."""
-    spelled = {each: sign * values[owner] for each, (owner, sign) in plan.table.spellings.items() if owner in values}
-    return {name: text(member.having(spelled), plan.turning) for name, member in plan.members.items()}
-
-
-def strokes_text(plan: Members, values: Mapping[str, float]) -> str:
-    """Return stroke values [SI] as they are read: `S = 0.1 m, phi = 60 deg`."""
-    words = {name: f"{value / deg:.4g} deg" if name in plan.turning else f"{value:.4g} m" for name, value in values.items()}
-    return ", ".join(f"{name} = {text}" for name, text in words.items()) or "no stroke"
-
-
-@singledispatch
-def text(member: Member, turning: frozenset[str]) -> str:
-    """Return a member as it would be written; `turning` names the quantities that are angles, whose numbers are in degrees."""
-    return str(member)
-
-
-@text.register
-def _(member: Quantity, turning: frozenset[str]) -> str:
-    return member.text("angle" if member.name in turning else "")
-
-
-@text.register
-def _(member: Drawn, turning: frozenset[str]) -> str:
-    words = (f"{name}={in_degrees(value) if name in turning else repr(value)}" for name, value in member.strokes.items())
-    return f"drawn({', '.join(words)})"
-
-
-# What sums of quantities are made of, and so which strokes and dimensions are angles.
-
-def terms(members: Mapping[str, Member], given: Quantity) -> set[str]:
-    """Return the names that a quantity is a sum of, through the members it goes by."""
-    name = given.name or (given.target if isinstance(given, Ref) else "")
-    member = members.get(name, given) if name else given
-    parts = [part for part in member.parts() if isinstance(part, (str, Quantity))] if isinstance(member, (Sum, Negative)) else []
-    return ({name} if name else set()).union(*(terms(members, quantity(part)) for part in parts))
-
-
-def turning(members: Mapping[str, Member]) -> frozenset[str]:
-    """Return the names of what angles are sums of: of cranks, guides, turned vectors, and labels that are angles."""
-    return frozenset().union(*(terms(members, angle) for angle in angles(members)))
-
-
-def angles(members: Mapping[str, Member]) -> Iterator[Quantity]:
-    """Yield the quantities that stand for angles."""
-    for member in members.values():
-        yield from member.in_radians()
-
-
 Kind = TypeVar("Kind", bound=Member)
 
 TURNS = 8
@@ -139,7 +52,7 @@ class Members:
     def __init__(self, members: Mapping[str, Member], title: str) -> None:
         self.title = title
         self._behind: dict[str, frozenset[str]] = {}
-        order = ordered({name: self._needs(name, member) for name, member in members.items()}, title)
+        order = construction_order({name: self._needs(name, member) for name, member in members.items()}, title)
         self.table = Table(title)
         self.members: dict[str, Member] = {}
         for name in order:
@@ -306,13 +219,16 @@ class Members:
         return gruebler_count(self)
 
     def terms(self, given: Quantity) -> set[str]:
-        """Return the names that a quantity is a sum of."""
-        return terms(self.members, given)
+        """Return the names that a quantity is a sum of, through the members it goes by."""
+        name = given.name or (given.target if isinstance(given, Ref) else "")
+        member = self.members.get(name, given) if name else given
+        parts = [part for part in member.parts() if isinstance(part, (str, Quantity))] if isinstance(member, (Sum, Negative)) else []
+        return ({name} if name else set()).union(*(self.terms(quantity(part)) for part in parts))
 
     @cached_property
     def turning(self) -> frozenset[str]:
         """The names of what angles are sums of: strokes and dimensions in rad."""
-        return turning(self.members)
+        return frozenset().union(*(self.terms(angle) for member in self.members.values() for angle in member.in_radians()))
 
     @cached_property
     def following(self) -> tuple[tuple[str, Quantity], ...]:
@@ -371,9 +287,7 @@ class Members:
     __repr__ = __str__
 
 
-# The order in which things can be placed, and the words for it when there is none.
-
-def ordered(needs: Mapping[str, Iterable[str]], title: str) -> list[str]:
+def construction_order(needs: Mapping[str, Iterable[str]], title: str) -> list[str]:
     """Return the names so that each comes after all it needs, in the order written where that is free.
 
     Raises DefinitionError for a name nobody declares and for a cycle, which it prints.
@@ -389,3 +303,54 @@ def ordered(needs: Mapping[str, Iterable[str]], title: str) -> list[str]:
         cycle = list(reversed(error.args[1]))
         text = f"{title}: {' needs '.join(cycle)}. Nothing in this cycle can come first; take one of them from another point."
         raise DefinitionError(text, member=cycle[0]) from None
+
+
+def rigid_bodies(plan: Members) -> tuple[Body, ...]:
+    """Return the rigid bodies, the frame first."""
+    groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in plan.rods]
+    groups += [body for name, point in plan.points.items() if name not in plan.telescopes for body in point.bodies()]
+    groups += [link.point_names for link in plan.of_kind(Link).values() if len(link.point_names) > 2 or not plan.is_cylinder(link)]
+    rest = resting(plan)
+    still = [name for name, guide in rest.items() if not guide.points]
+    groups += [(*guide.points, name) for name, guide in rest.items() if len(guide.points) == 2]
+    return merged(groups, (*plan.ground, *still))
+
+
+def resting(plan: Members) -> dict[str, Guide]:
+    """Return the points at a fixed place on a guide, which are rigid with it."""
+    found = [(joint.point, joint) for point in plan.points.values() for joint in point.joints() if joint.drives and joint.track]
+    guides = plan.of_kind(Guide)
+    return {point: guides[joint.track[0]] for point, joint in found if not plan.is_there(joint)}
+
+
+def gruebler_count(plan: Members) -> int:
+    """Return 3 (n - 1) - 2 j1 - j2; a point that only guides hold counts as a pin of its own."""
+    rest = resting(plan)
+    free = {name: point for name, point in plan.points.items() if name not in rest}
+    halves_of = {name: sum(1 for joint in point.joints() if joint.is_half) for name, point in free.items()}  # each takes one freedom
+    halves = sum(halves_of.values()) + sum(len(group.slides) for group in plan.groups.values())
+    bodies = {name for body in plan.links for name in body.points} | {end for bar in plan.cylinders for end in (bar.P, bar.Q)}
+    lone = sum(1 for name in free if name not in bodies and (halves_of[name] or name in plan.telescopes))
+    return gruebler(plan.links, [(bar.P, bar.Q) for bar in plan.cylinders]) - halves - len(plan.telescopes) + 2 * lone
+
+
+def printed(plan: Members, values: Mapping[str, float] = MappingProxyType({})) -> dict[str, str]:
+    """Return every member as a line that can be pasted into a class, by name; the design variables among `values` [SI] have those."""
+    spelled = {each: sign * values[owner] for each, (owner, sign) in plan.table.spellings.items() if owner in values}
+    return {name: as_written(member.having(spelled), plan.turning) for name, member in plan.members.items()}
+
+
+def as_written(member: Member, turning: frozenset[str]) -> str:
+    """Return a member as it would be written; `turning` names the quantities that are angles, whose numbers are in degrees."""
+    if isinstance(member, Quantity):
+        return member.text("angle" if member.name in turning else "")
+    if isinstance(member, Drawn):
+        words = (f"{name}={in_degrees(value) if name in turning else repr(value)}" for name, value in member.strokes.items())
+        return f"drawn({', '.join(words)})"
+    return str(member)
+
+
+def strokes_text(plan: Members, values: Mapping[str, float]) -> str:
+    """Return stroke values [SI] as they are read: `S = 0.1 m, phi = 60 deg`."""
+    words = {name: f"{value / deg:.4g} deg" if name in plan.turning else f"{value:.4g} m" for name, value in values.items()}
+    return ", ".join(f"{name} = {text}" for name, text in words.items()) or "no stroke"

@@ -16,7 +16,7 @@ from ..program import Kernel, Level, Node
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
 from ..vectors import Scalar
-from .followed import followed_angles, has_angles, load_quantities, told_apart
+from .followed import angles_that_count, followed_angles, has_angles, load_quantities
 from .members import Members
 from .reading import ArrayReading, Reading
 from .trace import Trace
@@ -160,7 +160,7 @@ class Plan(Members):
         if not has_angles(self, (quantity,)):
             return ()
         trace = self._traced(self.solved)
-        return told_apart(trace, [trace.graph.node(trace.value(quantity))])
+        return angles_that_count(trace, [trace.graph.node(trace.value(quantity))])
 
 
 KNOWN: WeakValueDictionary[str, Plan] = WeakValueDictionary()

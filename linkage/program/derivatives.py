@@ -50,7 +50,7 @@ class Tangent:
             if each.number < floor or each in found or each in self._known:
                 continue
             found.add(each)
-            stack.extend(each.closure.sources if each.closure else each.args[1:] if each.op == "alias" else each.args)
+            stack.extend(built_from(each))
         return sorted(found, key=lambda each: each.number)
 
     def _solved(self, node: Node) -> Node:
@@ -101,22 +101,20 @@ def jacobian(graph: Graph, closure: Closure) -> Sequence[Sequence[Node]]:
     return closure.jacobian
 
 
-# Gradients of a program, as nodes of the same program: reverse mode, from a result back to the inputs.
-#
-# Sums run from the result to everything it is built from, so that the derivatives by all dimensions cost a few times
-# the result itself, however many they are. A loop passes its share on through its constraint: with residuals
-# r(u, v) = 0 and the shares U of its unknowns, r_u^T L = -U gives the shares L^T r_v of what it is built from. A system
-# A x = b passes on A^-T X to b and -(A^-T X) x^T to A. Source: Griewank and Walther, "Evaluating Derivatives", 2008, 15.
-
 def gradient(output: Node, by: Sequence[Node]) -> list[Node]:
-    """Return the derivatives of a node by some inputs, as nodes."""
+    """Return the derivatives of a node by some inputs, as nodes: reverse mode, which costs a few times the node, however many they are."""
     shares = Shares(output.graph, by)
     found = shares.spread({output: output.graph.constant(1.0)})
     return [found.get(each, shares.zero) for each in by]
 
 
 class Shares:
-    """How much each node adds to a result, worked out backwards; only where inputs in question lie behind it."""
+    """How much each node adds to a result, worked out backwards; only where inputs in question lie behind it.
+
+    A loop passes its share on through its constraint: with residuals r(u, v) = 0 and the shares U of its unknowns, r_u^T L = -U gives the
+    shares L^T r_v of what it is built from. A system A x = b passes on A^-T X to b and -(A^-T X) x^T to A.
+    Source: Griewank and Walther, "Evaluating Derivatives", 2008, 15.
+    """
 
     def __init__(self, graph: Graph, by: Sequence[Node]) -> None:
         self.graph, self.zero = graph, graph.constant(0.0)
@@ -147,7 +145,7 @@ class Shares:
         stack = [node]
         while stack:
             each = stack[-1]
-            behind = sources(each)
+            behind = built_from(each)
             unknown = [arg for arg in behind if arg not in self._active]
             if each in self._active or not unknown:
                 self._active.setdefault(each, any(self._active[arg] for arg in behind))
@@ -191,7 +189,7 @@ class Shares:
             yield from ((matrix[row][column], -(weight * unknown)) for column, unknown in enumerate(unknowns))
 
 
-def sources(node: Node) -> Sequence[Node]:
+def built_from(node: Node) -> Sequence[Node]:
     """Return the nodes that a node is built from, where its derivatives are concerned."""
     if node.closure is not None:
         return node.closure.sources

@@ -80,7 +80,7 @@ def eliminated(matrix: Sequence[Sequence[Node]], right: Sequence[Node]) -> list[
 
 def cleared(rows: Sequence[list[Node]], column: int) -> tuple[list[Node], list[list[Node]]]:
     """Return the row with the largest entry in a column, and the others without that column."""
-    (pivot, *used), others = parted(rows, column)
+    (pivot, *used), others = split_rows(rows, column)
     below: list[list[Node]] = []
     for row in used:  # the largest comes up, by exchange with each below
         graph, a, b = row[column].graph, np.abs(row[column]), np.abs(pivot[column])
@@ -95,7 +95,7 @@ def cleared(rows: Sequence[list[Node]], column: int) -> tuple[list[Node], list[l
     return pivot, others
 
 
-def parted(rows: Sequence[list[Node]], column: int) -> tuple[list[list[Node]], list[list[Node]]]:
+def split_rows(rows: Sequence[list[Node]], column: int) -> tuple[list[list[Node]], list[list[Node]]]:
     """Return the rows with an entry in a column, at least one, and the others."""
     used = [row for row in rows if not is_zero(row[column])]
     if not used:  # no unknown is there: the division by zero tells

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
 from .elimination import expanded
-from .loop import loop, numbered
+from .loop import lettered, loop_text
 from .node import Node
 from .schedule import Schedule, schedule
 from .text import TEMPLATES, Dialect, NodeNames
@@ -54,7 +54,7 @@ def c_text(outputs: Sequence[Node], name: str = "poses", design: Mapping[str, fl
     names them, with the values of a design. For its full speed compile it with `-O3 -march=native -fno-math-errno -fno-trapping-math`.
     """
     plan = schedule(expanded(outputs))
-    inside = loop(plan, C)
+    inside = loop_text(plan, C)
     lines = [
         "#include <math.h>",
         comment(plan, design),
@@ -75,7 +75,7 @@ def c_text(outputs: Sequence[Node], name: str = "poses", design: Mapping[str, fl
 def javascript_text(outputs: Sequence[Node], name: str = "poses", design: Mapping[str, float] = NOTHING) -> str:
     """Return the text of a JavaScript `function poses(d, p)`: dimensions and strokes in arrays, as a comment names them; outputs in one."""
     plan = schedule(expanded(outputs))
-    inside = loop(plan, JAVASCRIPT)
+    inside = loop_text(plan, JAVASCRIPT)
     lines = [
         comment(plan, design),
         f"function {name}(d, p) {{",
@@ -92,7 +92,7 @@ def design_lines(plan: Schedule, dialect: Dialect) -> list[str]:
     """Return the design part, its results called as the loop calls them."""
     names = NodeNames(dialect, {node: f"d[{k}]" for k, node in enumerate(plan.design_inputs)})
     lines = names.assign(plan.design, "w")
-    return lines + [dialect.assignment.format(name, names.read(node)) for node, name in numbered("c", plan.passed).items()]
+    return lines + [dialect.assignment.format(name, names.read(node)) for node, name in lettered("c", plan.passed).items()]
 
 
 def comment(plan: Schedule, design: Mapping[str, float]) -> str:

@@ -27,18 +27,19 @@ def interpret(
     values: dict[Node, Numbers] = dict(known or {})
     with np.errstate(all="ignore"):
         for node in ancestors(outputs, known or {}):
-            if node in values:
-                continue
-            if node.op == "constant":
-                values[node] = node.value
-            elif node.op == "input":
-                values[node] = inputs[node.value]
-            else:
-                args = [values[arg.origin] for arg in node.args]
-                if clipped and node.op == "sqrt":
-                    args = [np.maximum(args[0], 0.0)]
-                values[node] = OPERATIONS[node.op].array(*args)
+            if node not in values:
+                values[node] = value_of(node, values, inputs, clipped=clipped)
     return [values[node.origin] for node in outputs]
+
+
+def value_of(node: Node, values: Mapping[Node, Numbers], inputs: Mapping[str, Numbers], *, clipped: bool) -> Numbers:
+    """Return the value of a node from those of its arguments; `clipped`: the root of a negative number is zero."""
+    if node.op in ("constant", "input"):
+        return inputs[node.value] if node.op == "input" else float(node.value)
+    args = [values[arg.origin] for arg in node.args]
+    if clipped and node.op == "sqrt":
+        args = [np.maximum(args[0], 0.0)]  # a dead point is reached to rounding; NaN stays
+    return OPERATIONS[node.op].array(*args)
 
 
 # What rounding leaves of a program's results: the same program run again with its last digits shaken.
@@ -55,7 +56,7 @@ SHAKEN = 0.75 * float(np.finfo(float).eps)
 SETTLED = 4.0
 """The last digits that iteration leaves of a group's pins."""
 PERIOD = 1999
-EXACT = frozenset(("negative", "absolute", "sign", "minimum", "maximum", "pick", "solve", "component"))
+EXACT = frozenset(("constant", "input", "negative", "absolute", "sign", "minimum", "maximum", "pick", "solve", "component"))
 """Operations that do not round, or whose arguments are shaken already."""
 
 
@@ -117,26 +118,17 @@ def shaken(outputs: Sequence[Node], given: Mapping[str, Numbers]) -> list[Number
     changes = noise()
     with np.errstate(all="ignore"):
         for node in ancestors(outputs):
-            if node.op == "constant":
-                values[node] = node.value
-            elif node.op == "input":
-                values[node] = given[node.value]
-            else:
-                args = [values[arg.origin] for arg in node.args]
-                if node.op == "sqrt":
-                    args = [np.maximum(args[0], 0.0)]  # a dead point is reached to rounding; NaN stays
-                found = OPERATIONS[node.op].array(*args)
-                if node.op == "arctan2":
-                    found = near_first(np.where((np.asarray(args[0]) == 0.0) & (np.asarray(args[1]) == 0.0), np.nan, found))
-                values[node] = found if node.op in EXACT or doubles(node) else found + found * changes[node.number % PERIOD]
+            found = value_of(node, values, given, clipped=True)
+            if node.op == "arctan2":
+                y, x = (np.asarray(values[arg.origin]) for arg in node.args)
+                found = near_first(np.where((y == 0.0) & (x == 0.0), np.nan, found))
+            values[node] = found if node.op in EXACT or doubles(node) else found + found * changes[node.number % PERIOD]
     return [values[node.origin] for node in outputs]
 
 
 def doubles(node: Node) -> bool:
     """Return whether an operation multiplies by a power of two, which rounds nothing."""
-    if node.op != "multiply":
-        return False
-    return any(arg.op == "constant" and abs(frexp(arg.value)[0]) == 0.5 for arg in [each.origin for each in node.args])
+    return node.op == "multiply" and any(arg.op == "constant" and abs(frexp(arg.value)[0]) == 0.5 for arg in node.args)
 
 
 def near_first(angle: FloatArray) -> FloatArray:

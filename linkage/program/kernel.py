@@ -19,7 +19,7 @@ from .elimination import expanded
 from .float_backend import PlainFloats
 from .node import Node
 from .numba_backend import NumbaLoop
-from .numpy_backend import LARGEST, NumpyBlocks, is_table, with_half_angles
+from .numpy_backend import LARGEST, NumpyBlocks, is_array, is_table, with_half_angles
 from .schedule import Schedule, schedule
 
 FEW = 20
@@ -150,8 +150,8 @@ def split_inputs(plan: Schedule, inputs: Mapping[str, Numbers]) -> tuple[list[Nu
 
 def sized(design: Sequence[Numbers], poses: Sequence[Numbers]) -> tuple[int, int]:
     """Return how many designs and poses the inputs are for."""
-    m = max((np.shape(value)[0] for value in (*design, *filter(is_table, poses)) if np.ndim(value)), default=1)
-    return m, max((np.shape(value)[-1] for value in poses if np.ndim(value)), default=1)
+    m = max((value.shape[0] for value in (*design, *filter(is_table, poses)) if is_array(value)), default=1)
+    return m, max((value.shape[-1] for value in poses if is_array(value)), default=1)
 
 
 def allocated(count: int, m: int, n: int, turned: bool) -> FloatArray:

@@ -97,7 +97,7 @@ NUMBA = Dialect(
 
 
 @dataclass(frozen=True)
-class Loop:
+class LoopText:
     """The inside of a loop: one line an operation, and what the results are called."""
 
     lines: tuple[str, ...]
@@ -105,15 +105,15 @@ class Loop:
     guards: tuple[str, ...]
 
 
-def loop(plan: Schedule, dialect: Dialect) -> Loop:
+def loop_text(plan: Schedule, dialect: Dialect) -> LoopText:
     """Return the pose part in a language; constants are called c0, c1, ..., inputs i0, i1, ..."""
-    given = numbered("c", plan.passed) | numbered("i", plan.pose_inputs)
+    given = lettered("c", plan.passed) | lettered("i", plan.pose_inputs)
     names = NodeNames(dialect, given)
     lines = names.assign(plan.economical, "v")
-    return Loop(tuple(lines), tuple(map(names.read, plan.outputs)), tuple(map(names.read, plan.guards)))
+    return LoopText(tuple(lines), tuple(map(names.read, plan.outputs)), tuple(map(names.read, plan.guards)))
 
 
-def numbered(letter: str, nodes: Sequence[Node]) -> dict[Node, str]:
+def lettered(letter: str, nodes: Sequence[Node]) -> dict[Node, str]:
     """Return names for nodes: a letter and a number."""
     return {node: f"{letter}{place}" for place, node in enumerate(nodes)}
 
@@ -138,7 +138,7 @@ def numba_text(plan: Schedule, turned: bool) -> str:
 
 def along_poses(plan: Schedule) -> list[str]:
     """Return the function's inside for few outputs: one loop a design."""
-    inside = loop(plan, NUMBA)
+    inside = loop_text(plan, NUMBA)
     return [
         *indented(1, *SIZES, "for row in range(rows):"),
         *indented(2, *of_design(plan), *(f"x{k} = i[{k}, across]" for k in range(len(plan.pose_inputs)))),
@@ -152,7 +152,7 @@ def along_poses(plan: Schedule) -> list[str]:
 
 def along_poses_in_parts(plan: Schedule) -> list[str]:
     """Return the function's inside for many outputs: a design's poses some hundred at a time, their results copied out."""
-    inside, width = loop(plan, NUMBA), part_of(len(plan.outputs))
+    inside, width = loop_text(plan, NUMBA), part_of(len(plan.outputs))
     return [
         *indented(1, *SIZES, f"s = np.empty({len(plan.outputs) * width})", "for row in range(rows):"),
         *indented(2, *of_design(plan), f"for start in range(0, columns, {width}):"),
@@ -168,7 +168,7 @@ def along_poses_in_parts(plan: Schedule) -> list[str]:
 
 def along_designs(plan: Schedule) -> list[str]:
     """Return the function's inside for many designs of few poses: designs some hundred at a time, constants copied in."""
-    inside, count = loop(plan, NUMBA), len(plan.passed)
+    inside, count = loop_text(plan, NUMBA), len(plan.passed)
     width = part_of(count + len(plan.outputs))
     return [
         *indented(1, *SIZES, f"s = np.empty({(count + len(plan.outputs)) * width})", f"for start in range(0, columns, {width}):"),
@@ -194,7 +194,7 @@ def of_design(plan: Schedule) -> list[str]:
     return ["at = row if c.shape[1] > 1 else 0", *constants, "across = row if i.shape[1] > 1 else 0"]
 
 
-def guard_counts(inside: Loop) -> list[str]:
+def guard_counts(inside: LoopText) -> list[str]:
     """Return the lines that count the poses where a guard is not above zero."""
     return [f"missed{k} += 0 if {name} > 0.0 else 1" for k, name in enumerate(inside.guards)]
 

@@ -179,7 +179,7 @@ class Graph:
 
     def made(self, op: str, args: tuple[Node, ...]) -> Node:
         """Return the node of an operation as it stands."""
-        key = key_of(op, args)
+        key = operation_key(op, args)
         found = self._known.get(key)
         if found is None:
             with self._lock:
@@ -190,7 +190,7 @@ class Graph:
 
     def known(self, op: str, args: tuple[Node, ...]) -> Node | None:
         """Return the node of an operation where there is one already."""
-        return self._known.get(key_of(op, args))
+        return self._known.get(operation_key(op, args))
 
     def alias(self, value: Node, meaning: Node) -> Node:
         """Return a value that is known by another way: it reads the first node and is differentiated as the second."""
@@ -238,7 +238,7 @@ class Graph:
         return unknowns
 
 
-def key_of(op: str, args: tuple[Node, ...]) -> tuple[object, ...]:
+def operation_key(op: str, args: tuple[Node, ...]) -> tuple[object, ...]:
     """Return what an operation is known by: the same for both orders where these do not matter."""
     if len(args) == 2 and op in COMMUTATIVE and args[0].number > args[1].number:
         return op, args[1], args[0]

@@ -130,6 +130,11 @@ def varies(value: Numbers) -> TypeGuard[FloatArray]:
     return type(value) is not float and np.size(value) != 1
 
 
+def is_array(value: Numbers) -> TypeGuard[FloatArray]:
+    """Return whether an input has a value of its own for each design or pose, of which there may be one."""
+    return type(value) is not float and np.ndim(value) > 0
+
+
 def is_table(value: Numbers) -> TypeGuard[FloatArray]:
     """Return whether an input varies over designs and poses."""
     return type(value) is not float and np.ndim(value) == 2

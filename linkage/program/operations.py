@@ -20,13 +20,13 @@ def component(values: Sequence[Numbers], place: float) -> Numbers:
     return values[int(place)]
 
 
-def shares(result: Scalar, a: Scalar, b: Scalar) -> tuple[Scalar, Scalar]:
+def choice_partials(result: Scalar, a: Scalar, b: Scalar) -> tuple[Scalar, Scalar]:
     """Return (1, 0) where a <= b, else (0, 1): which of two arguments a minimum or a choice follows."""
     return result.graph.pick(a, b, 1.0, 0.0), result.graph.pick(a, b, 0.0, 1.0)
 
 
 @dataclass(frozen=True)
-class Operation:
+class OperationRule:
     """One operation: how arrays evaluate it, how it is written, and its partial derivatives.
 
     `partials(result, *arguments)` returns the derivative of the result by each argument, as nodes.
@@ -37,29 +37,29 @@ class Operation:
     partials: Callable[..., tuple[Scalar, ...]]
 
 
-OPERATIONS: dict[str, Operation] = {
-    "add": Operation(np.add, "{} + {}", lambda r, a, b: (1.0, 1.0)),
-    "subtract": Operation(np.subtract, "{} - {}", lambda r, a, b: (1.0, -1.0)),
-    "multiply": Operation(np.multiply, "{} * {}", lambda r, a, b: (b, a)),
-    "negative": Operation(np.negative, "-{}", lambda r, a: (-1.0,)),
-    "divide": Operation(np.divide, "{} / {}", lambda r, a, b: (1.0 / b, -(r / b))),
-    "reciprocal": Operation(np.reciprocal, "1.0 / {}", lambda r, a: (-(r * r),)),
-    "square": Operation(np.square, "{0} * {0}", lambda r, a: (2.0 * a,)),
-    "sqrt": Operation(np.sqrt, "sqrt({})", lambda r, a: (0.5 / r,)),
-    "sin": Operation(np.sin, "sin({})", lambda r, a: (np.cos(a),)),
-    "cos": Operation(np.cos, "cos({})", lambda r, a: (-np.sin(a),)),
-    "tan": Operation(np.tan, "tan({})", lambda r, a: (1.0 + r * r,)),
-    "arctan2": Operation(np.arctan2, "arctan2({}, {})", lambda r, y, x: (x / (x * x + y * y), -y / (x * x + y * y))),
-    "exp": Operation(np.exp, "exp({})", lambda r, a: (r,)),
-    "log": Operation(np.log, "log({})", lambda r, a: (1.0 / a,)),
-    "power": Operation(np.power, "power({}, {})", lambda r, a, b: (b * a ** (b - 1.0), r * np.log(a))),
-    "absolute": Operation(np.absolute, "absolute({})", lambda r, a: (np.sign(a),)),
-    "sign": Operation(np.sign, "sign({})", lambda r, a: (0.0,)),
-    "minimum": Operation(np.minimum, "minimum({}, {})", lambda r, a, b: shares(r, a, b)),
-    "maximum": Operation(np.maximum, "maximum({}, {})", lambda r, a, b: shares(r, b, a)),
-    "solve": Operation(solve_arrays, "solve({})", lambda r, *entries: ()),
-    "component": Operation(component, "component({}, {})", lambda r, *entries: ()),
-    "pick": Operation(pick, "pick({}, {}, {}, {})", lambda r, a, b, x, y: (0.0, 0.0, *shares(r, a, b))),
+OPERATIONS: dict[str, OperationRule] = {
+    "add": OperationRule(np.add, "{} + {}", lambda r, a, b: (1.0, 1.0)),
+    "subtract": OperationRule(np.subtract, "{} - {}", lambda r, a, b: (1.0, -1.0)),
+    "multiply": OperationRule(np.multiply, "{} * {}", lambda r, a, b: (b, a)),
+    "negative": OperationRule(np.negative, "-{}", lambda r, a: (-1.0,)),
+    "divide": OperationRule(np.divide, "{} / {}", lambda r, a, b: (1.0 / b, -(r / b))),
+    "reciprocal": OperationRule(np.reciprocal, "1.0 / {}", lambda r, a: (-(r * r),)),
+    "square": OperationRule(np.square, "{0} * {0}", lambda r, a: (2.0 * a,)),
+    "sqrt": OperationRule(np.sqrt, "sqrt({})", lambda r, a: (0.5 / r,)),
+    "sin": OperationRule(np.sin, "sin({})", lambda r, a: (np.cos(a),)),
+    "cos": OperationRule(np.cos, "cos({})", lambda r, a: (-np.sin(a),)),
+    "tan": OperationRule(np.tan, "tan({})", lambda r, a: (1.0 + r * r,)),
+    "arctan2": OperationRule(np.arctan2, "arctan2({}, {})", lambda r, y, x: (x / (x * x + y * y), -y / (x * x + y * y))),
+    "exp": OperationRule(np.exp, "exp({})", lambda r, a: (r,)),
+    "log": OperationRule(np.log, "log({})", lambda r, a: (1.0 / a,)),
+    "power": OperationRule(np.power, "power({}, {})", lambda r, a, b: (b * a ** (b - 1.0), r * np.log(a))),
+    "absolute": OperationRule(np.absolute, "absolute({})", lambda r, a: (np.sign(a),)),
+    "sign": OperationRule(np.sign, "sign({})", lambda r, a: (0.0,)),
+    "minimum": OperationRule(np.minimum, "minimum({}, {})", lambda r, a, b: choice_partials(r, a, b)),
+    "maximum": OperationRule(np.maximum, "maximum({}, {})", lambda r, a, b: choice_partials(r, b, a)),
+    "solve": OperationRule(solve_arrays, "solve({})", lambda r, *entries: ()),
+    "component": OperationRule(component, "component({}, {})", lambda r, *entries: ()),
+    "pick": OperationRule(pick, "pick({}, {}, {}, {})", lambda r, a, b, x, y: (0.0, 0.0, *choice_partials(r, a, b))),
 }
 
 

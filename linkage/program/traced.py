@@ -24,7 +24,7 @@ LARGEST = float(np.finfo(float).max)
 REMEDY = "np.where, np.minimum, np.maximum and abs choose between numbers without asking for their values"
 
 
-def refused(what: str) -> DefinitionError:
+def valueless(what: str) -> DefinitionError:
     """Return the error for something that needs the value of a traced number."""
     return DefinitionError(f"{what} needs a number's value, which a traced law does not have; {REMEDY}.")
 
@@ -51,7 +51,7 @@ class Notes:
         """Count a test; DefinitionError where a law does not come to an end of them."""
         self.tests += 1
         if self.tests > MOST:
-            raise refused("A loop that goes on until its numbers allow it to stop")
+            raise valueless("A loop that goes on until its numbers allow it to stop")
 
 
 @final
@@ -66,7 +66,7 @@ class Traced(NDArrayOperatorsMixin):
     def __array_ufunc__(self, ufunc: Any, kind: str, *inputs: Any, **options: Any) -> Any:
         out = options.pop("out", None)
         if kind != "__call__" or options:
-            raise refused(f"np.{ufunc.__name__}.{kind} with {', '.join(options) or 'a number'}")
+            raise valueless(f"np.{ufunc.__name__}.{kind} with {', '.join(options) or 'a number'}")
         found = each_of(lambda *numbers: self._applied(ufunc, numbers), inputs)
         if out is None:
             return found
@@ -80,7 +80,7 @@ class Traced(NDArrayOperatorsMixin):
         if name in RULES:
             return RULES[name](*numbers)
         if name in TRUTHS:
-            return Condition(TRUTHS[name](self.node.graph, *nodes), self.notes, name == "equal", name == "not_equal")
+            return Comparison(TRUTHS[name](self.node.graph, *nodes), self.notes, name == "equal", name == "not_equal")
         if name not in DIRECT:
             raise DefinitionError(f"np.{name} is not among what can be traced: {', '.join(sorted(DIRECT | RULES.keys()))}.")
         return Traced(ufunc(*nodes), self.notes)
@@ -89,7 +89,7 @@ class Traced(NDArrayOperatorsMixin):
         if function in FUNCTIONS:
             return FUNCTIONS[function](*args, **options)
         if function not in SHAPING:
-            raise refused(f"np.{function.__name__}")
+            raise valueless(f"np.{function.__name__}")
         return function(*map(arrayed, args), **options)
 
     def __getitem__(self, place: tuple[()]) -> Traced:
@@ -98,7 +98,7 @@ class Traced(NDArrayOperatorsMixin):
         return self
 
     def __bool__(self) -> bool:
-        raise refused("A test of whether a number is zero")
+        raise valueless("A test of whether a number is zero")
 
     sqrt, exp, log, sin, cos, tan, arctan, arcsin, arccos, tanh, hypot, arctan2, conjugate = map(
         method,
@@ -107,7 +107,7 @@ class Traced(NDArrayOperatorsMixin):
 
 
 @final
-class Condition:
+class Comparison:
     """A comparison of traced numbers: a node that is 1 where it is true, else -1.
 
     `thin`: it is true only where numbers are equal; `slit`: it is false only there.
@@ -119,17 +119,17 @@ class Condition:
     def __init__(self, truth: Node, notes: Notes, thin: bool = False, slit: bool = False) -> None:
         self.truth, self.notes, self.thin, self.slit = truth, notes, thin, slit
 
-    def __and__(self, other: Any) -> Condition:
+    def __and__(self, other: Any) -> Comparison:
         both = self.truth.graph.apply("minimum", self.truth, truth_of(other))
-        return Condition(both, self.notes, self.thin or is_thin(other), self.slit and is_slit(other))
+        return Comparison(both, self.notes, self.thin or is_thin(other), self.slit and is_slit(other))
 
-    def __or__(self, other: Any) -> Condition:
-        return ~(~self & (~other if isinstance(other, Condition) else not other))
+    def __or__(self, other: Any) -> Comparison:
+        return ~(~self & (~other if isinstance(other, Comparison) else not other))
 
     __rand__, __ror__ = __and__, __or__
 
-    def __invert__(self) -> Condition:
-        return Condition(-self.truth, self.notes, self.slit, self.thin)
+    def __invert__(self) -> Comparison:
+        return Comparison(-self.truth, self.notes, self.slit, self.thin)
 
     def any(self) -> bool:
         """Return whether it is true anywhere: no, which is noted."""
@@ -153,13 +153,13 @@ class Condition:
         return each_of(lambda a, b: Traced(graph.pick(0.0, self.truth, node_of(a), node_of(b)), self.notes), (x, y))
 
     def __array_function__(self, function: Any, types: Any, args: Any, options: Any) -> Any:
-        known: dict[Any, Callable[..., Any]] = {np.any: Condition.any, np.all: Condition.all, np.where: Condition.choose}
-        if function not in known or options or not isinstance(args[0], Condition):
-            raise refused(f"np.{function.__name__} of a comparison")
+        known: dict[Any, Callable[..., Any]] = {np.any: Comparison.any, np.all: Comparison.all, np.where: Comparison.choose}
+        if function not in known or options or not isinstance(args[0], Comparison):
+            raise valueless(f"np.{function.__name__} of a comparison")
         return known[function](*args)
 
     def __bool__(self) -> bool:
-        raise refused("A comparison in an `if`, a loop, or Python's min and max")
+        raise valueless("A comparison in an `if`, a loop, or Python's min and max")
 
 
 def each_of(rule: Callable[..., Any], inputs: tuple[Any, ...]) -> Any:
@@ -185,17 +185,17 @@ def node_of(number: Any) -> Any:
 
 def truth_of(condition: Any) -> Any:
     """Return a condition's node, or 1 for what is true and -1 for what is not."""
-    return condition.truth if isinstance(condition, Condition) else 1.0 if condition else -1.0
+    return condition.truth if isinstance(condition, Comparison) else 1.0 if condition else -1.0
 
 
 def is_thin(condition: Any) -> bool:
     """Return whether a condition is true only where numbers are equal; what is never true counts."""
-    return condition.thin if isinstance(condition, Condition) else not condition
+    return condition.thin if isinstance(condition, Comparison) else not condition
 
 
 def is_slit(condition: Any) -> bool:
     """Return whether a condition is false only where numbers are equal; what is always true counts."""
-    return condition.slit if isinstance(condition, Condition) else bool(condition)
+    return condition.slit if isinstance(condition, Comparison) else bool(condition)
 
 
 def hyperbolic_tangent(a: Any) -> Any:

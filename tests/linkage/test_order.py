@@ -8,14 +8,14 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, DefinitionError, Dyad, Ground, Mechanism, Stroke, ref
-from linkage.plan import ordered
+from linkage.plan import construction_order
 from tests.linkage.random_mechanisms import random_mechanism
 
 
 @given(st.dictionaries(st.integers(0, 15), st.sets(st.integers(0, 15), max_size=4), max_size=16))
 def test_everything_comes_after_what_it_needs(graph):
     acyclic = {str(name): [str(each) for each in wanted if each < name and each in graph] for name, wanted in graph.items()}
-    order = ordered(acyclic, "Any")
+    order = construction_order(acyclic, "Any")
     assert sorted(order) == sorted(acyclic)
     for name, wanted in acyclic.items():
         assert all(order.index(each) < order.index(name) for each in wanted)
@@ -26,13 +26,13 @@ def test_a_cycle_is_printed(size):
     names = [f"P{number}" for number in range(size)]
     graph = {name: [names[(number + 1) % size]] for number, name in enumerate(names)}
     with pytest.raises(DefinitionError, match=" needs ") as caught:
-        ordered(graph, "Loop")
+        construction_order(graph, "Loop")
     assert all(name in str(caught.value) for name in names)
 
 
 def test_an_unknown_name_says_who_wants_it():
     with pytest.raises(DefinitionError, match=r"'Bb' is unknown in Arm.C. Did you mean B\?"):
-        ordered({"B": [], "C": ["Bb"]}, "Arm")
+        construction_order({"B": [], "C": ["Bb"]}, "Arm")
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -24,9 +24,8 @@ from linkage.quantities import Reference, label, name_of
 from linkage.statics import Case, Loads, stroke_followed
 
 from .accumulator import AccumulatorBlock
-from .inputs import Array, finite, in_pascals, is_traced
+from .inputs import Array, finite, follows, in_pascals, is_traced, number_set
 from .member import Circuit, Cylinder, found_in, is_named, the_cylinder
-from .settings import follows, number_set
 
 Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
 
@@ -54,6 +53,7 @@ class FloatCircuit(Circuit):
         {"charge_pressure": "bar", "at": "m", "seal_friction": "bar", "exponent": ""}
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"block": AccumulatorBlock})
 
     def __post_init__(self) -> None:
         super().__post_init__()

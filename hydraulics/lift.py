@@ -27,9 +27,20 @@ from linkage.quantities import Reference, label, name_of, real
 from linkage.statics import Case, Loads, elements_of
 
 from .cylinder import CylinderSize
-from .inputs import Array, efficient, finite, in_cubic_metres, in_pascals, is_traced, not_negative, one_number, positive
+from .inputs import (
+    Array,
+    efficient,
+    finite,
+    follows,
+    in_cubic_metres,
+    in_pascals,
+    is_traced,
+    not_negative,
+    number_set,
+    one_number,
+    positive,
+)
 from .member import DIRECTIONS, Circuit, Cylinder, found_in, is_named, the_cylinder
-from .settings import follows, number_set
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
 
@@ -58,6 +69,7 @@ class LiftCircuit(Circuit):
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow", "back_pressure", "relief"})
     optional: ClassVar[frozenset[str]] = frozenset({"relief"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"cylinder": "loads"})
 
     def __post_init__(self) -> None:
         super().__post_init__()

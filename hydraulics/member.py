@@ -28,8 +28,7 @@ from linkage.units import mm
 
 from .buckling import Buckling
 from .cylinder import BORES_MM, RODS_MM, CylinderSize, standard_rods
-from .inputs import Array, one_number, positive, stroke_in_metres
-from .settings import follows, number_set
+from .inputs import Array, follows, number_set, one_number, positive, stroke_in_metres
 from .verdict import Verdict
 
 DIRECTIONS = ("frictionless", "extending", "retracting")
@@ -58,6 +57,8 @@ class Cylinder(TwoPoint, Tabled):
     mounting: str = "pin-pin"
     safety: float = 3.5
     drawn_as: ClassVar[DrawnAs] = "cylinder"
+    file_section: ClassVar[str] = "hydraulics"
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"stroke": "length", "closed": "length"})
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"bore", "rod"})
 
@@ -275,6 +276,8 @@ class Circuit(ForceElement):
     """The base of circuits: what feeds cylinders."""
 
     places: ClassVar[tuple[str, ...]] = ()
+    file_section: ClassVar[str] = "hydraulics"
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"cylinder": "load"})
 
     def members(self, members: Mapping[str, Any]) -> tuple[Cylinder, ...]:
         """Return its cylinders, as a class has them."""

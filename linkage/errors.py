@@ -14,11 +14,25 @@ import numpy as np
 
 
 class LinkageError(Exception):
-    """The base of every error this framework raises on purpose."""
+    """The base of every error this framework raises on purpose; `member` is the name of the member that it is about, "" of none."""
+
+    def __init__(self, message: str = "", *, member: str = "") -> None:
+        super().__init__(message)
+        self.member = member
+
+
+@contextmanager
+def about(member: str) -> Iterator[None]:
+    """Mark every error that comes from inside as one about a member, unless it says already which one it is about."""
+    try:
+        yield
+    except LinkageError as error:
+        error.member = error.member or member
+        raise
 
 
 class DefinitionError(LinkageError, ValueError):
-    """What a class, a file or a setting says cannot be."""
+    """What a class, a file or a setting says cannot be. `member` is the name of the member at fault, "" where it is no single one."""
 
 
 class AssemblyError(LinkageError):
@@ -29,7 +43,7 @@ class AssemblyError(LinkageError):
     """
 
     def __init__(self, message: str, *, point: str = "", mask: Any = None, shortfall: float = float("nan")) -> None:
-        super().__init__(message)
+        super().__init__(message, member=point)
         self.point = point
         self.mask = np.zeros((), bool) if mask is None else np.asarray(mask, bool)
         self.shortfall = shortfall
@@ -122,11 +136,11 @@ def one_word(what: str, word: object, words: Sequence[str]) -> str:
     return word
 
 
-def unknown(kind: str, name: object, known: Iterable[str], where: str = "") -> DefinitionError:
-    """Return the error for a name that is not there: it lists the valid names and the nearest one."""
+def unknown(kind: str, name: object, known: Iterable[str], where: str = "", *, member: str = "") -> DefinitionError:
+    """Return the error for a name that is not there: it lists the valid names and the nearest one; `member` is whose part it is."""
     names = list(known)
     near = get_close_matches(name, names, n=1, cutoff=0.5) if isinstance(name, str) else []
     hint = f" Did you mean {near[0]}?" if near else ""
     place = f" in {where}" if where else ""
     listing = ", ".join(names) if names else "none"
-    return DefinitionError(f"{kind} {cited(name)} is unknown{place}.{hint} Known: {listing}.")
+    return DefinitionError(f"{kind} {cited(name)} is unknown{place}.{hint} Known: {listing}.", member=member)

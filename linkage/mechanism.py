@@ -119,14 +119,16 @@ class Mechanism(metaclass=Structure):
                 type.__setattr__(cls, name, of_a_design(of_own_motion(vars(cls)[name])))
         members = declared(cls)
         type.__setattr__(cls, "plan", Plan(assembled(members, cls.__name__), cls.__name__))
+        reached = cls.plan.reaches(*cls.plan.moving)
         for name in cls.plan.strokes:
-            if not any(name in cls.plan.reaches(point) for point in cls.plan.moving) and cls.plan.points:
-                raise DefinitionError(f"{cls.__name__}: the stroke {name} moves nothing; use it in a length or an angle, or take it out.")
+            if name not in reached and cls.plan.points:
+                text = f"{cls.__name__}: the stroke {name} moves nothing; use it in a length or an angle, or take it out."
+                raise DefinitionError(text, member=name)
         for name, sketch in cls.plan.of_kind(Drawn).items():
             try:
                 at_values(cls.plan.sketch_strokes, cls.plan)
             except DefinitionError as error:
-                raise DefinitionError(f"{cls.__name__}: {name} = {sketch}: {error}") from None
+                raise DefinitionError(f"{cls.__name__}: {name} = {sketch}: {error}", member=name) from None
         check(cls.plan)
         for member in (*members.values(), *cls.plan.members.values()):
             member.settle(cls.__name__)
@@ -333,7 +335,7 @@ def declared(cls: type) -> dict[str, Member]:
                 check_no_member(cls.__name__, name, value)
             if isinstance(value, Member):
                 if name in vars(Mechanism) or name in ("plan",):
-                    raise DefinitionError(f"{cls.__name__}: {name} is a word of the framework; give the member another name.")
+                    raise DefinitionError(f"{cls.__name__}: {name} is a word of the framework; give the member another name.", member=name)
                 members[name] = value
             elif name in members:
                 del members[name]

@@ -102,10 +102,10 @@ def unit_or_none(unit: object, where: str, among: Iterable[str] = UNITS) -> str:
 
 
 def show(value: float, unit: str, digits: int = 6) -> str:
-    """Return an SI value as text in a unit: `show(0.18, "mm")` is `180 mm`."""
-    known_name("Unit", unit, UNITS)
+    """Return an SI value as text in a unit: `show(0.18, "mm")` is `180 mm`; as it is where the unit is ""."""
+    unit_or_none(unit, where="")
     given: Any = value
     is_one = isinstance(given, (float, int)) or getattr(given, "shape", None) == ()
     if not is_one or isinstance(given, bool) or not isinstance(digits, int) or isinstance(digits, bool) or not 0 < digits < 20:
         raise DefinitionError(f"show({cited(value)}, {unit!r}, {cited(digits)}): a number and its digits are expected.")
-    return f"{value / UNITS[unit][0]:.{digits}g} {unit}"
+    return f"{value / UNITS[unit][0]:.{digits}g} {unit}" if unit else f"{value:.{digits}g}"

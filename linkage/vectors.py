@@ -7,7 +7,10 @@ from enum import IntEnum
 from typing import Any, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
+FloatArray: TypeAlias = npt.NDArray[np.float64]
+Mask: TypeAlias = npt.NDArray[np.bool_]
 Scalar: TypeAlias = Any
 """A number, an array or a traced node: whatever the reading at hand works on."""
 
@@ -22,7 +25,7 @@ class Side(IntEnum):
         return self.name
 
     @classmethod
-    def said(cls, word: Any) -> Side | None:
+    def said(cls, word: object) -> Side | None:
         """Return the side that a word says, in small letters or capitals; a side is itself; None for anything else."""
         if isinstance(word, cls):
             return word

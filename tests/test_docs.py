@@ -13,15 +13,16 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 
 
-def conventions():
-    """Return the script that draws the page of conventions."""
-    spec = spec_from_file_location("conventions_pictures", ROOT / "docs" / "pictures" / "conventions.py")
+def script(name):
+    """Return a script that draws pictures of the pages."""
+    spec = spec_from_file_location(f"{name}_pictures", ROOT / "docs" / "pictures" / f"{name}.py")
     module = module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
 
 
-SCRIPT = conventions()
+CONVENTIONS, WAY = script("conventions"), script("way")
+DRAWN = {f"conventions_{name}": draw for name, draw in CONVENTIONS.PICTURES.items()} | WAY.PICTURES
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
@@ -37,12 +38,12 @@ def test_every_page_is_in_the_contents():
 
 def test_every_drawn_picture_is_shown():
     text = (ROOT / "docs" / "conventions.md").read_text(encoding="utf-8")
-    assert set(re.findall(r"images/conventions_(\w+)\.png", text)) == set(SCRIPT.PICTURES)
+    assert set(re.findall(r"images/conventions_(\w+)\.png", text)) == set(CONVENTIONS.PICTURES)
 
 
-@pytest.mark.parametrize("name", SCRIPT.PICTURES)
+@pytest.mark.parametrize("name", DRAWN)
 def test_the_picture_shown_is_the_one_drawn(name, tmp_path):
-    SCRIPT.PICTURES[name]().savefig(tmp_path / "drawn.png")
-    drawn, shown = imread(tmp_path / "drawn.png"), imread(SCRIPT.IMAGES / f"conventions_{name}.png")
+    DRAWN[name]().savefig(tmp_path / "drawn.png")
+    drawn, shown = imread(tmp_path / "drawn.png"), imread(ROOT / "docs" / "images" / f"{name}.png")
     assert drawn.shape == shown.shape
     assert np.mean(np.abs(drawn - shown).max(axis=2) > 0.5) < 2e-3  # other versions of the library set letters a little differently

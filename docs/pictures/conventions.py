@@ -17,14 +17,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch, Polygon
 from matplotlib.patheffects import withStroke
 
-from linkage.draw import style
-from linkage.draw.bodies import BodyPart
-from linkage.draw.cylinders import CylinderPart
-from linkage.draw.grounds import ground
-from linkage.draw.pins import dot, pin
-from linkage.draw.scene import Ram
-from linkage.draw.sliders import block
-from linkage.draw.style import STRONG
+from linkage.pictures import style
+from linkage.pictures.drawing import BodyPart, dot, pin
+from linkage.pictures.scene import Ram
+from linkage.pictures.style import STRONG
+from linkage.pictures.symbols import CylinderPart, block, ground
 
 Place = tuple[float, float]
 

@@ -9,7 +9,7 @@ from itertools import combinations
 
 import numpy as np
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, about, unknown
 from ..quantities import Member, Quantity, Reference, name_of, needs
 from ..steps import Group, Guide, Link, OnLink, Pin, Slide, Step
 from ..vectors import Side
@@ -23,13 +23,14 @@ def check_names(members: Mapping[str, Member], title: str) -> None:
     for name, member in members.items():
         for each in needed(name, member, title):
             if each not in members:
-                raise unknown("Name", each, members, where=f"{title}.{name}")
+                raise unknown("Name", each, members, where=f"{title}.{name}", member=name)
     for name, member in members.items():
         for reference, kind in parts_of(member):
             if members[name_of(reference)].kind != kind:
-                raise DefinitionError(f"{title}: {name} = {member}: {name_of(reference)} is not a {kind}.")
+                raise DefinitionError(f"{title}: {name} = {member}: {name_of(reference)} is not a {kind}.", member=name)
         if isinstance(member, Link):
-            member.fitted()
+            with about(name):
+                member.fitted()
 
 
 def needed(name: str, member: Member, title: str) -> tuple[str, ...]:
@@ -37,7 +38,7 @@ def needed(name: str, member: Member, title: str) -> tuple[str, ...]:
     try:
         return tuple(needs(member))
     except DefinitionError as error:
-        raise DefinitionError(f"{title}.{name}: {error}") from None
+        raise DefinitionError(f"{title}.{name}: {error}", member=name) from None
 
 
 def parts_of(member: Member) -> list[tuple[Reference, str]]:
@@ -60,6 +61,8 @@ class Row:
     half: int = 0
     fault: str = ""
     """Why it cannot be written down, should its turn come."""
+    link: str = ""
+    """The link that it comes from, if one."""
 
 
 def rows_of(parts: Parts, title: str) -> list[Row]:
@@ -67,7 +70,8 @@ def rows_of(parts: Parts, title: str) -> list[Row]:
     rows: list[Row] = []
     for name, link in parts.links.items():
         if parts.loose(link):
-            rows += link_rows(parts, name, title)
+            with about(name):
+                rows += link_rows(parts, name, title)
     for slide in parts.slides.values():
         held = (name_of(slide.point), *parts.guides[name_of(slide.guide)].points)
         loose = tuple(point for point in held if point in parts.pins and point not in parts.placed)
@@ -90,13 +94,13 @@ def link_rows(parts: Parts, name: str, title: str) -> list[Row]:
         return tuple(pin for pin in pins if pin not in parts.placed)
 
     measured = None if length is None else (first, second, length)
-    rows = [Row(loose(first, second), length=measured, fault=fault)] if loose(first, second) else []
+    rows = [Row(loose(first, second), length=measured, fault=fault, link=name)] if loose(first, second) else []
     for pin, step in attachments(points, shape, f"{title}: the shape of {name} = {link}"):
         fault = undrawn(parts, name, pin, step)
         if not fault:
             step = as_sketched(parts, pin, step, f"{title}: {name} = {link}", shape)
         held = (*map(name_of, step.parents), pin)
-        rows += [Row(loose(*held), attached=(pin, step), half=half, fault=fault) for half in (0, 1)]
+        rows += [Row(loose(*held), attached=(pin, step), half=half, fault=fault, link=name) for half in (0, 1)]
     return rows
 
 
@@ -157,9 +161,9 @@ def next_group(parts: Parts, title: str) -> Group:
     for block in nx.lexicographical_topological_sort(blocks):
         pins = blocks.nodes[block]["members"]
         own = sorted(row for (pin, _), row in matched.items() if pin in pins)
-        fault = next((rows[row].fault for row in own if rows[row].fault), "")
-        if fault:
-            raise DefinitionError(f"{title}: {fault}")
+        faulty = next((rows[row] for row in own if rows[row].fault), None)
+        if faulty is not None:
+            raise DefinitionError(f"{title}: {faulty.fault}", member=faulty.link)
         return checked(grouped([pin for pin in parts.pins if pin in pins], [rows[row] for row in own]), title)
     raise DefinitionError(f"{title}: no pin is left to place.")
 
@@ -181,7 +185,8 @@ def matching(rows: list[Row], parts: Parts, title: str) -> dict[tuple[str, int],
     if free:
         raise DefinitionError(
             f"{title}: the parts leave {' '.join(free)} free: {len(rows)} conditions for {2 * len(loose)} coordinates of the pins "
-            f"{' '.join(loose)}. Add a link, a slide or a length that follows a stroke."
+            f"{' '.join(loose)}. Add a link, a slide or a length that follows a stroke.",
+            member=free[0],
         )
     return {each: found[place] - first for place, each in enumerate(coordinates)}
 
@@ -204,7 +209,8 @@ def checked(group: Group, title: str) -> Group:
     held, needed = len(group.given) + 2 * len(group.attached) + len(group.slides), 2 * len(group.pins)
     if held != needed:
         what = f"the pins {' '.join(group.pins)} are held by {held} different conditions, {needed} are needed"
-        raise DefinitionError(f"{title}: {what}; take out a link that joins the same pins as another one, and add one that holds them.")
+        remedy = "take out a link that joins the same pins as another one, and add one that holds them"
+        raise DefinitionError(f"{title}: {what}; {remedy}.", member=group.pins[0])
     return group
 
 
@@ -271,7 +277,8 @@ class Assembler:
         if isinstance(member, Step):
             named = copy(member)
             object.__setattr__(named, "_name", name)
-            member = sided(name, measured(name, named, self.settled, self.title), self.settled, self.title)
+            with about(name):
+                member = sided(name, measured(name, named, self.settled, self.title), self.settled, self.title)
         self.settled[name] = member
         self.parts.placed.add(name)
 

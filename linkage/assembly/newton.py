@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..plan import Plan
-from ..program import FloatArray, Kernel, Tangent, solve_arrays
+from ..program import FloatArray, Kernel, jacobian, solve_arrays
 from ..steps import Group
 
 Mask = npt.NDArray[np.bool_]
@@ -132,5 +132,4 @@ def equations(plan: Plan, group: Group) -> Kernel:
     roots = [part for place in pins for part in (place.x, place.y)]
     (closure,) = dict.fromkeys(root.closure for root in roots)
     assert closure is not None
-    columns = [Tangent(plan.trace.graph, {each: float(each is root) for each in roots}) for root in roots]
-    return Kernel([*closure.residuals, *(column.of(residual) for residual in closure.residuals for column in columns)])
+    return Kernel([*closure.residuals, *(entry for row in jacobian(plan.trace.graph, closure) for entry in row)])

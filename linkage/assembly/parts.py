@@ -222,4 +222,4 @@ def check_held(parts: Parts, title: str) -> None:
         holds = [name for name, link in parts.links.items() if pin in link.point_names]
         holds += [name for name, slide in parts.slides.items() if name_of(slide.point) == pin]
         if not holds:
-            raise DefinitionError(f"{title}: nothing holds the pin {pin}; say Link(...) or Slide(...) with it.")
+            raise DefinitionError(f"{title}: nothing holds the pin {pin}; say Link(...) or Slide(...) with it.", member=pin)

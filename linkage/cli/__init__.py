@@ -1,4 +1,4 @@
 """The command: `hydrolinkage`, same as `python -m linkage`."""
 
 from .command import Command
-from .main import main
+from .entry import main

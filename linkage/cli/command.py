@@ -8,11 +8,13 @@ from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from ..disk import check_place
 from ..errors import DefinitionError
-from ..mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from ..mechanism import Mechanism
 
 MOST = 100_000_000
 """Poses of a command."""
@@ -49,13 +51,13 @@ def path_argument(parser: ArgumentParser) -> None:
 
 def motion_arguments(parser: ArgumentParser, count: int) -> None:
     """Declare the arguments that choose the poses."""
-    parser.add_argument("--count", metavar="N", type=counted, default=count, help=f"poses over each stroke (default {count})")
+    parser.add_argument("--count", metavar="N", type=pose_count, default=count, help=f"poses over each stroke (default {count})")
     parser.add_argument(
         "--at", dest="strokes", metavar="S=0.6,650mm", action="append", default=[], help="chosen stroke values instead; repeatable"
     )
 
 
-def counted(text: str) -> int:
+def pose_count(text: str) -> int:
     """Return a count of at least 1; ArgumentTypeError for anything else."""
     try:
         count = int(text)
@@ -66,6 +68,13 @@ def counted(text: str) -> int:
     if count > MOST:
         raise ArgumentTypeError(f"{text} poses do not fit into memory; lower --count, such as to 1001")
     return count
+
+
+def lined_up(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Yield rows of text as lines whose cells start below each other."""
+    sizes = [max(map(len, cells)) for cells in zip(*rows, strict=True)]
+    for row in rows:
+        yield "  ".join(cell.ljust(size) for cell, size in zip(row, sizes, strict=True)).rstrip()
 
 
 # Where a picture goes: its path, checked before the work is done.

@@ -3,30 +3,21 @@
 from __future__ import annotations
 
 import sys
-import traceback
-from collections.abc import Callable
 from importlib import import_module
-from importlib.metadata import EntryPoint, entry_points
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeVar
 
-from ..errors import DefinitionError, LinkageError, unknown
+from ..errors import DefinitionError, unknown
 from ..loads import ForceElement
 from ..mechanism import Mechanism, declared
 from ..quantities import Member
+from .listing import OWN, guarded, registered
 
 Kind = TypeVar("Kind", bound=Mechanism)
 
-GROUP = "hydrolinkage.machines"
 SHOWN = 5
-OWN = "A machine of your own is written package.module:Class, file.py, file.py:Class, file.toml or file.json."
-
-
-def registered() -> dict[str, EntryPoint]:
-    """Return the installed machines by name."""
-    return {entry.name: entry for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name)}
 
 
 def find(text: str) -> type[Mechanism]:
@@ -35,7 +26,9 @@ def find(text: str) -> type[Mechanism]:
     if text in entries:
         return machine(guarded(entries[text].load, f"The machine {text} ({entries[text].value})"), text)
     if text.endswith((".toml", ".json")):
-        return of_file(text)
+        from ..files import load
+
+        return load(text)
     place, name = split(text)
     if place.endswith(".py"):
         return of_module(guarded(lambda: module_of_file(place), place), name, place)
@@ -65,46 +58,24 @@ def find_like(text: str, base: type[Kind], what: str, **instead: Any) -> type[Ki
 
 
 def lacking(found: type[Mechanism], base: type[Mechanism]) -> list[str]:
-    """Return the members and the dimensions of a class that another one does not have."""
-    own, other = declared(base), declared(found)
-    members = [name for name, member in own.items() if not (name in other and is_such(other[name], member))]
+    """Return the members and the dimensions of a class that another one does not have.
+
+    A member stands for another of its kind, a force element for one of its class.
+    """
+    other = declared(found)
+
+    def is_there(name: str, member: Member) -> bool:
+        own = other.get(name)
+        return own is not None and own.kind == member.kind and (type(own) is type(member) or not isinstance(member, ForceElement))
+
+    members = [name for name, member in declared(base).items() if not is_there(name, member)]
     return members + [name for name in base.plan.defaults if name not in found.plan.defaults and name not in members]
-
-
-def is_such(found: Member, wanted: Member) -> bool:
-    """Return whether a member may stand for another: of the same kind, a force element of the same class."""
-    return found.kind == wanted.kind and (type(found) is type(wanted) or not isinstance(wanted, ForceElement))
-
-
-def of_file(path: str) -> type[Mechanism]:
-    """Return the machine of a TOML or JSON file; FileError, with the keys, where it says none."""
-    from ..files import load
-
-    return load(path)
 
 
 def split(text: str) -> tuple[str, str]:
     """Return the place and the class of `place:Class`; the class is "" where none is named."""
     place, colon, name = text.rpartition(":")
     return (place, name) if colon and name.isidentifier() else (text, "")
-
-
-def guarded(load: Callable[[], Any], what: str) -> Any:
-    """Return what is loaded; whatever goes wrong in a user's module becomes a DefinitionError with its line."""
-    try:
-        return load()
-    except FileNotFoundError as error:
-        raise DefinitionError(f"{what}: {error.strerror or error}.") from error
-    except SyntaxError as error:
-        raise DefinitionError(f"{what} cannot be loaded: {error.filename}, line {error.lineno}: {error.msg}.") from error
-    except LinkageError as error:
-        raise DefinitionError(f"{what} cannot be loaded: {error}") from error
-    except KeyboardInterrupt:
-        raise
-    except BaseException as error:  # a script that leaves by sys.exit is one as well
-        last = traceback.extract_tb(error.__traceback__)[-1]
-        where = "" if last.filename.startswith("<") else f" ({last.filename}, line {last.lineno})"
-        raise DefinitionError(f"{what} cannot be loaded: {type(error).__name__}: {error}{where}.") from error
 
 
 def module_of_file(place: str) -> ModuleType:

@@ -6,12 +6,12 @@ from argparse import ArgumentParser, Namespace
 from typing import Any
 
 from ..mechanism import Mechanism
-from .command import Command, counted, machine_arguments, motion_arguments, path_argument, picture, picture_argument, progress_bar
+from .command import Command, machine_arguments, motion_arguments, path_argument, picture, picture_argument, pose_count, progress_bar
 from .machines import find
-from .settings import along, chosen, design, motion, picked, traced
+from .settings import columns_picked, design, motion_along, motion_at, stroke_values, traced_points
 
 
-class Plot(Command):
+class PlotCommand(Command):
     """Draws a picture into a file."""
 
     name = "plot"
@@ -36,10 +36,10 @@ class Plot(Command):
 
 def curves(machine: Mechanism, options: Namespace) -> Any:
     """Return the figure of the columns named, along one stroke."""
-    given = dict(chosen(machine.plan, text) for text in options.strokes)
+    given = dict(stroke_values(machine.plan, text) for text in options.strokes)
     many = [name for name, values in given.items() if len(values) > 1]
-    over = motion(machine, options.strokes, options.count) if many else along(machine, options.count, given)
-    columns = picked(machine, over, options.columns, [])
+    over = motion_at(machine, options.strokes, options.count) if many else motion_along(machine, options.count, given)
+    columns = columns_picked(machine, over, options.columns, [])
     from ..pictures import plot
 
     return plot(over, columns)
@@ -47,14 +47,14 @@ def curves(machine: Mechanism, options: Namespace) -> Any:
 
 def poses(machine: Mechanism, options: Namespace) -> Any:
     """Return the figure of the machine at the strokes chosen, else at its ends."""
-    at = dict(chosen(machine.plan, text) for text in options.strokes)
+    at = dict(stroke_values(machine.plan, text) for text in options.strokes)
     if at:
         machine.at(**{name: 0.5 * (stroke.start + stroke.end) for name, stroke in machine.strokes.items()} | at)
     else:
-        along(machine, options.count)
+        motion_along(machine, options.count)
     from ..pictures import draw
 
-    return draw(machine, at or None, traced(machine, options.path), options.count)
+    return draw(machine, at or None, traced_points(machine, options.path), options.count)
 
 
 # `hydrolinkage animate NAME -o FILE`: a machine over its stroke, with the live curve of a result.
@@ -62,7 +62,7 @@ def poses(machine: Mechanism, options: Namespace) -> Any:
 SUFFIXES = (".gif", ".mp4", ".html")
 
 
-class Animate(Command):
+class AnimateCommand(Command):
     """Writes an animation into a file."""
 
     name = "animate"
@@ -73,7 +73,7 @@ class Animate(Command):
         parser.add_argument("-o", "--output", metavar="FILE", required=True, help=f"{', '.join(SUFFIXES)}")
         parser.add_argument("--column", metavar="I", help="the column of `table` whose curve runs along (default: the last)")
         path_argument(parser)
-        parser.add_argument("--count", metavar="N", type=counted, default=60, help="poses over the stroke (default 60)")
+        parser.add_argument("--count", metavar="N", type=pose_count, default=60, help="poses over the stroke (default 60)")
         parser.add_argument(
             "--at", dest="strokes", metavar="S=0.6", action="append", default=[],
             help="hold a stroke at a value, or run between two: S=0.1,650mm; without it the first runs, others stand in their middle",
@@ -83,8 +83,8 @@ class Animate(Command):
         found = find(options.machine)
         path = picture(options.output, found, options.machine, SUFFIXES)
         machine = design(found, options.settings)
-        at, trace = dict(chosen(machine.plan, text) for text in options.strokes), traced(machine, options.path)
-        along(machine, options.count, at)
+        at, trace = dict(stroke_values(machine.plan, text) for text in options.strokes), traced_points(machine, options.path)
+        motion_along(machine, options.count, at)
         from ..pictures import animate
 
         with progress_bar(f"drawing {path.name}") as progress:

@@ -24,22 +24,22 @@ def setting(plan: Plan, text: str) -> tuple[str, Any]:
     """Return a setting as a name and its SI value; a point's value is a pair."""
     name, value = pair(text, "--set", "OB=180mm")
     if name in plan.table.spellings:
-        return name, number(value, measure(plan, plan.table.spellings[name][0]), f"--set {name}")
+        return name, si_value(value, measure(plan, plan.table.spellings[name][0]), f"--set {name}")
     if f"{name}.x" in plan.table.spellings or f"{name}.y" in plan.table.spellings:
-        return name, place(name, value)
+        return name, point_setting(name, value)
     if name in plan.strokes:
         raise DefinitionError(f"--set {text}: {name} is a stroke of {plan.title}, not a dimension; `table` takes --at {text}.")
     plan.table.settings({name: 0.0})
     raise unknown("Dimension", name, plan.table.names(), where=plan.title)
 
 
-def place(name: str, text: str) -> tuple[float, ...]:
+def point_setting(name: str, text: str) -> tuple[float, ...]:
     """Return a point's two coordinates [m]."""
     parts = text.split(",")
     if len(parts) != 2:
         example = f"{name}=0.22,950mm; decimals are written with a point"
         raise DefinitionError(f"--set {name}={text}: a point takes two coordinates, such as {example}.")
-    return tuple(number(part, "length", f"--set {name}") for part in parts)
+    return tuple(si_value(part, "length", f"--set {name}") for part in parts)
 
 
 def pair(text: str, option: str, example: str) -> tuple[str, str]:
@@ -50,7 +50,7 @@ def pair(text: str, option: str, example: str) -> tuple[str, str]:
     return name, value
 
 
-def number(text: str, kind: str, what: str) -> float:
+def si_value(text: str, kind: str, what: str) -> float:
     """Return the SI value of a text that measures `kind`."""
     try:
         return parse(text, kind)
@@ -58,19 +58,19 @@ def number(text: str, kind: str, what: str) -> float:
         raise DefinitionError(f"{what}: {error}") from None
 
 
-def motion(machine: Mechanism, texts: Sequence[str], count: int) -> Motion:
+def motion_at(machine: Mechanism, texts: Sequence[str], count: int) -> Motion:
     """Return the motion at strokes such as `S=0.6,650mm`; those not given go over their range at `count` poses.
 
     Several that take more than one value make a grid.
     """
-    given = dict(chosen(machine.plan, text) for text in texts)
+    given = dict(stroke_values(machine.plan, text) for text in texts)
     axes = {name: given.get(name, np.linspace(stroke.start, stroke.end, count)) for name, stroke in machine.strokes.items()}
     many = {name: axis for name, axis in axes.items() if len(axis) > 1 or name not in given}
     grids = dict(zip(many, np.meshgrid(*many.values(), indexing="ij"), strict=True)) if many else {}
     return machine.at(**{name: grids.get(name, axis[0]) for name, axis in axes.items()})
 
 
-def along(machine: Mechanism, count: int, at: At = NOTHING) -> Motion:
+def motion_along(machine: Mechanism, count: int, at: At = NOTHING) -> Motion:
     """Return the motion along one stroke, the others held as `at` says, else in their middle: what a picture of the whole shows.
 
     Raises AssemblyError where it cannot be assembled; a picture would leave those poses out.
@@ -79,16 +79,16 @@ def along(machine: Mechanism, count: int, at: At = NOTHING) -> Motion:
     return machine.at(**run.over(np.linspace(run.start, run.end, count)))
 
 
-def chosen(plan: Plan, text: str) -> tuple[str, Any]:
-    """Return a stroke's name and its chosen values, shape (n,) [m or rad]."""
+def stroke_values(plan: Plan, text: str) -> tuple[str, Any]:
+    """Return a stroke's name and its values, shape (n,) [m or rad]."""
     name, values = pair(text, "--at", "S=0.6,650mm")
     if name not in plan.strokes:
         raise unknown("Stroke", name, plan.strokes, where=plan.title)
     kind = "angle" if stroke_unit(plan, name) == "rad" else "length"
-    return name, np.array([number(value, kind, f"--at {name}") for value in values.split(",")])
+    return name, np.array([si_value(value, kind, f"--at {name}") for value in values.split(",")])
 
 
-def picked(machine: Mechanism, motion: Motion, names: Sequence[str], strokes: Sequence[str]) -> list[Column]:
+def columns_picked(machine: Mechanism, motion: Motion, names: Sequence[str], strokes: Sequence[str]) -> list[Column]:
     """Return the columns of some names, in their order, after the strokes'; all where none is named."""
     plan, columns = machine.plan, results(machine, motion)
     known = {column.name: column for column in columns}
@@ -103,6 +103,6 @@ def picked(machine: Mechanism, motion: Motion, names: Sequence[str], strokes: Se
     return [known[name] for name in dict.fromkeys([*(name for name in strokes if name in known), *names])]
 
 
-def traced(machine: Mechanism, names: Sequence[str] | None) -> tuple[str, ...]:
+def traced_points(machine: Mechanism, names: Sequence[str] | None) -> tuple[str, ...]:
     """Return the points whose paths are drawn: those named, else the last one built."""
     return machine.plan.moving[-1:] if names is None else tuple(names)

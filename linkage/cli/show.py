@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Iterator
 from inspect import cleandoc
@@ -12,16 +11,16 @@ from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
 from ..plan import printed
 from ..quantities import Dimension
-from ..reports import aligned, design_rows, stroke_rows
-from .command import Command, machine_arguments
-from .machines import OWN, find, registered
-from .settings import design, motion
+from ..reports import design_rows, stroke_rows
+from .command import Command, lined_up, machine_arguments
+from .machines import find
+from .settings import design, motion_at
 
 POSES = {0: 1, 1: 101, 2: 21}
 MANY = 7  # poses of each of three or more strokes
 
 
-class Show(Command):
+class ShowCommand(Command):
     """Prints a machine in sections."""
 
     name = "show"
@@ -34,24 +33,26 @@ class Show(Command):
     def run(self, options: Namespace) -> int:
         machine = design(find(options.machine), options.settings)
         for title, lines in sections(machine):
-            section(title, lines)
+            print_section(title, lines)
         if options.equations:
-            section("Equations", equations(machine).splitlines())
+            from ..formulas import equations
+
+            print_section("Equations", str(equations(machine)).splitlines())
         poses = POSES.get(len(machine.strokes), MANY)
-        section("Verdict", said(machine, machine.verdicts(motion(machine, [], poses))))
+        print_section("Verdict", verdict_lines(machine, machine.verdicts(motion_at(machine, [], poses))))
         return 0
 
 
 def sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:
     """Yield the title and the lines of each section that describes a design."""
     yield type(machine).__name__, cleandoc(type(machine).__doc__ or "").splitlines()
-    yield "Strokes", aligned(list(stroke_rows(machine)))
-    yield "Design variables", aligned(list(design_rows(machine)))
-    yield "Bodies", bodies(machine)
+    yield "Strokes", lined_up(list(stroke_rows(machine)))
+    yield "Design variables", lined_up(list(design_rows(machine)))
+    yield "Bodies", body_lines(machine)
     yield "Construction, in order", construction(machine)
 
 
-def bodies(machine: Mechanism) -> Iterator[str]:
+def body_lines(machine: Mechanism) -> Iterator[str]:
     """Yield the rigid bodies, the cylinders, and the count of freedoms."""
     cylinders = machine.plan.cylinders
     yield from map(str, machine.links)
@@ -67,55 +68,23 @@ def construction(machine: Mechanism) -> Iterator[str]:
     yield from (f"{name} = {text}" for name, text in printed(machine.plan, changed).items() if name not in dimensions)
 
 
-def equations(machine: Mechanism) -> str:
-    """Return the machine's vector equations as text."""
-    from ..formulas import equations as worked_out
-
-    return str(worked_out(machine))
-
-
-def said(machine: Mechanism, verdicts: Any) -> list[str]:
+def verdict_lines(machine: Mechanism, verdicts: Any) -> list[str]:
     """Return a machine's verdicts; DefinitionError where its own `verdicts` gives something else than sentences."""
     if not isinstance(verdicts, (list, tuple)) or not all(isinstance(each, str) for each in verdicts):
         raise DefinitionError(f"{machine.plan.title}: verdicts(motion) gives {cited(verdicts)}; a list of sentences is expected.")
     return list(verdicts)
 
 
-def section(title: str, lines: Iterable[str]) -> None:
+def print_section(title: str, lines: Iterable[str]) -> None:
     """Print a section; nothing where it has no lines."""
     text = [f"  {line}".rstrip() for line in lines]
     if text:
         print("\n".join([title, *text, ""]))
 
 
-# `hydrolinkage list`: the machines there are.
-
-class List(Command):
-    """Prints every installed machine with its first line."""
-
-    name = "list"
-    help = "the machines there are"
-
-    def add(self, parser: ArgumentParser) -> None:
-        """Declare nothing."""
-
-    def run(self, options: Namespace) -> int:
-        rows = []
-        for name in registered():
-            try:
-                rows.append((name, (find(name).__doc__ or "").strip().partition("\n")[0]))
-            except DefinitionError as error:
-                print(f"hydrolinkage: warning: {error}", file=sys.stderr)
-        if not rows:
-            raise DefinitionError(f"No machine is installed; install the package (pip install -e .). {OWN}")
-        for line in aligned(rows):
-            print(line)
-        return 0
-
-
 # `hydrolinkage save NAME FILE`: a machine as a mechanism file, and what such a file does not hold.
 
-class Save(Command):
+class SaveCommand(Command):
     """Writes a machine into a file."""
 
     name = "save"

@@ -14,12 +14,12 @@ from ..motion import Column
 from ..reports import rich_tables, text_table, write_csv
 from .command import Command, machine_arguments, motion_arguments, progress_bar
 from .machines import find
-from .settings import design, motion, picked
+from .settings import columns_picked, design, motion_at
 
 RICH_ROWS = 500  # a longer table is printed plain, which takes no time
 
 
-class Table(Command):
+class TableCommand(Command):
     """Prints or writes the table of results."""
 
     name = "table"
@@ -33,8 +33,8 @@ class Table(Command):
 
     def run(self, options: Namespace) -> int:
         machine = design(find(options.machine), options.settings)
-        poses = motion(machine, options.strokes, options.count)
-        columns = picked(machine, poses, options.columns, list(poses.strokes))
+        poses = motion_at(machine, options.strokes, options.count)
+        columns = columns_picked(machine, poses, options.columns, list(poses.strokes))
         write_table(columns, poses.reached.size, options.csv)
         return 0
 
@@ -50,14 +50,14 @@ def write_table(columns: Sequence[Column], rows: int, csv: str | None) -> None:
         print_table(columns, rows)
     elif csv == "-":
         keep_line_ends(sys.stdout)
-        save(columns, sys.stdout)
+        write_with_progress(columns, sys.stdout)
     else:
         with replacing_text(csv) as stream:
-            save(columns, stream)
+            write_with_progress(columns, stream)
         print(f"{csv}: {rows} rows")
 
 
-def save(columns: Sequence[Column], stream: TextIO) -> None:
+def write_with_progress(columns: Sequence[Column], stream: TextIO) -> None:
     """Write CSV, with a progress bar."""
     with progress_bar("writing CSV") as progress:
         write_csv(columns, stream, progress)

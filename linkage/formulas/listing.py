@@ -10,13 +10,12 @@ from typing import Any
 import sympy
 
 from ..plan import Plan
-from ..quantities import Member, Quantity, Reference, Turning, Variable, name_of, spelled
-from ..steps import Arrow, CosineAngle, Ground, Group, Guide, Offset, Pin, Point, Turn, Vector
-from ..steps.expansion import Assignment, Axis, expansion
+from ..quantities import Member, Quantity, Reference, Tabulated, Turning, Variable, name_of, spelled
+from ..steps import Arrow, Assignment, Axis, CosineAngle, Group, Guide, Offset, Point, Turn, Vector
 from ..vectors import Line
-from .names import Names
+from .names import SymbolNames
 from .printing import Text
-from .symbolic import ANGLE, FUNCTIONS, LENGTH, NUMBER, Place, Term, Unit, input_units, term
+from .symbolic import ANGLE, FUNCTIONS, LENGTH, NUMBER, Place, Term, Unit, curve_function, input_units, term
 from .words import Direction, Norm, Tcos, TurnV, TurnVL, vector_symbol
 
 # What each primitive is written as; any other step by its own rule, in components.
@@ -54,14 +53,6 @@ def _(member: Turn, reading: Any) -> Any:
 
 
 @written.register
-def _(member: Ground, reading: Any) -> Any:
-    """Return the coordinates where one of them is a formula; None for plain numbers, which are given."""
-    place = member.place(reading)
-    formula = any(not value.is_constant for _, value in member.coordinates())
-    return sympy.ImmutableMatrix([term(place.x).expr, term(place.y).expr]) if formula else None
-
-
-@written.register
 def _(member: Guide, reading: Any) -> Any:
     """Return the guide's direction, of length one."""
     if member.Q is not None:
@@ -79,8 +70,13 @@ def _(member: Offset, reading: Any) -> Any:
 
 @written.register
 def _(member: Point, reading: Any) -> Any:
+    """Return a point's place by its own rule; of one that is given by coordinates these where one is a formula, else None."""
     place: Any = member.place(reading)
-    return place.expr
+    given = member.coordinates()
+    if not given:
+        return place.expr
+    is_formula = any(not value.is_constant for _, value in given)
+    return sympy.ImmutableMatrix([term(place.x).expr, term(place.y).expr]) if is_formula else None
 
 
 # A line of the listing: what stands for what.
@@ -103,7 +99,7 @@ class Listing:
     """A reading (see `linkage.quantities.Where`) whose scalars are terms; asking for a member writes its lines first."""
 
     def __init__(self, plan: Plan) -> None:
-        self.plan, self.names, self.units = plan, Names(plan), input_units(plan)
+        self.plan, self.names, self.units = plan, SymbolNames(plan), input_units(plan)
         self.lines: list[Written] = []
         self.unknowns: list[str] = []
         self._vectors: dict[Any, Any] = {}
@@ -136,13 +132,14 @@ class Listing:
         """Return a point."""
         name = name_of(point)
         if name not in self._vectors:
-            self._point(name, self.plan.members[name])
+            self._point(name, self.plan.points[name])
         return Place(lambda: self._vectors[name], self, (name,))
 
-    def _point(self, name: str, step: Member) -> None:
-        if isinstance(step, Pin) and step.group is not None:
-            return self._group(step.group)
-        assignments = expansion(step) or (Assignment(name, step),)
+    def _point(self, name: str, step: Point) -> None:
+        group = next((each for each in self.plan.groups.values() if name in each.pins), None)
+        if group is not None:
+            return self._group(group)
+        assignments = step.expansion() or (Assignment(name, step),)
         self._kept.extend(assignments)
         for each in assignments:
             self.assign(each)
@@ -157,7 +154,7 @@ class Listing:
             length = self.value(rod.length)
             self.lines.append(Written(Norm(self.between(rod.P, rod.Q)), length.expr, LENGTH))
         for step in group.rigid:
-            for each in expansion(step):
+            for each in step.expansion():
                 self._kept.append(each)
                 self.assign(each)
         for slide in group.slides:
@@ -294,6 +291,10 @@ class Listing:
         along = Place(lambda: self._vectors["line", name], self, unit=NUMBER)
         start: Any = Place(lambda: self.names.vector(name), self) if member.P is None else self.at(member.P)
         return Line(start, along)  # type: ignore[arg-type]
+
+    def curve(self, curve: Tabulated, x: Any, order: int = 0) -> Term:
+        """Return what a table gives, by its name."""
+        return Term(curve_function(curve, order)(term(x).expr))
 
     def angle_of(self, vector: Any) -> Term:
         """Return a vector's direction."""

@@ -13,7 +13,7 @@ from ..steps import Arrow, Guide
 from .words import point_symbol, vector_symbol
 
 
-class Names:
+class SymbolNames:
     """The symbols of a mechanism, each thing one, and their text and LaTeX. No two things share a text."""
 
     def __init__(self, plan: Plan) -> None:

@@ -17,11 +17,61 @@ from ..motion.requests import stroke_of
 from ..quantities import is_whole
 from .listing import X_AXIS, Listing, Written
 from .printing import Latex, Text, plain_number
-from .rates import needed, ratio_lines
+from .rates import lines_needed, ratio_lines
 from .symbolic import LENGTH, Unit
 from .words import Cross, Direction, Dot, Tcos, TurnV, TurnVL, explicit
 
-# One numbered equation.
+
+def equations(
+    machine: Mechanism | type[Mechanism],
+    *,
+    start: int = 1,
+    numbers: bool = False,
+    at: Mapping[str, float] | None = None,
+    ratio: str | Sequence[str] = (),
+    wrt: str | None = None,
+) -> Equations:
+    """Return a mechanism's equations, numbered from `start`, in the vector method's primitives; see `linkage.equations`."""
+    design = machine() if isinstance(machine, type) and issubclass(machine, Mechanism) else machine
+    check_given(design, start, at)
+    listing = Listing(design.plan)
+    listing.write(declared(type(design)))
+    lines = list(listing.lines)
+    for target in [ratio] if isinstance(ratio, str) else ratio:
+        added = differentiated(design, listing, target, wrt)
+        lines += [line for line in added if line.lhs not in {each.lhs for each in lines}]
+    return Equations(design, lines, listing, start, {} if numbers and at is None else at if numbers or at else None)
+
+
+def check_given(design: Any, start: Any, at: Any) -> None:
+    """Raise DefinitionError for what is no mechanism, no number to begin with, or no pose."""
+    require_mechanism(design)
+    if not is_whole(start):
+        raise DefinitionError(f"start={cited(start)}: the first equation's number is expected, such as 1.")
+    if at is not None and not isinstance(at, Mapping):
+        raise DefinitionError(f"{design.plan.title}: at={cited(at)}: values of strokes by name are expected, such as at=dict(S=0.1).")
+
+
+def differentiated(design: Mechanism, listing: Listing, target: str, wrt: str | None) -> list[Written]:
+    """Return the lines that lead to a target's transfer ratio; DefinitionError for a name without one."""
+    plan = design.plan
+    known = members_with_lines(listing)
+    if target not in known:
+        raise unknown("Point or output", target, known, where=plan.title)
+    stroke = stroke_of(plan, wrt)
+    together = {listing.names.vector(pin) for pin in listing.unknowns}
+    if together & {known[target], *(symbol for line in lines_needed(listing.lines, known[target]) for symbol in line.rhs.free_symbols)}:
+        pins = " ".join(listing.unknowns)
+        raise DefinitionError(f"{plan.title}: {target} hangs on pins found together ({pins}): no chain of derivatives; take motion.ratio.")
+    return ratio_lines(listing.lines, known[target], listing.names.quantity(stroke), listing.units[stroke], listing.names)
+
+
+def members_with_lines(listing: Listing) -> dict[str, Any]:
+    """Return the members that have a line, by their names in the class."""
+    lines = {line.lhs for line in listing.lines}
+    symbols = {name: listing.symbol_of(name) for name in listing.plan.named()}
+    return {name: symbol for name, symbol in symbols.items() if symbol in lines or name in listing.unknowns}
+
 
 @dataclass(frozen=True, eq=False)
 class Equation:
@@ -71,122 +121,11 @@ class Equation:
         return f"({self.number}) {self}"
 
 
-def shown(value: Any, unit: Unit) -> str:
+def value_in_equation(value: Any, unit: Unit) -> str:
     """Return a value as it stands in an equation: a pair, an angle in degrees, a plain number [SI or its own unit]."""
     if np.ndim(value):
         return f"({', '.join(plain_number(float(part) / unit.factor) for part in value)})"
     return plain_number(float(value) / unit.factor) + (" deg" if unit.text == "deg" else "")
-
-
-# What stands in front of the equations: the words' definitions, the sign convention, and what is given.
-
-WIDTH = 110
-TOGETHER = "\N{NO-BREAK SPACE}"
-CONVENTION = (
-    "x to the right, y up; angles counter-clockwise positive; lengths in m.",
-    "One letter is the position of a point, two are the vector between two points: AB = B - A.",
-)
-DEFINITIONS: tuple[tuple[tuple[Any, ...], str], ...] = (
-    ((TurnV, TurnVL), "TurnV(V, a): the vector V turned by the angle a, counter-clockwise for a > 0"),
-    ((TurnVL,), "TurnVL(V, a, L) = TurnV(V, a)*L/|V|"),
-    ((Tcos,), "Tcos(L1, L2, L3) = acos((L1**2 + L2**2 - L3**2)/(2*L1*L2)): the angle between the sides L1 and L2"),
-    ((Direction,), "angle(V): the direction of V, counter-clockwise from the x axis"),
-    ((Dot,), "dot(U, V) = U_x*V_x + U_y*V_y"),
-    ((Cross,), "cross(U, V) = U_x*V_y - U_y*V_x"),
-)
-LATEX: tuple[tuple[tuple[Any, ...], str], ...] = (
-    (
-        (TurnV, TurnVL),
-        r"\operatorname{TurnV}\left(\vec{V}, a\right) &= "
-        r"\begin{pmatrix} V_x \cos a - V_y \sin a \\ V_x \sin a + V_y \cos a \end{pmatrix}",
-    ),
-    (
-        (TurnVL,),
-        r"\operatorname{TurnV}_{L}\left(\vec{V}, a, L\right) &= "
-        r"\operatorname{TurnV}\left(\vec{V}, a\right) \frac{L}{\left|\vec{V}\right|}",
-    ),
-    ((Tcos,), r"\operatorname{Tcos}\left(L_1, L_2, L_3\right) &= \arccos \frac{L_1^2 + L_2^2 - L_3^2}{2 L_1 L_2}"),
-)
-
-
-def uses(equations: Any, words: tuple[Any, ...]) -> bool:
-    """Return whether the equations use one of some words."""
-    return any(each.rhs.has(*words) for each in equations)
-
-
-def legend(equations: Any, listing: Listing, values: dict[str, str]) -> list[str]:
-    """Return the lines in front: conventions, definitions, and what is given, with `values` where there are any."""
-    lines = [*CONVENTION, *(text for words, text in DEFINITIONS if uses(equations, words))]
-    if uses(equations, (X_AXIS,)):
-        lines.append("i: the unit vector of the x axis")
-    if listing.unknowns:
-        lines.append(f"{', '.join(listing.unknowns)}: found together, so that the equations in which they stand hold.")
-    return [*lines, *given(equations, listing, values)]
-
-
-def given(equations: Any, listing: Listing, values: dict[str, str]) -> list[str]:
-    """Return what the equations start from: strokes, points, dimensions; `Given: S; A, O; L0, L_OB`."""
-    plan, names = listing.plan, listing.names
-    made = {each.lhs for each in equations}
-    used = set().union(*(each.symbols for each in equations)) - made if len(equations) else set()
-    strokes = [names.quantity(name) for name in plan.strokes]
-    points = [names.vector(name) for name in listing.given_points if name not in listing.unknowns]
-    dimensions = [names.quantity(name) for name in plan.table.entries]
-    units = {names.quantity(name).name: unit for name, unit in listing.units.items()}
-    groups = [[worded(symbol, values, units) for symbol in group if symbol in used] for group in (strokes, points, dimensions)]
-    listed = "; ".join(", ".join(group) for group in groups if group)
-    lines = wrap(f"Given: {listed}.", width=WIDTH, subsequent_indent="  ", break_long_words=False) if listed else []
-    return [line.replace(TOGETHER, " ") for line in lines]
-
-
-def worded(symbol: Any, values: dict[str, str], units: dict[str, Unit]) -> str:
-    """Return a given symbol, with its value and unit where that is known."""
-    if symbol.name not in values:
-        return str(symbol.name)
-    value, unit = values[symbol.name], LENGTH if symbol.is_Matrix else units[symbol.name]
-    text = f"{symbol.name} = {value}" if value.endswith(" deg") else f"{symbol.name} = {value} {unit.text}".rstrip()
-    return text.replace(" ", TOGETHER)
-
-
-def latex_legend(equations: Any) -> list[str]:
-    """Return the definitions as an unnumbered `align*` environment; nothing where none is used."""
-    rows = [text for words, text in LATEX if uses(equations, words)]
-    return [r"\begin{align*}", " \\\\\n".join(f"  {row}" for row in rows), r"\end{align*}"] if rows else []
-
-
-# Numbers for the equations: each line evaluated from those before it, on arrays or to any number of digits.
-
-def evaluated(lines: Sequence[Written], inputs: Mapping[Any, Any], digits: int | None = None) -> dict[Any, Any]:
-    """Return every line's value [SI]: a scalar or a pair, by its symbol.
-
-    `inputs` are the plain symbols' values. With `digits` mpmath works at that many digits and the values
-    are SymPy's; else both are NumPy's.
-    """
-    if digits is None:
-        with np.errstate(all="ignore"):
-            return _chain(lines, dict(inputs), "numpy")
-    with mpmath.workdps(digits + 10):
-        exact = {symbol: mpmath.mpf(repr(float(value))) for symbol, value in inputs.items()}
-        found = _chain(lines, exact, "mpmath")
-    return {symbol: _rounded(value, digits) for symbol, value in found.items()}
-
-
-def _rounded(value: Any, digits: int) -> Any:
-    """Return mpmath numbers as SymPy's, which keep their digits wherever they are shown."""
-    return tuple(_rounded(part, digits) for part in value) if isinstance(value, tuple) else sympy.Float(value, digits)
-
-
-def _chain(lines: Sequence[Written], known: dict[Any, Any], arithmetic: str) -> dict[Any, Any]:
-    known |= dict(zip(explicit(X_AXIS), (1.0, 0.0), strict=True))
-    found: dict[Any, Any] = {}
-    for line in lines:
-        expressions = explicit(line.rhs)
-        needed = sorted(set().union(*(each.free_symbols for each in expressions)), key=str)
-        function = sympy.lambdify(needed, expressions, arithmetic, dummify=True)
-        values = function(*(known[symbol] for symbol in needed))
-        known |= dict(zip(explicit(line.lhs), values, strict=True))
-        found[line.lhs] = values[0] if len(values) == 1 else tuple(values)
-    return found
 
 
 class Equations(Sequence[Equation]):
@@ -199,7 +138,7 @@ class Equations(Sequence[Equation]):
         self.machine, self._listing, self._lines, self._poses = machine, listing, tuple(lines), poses
         strokes = [listing.names.quantity(name) for name in machine.plan.strokes]
         numbered = enumerate(lines, start)
-        self._items = tuple(Equation(number, line.lhs, line.rhs, line.unit, follows(line, strokes)) for number, line in numbered)
+        self._items = tuple(Equation(number, line.lhs, line.rhs, line.unit, strokes_followed(line, strokes)) for number, line in numbered)
 
     def __len__(self) -> int:
         return len(self._items)
@@ -289,12 +228,12 @@ class Equations(Sequence[Equation]):
         texts = {"i": "(1, 0)"} if "i" not in self.machine.plan.members else {}
         for name in (*self.machine.dimensions, *self.machine.plan.strokes):
             symbol = names.quantity(name)
-            texts[symbol.name] = shown(inputs[symbol], units[name])
+            texts[symbol.name] = value_in_equation(inputs[symbol], units[name])
         for point in self._listing.given_points:
             symbol = names.vector(point)
-            texts[symbol.name] = shown([inputs[part] for part in explicit(symbol)], LENGTH)
+            texts[symbol.name] = value_in_equation([inputs[part] for part in explicit(symbol)], LENGTH)
         values = evaluated(self._lines, inputs)
-        return texts | {line.name: shown(values[line.lhs], line.unit) for line in self._lines}
+        return texts | {line.name: value_in_equation(values[line.lhs], line.unit) for line in self._lines}
 
     def __str__(self) -> str:
         return self.text()
@@ -312,64 +251,119 @@ class Equations(Sequence[Equation]):
         return self.latex()
 
 
-def follows(line: Written, strokes: Sequence[Any]) -> tuple[Any, ...]:
+def strokes_followed(line: Written, strokes: Sequence[Any]) -> tuple[Any, ...]:
     """Return the strokes that a scalar's own formula names: L_AB(S)."""
     if not line.lhs.is_Symbol or "/" in line.lhs.name:
         return ()
     return tuple(stroke for stroke in strokes if stroke in line.rhs.free_symbols)
 
 
-def equations(
-    machine: Mechanism | type[Mechanism],
-    *,
-    start: int = 1,
-    numbers: bool = False,
-    at: Mapping[str, float] | None = None,
-    ratio: str | Sequence[str] = (),
-    wrt: str | None = None,
-) -> Equations:
-    """Return a mechanism's equations, numbered from `start`, in the vector method's primitives.
+# What stands in front of the equations: the words' definitions, the sign convention, and what is given.
 
-    `numbers` fills the numbers in at the pose `at` (default: the start of each stroke). `ratio` names points and
-    outputs whose derivatives by the stroke `wrt` are added. Source of notation and order: Dyuzhev, Kotov, Chuprynin,
-    "Universality of the hitch of the power vehicle UES-2-250A" (Minsk, 2008), equations (4) to (27).
+WIDTH = 110
+TOGETHER = "\N{NO-BREAK SPACE}"
+CONVENTION = (
+    "x to the right, y up; angles counter-clockwise positive; lengths in m.",
+    "One letter is the position of a point, two are the vector between two points: AB = B - A.",
+)
+DEFINITIONS: tuple[tuple[tuple[Any, ...], str], ...] = (
+    ((TurnV, TurnVL), "TurnV(V, a): the vector V turned by the angle a, counter-clockwise for a > 0"),
+    ((TurnVL,), "TurnVL(V, a, L) = TurnV(V, a)*L/|V|"),
+    ((Tcos,), "Tcos(L1, L2, L3) = acos((L1**2 + L2**2 - L3**2)/(2*L1*L2)): the angle between the sides L1 and L2"),
+    ((Direction,), "angle(V): the direction of V, counter-clockwise from the x axis"),
+    ((Dot,), "dot(U, V) = U_x*V_x + U_y*V_y"),
+    ((Cross,), "cross(U, V) = U_x*V_y - U_y*V_x"),
+)
+LATEX: tuple[tuple[tuple[Any, ...], str], ...] = (
+    (
+        (TurnV, TurnVL),
+        r"\operatorname{TurnV}\left(\vec{V}, a\right) &= "
+        r"\begin{pmatrix} V_x \cos a - V_y \sin a \\ V_x \sin a + V_y \cos a \end{pmatrix}",
+    ),
+    (
+        (TurnVL,),
+        r"\operatorname{TurnV}_{L}\left(\vec{V}, a, L\right) &= "
+        r"\operatorname{TurnV}\left(\vec{V}, a\right) \frac{L}{\left|\vec{V}\right|}",
+    ),
+    ((Tcos,), r"\operatorname{Tcos}\left(L_1, L_2, L_3\right) &= \arccos \frac{L_1^2 + L_2^2 - L_3^2}{2 L_1 L_2}"),
+)
+
+
+def uses(equations: Any, words: tuple[Any, ...]) -> bool:
+    """Return whether the equations use one of some words."""
+    return any(each.rhs.has(*words) for each in equations)
+
+
+def legend(equations: Any, listing: Listing, values: dict[str, str]) -> list[str]:
+    """Return the lines in front: conventions, definitions, and what is given, with `values` where there are any."""
+    lines = [*CONVENTION, *(text for words, text in DEFINITIONS if uses(equations, words))]
+    if uses(equations, (X_AXIS,)):
+        lines.append("i: the unit vector of the x axis")
+    if listing.unknowns:
+        lines.append(f"{', '.join(listing.unknowns)}: found together, so that the equations in which they stand hold.")
+    return [*lines, *given_lines(equations, listing, values)]
+
+
+def given_lines(equations: Any, listing: Listing, values: dict[str, str]) -> list[str]:
+    """Return what the equations start from: strokes, points, dimensions; `Given: S; A, O; L0, L_OB`."""
+    plan, names = listing.plan, listing.names
+    made = {each.lhs for each in equations}
+    used = set().union(*(each.symbols for each in equations)) - made if len(equations) else set()
+    strokes = [names.quantity(name) for name in plan.strokes]
+    points = [names.vector(name) for name in listing.given_points if name not in listing.unknowns]
+    dimensions = [names.quantity(name) for name in plan.table.entries]
+    units = {names.quantity(name).name: unit for name, unit in listing.units.items()}
+    groups = [[worded(symbol, values, units) for symbol in group if symbol in used] for group in (strokes, points, dimensions)]
+    listed = "; ".join(", ".join(group) for group in groups if group)
+    lines = wrap(f"Given: {listed}.", width=WIDTH, subsequent_indent="  ", break_long_words=False) if listed else []
+    return [line.replace(TOGETHER, " ") for line in lines]
+
+
+def worded(symbol: Any, values: dict[str, str], units: dict[str, Unit]) -> str:
+    """Return a given symbol, with its value and unit where that is known."""
+    if symbol.name not in values:
+        return str(symbol.name)
+    value, unit = values[symbol.name], LENGTH if symbol.is_Matrix else units[symbol.name]
+    text = f"{symbol.name} = {value}" if value.endswith(" deg") else f"{symbol.name} = {value} {unit.text}".rstrip()
+    return text.replace(" ", TOGETHER)
+
+
+def latex_legend(equations: Any) -> list[str]:
+    """Return the definitions as an unnumbered `align*` environment; nothing where none is used."""
+    rows = [text for words, text in LATEX if uses(equations, words)]
+    return [r"\begin{align*}", " \\\\\n".join(f"  {row}" for row in rows), r"\end{align*}"] if rows else []
+
+
+# Numbers for the equations: each line evaluated from those before it, on arrays or to any number of digits.
+
+def evaluated(lines: Sequence[Written], inputs: Mapping[Any, Any], digits: int | None = None) -> dict[Any, Any]:
+    """Return every line's value [SI]: a scalar or a pair, by its symbol.
+
+    `inputs` are the plain symbols' values. With `digits` mpmath works at that many digits and the values
+    are SymPy's; else both are NumPy's.
     """
-    design = machine() if isinstance(machine, type) and issubclass(machine, Mechanism) else machine
-    check_asked(design, start, at)
-    listing = Listing(design.plan)
-    listing.write(declared(type(design)))
-    lines = list(listing.lines)
-    for target in [ratio] if isinstance(ratio, str) else ratio:
-        added = differentiated(design, listing, target, wrt)
-        lines += [line for line in added if line.lhs not in {each.lhs for each in lines}]
-    return Equations(design, lines, listing, start, {} if numbers and at is None else at if numbers or at else None)
+    if digits is None:
+        with np.errstate(all="ignore"):
+            return _evaluated(lines, dict(inputs), "numpy")
+    with mpmath.workdps(digits + 10):
+        exact = {symbol: mpmath.mpf(repr(float(value))) for symbol, value in inputs.items()}
+        found = _evaluated(lines, exact, "mpmath")
+    return {symbol: _rounded(value, digits) for symbol, value in found.items()}
 
 
-def check_asked(design: Any, start: Any, at: Any) -> None:
-    """Raise DefinitionError for what is no mechanism, no number to begin with, or no pose."""
-    require_mechanism(design)
-    if not is_whole(start):
-        raise DefinitionError(f"start={cited(start)}: the first equation's number is expected, such as 1.")
-    if at is not None and not isinstance(at, Mapping):
-        raise DefinitionError(f"{design.plan.title}: at={cited(at)}: values of strokes by name are expected, such as at=dict(S=0.1).")
+def _rounded(value: Any, digits: int) -> Any:
+    """Return mpmath numbers as SymPy's, which keep their digits wherever they are shown."""
+    return tuple(_rounded(part, digits) for part in value) if isinstance(value, tuple) else sympy.Float(value, digits)
 
 
-def differentiated(design: Mechanism, listing: Listing, target: str, wrt: str | None) -> list[Written]:
-    """Return the lines that lead to a target's transfer ratio; DefinitionError for a name without one."""
-    plan = design.plan
-    known = named(listing)
-    if target not in known:
-        raise unknown("Point or output", target, known, where=plan.title)
-    stroke = stroke_of(plan, wrt)
-    together = {listing.names.vector(pin) for pin in listing.unknowns}
-    if together & {known[target], *(symbol for line in needed(listing.lines, known[target]) for symbol in line.rhs.free_symbols)}:
-        pins = " ".join(listing.unknowns)
-        raise DefinitionError(f"{plan.title}: {target} hangs on pins found together ({pins}): no chain of derivatives; take motion.ratio.")
-    return ratio_lines(listing.lines, known[target], listing.names.quantity(stroke), listing.units[stroke], listing.names)
-
-
-def named(listing: Listing) -> dict[str, Any]:
-    """Return the members that have a line, by their names in the class."""
-    lines = {line.lhs for line in listing.lines}
-    symbols = {name: listing.symbol_of(name) for name in listing.plan.named()}
-    return {name: symbol for name, symbol in symbols.items() if symbol in lines or name in listing.unknowns}
+def _evaluated(lines: Sequence[Written], known: dict[Any, Any], arithmetic: str) -> dict[Any, Any]:
+    known |= dict(zip(explicit(X_AXIS), (1.0, 0.0), strict=True))
+    found: dict[Any, Any] = {}
+    for line in lines:
+        expressions = explicit(line.rhs)
+        needed = sorted(set().union(*(each.free_symbols for each in expressions)), key=str)
+        function = sympy.lambdify(needed, expressions, arithmetic, dummify=True)
+        values = function(*(known[symbol] for symbol in needed))
+        known |= dict(zip(explicit(line.lhs), values, strict=True))
+        found[line.lhs] = values[0] if len(values) == 1 else tuple(values)
+    return found

@@ -5,7 +5,7 @@ It is not the engine: one closed form of a three-point hitch has millions of ope
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import sympy
@@ -43,17 +43,12 @@ def program_expressions(plan: Plan, target: str) -> tuple[Any, ...]:
 
     Their symbols are `sympy.Symbol(name, real=True)`. Raises DefinitionError for what has no closed form.
     """
-    return read(plan.nodes(target))
-
-
-def read(nodes: Sequence[Node]) -> tuple[Any, ...]:
-    """Return nodes of a program as SymPy expressions; numbers exactly as the floats they are."""
     found: dict[Node, Any] = {}
-    return tuple(_expression(node, found) for node in nodes)
+    return tuple(_expression(node, found) for node in plan.nodes(target))
 
 
 def _expression(node: Node, found: dict[Node, Any]) -> Any:
-    if node not in found:
+    if node not in found:  # numbers are exactly the floats they are
         if node.op == "constant":
             found[node] = sympy.Rational(node.value)
         elif node.op == "input":

@@ -20,7 +20,7 @@ def plain_number(value: float, digits: int = 6) -> str:
     return "0" if float(text) == 0.0 else text
 
 
-def in_order(terms: Sequence[Any]) -> list[Any]:
+def reading_order(terms: Sequence[Any]) -> list[Any]:
     """Return the terms of a sum as they are read: positive ones first, points before vectors, numbers last."""
     return sorted(terms, key=lambda each: (not each.free_symbols, is_negative(each), not isinstance(each, PointSymbol)))
 
@@ -37,7 +37,7 @@ def factors(expr: Any) -> tuple[Any, Any, Any]:
     return (*fraction(factor), vector)
 
 
-def signed(terms: Sequence[str]) -> str:
+def signed_sum(terms: Sequence[str]) -> str:
     """Return a sum of printed terms."""
     text = terms[0]
     for each in terms[1:]:
@@ -73,10 +73,10 @@ class Text(StrPrinter):  # type: ignore[misc]
         return plain_number(float(expr), 12)
 
     def _print_Add(self, expr: Any, order: Any = None) -> str:
-        return signed([self._print(each) for each in in_order(expr.args)])
+        return signed_sum([self._print(each) for each in reading_order(expr.args)])
 
     def _print_MatAdd(self, expr: Any) -> str:
-        return signed([self._print(each) for each in in_order(expr.args)])
+        return signed_sum([self._print(each) for each in reading_order(expr.args)])
 
     def _print_MatMul(self, expr: Any) -> str:
         over, under, vector = factors(expr)
@@ -86,9 +86,11 @@ class Text(StrPrinter):  # type: ignore[misc]
         return text if under == 1 else f"{text}/{self.parenthesize(under, PRECEDENCE['Pow'])}"
 
     def _print_call(self, expr: Any) -> str:
-        return f"{type(expr).__name__}({', '.join(map(self._print, expr.args))})"
+        """Return a word of the method, or a function of SymPy's in small letters, with its arguments."""
+        name = type(expr).__name__
+        return f"{name if name in ('TurnV', 'TurnVL', 'Tcos') else name.lower()}({', '.join(map(self._print, expr.args))})"
 
-    _print_TurnV = _print_TurnVL = _print_Tcos = _print_call
+    _print_TurnV = _print_TurnVL = _print_Tcos = _print_Dot = _print_Cross = _print_Min = _print_Max = _print_call
 
     def _print_Norm(self, expr: Any) -> str:
         text = self._print(expr.args[0])
@@ -100,23 +102,11 @@ class Text(StrPrinter):  # type: ignore[misc]
         text = self._print(expr.args[0])
         return f"angle{text}" if text.startswith("(") else f"angle({text})"
 
-    def _print_Dot(self, expr: Any) -> str:
-        return f"dot({', '.join(map(self._print, expr.args))})"
-
-    def _print_Cross(self, expr: Any) -> str:
-        return f"cross({', '.join(map(self._print, expr.args))})"
-
     def _print_Deg(self, expr: Any) -> str:
         return f"{self._print(expr.args[0])} deg"
 
     def _print_ImmutableDenseMatrix(self, expr: Any) -> str:
         return f"({', '.join(map(self._print, expr))})"
-
-    def _print_Min(self, expr: Any) -> str:
-        return f"min({', '.join(map(self._print, expr.args))})"
-
-    def _print_Max(self, expr: Any) -> str:
-        return f"max({', '.join(map(self._print, expr.args))})"
 
     def _print_Abs(self, expr: Any) -> str:
         return f"|{self._print(expr.args[0])}|"
@@ -143,10 +133,10 @@ class Latex(LatexPrinter):  # type: ignore[misc]
         return plain_number(float(expr), 12)
 
     def _print_Add(self, expr: Any, order: Any = None) -> str:
-        return signed([self._print(each) for each in in_order(expr.args)])
+        return signed_sum([self._print(each) for each in reading_order(expr.args)])
 
     def _print_MatAdd(self, expr: Any) -> str:
-        return signed([self._print(each) for each in in_order(expr.args)])
+        return signed_sum([self._print(each) for each in reading_order(expr.args)])
 
     def _print_MatMul(self, expr: Any) -> str:
         over, under, vector = factors(expr)

@@ -16,17 +16,17 @@ from sympy.matrices.expressions.matexpr import MatrixElement, MatrixSymbol
 from sympy.matrices.expressions.matmul import MatMul
 
 from .listing import Written
-from .names import Names
+from .names import SymbolNames
 from .symbolic import LENGTH, Unit
 from .words import Cross, Deg, Direction, Dot, Norm, Tcos, TurnV
 
 STILL = sympy.ZeroMatrix(2, 1)
 
 
-class Rates:
+class LineDerivatives:
     """Derivatives by one stroke of the lines read so far."""
 
-    def __init__(self, stroke: Any, unit: Unit, names: Names) -> None:
+    def __init__(self, stroke: Any, unit: Unit, names: SymbolNames) -> None:
         self.stroke, self.unit, self.names = stroke, unit, names
         self.known: dict[Any, Any] = {stroke: sympy.S.One}
         self._lhs: Any = None
@@ -133,7 +133,7 @@ def summed(vectors: Sequence[Any]) -> Any:
     return (MatAdd(*vectors) if len(vectors) > 1 else vectors[0]) if vectors else STILL
 
 
-def needed(lines: Sequence[Written], target: Any) -> list[Written]:
+def lines_needed(lines: Sequence[Written], target: Any) -> list[Written]:
     """Return the lines that a symbol is built from, its own last."""
     wanted, found = {target}, []
     for line in reversed(lines):
@@ -143,9 +143,9 @@ def needed(lines: Sequence[Written], target: Any) -> list[Written]:
     return found[::-1]
 
 
-def ratio_lines(lines: Sequence[Written], target: Any, stroke: Any, unit: Unit, names: Names) -> list[Written]:
+def ratio_lines(lines: Sequence[Written], target: Any, stroke: Any, unit: Unit, names: SymbolNames) -> list[Written]:
     """Return the chain of derivatives that ends in a target's transfer ratio; for a point, I_G = dG_y/dS comes last."""
-    chain = Rates(stroke, unit, names).lines(needed(lines, target))
+    chain = LineDerivatives(stroke, unit, names).lines(lines_needed(lines, target))
     if not chain or chain[-1].lhs != names.derivative(target, stroke) or not target.is_Matrix:
         return chain
     last = chain[-1]

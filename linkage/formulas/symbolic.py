@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from functools import lru_cache
+from math import isnan
+from typing import Any, ClassVar
 
 import sympy
 from sympy.matrices.expressions.matadd import MatAdd
@@ -14,8 +16,7 @@ from sympy.matrices.expressions.matmul import MatMul
 from ..errors import DefinitionError
 from ..motion import stroke_unit
 from ..plan import Plan
-from ..quantities import Quantity, unnamed
-from ..steps import CosineAngle, Turn
+from ..quantities import Quantity, Tabulated, unnamed
 from ..units import UNITS, deg
 from .words import Cross, Deg, Dot, Norm, TurnV
 
@@ -56,12 +57,12 @@ class Unit:
         if self == ANGLE:
             return "deg"
         powers = [("rad", self.angle), ("m", self.length)]
-        over = "*".join(_power(name, power) for name, power in powers if power > 0)
-        under = "*".join(_power(name, -power) for name, power in powers if power < 0)
+        over = "*".join(power_text(name, power) for name, power in powers if power > 0)
+        under = "*".join(power_text(name, -power) for name, power in powers if power < 0)
         return f"{over or '1'}/{under}" if under else over
 
 
-def _power(name: str, power: Fraction) -> str:
+def power_text(name: str, power: Fraction) -> str:
     return name + (str(power) if power != 1 else "")
 
 
@@ -88,8 +89,7 @@ def used_as_lengths(plan: Plan) -> list[Quantity]:
     found = list(plan.table.lengths.values())
     for member in plan.members.values():
         for part in (member, *unnamed(member)):
-            found += part.triangle if isinstance(part, CosineAngle) else ()
-            found += [part.scaled_to] if isinstance(part, Turn) and part.scaled_to is not None else ()
+            found += part.lengths()
     return found
 
 
@@ -97,7 +97,7 @@ DIGITS = 40
 """Numbers are taken as the decimals they are written as."""
 
 
-def number(value: float) -> Any:
+def exact_number(value: float) -> Any:
     """Return a float as an exact integer or as the decimal it is written as."""
     return sympy.Integer(int(value)) if value == int(value) and abs(value) < 1e15 else sympy.Float(repr(value), DIGITS)
 
@@ -105,7 +105,7 @@ def number(value: float) -> Any:
 def degrees(value: float) -> Any:
     """Return an angle [rad] as it is shown, in degrees; 0 stays 0."""
     shown = float(f"{value / deg:.13g}")
-    return Deg(number(shown)) if value else sympy.S.Zero
+    return Deg(exact_number(shown)) if value else sympy.S.Zero
 
 
 class Term:
@@ -181,15 +181,15 @@ class Term:
 
 def term(value: Any) -> Term:
     """Return a number as a term."""
-    return value if isinstance(value, Term) else Term(number(float(value)))
+    return value if isinstance(value, Term) else Term(exact_number(float(value)))
 
 
-def plain(function: Any) -> Callable[..., Term]:
+def as_number(function: Any) -> Callable[..., Term]:
     """Return a function of numbers and angles whose value is a plain number."""
     return lambda *terms: Term(function(*(each.expr for each in terms)))
 
 
-def keeping(function: Any) -> Callable[..., Term]:
+def keeping_unit(function: Any) -> Callable[..., Term]:
     """Return a function whose value measures what its arguments measure."""
     return lambda *terms: Term(function(*(each.expr for each in terms)), max(terms, key=lambda each: each.unit != NUMBER).unit)
 
@@ -203,17 +203,51 @@ FUNCTIONS: dict[str, Callable[..., Term]] = {
     "power": lambda a, b: a**b,
     "negative": lambda a: -a,
     "sqrt": lambda a: Term(sympy.sqrt(a.expr), a.unit ** Fraction(1, 2)),
-    "sin": plain(sympy.sin),
-    "cos": plain(sympy.cos),
-    "tan": plain(sympy.tan),
-    "exp": plain(sympy.exp),
-    "log": plain(sympy.log),
-    "sign": plain(sympy.sign),
+    "sin": as_number(sympy.sin),
+    "cos": as_number(sympy.cos),
+    "tan": as_number(sympy.tan),
+    "exp": as_number(sympy.exp),
+    "log": as_number(sympy.log),
+    "sign": as_number(sympy.sign),
     "arctan2": lambda y, x: Term(sympy.atan2(y.expr, x.expr), ANGLE),
-    "absolute": keeping(sympy.Abs),
-    "minimum": keeping(sympy.Min),
-    "maximum": keeping(sympy.Max),
+    "absolute": keeping_unit(sympy.Abs),
+    "minimum": keeping_unit(sympy.Min),
+    "maximum": keeping_unit(sympy.Max),
 }
+
+
+# Tabulated functions: a name in the equations, polynomials of its pieces when they are written out.
+
+class CurveFunction(sympy.Function):  # type: ignore[misc]
+    """A tabulated function, or a derivative of it, by its name."""
+
+    nargs = 1
+    is_real = True
+    curve: ClassVar[Tabulated]
+    order: ClassVar[int]
+
+    def fdiff(self, argindex: int = 1) -> Any:
+        return curve_function(self.curve, self.order + 1)(self.args[0])
+
+    def doit(self, **options: Any) -> Any:
+        return self.curve.value(Term(self.args[0].doit()), self.order, either, within_half_a_turn).expr
+
+
+@lru_cache(maxsize=256)
+def curve_function(curve: Tabulated, order: int) -> type[CurveFunction]:
+    """Return the function that a table, or its derivative of an order, is in SymPy: `lift`, `lift'`."""
+    return type(curve.name + "'" * order, (CurveFunction,), {"curve": curve, "order": order})
+
+
+def either(a: Any, b: Any, x: Any, y: Any) -> Term:
+    """Return x where a <= b, else y."""
+    value, other = (sympy.nan if isinstance(each, float) and isnan(each) else term(each).expr for each in (x, y))
+    return Term(sympy.Piecewise((value, term(a).expr <= term(b).expr), (other, True), evaluate=False))
+
+
+def within_half_a_turn(angle: Term) -> Term:
+    """Return an angle [rad] within half a turn, as a plain number."""
+    return Term(sympy.atan2(sympy.sin(angle.expr), sympy.cos(angle.expr)))
 
 
 # Points and vectors of the symbolic reading: SymPy vectors that obey the plane's algebra, as the rules of steps ask.

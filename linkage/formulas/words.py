@@ -26,7 +26,7 @@ def point_symbol(name: str) -> Any:
     return PointSymbol(name, 2, 1)
 
 
-def parts(vector: Any) -> tuple[Any, Any]:
+def components_of(vector: Any) -> tuple[Any, Any]:
     """Return both components of a vector, written out."""
     return vector[0, 0].doit(), vector[1, 0].doit()
 
@@ -47,7 +47,7 @@ class TurnV(MatrixExpr):  # type: ignore[misc]
         return sympy.S.One
 
     def _entry(self, i: Any, j: Any, **options: Any) -> Any:
-        (x, y), angle = parts(self.args[0]), self.args[1].doit()
+        (x, y), angle = components_of(self.args[0]), self.args[1].doit()
         cos, sin = sympy.cos(angle), sympy.sin(angle)
         return self.scale * (x * cos - y * sin if i == 0 else x * sin + y * cos)
 
@@ -93,7 +93,7 @@ class Norm(Word):
     is_nonnegative = True
 
     def doit(self, **options: Any) -> Any:
-        x, y = parts(self.args[0])
+        x, y = components_of(self.args[0])
         return sympy.sqrt(x**2 + y**2)
 
 
@@ -101,7 +101,7 @@ class Direction(Word):
     """The direction of V [rad], counter-clockwise from the x axis."""
 
     def doit(self, **options: Any) -> Any:
-        x, y = parts(self.args[0])
+        x, y = components_of(self.args[0])
         return sympy.atan2(y, x)
 
 
@@ -109,7 +109,7 @@ class Dot(Word):
     """The scalar product of two vectors [m2]."""
 
     def doit(self, **options: Any) -> Any:
-        (a, b), (c, d) = map(parts, self.args)
+        (a, b), (c, d) = map(components_of, self.args)
         return a * c + b * d
 
 
@@ -117,7 +117,7 @@ class Cross(Word):
     """The z component of the vector product of two vectors [m2]."""
 
     def doit(self, **options: Any) -> Any:
-        (a, b), (c, d) = map(parts, self.args)
+        (a, b), (c, d) = map(components_of, self.args)
         return a * d - b * c
 
 
@@ -138,10 +138,10 @@ def explicit(expr: Any) -> tuple[Any, ...]:
 
     A vector's components are the symbols `AB.x` and `AB.y`.
     """
-    entries = parts(expr) if getattr(expr, "shape", None) == (2, 1) else (expr.doit(),)
-    return tuple(each.xreplace({part: component(part) for part in each.atoms(MatrixElement)}) for each in entries)
+    entries = components_of(expr) if getattr(expr, "shape", None) == (2, 1) else (expr.doit(),)
+    return tuple(each.xreplace({part: component_symbol(part) for part in each.atoms(MatrixElement)}) for each in entries)
 
 
-def component(part: Any) -> Any:
+def component_symbol(part: Any) -> Any:
     """Return the plain symbol of one component of a vector."""
     return sympy.Symbol(f"{part.parent.name}.{'xy'[int(part.i)]}", real=True)

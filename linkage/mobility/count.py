@@ -12,9 +12,8 @@ import numpy as np
 from ..assembly import places_at
 from ..errors import AssemblyError, DefinitionError
 from ..plan import Plan, Reading, Trace, merged, strokes_text
-from ..program import FloatArray, Level, Node, Tangent, interpret
-from ..quantities import name_of
-from ..steps import Link, Offset, Slide
+from ..program import FloatArray, Level, Node, Tangent, ancestors, interpret
+from ..steps import Link
 from ..units import mm
 from ..vectors import Vec
 
@@ -53,24 +52,23 @@ def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Any]) -> Rows:
     """Return the rows of the steps' own constraints at a pose; points that no body holds are left out."""
     trace = loose_trace(plan, tuple(plan.points))
     residuals: dict[str, tuple[Any, ...]] = {}
-    for name, point in plan.points.items():
-        if point.companions and point.companions[0] != name:
-            continue
-        trace.placing.append(name)
-        residuals[name] = point.constraints(trace)
-        trace.placing.pop()
-    for name, slide in plan.of_kind(Slide).items():
-        trace.placing.append(name)
-        residuals[name] = (slide.miss(trace),)
-        trace.placing.pop()
+    found_with = {pin for group in plan.groups.values() for pin in group.pins[1:]}
+    for name, member in plan.holding.items():
+        if name not in found_with:
+            trace.placing.append(name)
+            residuals[name] = member.constraints(trace)
+            trace.placing.pop()
     nodes = [(owner, trace.graph.node(each)) for owner, found in residuals.items() for each in found]
     held = held_points(plan, {owner for owner, _ in nodes if owner in plan.points})
     seeds: dict[str, Node] = {f"{name}.{axis}": getattr(trace.positions[name], axis) for name in held for axis in "xy"}
     seeds |= {name: trace.inputs[name] for name in plan.strokes}
-    tangents = [Tangent(trace.graph, {seed: 1.0}) for seed in seeds.values()]
-    entries = [tangent.of(node) for _, node in nodes for tangent in tangents]
+    columns = {seed: column for column, seed in enumerate(seeds.values())}
+    tangents = [Tangent(trace.graph, {seed: 1.0}) for seed in columns]
+    behind = [(row, columns[each], node) for row, (_, node) in enumerate(nodes) for each in ancestors([node]) if each in columns]
     at = dict(inputs) | {f"@{name}.{axis}": places[name][k] for name in plan.points for k, axis in enumerate("xy")}
-    matrix = np.array([float(value) for value in interpret(entries, at)]).reshape(len(nodes), len(seeds))
+    matrix = np.zeros((len(nodes), len(seeds)))
+    for (row, column, _), value in zip(behind, interpret([tangents[column].of(node) for _, column, node in behind], at), strict=True):
+        matrix[row, column] = float(value)
     return Rows(unit(matrix), tuple(owner for owner, _ in nodes), tuple(seeds))
 
 
@@ -176,7 +174,7 @@ def mobility_at(plan: Plan, strokes: dict[str, float]) -> Mobility:
     active = np.abs(both.matrix).sum(axis=0) > 0.0
     free = int((active | np.array([name not in plan.strokes for name in both.unknowns], bool)).sum())
     full = rank(both.matrix)
-    extra = [name for name in dict.fromkeys((*links.owners, *plan.of_kind(Slide))) if name not in implied(plan)]
+    extra = [name for name in dict.fromkeys((*links.owners, *plan.sliding)) if name not in implied(plan)]
     needed = len(steps.unknowns) - len(plan.strokes)
     locking = tuple(name for name in extra if rank(both.without(name)) < full and full > needed)
     redundant = tuple(name for name in extra if name not in locking and rank(both.without(name)) == full)
@@ -193,7 +191,7 @@ def implied(plan: Plan) -> set[str]:
     grouped = {slide.name for group in plan.groups.values() for slide in group.slides}
     held = [joint for point in plan.points.values() for joint in point.joints() if joint.track]
     tracks, slots = {(joint.point, plan.track(joint)) for joint in held}, {joint.point for joint in held if joint.kind == "slot"}
-    slides = {name: joint for name, slide in plan.of_kind(Slide).items() for joint in slide.joints()}
+    slides = {name: joint for name, slide in plan.sliding.items() for joint in slide.joints()}
     used = {name for name, joint in slides.items() if (joint.point, plan.track(joint)) in tracks or joint.point in slots}
     return links | used | grouped
 
@@ -210,18 +208,19 @@ def check(plan: Plan) -> None:
 
     Steps determine their points by construction; it is links, pins and slides that can hold too little or too much.
     """
-    if not any((plan.of_kind(Link), plan.of_kind(Slide))) or not plan.moving:
+    if not any((plan.of_kind(Link), plan.sliding)) or not plan.moving:
         return
     try:
         found = mobility(plan)
     except AssemblyError:
         return
-    by_hand = bool(plan.of_kind(Offset))
+    by_hand = any(point.hangs_from for point in plan.points.values())
     if found.rank < found.strokes or (found.rank > found.strokes and not by_hand):
         bodies = ", ".join(body.name for body in plan.links)
         raise DefinitionError(
             f"{plan.title}: the mobility is {found.rank}, the strokes are {found.strokes} ({', '.join(plan.strokes) or 'none'}). "
-            f"Gruebler count {found.gruebler} of the bodies {bodies}. {remedy(found)}"
+            f"Gruebler count {found.gruebler} of the bodies {bodies}. {remedy(found)}",
+            member=next(iter(plan.strokes), ""),
         )
     check_lengths(plan)
     check_slides(plan)
@@ -247,7 +246,8 @@ def check_lengths(plan: Plan) -> None:
             if change > 1e-9 * max(lengths, default=1.0):
                 raise DefinitionError(
                     f"{plan.title}: {name} = {link}: the distance {P}{Q} changes by {change / mm:.3g} mm over the stroke, "
-                    "but a link is rigid. Take it out, or correct a length."
+                    "but a link is rigid. Take it out, or correct a length.",
+                    member=name,
                 )
 
 
@@ -260,13 +260,14 @@ def check_slides(plan: Plan) -> None:
         except AssemblyError:
             continue
         reading = Reading(plan.members, plan.table.lengths, inputs)
-        for name, slide in plan.of_kind(Slide).items():
-            off = abs(float(slide.miss(reading)))
-            if off > 1e-9 * max(1.0, abs(float(reading.at(slide.point).x)), abs(float(reading.at(slide.point).y))):
+        for name, slide in plan.sliding.items():
+            (point, *_), off = (joint.point for joint in slide.joints()), max(abs(float(each)) for each in slide.constraints(reading))
+            if off > 1e-9 * max(1.0, abs(float(reading.at(point).x)), abs(float(reading.at(point).y))):
                 where = strokes_text(plan, strokes)
                 raise DefinitionError(
-                    f"{plan.title}: {name} = {slide}: {name_of(slide.point)} is {off / mm:.3g} mm off the guide at {where}. "
-                    "Take the slide out, or let it place the point: declare the point as a Pin."
+                    f"{plan.title}: {name} = {slide}: {point} is {off / mm:.3g} mm off the guide at {where}. "
+                    "Take the slide out, or let it place the point: declare the point as a Pin.",
+                    member=name,
                 )
 
 

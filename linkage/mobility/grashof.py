@@ -9,7 +9,6 @@ from typing import Any
 from ..errors import DefinitionError, cited
 from ..plan import Plan, Reading
 from ..quantities import is_number
-from ..steps import Dyad
 
 EQUAL = 1e-9
 
@@ -65,8 +64,9 @@ def four_bars(plan: Plan, inputs: Mapping[str, Any]) -> list[FourBar]:
     reading = Reading(plan.members, plan.table.lengths, inputs)
     rigid = [(bar.P, bar.Q) for bar in plan.rods]
     found = []
-    for name, dyad in plan.of_kind(Dyad).items():
-        for Q, P in ((dyad.Q, dyad.P), (dyad.P, dyad.Q)):
+    hung = {name: [bar.P for bar in point.bars()] for name, point in plan.points.items()}
+    for name, ends in hung.items():
+        for Q, P in (ends[::-1], ends) if len(ends) == 2 else ():
             frames = [a if b == P else b for a, b in rigid if P in (a, b) and ({a, b} - {P}) & set(plan.ground)]
             if Q in plan.ground and frames and {(P, name), (Q, name)} <= set(rigid):
                 O = frames[0]

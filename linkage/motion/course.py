@@ -17,7 +17,6 @@ import numpy as np
 
 from ..plan import Loop, Plan
 from ..program import FloatArray, Kernel, Level, Way
-from ..steps import Pin
 from .grid import Grid
 from .limits import stroke_number, stroke_text, stroke_unit
 from .peaks import Mask, last_holding
@@ -78,7 +77,8 @@ class Clearances:
         """Return those of a plan; pins of groups are followed on their own."""
         trace = plan.trace
         moving = dict.fromkeys(loop for loop in trace.loops if loop.terms[0].level is Level.POSE)
-        own = [loop for loop in moving if loop.step not in plan.of_kind(Pin)]
+        grouped = {pin for group in plan.groups.values() for pin in group.pins}
+        own = [loop for loop in moving if loop.step not in grouped]
         # a root's scale that is a root itself is the distance of two points, along which a slot's line is taken; it may vanish
         sides = [Loop(loop.step, "meeting", loop.terms[1:2]) for loop in own if loop.kind == "links" and loop.terms[1].op == "sqrt"]
         own += [loop for loop in sides if loop.terms[0].level is Level.POSE]

@@ -401,7 +401,7 @@ class Places(BoundRequest):
         return tuple(node for name in self.points for node in plan.nodes(name))
 
     def names(self, plan: Plan) -> set[str]:
-        return set[str]().union(*map(plan.reaches, self.points))
+        return plan.reaches(*self.points)
 
     def error(self, plan: Plan, left: Left) -> FloatArray:
         with np.errstate(all="ignore"):

@@ -10,54 +10,80 @@ from itertools import cycle
 from typing import Any
 
 import numpy as np
-from matplotlib.ticker import MaxNLocator
 
 from ..errors import DefinitionError, cited, known_name
 from ..motion import Column, Motion
 from ..program import FloatArray
-from ..units import factor
-from . import free_space as room
-from . import strokes, style
-from .curves import limit, span, typeset
+from . import style
+from .curves import axis_range, limit_of, locator, typeset
+from .free_space import label_free, props
 from .labels import offsets
 from .scene import Places, Scene
 from .shapes import Outline
-from .symbols import LONG, SLOT, THICK, WIDTH, hatched, support, width
+from .strokes import StrokeAxis, others_in_words, unreached_words
+from .symbols import LONG, SLOT, THICK, WIDTH, half_width, hatched, support
 
-# A curve as plain data for the browser: values, range, ticks and limit.
+COLOURS = ("INK", "MUTED", "RULE", "GRID", "PAPER", "CURVE", "ACCENT", "BARREL", "ROD", "PISTON")
 
-def chart(motion: Motion, column: Column, bound: Sequence[Any] | None) -> dict[str, Any]:
-    """Return a column over the stroke that a motion runs along; None where it has no value."""
-    moving = strokes.driven(motion)
-    along = strokes.shown(motion.plan, moving, motion.strokes[moving])
-    turning = strokes.unit(motion.plan, moving) == "deg" and float(np.ptp(along)) >= 90.0
-    low, high = span(column.drawn)
-    edge: dict[str, Any] | None = None
-    if bound is not None:
-        found = limit(bound)
-        value = found.value / factor(column.unit)
-        low, high = min(low, value - 0.06 * (high - low)), max(high, value + 0.06 * (high - low))
-        edge = {"value": value, "text": found.text, "above": found.fails == "above"}
-    unit = strokes.unit(motion.plan, moving)
-    return {
-        "stroke": {"name": moving, "unit": unit, "values": rounded(along), "ticks": ticks(float(along[0]), float(along[-1]), turning)},
-        "column": {"heading": typeset(column.heading), "unit": typeset(column.unit), "values": rounded(column.drawn)},
-        "range": [low, high],
-        "ticks": ticks(low, high),
-        "limit": edge,
+
+def page_html(
+    motion: Motion, column: Column, paths: Sequence[str] = (), limit: Sequence[Any] | None = None, *, is_turn: bool = False
+) -> str:
+    """Return the HTML of a page: the mechanism over a row of poses, the live curve of a column, and its controls.
+
+    `paths` names points whose paths are drawn; `limit` is `(value [SI], text, "above" or "below")`; a full turn goes
+    round, anything else there and back.
+    """
+    scene = Scene(motion)
+    if not isinstance(column, Column):
+        raise DefinitionError(f"{cited(column)} is no column; give one of machine.columns(motion).")
+    if not isinstance(paths, (list, tuple)):
+        raise DefinitionError(f'paths={cited(paths)}: a list of points is expected, such as ["G"].')
+    for name in paths:
+        known_name("Point", name, motion.plan.points, where=motion.plan.title)
+    if not isinstance(is_turn, (bool, np.bool_)):
+        raise DefinitionError(f"is_turn={cited(is_turn)}: say True for a full turn, else False.")
+    curve = chart(motion, column, limit)
+    moving = curve["stroke"]["name"]
+    data = {
+        "title": motion.plan.heading,
+        "turn": bool(is_turn),
+        "held": others_in_words(motion, moving),
+        "remark": unreached_words(motion, moving),
+        "reached": scene.reached,
+        "scene": scenery(scene, paths),
+        "chart": curve,
     }
+    parts = {
+        "TITLE": escape(motion.plan.heading),
+        "STROKE": escape(moving),
+        "COLOURS": "".join(f"--{name.lower()}:{getattr(style, name)};" for name in COLOURS),
+        "CSS": page_part("player.css"),
+        "JS": page_part("player.js"),
+        "DATA": embedded(data),
+    }
+    return filled(page_part("player.html"), parts)
 
 
-def rounded(values: FloatArray) -> list[float | None]:
-    """Return values to seven digits; None for one that is not finite."""
-    return [float(f"{value:.7g}") if np.isfinite(value) else None for value in values.tolist()]
+def page_part(name: str) -> str:
+    """Return a file of this room."""
+    return files(__package__).joinpath(name).read_text(encoding="utf-8")
 
 
-def ticks(low: float, high: float, turning: bool = False) -> list[float]:
-    """Return round values between two ends."""
-    low, high = min(low, high), max(low, high)
-    found = MaxNLocator(6, steps=[1, 3, 4.5, 6, 9, 10] if turning else [1, 2, 2.5, 5, 10]).tick_values(low, high)
-    return [float(f"{value:.10g}") for value in found if low <= value <= high]
+def embedded(data: Any) -> str:
+    """Return data as JSON that may stand in a script element: nothing in it ends the element or starts a comment."""
+    plain = json.dumps(data, ensure_ascii=True, separators=(",", ":"), allow_nan=False)
+    return plain.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
+
+
+def filled(template: str, parts: dict[str, str]) -> str:
+    """Return a template with each `{{NAME}}` replaced once; what is put in is not looked at again."""
+    pieces = template.split("{{")
+    done = [pieces[0]]
+    for piece in pieces[1:]:
+        name, _, rest = piece.partition("}}")
+        done += [parts[name], rest]
+    return "".join(done)
 
 
 # A mechanism's motion as plain data for the browser: everything in pixels of the drawing, y down.
@@ -106,17 +132,18 @@ def scenery(scene: Scene, paths: Sequence[str]) -> dict[str, Any]:
         "rams": [
             {"P": index[ram.P], "Q": index[ram.Q]} | {name: pixels.length(getattr(ram, name)) for name in RAM} for ram in scene.rams
         ],
-        "straights": [
-            {"P": index[each.P], "Q": index[each.Q], "lines": [stretched(line, pixels) for line in each.lines]} for each in scene.straights
-        ],
-        **sliding(scene, pixels, index),
+        **{
+            kind: [{"P": index[each.P], "Q": index[each.Q], "lines": [stretched(line, pixels) for line in each.lines]} for each in found]
+            for kind, found in (("contours", scene.contours), ("straights", scene.straights))
+        },
+        **sliding_data(scene, pixels, index),
         "widths": WIDTH,
         "thick": THICK,
         "stays": [[index[P], index[X]] for P, X in scene.stays],
         "pins": [index[name] for name in scene.pins],
         "dots": [index[name] for name in scene.dots],
-        "grounds": grounds(scene, pixels),
-        "labels": labels(scene, pixels),
+        "grounds": ground_data(scene, pixels),
+        "labels": label_offsets(scene, pixels),
         "paths": [pixels.of(scene.places[name].T) for name in paths],
     }
 
@@ -127,7 +154,7 @@ def stretched(line: Outline, pixels: Pixels) -> dict[str, Any]:
     return {"rows": rows, "fill": line.fill.lower(), "closed": line.closed, "bold": line.bold}
 
 
-def sliding(scene: Scene, pixels: Pixels, index: Mapping[str, int]) -> dict[str, Any]:
+def sliding_data(scene: Scene, pixels: Pixels, index: Mapping[str, int]) -> dict[str, Any]:
     """Return the rails, the slots and the blocks."""
     pairs = [(track, [index[name] for name in track.ends]) for track in scene.tracks]
     return {
@@ -135,84 +162,53 @@ def sliding(scene: Scene, pixels: Pixels, index: Mapping[str, int]) -> dict[str,
         "rails": [[pixels.of(line) for line in lines] for lines in hatched(scene)],
         "slots": [ends for track, ends in pairs if not track.fixed],
         "blocks": [
-            {"rider": index[rider], "ends": ends, "half": width(track.fixed), "inside": not track.fixed}
+            {"rider": index[rider], "ends": ends, "half": half_width(track.fixed), "inside": not track.fixed}
             for track, ends in pairs
             for rider in track.riders
         ],
     }  # fmt: skip
 
 
-def grounds(scene: Scene, pixels: Pixels) -> list[dict[str, Any]]:
+def ground_data(scene: Scene, pixels: Pixels) -> list[dict[str, Any]]:
     """Return the ground symbols: a triangle and its hatched line."""
-    symbols = [support(scene.at(0)[name], way, scene.size) for name, way in room.props(scene).items()]
+    symbols = [support(scene.at(0)[name], way, scene.size) for name, way in props(scene).items()]
     return [{"triangle": pixels.of(corners), "lines": [pixels.of(line) for line in lines]} for corners, lines in symbols]
 
 
-def labels(scene: Scene, pixels: Pixels) -> list[Any]:
+def label_offsets(scene: Scene, pixels: Pixels) -> list[Any]:
     """Return each name's offset from its point, in the order of the names."""
     poses: list[Places] = scene.some(9)
-    spots = offsets(list(scene.places), poses, room.taken(scene, poses), pixels.scale, 1.15 * pixels.length(scene.size) + 2.0, FONT)
+    spots = offsets(list(scene.places), poses, label_free(scene, poses), pixels.scale, 1.15 * pixels.length(scene.size) + 2.0, FONT)
     return [[round(float(spots[name][0]), 1), round(-float(spots[name][1]), 1)] for name in scene.places]
 
 
-COLOURS = ("INK", "MUTED", "RULE", "GRID", "PAPER", "CURVE", "ACCENT", "BARREL", "ROD", "PISTON")
+# A curve as plain data for the browser: values, range, ticks and limit.
 
-
-def page_html(
-    motion: Motion, column: Column, paths: Sequence[str] = (), limit: Sequence[Any] | None = None, *, is_turn: bool = False
-) -> str:
-    """Return the HTML of a page: the mechanism over a row of poses, the live curve of a column, and its controls.
-
-    `paths` names points whose paths are drawn; `limit` is `(value [SI], text, "above" or "below")`; a full turn goes
-    round, anything else there and back.
-    """
-    scene = Scene(motion)
-    if not isinstance(column, Column):
-        raise DefinitionError(f"{cited(column)} is no column; give one of machine.columns(motion).")
-    if not isinstance(paths, (list, tuple)):
-        raise DefinitionError(f'paths={cited(paths)}: a list of points is expected, such as ["G"].')
-    for name in paths:
-        known_name("Point", name, motion.plan.points, where=motion.plan.title)
-    if not isinstance(is_turn, (bool, np.bool_)):
-        raise DefinitionError(f"is_turn={cited(is_turn)}: say True for a full turn, else False.")
-    curve = chart(motion, column, limit)
-    moving = curve["stroke"]["name"]
-    data = {
-        "title": motion.plan.heading,
-        "turn": bool(is_turn),
-        "held": strokes.held(motion.plan, motion.strokes, moving),
-        "remark": strokes.unreached(motion, moving),
-        "reached": scene.reached,
-        "scene": scenery(scene, paths),
-        "chart": curve,
+def chart(motion: Motion, column: Column, bound: Sequence[Any] | None) -> dict[str, Any]:
+    """Return a column over the stroke that a motion runs along; None where it has no value."""
+    along, limit = StrokeAxis.of(motion), None if bound is None else limit_of(bound)
+    low, high = axis_range(column, limit)
+    return {
+        "stroke": {
+            "name": along.name,
+            "unit": along.unit,
+            "values": seven_digits(along.values),
+            "ticks": ticks(float(along.values[0]), float(along.values[-1]), along.is_turning),
+        },
+        "column": {"heading": typeset(column.heading), "unit": typeset(column.unit), "values": seven_digits(column.drawn)},
+        "range": [low, high],
+        "ticks": ticks(low, high),
+        "limit": None if limit is None else {"value": limit.drawn(column), "text": limit.text, "above": limit.fails == "above"},
     }
-    parts = {
-        "TITLE": escape(motion.plan.heading),
-        "STROKE": escape(moving),
-        "COLOURS": "".join(f"--{name.lower()}:{getattr(style, name)};" for name in COLOURS),
-        "CSS": text("player.css"),
-        "JS": text("player.js"),
-        "DATA": embedded(data),
-    }
-    return filled(text("player.html"), parts)
 
 
-def text(name: str) -> str:
-    """Return a file of this room."""
-    return files(__package__).joinpath(name).read_text(encoding="utf-8")
+def seven_digits(values: FloatArray) -> list[float | None]:
+    """Return values to seven digits; None for one that is not finite."""
+    return [float(f"{value:.7g}") if np.isfinite(value) else None for value in values.tolist()]
 
 
-def embedded(data: Any) -> str:
-    """Return data as JSON that may stand in a script element: nothing in it ends the element or starts a comment."""
-    plain = json.dumps(data, ensure_ascii=True, separators=(",", ":"), allow_nan=False)
-    return plain.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
-
-
-def filled(template: str, parts: dict[str, str]) -> str:
-    """Return a template with each `{{NAME}}` replaced once; what is put in is not looked at again."""
-    pieces = template.split("{{")
-    done = [pieces[0]]
-    for piece in pieces[1:]:
-        name, _, rest = piece.partition("}}")
-        done += [parts[name], rest]
-    return "".join(done)
+def ticks(low: float, high: float, turning: bool = False) -> list[float]:
+    """Return round values between two ends."""
+    low, high = min(low, high), max(low, high)
+    found = locator(turning).tick_values(low, high)
+    return [float(f"{value:.10g}") for value in found if low <= value <= high]

@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
@@ -17,122 +16,9 @@ from ..motion import Column, Motion, columns_of
 from ..program import FloatArray
 from ..quantities import is_number
 from ..units import factor
-from . import strokes, style
-from .sheet import Picture, quiet
-
-# Limit lines: a value that a result may not pass, and on which side it fails.
-
-class Limit(NamedTuple):
-    """A value [SI] that a column may not pass, its words, and the side that fails: "above" or "below"."""
-
-    value: float
-    text: str = ""
-    fails: str = "above"
-
-    def failing(self, values: FloatArray) -> FloatArray:
-        """Return the mask of the values [SI] that fail."""
-        return np.asarray(values > self.value if self.fails == "above" else values < self.value)
-
-
-def limit(given: Sequence[Any]) -> Limit:
-    """Return a limit from a tuple of its parts; DefinitionError for a side that is neither above nor below."""
-    parts = tuple(given) if isinstance(given, (list, tuple)) else ()
-    if not 1 <= len(parts) <= 3 or not is_number(parts[0]) or not all(isinstance(each, str) for each in parts[1:]):
-        raise DefinitionError(f'{cited(given)} is no limit; write (value [SI], text) or (value, text, "below").')
-    found = Limit(*parts)
-    if found.fails not in ("above", "below"):
-        raise DefinitionError(f'the limit {found.text or found.value!r} fails {found.fails!r}: say "above" or "below".')
-    return found
-
-
-def crossings(along: FloatArray, values: FloatArray, at: float) -> list[float]:
-    """Return where values cross a limit, by straight lines between the poses."""
-    off = values - at
-    places = np.flatnonzero(np.signbit(off[1:]) != np.signbit(off[:-1]))
-    places = places[np.isfinite(off[places]) & np.isfinite(off[places + 1])]
-    return [float(along[i] - off[i] * (along[i + 1] - along[i]) / (off[i + 1] - off[i])) for i in places]
-
-
-# One curve over a stroke: its line, its limit with the failing side shaded, its axes.
-
-def panel(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None = None, colour: str = style.CURVE) -> None:
-    """Draw a column over the stroke that a motion runs along, with its limit `(value [SI], text, fails)`."""
-    stroke = strokes.driven(motion)
-    along = strokes.shown(motion.plan, stroke, motion.strokes[stroke])
-    ax.plot(along, column.drawn, color=colour, linewidth=style.BOLD, zorder=5.0, marker="o" if len(along) == 1 else None)
-    axes(ax, motion, column, along)
-    if bound is not None:
-        bar(ax, along, column, limit(bound), strokes.unit(motion.plan, stroke))
-
-
-def axes(ax: Axes, motion: Motion, column: Column, along: FloatArray) -> None:
-    """Name the axes and choose their range."""
-    stroke = strokes.driven(motion)
-    quiet(ax)
-    ax.set_title(typeset(column.heading), loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
-    ax.set_xlabel(f"{stroke}, {strokes.unit(motion.plan, stroke)}", fontsize=style.TEXT, color=style.MUTED)
-    if np.ptp(along) > 0.0:
-        ax.set_xlim(float(along.min()), float(along.max()))
-    turning = strokes.unit(motion.plan, stroke) == "deg" and np.ptp(along) >= 90.0
-    ax.xaxis.set_major_locator(MaxNLocator(6, steps=[1, 3, 4.5, 6, 9, 10] if turning else [1, 2, 2.5, 5, 10]))
-    ax.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 2.5, 5, 10]))
-    ax.set_ylim(*span(column.drawn))
-
-
-def span(values: FloatArray) -> tuple[float, float]:
-    """Return the range of an axis for some values, with air at both ends."""
-    finite = values[np.isfinite(values)]
-    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
-    air = 0.09 * (high - low)
-    if air <= 1e-9 * max(abs(low), abs(high)):
-        air = 0.1 * max(abs(low), abs(high)) or 1.0
-    return low - air, high + air
-
-
-def bar(ax: Axes, along: FloatArray, column: Column, bound: Limit, unit: str) -> None:
-    """Draw a limit, shade the side that fails, and mark where the curve crosses it."""
-    value = bound.value / factor(column.unit)
-    low, high = ax.get_ylim()
-    low, high = min(low, value - 0.06 * (high - low)), max(high, value + 0.06 * (high - low))
-    bottom, top = (value, high) if bound.fails == "above" else (low, value)
-    ax.set_ylim(low, high)
-    ax.axhspan(bottom, top, color=style.ACCENT, alpha=0.10, linewidth=0, zorder=1.0)
-    ax.axhline(value, color=style.ACCENT, linewidth=1.3, linestyle=(0, (5, 2.5)), zorder=4.0)
-    short = np.where(bound.failing(column.values), column.drawn, np.nan)
-    ax.plot(along, short, color=style.ACCENT, linewidth=style.BOLD + 0.6, zorder=5.1)
-    for place in crossings(along, column.drawn, value):
-        ax.plot([place], [value], marker="o", markersize=6, color=style.ACCENT, markeredgecolor=style.PAPER, zorder=6.0)
-        _note(ax, f"{place:.4g} {unit}", place, value, along, bound)
-    _name(ax, bound, value, along, column.drawn)
-
-
-def _note(ax: Axes, text: str, place: float, value: float, along: FloatArray, bound: Limit) -> None:
-    """Write the stroke at a crossing, on the failing side of the line."""
-    right = place < 0.5 * (along.min() + along.max())
-    down = bound.fails == "below"
-    ax.annotate(
-        text, (place, value), xytext=(7 if right else -7, -4 if down else 4), textcoords="offset points", ha="left" if right else "right",
-        va="top" if down else "bottom", fontsize=style.SMALL, color=style.ACCENT, zorder=6.0,
-    )  # fmt: skip
-
-
-def _name(ax: Axes, bound: Limit, value: float, along: FloatArray, shown: FloatArray) -> None:
-    """Write what the limit is, at the end of the line that is further from the curve."""
-    gaps = np.abs(np.nan_to_num(shown, nan=value) - value)
-    right, up = gaps[np.argmax(along)] >= gaps[np.argmin(along)], bound.fails == "above"
-    ax.annotate(
-        bound.text, (1.0 if right else 0.0, value), xycoords=("axes fraction", "data"), xytext=(-5 if right else 5, 3 if up else -3),
-        textcoords="offset points", ha="right" if right else "left", va="bottom" if up else "top",
-        fontsize=style.SMALL, color=style.ACCENT, zorder=6.0,
-    )  # fmt: skip
-
-
-def typeset(text: str) -> str:
-    """Return a heading with its squares and cubes raised: kgf/cm² for kgf/cm2."""
-    for plain, raised in (("cm2", "cm²"), ("m2", "m²"), ("cm3", "cm³"), ("m3", "m³"), ("kgf_cm", "kgf/cm")):
-        text = text.replace(plain, raised)
-    return text
-
+from . import style
+from .sheet import panels, quiet
+from .strokes import StrokeAxis
 
 PANEL = (4.6, 3.0)
 """The size of a panel with its share of the margins [inch]."""
@@ -140,26 +26,25 @@ PANEL = (4.6, 3.0)
 
 def plot(motion: Motion, columns: Sequence[Column | str], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
     """Return a figure of columns over the stroke, a panel each; see `linkage.plot`."""
-    moving, columns = strokes.driven(motion), named(motion, columns)
+    along, columns = StrokeAxis.of(motion), columns_named(motion, columns)
     if limits is not None and not isinstance(limits, Mapping):
         raise DefinitionError(f"limits={cited(limits)}: a limit for each column by its name is expected, dict(tilt=(0.1, 'max')).")
     given = dict(limits or {})
-    wanted = [column for column in columns if column.name not in motion.strokes]
+    shown = [column for column in columns if column.name not in motion.strokes]
     for name in given:
         if name not in [column.name for column in columns]:
             raise unknown("Column", name, [column.name for column in columns], where="limits")
-    if not wanted:
-        raise DefinitionError(f"{motion.plan.title}: there is no column to draw over {moving}; name a result, not a stroke.")
-    figure, cells = grid(len(wanted))
-    held = strokes.held(motion.plan, motion.strokes, moving)
-    title = motion.plan.heading + (f" at {held}" if held else "")
+    if not shown:
+        raise DefinitionError(f"{motion.plan.title}: there is no column to draw over {along.name}; name a result, not a stroke.")
+    figure, cells = panel_grid(len(shown))
+    title = motion.plan.heading + (f" at {along.held}" if along.held else "")
     figure.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
-    for ax, column in zip(cells, wanted, strict=True):
+    for ax, column in zip(cells, shown, strict=True):
         panel(ax, motion, column, given.get(column.name))
     return figure
 
 
-def named(motion: Motion, columns: Sequence[Column | str]) -> list[Column]:
+def columns_named(motion: Motion, columns: Sequence[Column | str]) -> list[Column]:
     """Return columns, those that go by their names from the motion's own table; DefinitionError for an unknown name."""
     if not isinstance(columns, (list, tuple)) or not all(isinstance(each, (str, Column)) for each in columns):
         raise DefinitionError(f'{motion.plan.title}: {cited(columns)}: a list of columns or their names is expected, such as ["tilt"].')
@@ -171,12 +56,126 @@ def named(motion: Motion, columns: Sequence[Column | str]) -> list[Column]:
     return [own[each] if isinstance(each, str) else each for each in columns]
 
 
-def grid(count: int) -> tuple[Figure, list[Any]]:
+def panel_grid(count: int) -> tuple[Figure, list[Axes]]:
     """Return a figure and the axes of so many panels, as near to a square as they go."""
     across = min(ceil(sqrt(count)), 4)
     down = ceil(count / across)
-    size = max(PANEL[0] * across, 6.0), PANEL[1] * down + 0.6
-    figure = Picture(figsize=size, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
-    FigureCanvasAgg(figure)
-    figure.get_layout_engine().set(w_pad=0.12, h_pad=0.12)  # type: ignore[union-attr,call-arg]
-    return figure, [figure.add_subplot(down, across, index + 1) for index in range(count)]
+    return panels((max(PANEL[0] * across, 6.0), PANEL[1] * down + 0.6), across, down, count, w_pad=0.12, h_pad=0.12)
+
+
+# Limit lines: a value that a result may not pass, and on which side it fails.
+
+class Limit(NamedTuple):
+    """A value [SI] that a column may not pass, its words, and the side that fails: "above" or "below"."""
+
+    value: float
+    text: str = ""
+    fails: str = "above"
+
+    def drawn(self, column: Column) -> float:
+        """Return the value in the unit of a column."""
+        return self.value / factor(column.unit)
+
+    def failing(self, values: FloatArray) -> FloatArray:
+        """Return the mask of the values [SI] that fail."""
+        return np.asarray(values > self.value if self.fails == "above" else values < self.value)
+
+
+def limit_of(given: Sequence[Any]) -> Limit:
+    """Return a limit from a tuple of its parts; DefinitionError for a side that is neither above nor below."""
+    parts = tuple(given) if isinstance(given, (list, tuple)) else ()
+    if not 1 <= len(parts) <= 3 or not is_number(parts[0]) or not all(isinstance(each, str) for each in parts[1:]):
+        raise DefinitionError(f'{cited(given)} is no limit; write (value [SI], text) or (value, text, "below").')
+    found = Limit(*parts)
+    if found.fails not in ("above", "below"):
+        raise DefinitionError(f'the limit {found.text or found.value!r} fails {found.fails!r}: say "above" or "below".')
+    return found
+
+
+def limit_crossings(along: FloatArray, values: FloatArray, at: float) -> list[float]:
+    """Return where values cross a limit, by straight lines between the poses."""
+    off = values - at
+    places = np.flatnonzero(np.signbit(off[1:]) != np.signbit(off[:-1]))
+    places = places[np.isfinite(off[places]) & np.isfinite(off[places + 1])]
+    return [float(along[i] - off[i] * (along[i + 1] - along[i]) / (off[i + 1] - off[i])) for i in places]
+
+
+# One curve over a stroke: its line, its limit with the failing side shaded, its axes.
+
+def panel(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None = None, colour: str = style.CURVE) -> None:
+    """Draw a column over the stroke that a motion runs along, with its limit `(value [SI], text, fails)`."""
+    along = StrokeAxis.of(motion)
+    ax.plot(along.values, column.drawn, color=colour, linewidth=style.BOLD, zorder=5.0, marker="o" if len(along.values) == 1 else None)
+    quiet(ax)
+    ax.set_title(typeset(column.heading), loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
+    ax.set_xlabel(f"{along.name}, {along.unit}", fontsize=style.TEXT, color=style.MUTED)
+    if np.ptp(along.values) > 0.0:
+        ax.set_xlim(float(along.values.min()), float(along.values.max()))
+    ax.xaxis.set_major_locator(locator(along.is_turning))
+    ax.yaxis.set_major_locator(locator())
+    limit = None if bound is None else limit_of(bound)
+    ax.set_ylim(*axis_range(column, limit))
+    if limit is not None:
+        mark_limit(ax, along, column, limit)
+
+
+def locator(is_turning: bool = False) -> MaxNLocator:
+    """Return what chooses the ticks of an axis: round values, or thirds of a right angle in degrees."""
+    return MaxNLocator(6, steps=[1, 3, 4.5, 6, 9, 10] if is_turning else [1, 2, 2.5, 5, 10])
+
+
+def axis_range(column: Column, limit: Limit | None = None) -> tuple[float, float]:
+    """Return the range of an axis for a column's values, in its unit, with air at both ends and room for its limit."""
+    finite = column.drawn[np.isfinite(column.drawn)]
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    air = 0.09 * (high - low)
+    if air <= 1e-9 * max(abs(low), abs(high)):
+        air = 0.1 * max(abs(low), abs(high)) or 1.0
+    low, high = low - air, high + air
+    if limit is None:
+        return low, high
+    value, beyond = limit.drawn(column), 0.06 * (high - low)
+    return min(low, value - beyond), max(high, value + beyond)
+
+
+def mark_limit(ax: Axes, along: StrokeAxis, column: Column, limit: Limit) -> None:
+    """Draw a limit, shade the side that fails, and mark where the curve crosses it."""
+    value = limit.drawn(column)
+    low, high = ax.get_ylim()
+    bottom, top = (value, high) if limit.fails == "above" else (low, value)
+    ax.axhspan(bottom, top, color=style.ACCENT, alpha=0.10, linewidth=0, zorder=1.0)
+    ax.axhline(value, color=style.ACCENT, linewidth=1.3, linestyle=(0, (5, 2.5)), zorder=4.0)
+    short = np.where(limit.failing(column.values), column.drawn, np.nan)
+    ax.plot(along.values, short, color=style.ACCENT, linewidth=style.BOLD + 0.6, zorder=5.1)
+    for place in limit_crossings(along.values, column.drawn, value):
+        ax.plot([place], [value], marker="o", markersize=6, color=style.ACCENT, markeredgecolor=style.PAPER, zorder=6.0)
+        _note(ax, f"{place:.4g} {along.unit}", place, value, along.values, limit)
+    _name(ax, limit, value, along.values, column.drawn)
+
+
+def _note(ax: Axes, text: str, place: float, value: float, along: FloatArray, limit: Limit) -> None:
+    """Write the stroke at a crossing, on the failing side of the line."""
+    right = place < 0.5 * (along.min() + along.max())
+    down = limit.fails == "below"
+    ax.annotate(
+        text, (place, value), xytext=(7 if right else -7, -4 if down else 4), textcoords="offset points", ha="left" if right else "right",
+        va="top" if down else "bottom", fontsize=style.SMALL, color=style.ACCENT, zorder=6.0,
+    )  # fmt: skip
+
+
+def _name(ax: Axes, limit: Limit, value: float, along: FloatArray, shown: FloatArray) -> None:
+    """Write what the limit is, at the end of the line that is further from the curve."""
+    gaps = np.abs(np.nan_to_num(shown, nan=value) - value)
+    right, up = gaps[np.argmax(along)] >= gaps[np.argmin(along)], limit.fails == "above"
+    ax.annotate(
+        limit.text, (1.0 if right else 0.0, value), xycoords=("axes fraction", "data"), xytext=(-5 if right else 5, 3 if up else -3),
+        textcoords="offset points", ha="right" if right else "left", va="bottom" if up else "top",
+        fontsize=style.SMALL, color=style.ACCENT, zorder=6.0,
+    )  # fmt: skip
+
+
+def typeset(text: str) -> str:
+    """Return a heading with its squares and cubes raised: kgf/cm² for kgf/cm2."""
+    for plain, raised in (("cm2", "cm²"), ("m2", "m²"), ("cm3", "cm³"), ("m3", "m³"), ("kgf_cm", "kgf/cm")):
+        text = text.replace(plain, raised)
+    return text

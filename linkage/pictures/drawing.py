@@ -13,66 +13,129 @@ from matplotlib.patches import Circle, Polygon
 
 from ..motion import Motion
 from ..program import FloatArray
-from . import free_space as room
 from . import style
-from .labels import labels, offsets
+from .free_space import label_free, props
+from .labels import LabelPart, offsets
 from .scene import Places, Scene, Straight
-from .shapes import Outline, rounded
+from .shapes import rounded
 from .sheet import points_a_metre, sheet
 from .style import FAINT, STRONG, Look
-from .symbols import CylinderPart, Part, added, ground, rails, sliders
+from .symbols import CylinderPart, MovingPart, added, direction_of, ground, polygon, rails, sliders
+
+
+def mechanism(ax: Axes, motion: Motion, pose: int | tuple[int, ...] = 0, *, faint: bool = False) -> Drawing:
+    """Return the mechanism drawn on axes at a pose of a motion; `update` moves it to another.
+
+    The pose is an index into the strokes, an int for the flat one. Empty axes become a sheet with equal scales that
+    has room for the whole motion. A faint mechanism has no names. At a pose out of reach only the frame is drawn.
+    Raises DefinitionError for a batch of designs or a pose that is not there.
+    """
+    scene = Scene(motion)
+    index = scene.index(pose)
+    if not ax.has_data():
+        sheet(ax, scene.box())
+    drawing = Drawing(ax, scene, FAINT if faint else STRONG)
+    drawing.ground()
+    if not faint:
+        drawing.label([scene.at(index)] if index in scene.reached else [])
+    drawing.update(index)
+    return drawing
+
+
+class Drawing:
+    """The parts of a mechanism on some axes; `update` moves them to another pose."""
+
+    def __init__(self, ax: Axes, scene: Scene, look: Look = STRONG) -> None:
+        self.ax, self.scene, self.look = ax, scene, look
+        hulls = zip(scene.hulls, cycle(style.BODIES), strict=False)
+        self.parts: list[MovingPart] = [
+            *(StraightPart(ax, each, look, -0.1) for each in scene.contours),
+            *(BodyPart(ax, points, scene.size, colour, look) for points, colour in hulls),
+            *sliders(ax, scene, look),
+            *(CylinderPart(ax, ram, scene.size, look) for ram in scene.rams),
+            *(StraightPart(ax, each, look) for each in scene.straights),
+            *(StayPart(ax, ends, look) for ends in scene.stays),
+            *(pin(ax, name, scene.size, look) for name in scene.pins),
+            *(dot(ax, name, scene.size, look) for name in scene.dots),
+        ]
+
+    def ground(self) -> None:
+        """Draw what never moves: the frame under its pins."""
+        rails(self.ax, self.scene, self.look)
+        at = self.scene.at(0)
+        for name, way in props(self.scene).items():
+            ground(self.ax, at[name], way, self.scene.size, self.look)
+
+    def label(self, poses: Sequence[Places], keep_clear: Sequence[FloatArray] = ()) -> None:
+        """Name the points; the names keep clear of the mechanism at all `poses` and of further points [m]."""
+        size, scale = self.scene.size, points_a_metre(self.ax)
+        clouds = [np.concatenate([points, *keep_clear]) for points in label_free(self.scene, poses)]
+        spots = offsets(list(self.scene.places), poses, clouds, scale, 1.15 * size * scale + 1.5)
+        self.parts += [LabelPart(self.ax, name, spot, self.look) for name, spot in spots.items()]
+
+    def update(self, pose: int) -> None:
+        """Move to a pose, a flat index."""
+        at = self.scene.at(pose)
+        for part in self.parts:
+            part.update(at)
+
+    @property
+    def artists(self) -> list[Artist]:
+        """All that moves, from the lowest layer up."""
+        return sorted((artist for part in self.parts for artist in part.artists), key=lambda artist: artist.get_zorder())
+
 
 # Rigid bodies: bars with round ends, plates with round corners.
 
-class BodyPart(Part):
+class BodyPart(MovingPart):
     """A body as the line around its outermost points, filled."""
+
+    artists: tuple[Polygon, ...]
 
     def __init__(self, ax: Axes, points: tuple[str, ...], radius: float, colour: str, look: Look) -> None:
         plate = len(points) > 2
         self.points, self.radius = points, radius
         fill, edge = look.colour(colour), look.colour(style.mixed(colour, style.INK, 0.65))
         level = look.level + (0.0 if plate else 0.2)
-        nowhere = np.zeros((1, 2))
-        self.face = added(ax, Polygon(nowhere, facecolor=fill, edgecolor="none", alpha=0.55 if plate else 1.0, zorder=level))
-        self.edge = added(ax, Polygon(nowhere, fill=False, edgecolor=edge, linewidth=style.OUTLINE, zorder=level + 0.1))
+        self.face = polygon(ax, level, facecolor=fill, edgecolor="none", alpha=0.55 if plate else 1.0)
+        self.edge = polygon(ax, level + 0.1, fill=False, edgecolor=edge, linewidth=style.OUTLINE)
         self.artists = (self.face, self.edge)
 
     def move(self, at: Places) -> None:
         outline = rounded(np.array([at[name] for name in self.points]), self.radius)
-        self.face.set_xy(outline)
-        self.edge.set_xy(outline)
+        for artist in self.artists:
+            artist.set_xy(outline)
 
 
 # Springs, dampers and struts between two points, and the yokes of what stands beside its pins.
 
-class StraightPart(Part):
-    """A straight element from P to Q as some lines."""
+class StraightPart(MovingPart):
+    """A straight element from P to Q, or what a step draws of itself, as some lines."""
 
-    def __init__(self, ax: Axes, straight: Straight, look: Look) -> None:
+    artists: tuple[Polygon, ...]
+
+    def __init__(self, ax: Axes, straight: Straight, look: Look, above: float = 0.5) -> None:
         self.straight, self.points = straight, (straight.P, straight.Q)
-        self.pieces = [(line, added(ax, self._piece(line, look.level + 0.5 + 0.01 * i, look))) for i, line in enumerate(straight.lines)]
-        self.artists = tuple(piece for _, piece in self.pieces)
-
-    @staticmethod
-    def _piece(line: Outline, level: float, look: Look) -> Polygon:
-        return Polygon(
-            np.zeros((1, 2)), closed=line.closed, fill=bool(line.fill), facecolor=look.colour(getattr(style, line.fill or "PAPER")),
-            edgecolor=look.colour(style.INK), linewidth=style.OUTLINE * (1.5 if line.bold else 0.8), joinstyle="round", capstyle="round",
-            zorder=level,
+        line = {"edgecolor": look.colour(style.INK), "joinstyle": "round", "capstyle": "round"}
+        self.artists = tuple(
+            polygon(
+                ax, look.level + above + 0.01 * layer, closed=each.closed, fill=bool(each.fill),
+                facecolor=look.colour(getattr(style, each.fill or "PAPER")), linewidth=style.OUTLINE * (1.5 if each.bold else 0.8), **line,
+            )
+            for layer, each in enumerate(straight.lines)
         )  # fmt: skip
 
     def move(self, at: Places) -> None:
         P, Q = at[self.straight.P], at[self.straight.Q]
-        length = float(np.hypot(*(Q - P)))
-        along = (Q - P) / (length or 1.0)
+        length, along = direction_of(P, Q)
         turned = np.array([along, [-along[1], along[0]]])
-        for line, piece in self.pieces:
-            piece.set_xy(P + line.at(length) @ turned)
+        for line, artist in zip(self.straight.lines, self.artists, strict=True):
+            artist.set_xy(P + line.at(length) @ turned)
 
 
 # Points: pins as circles, others as small dots, and the thin lines of a bare construction.
 
-class CirclePart(Part):
+class CirclePart(MovingPart):
     """A point as a circle."""
 
     def __init__(self, ax: Axes, name: str, radius: float, fill: str, edge: str, width: float, level: float) -> None:
@@ -95,7 +158,7 @@ def dot(ax: Axes, name: str, size: float, look: Look) -> CirclePart:
     return CirclePart(ax, name, 0.48 * size, look.colour(style.INK), style.PAPER, style.THIN, look.level + 0.8)
 
 
-class StayPart(Part):
+class StayPart(MovingPart):
     """Two points that a construction joins: a thin broken line."""
 
     def __init__(self, ax: Axes, ends: tuple[str, str], look: Look) -> None:
@@ -105,73 +168,3 @@ class StayPart(Part):
 
     def move(self, at: Places) -> None:
         self.line.set_data(*np.array([at[name] for name in self.points]).T)
-
-
-class Drawing:
-    """The parts of a mechanism on some axes; `update` moves them to another pose."""
-
-    def __init__(self, ax: Axes, scene: Scene, look: Look = STRONG) -> None:
-        self.ax, self.scene, self.look = ax, scene, look
-        made = bodies, sliders, cylinders, points
-        self.parts: list[Part] = [part for kind in made for part in kind(ax, scene, look)]
-
-    def ground(self) -> None:
-        """Draw what never moves: the frame under its pins."""
-        rails(self.ax, self.scene, self.look)
-        at = self.scene.at(0)
-        for name, way in room.props(self.scene).items():
-            ground(self.ax, at[name], way, self.scene.size, self.look)
-
-    def label(self, poses: Sequence[Places], keep_clear: Sequence[FloatArray] = ()) -> None:
-        """Name the points; the names keep clear of the mechanism at all `poses` and of further points [m]."""
-        size, scale = self.scene.size, points_a_metre(self.ax)
-        clouds = [np.concatenate([points, *keep_clear]) for points in room.taken(self.scene, poses)]
-        self.parts += labels(self.ax, offsets(list(self.scene.places), poses, clouds, scale, 1.15 * size * scale + 1.5), self.look)
-
-    def update(self, pose: int) -> None:
-        """Move to a pose, a flat index."""
-        at = self.scene.at(pose)
-        for part in self.parts:
-            part.update(at)
-
-    @property
-    def artists(self) -> list[Artist]:
-        """All that moves, from the lowest layer up."""
-        return sorted((artist for part in self.parts for artist in part.artists), key=lambda artist: artist.get_zorder())
-
-
-def bodies(ax: Axes, scene: Scene, look: Look) -> list[Part]:
-    """Return the moving bodies."""
-    return [BodyPart(ax, points, scene.size, colour, look) for points, colour in zip(scene.hulls, cycle(style.BODIES), strict=False)]
-
-
-def cylinders(ax: Axes, scene: Scene, look: Look) -> list[Part]:
-    """Return the cylinders, and the straight elements in front of them."""
-    rams = [CylinderPart(ax, ram, scene.size, look) for ram in scene.rams]
-    return [*rams, *(StraightPart(ax, each, look) for each in scene.straights)]
-
-
-def points(ax: Axes, scene: Scene, look: Look) -> list[Part]:
-    """Return the pins, the dots and the lines of a bare construction."""
-    pins = [pin(ax, name, scene.size, look) for name in scene.pins]
-    dots = [dot(ax, name, scene.size, look) for name in scene.dots]
-    return [*(StayPart(ax, ends, look) for ends in scene.stays), *pins, *dots]
-
-
-def mechanism(ax: Axes, motion: Motion, pose: int | tuple[int, ...] = 0, *, faint: bool = False) -> Drawing:
-    """Return the mechanism drawn on axes at a pose of a motion; `update` moves it to another.
-
-    The pose is an index into the strokes, an int for the flat one. Empty axes become a sheet with equal scales that
-    has room for the whole motion. A faint mechanism has no names. At a pose out of reach only the frame is drawn.
-    Raises DefinitionError for a batch of designs or a pose that is not there.
-    """
-    scene = Scene(motion)
-    index = scene.index(pose)
-    if not ax.has_data():
-        sheet(ax, scene.box())
-    drawing = Drawing(ax, scene, FAINT if faint else STRONG)
-    drawing.ground()
-    if not faint:
-        drawing.label([scene.at(index)] if index in scene.reached else [])
-    drawing.update(index)
-    return drawing

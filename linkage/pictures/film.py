@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory, gettempdir
-from typing import Any
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -21,15 +21,96 @@ from ..errors import DefinitionError, FileError, LinkageError, cited
 from ..mechanism import Mechanism, require_mechanism
 from ..program import FloatArray
 from ..reports import NOTHING, At
-from . import strokes, style
+from . import style
 from .browser import page_html
-from .curves import Limit, panel, typeset
-from .curves import limit as limit_of
+from .curves import Limit, limit_of, panel, typeset
 from .drawing import Drawing
 from .poses import named_points, trace
 from .scene import Scene
 from .sheet import sheet
-from .strokes import RATE, Course, course, whole
+from .strokes import RATE, Playback, StrokeAxis, frame_count, playback, stroke_words, unreached_words
+
+GIF_DPI = 100
+MP4_DPI = 150
+PAGE_FINENESS = 3
+
+Progress: TypeAlias = Callable[[int, int], None]
+"""What is called as the poses of an animation are done: with their number, and that of all."""
+
+
+def animate(
+    machine: Mechanism,
+    path: str | Path,
+    *,
+    count: int = 60,
+    column: str | None = None,
+    trace: Sequence[str] = (),
+    limit: Sequence[Any] | None = None,
+    at: At = NOTHING,
+    progress: Progress | None = None,
+) -> Path:
+    """Return the path of the animation it wrote; see `linkage.animate`."""
+    require_mechanism(machine)
+    if not isinstance(path, (str, os.PathLike)):
+        raise DefinitionError(f"{cited(path)} is no path of a file; give one that ends in .gif, .mp4 or .html.")
+    if progress is not None and (not callable(progress) or isinstance(progress, type)):
+        raise DefinitionError(f"progress={cited(progress)} is no function; give one of (done, total).")
+    target, poses = Path(path), frame_count(count)
+    kind = target.suffix.lower()
+    if kind not in KINDS:
+        raise DefinitionError(f"{target.name}: an animation is written as .gif, .mp4 or .html; give a name with one of these endings.")
+    trace = named_points(machine, trace, "trace")
+    if limit is not None:
+        limit_of(limit)
+    check_place(target)
+    write, fineness = KINDS[kind]
+    played = playback(machine, fineness * (poses - 1) + 1, column, at=at, eased=fineness == 1)
+    write(played, target, trace, limit, progress or (lambda done, total: None))
+    return target
+
+
+def page(machine: Mechanism, path: str | Path, **given: Any) -> Path:
+    """Return the path of the browser page it wrote; see `linkage.page`."""
+    if not isinstance(path, (str, os.PathLike)) or Path(path).suffix.lower() != ".html":
+        raise DefinitionError(f"{cited(path)} is no name of a page; give one that ends in .html.")
+    return animate(machine, path, **given)
+
+
+def gif(played: Playback, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
+    """Write a GIF; a pose that comes twice is drawn once."""
+    stage = Stage(played, trace, limit, GIF_DPI)
+    sample = np.concatenate([stage.frame(pose) for pose in (played.order[0], played.order[len(played.order) // 2])])
+    poses = list(dict.fromkeys(played.order))
+    write_gif(target, drawn_frames(stage, poses, progress), played.order, sample)
+
+
+def mp4(played: Playback, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
+    """Write an MP4."""
+    stage = Stage(played, trace, limit, MP4_DPI)
+    width, height = stage.canvas.get_width_height()
+    write_mp4(target, drawn_frames(stage, played.order, progress), (width, height))
+
+
+def html(played: Playback, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
+    """Write a page."""
+    text = page_html(played.motion, played.column, trace, limit, is_turn=played.is_turn)
+    progress(1, 2)
+    with replacing_text(target) as stream:
+        stream.write(text)
+    progress(2, 2)
+
+
+KINDS = {".gif": (gif, 1), ".mp4": (mp4, 1), ".html": (html, PAGE_FINENESS)}
+"""An ending -> what writes it, and between how many times as many poses it moves: a page runs at its own pace."""
+
+
+def drawn_frames(stage: Stage, poses: Sequence[int], progress: Progress) -> Iterator[npt.NDArray[np.uint8]]:
+    """Yield the picture at each pose, and report it when it has been taken."""
+    progress(0, len(poses))
+    for done, pose in enumerate(poses, 1):
+        yield stage.frame(pose)
+        progress(done, len(poses))
+
 
 # The stage of an animation: the mechanism and its live curve, drawn once and then moved.
 
@@ -43,18 +124,13 @@ MOST = 9
 """Decimals that a value is shown with, at most."""
 
 
-def untyped(canvas: Any) -> Any:
-    """Return a canvas without its type: matplotlib declares none for these methods."""
-    return canvas
-
-
 class Stage:
     """A figure with a mechanism on the left and a live curve on the right; `frame` gives it at a pose."""
 
-    def __init__(self, course: Course, paths: Sequence[str], bound: Sequence[Any] | Limit | None, dpi: int) -> None:
-        self.course, self.scene = course, Scene(course.motion)
+    def __init__(self, playback: Playback, paths: Sequence[str], bound: Sequence[Any] | Limit | None, dpi: int) -> None:
+        self.playback, self.scene, self.along = playback, Scene(playback.motion), StrokeAxis.of(playback.motion)
         self.figure = Figure(figsize=(WIDTH, HEIGHT), dpi=dpi, facecolor=style.PAPER)
-        self.canvas = untyped(FigureCanvasAgg(self.figure))
+        self.canvas = cast(Any, FigureCanvasAgg(self.figure))  # matplotlib declares no types for its methods
         self.drawing = self._mechanism(paths)
         self.live = self._curve(bound)
         self.stroke = self.figure.text(SHEET[0] + SHEET[2], TITLE, "", fontsize=style.TITLE, color=style.INK, ha="right", va="center")
@@ -79,22 +155,20 @@ class Stage:
     def _curve(self, bound: Sequence[Any] | None) -> tuple[Artist, ...]:
         """Return what is drawn anew on the curve, from the lowest layer up: the piece run through, the limit, a marker."""
         ax = self.figure.add_axes(CURVE)
-        panel(ax, self.course.motion, self.course.column, bound, colour=style.RULE)
+        panel(ax, self.playback.motion, self.playback.column, bound, colour=style.RULE)
         ax.set_title("", loc="left")
         (self.run,) = ax.plot([], [], color=style.CURVE, linewidth=style.BOLD + 0.4, zorder=5.05, solid_capstyle="round")
         (self.marker,) = ax.plot([], [], "o", color=style.CURVE, markersize=9, markeredgecolor=style.PAPER, zorder=7.0, clip_on=False)
-        self._title(CURVE[0], typeset(self.course.column.heading))
+        self._title(CURVE[0], typeset(self.playback.column.heading))
         self.value = self.figure.text(CURVE[0] + CURVE[2], TITLE, "", fontsize=style.TITLE, color=style.CURVE, ha="right", va="center")
         return tuple(sorted([*ax.lines, *ax.texts], key=lambda artist: artist.get_zorder()))
 
     def _remarks(self) -> None:
         """Write under the title the strokes that are held, and what is not reached."""
-        motion = self.course.motion
-        moving = strokes.driven(motion)
-        held = strokes.held(motion.plan, motion.strokes, moving)
+        held = self.along.held
         texts = (
             (SHEET[0], f"at {held}" if held else "", style.MUTED, "left"),
-            (SHEET[0] + SHEET[2], strokes.unreached(motion, moving), style.ACCENT, "right"),
+            (SHEET[0] + SHEET[2], unreached_words(self.playback.motion, self.along.name), style.ACCENT, "right"),
         )
         for x, text, colour, side in texts:
             if text:
@@ -118,17 +192,15 @@ class Stage:
 
     def update(self, pose: int) -> None:
         """Move everything to a pose."""
-        motion, column = self.course.motion, self.course.column
-        moving = strokes.driven(motion)
-        along, shown = strokes.shown(motion.plan, moving, motion.strokes[moving]), column.drawn
+        motion, along, values = self.playback.motion, self.along, self.playback.column.drawn
         self.drawing.update(pose)
-        self.run.set_data(along[: pose + 1], shown[: pose + 1])
-        self.marker.set_data(along[pose : pose + 1], shown[pose : pose + 1])
-        self.stroke.set_text(strokes.words(motion.plan, moving, float(motion.strokes[moving][pose]), fixed=True))
-        self.value.set_text(stroke_words(shown, pose))
+        self.run.set_data(along.values[: pose + 1], values[: pose + 1])
+        self.marker.set_data(along.values[pose : pose + 1], values[pose : pose + 1])
+        self.stroke.set_text(stroke_words(motion.plan, along.name, float(motion.strokes[along.name][pose]), fixed=True))
+        self.value.set_text(value_text(self.playback.column.drawn, pose))
 
 
-def stroke_words(values: FloatArray, pose: int) -> str:
+def value_text(values: FloatArray, pose: int) -> str:
     """Return one of a column's values as text, all with so many decimals that the greatest has four digits; empty where it has none."""
     if not np.isfinite(values[pose]):
         return ""
@@ -162,15 +234,15 @@ def palette_of(sample: npt.NDArray[np.uint8]) -> Image.Image:
     """
     packed, counts = np.unique(sample.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], np.uint32), return_counts=True)
     ranked = packed[np.argsort(-counts, kind="stable")]
-    chosen: list[npt.NDArray[np.int64]] = []
+    kept: list[npt.NDArray[np.int64]] = []
     for code in ranked.tolist():
         colour = np.array([code >> 16, code >> 8 & 255, code & 255])
-        if all(np.abs(colour - other).max() >= APART for other in chosen):
-            chosen.append(colour)
-        if len(chosen) == COLOURS:
+        if all(np.abs(colour - other).max() >= APART for other in kept):
+            kept.append(colour)
+        if len(kept) == COLOURS:
             break
     palette = Image.new("P", (1, 1))
-    palette.putpalette(np.concatenate(chosen).tolist())
+    palette.putpalette(np.concatenate(kept).tolist())
     return palette
 
 
@@ -186,110 +258,20 @@ def write_mp4(path: Path, frames: Iterable[npt.NDArray[np.uint8]], size: tuple[i
             "(from a checkout: pip install -e '.[video]'). A .gif or .html needs nothing more."
         ) from None
     with replacing(path) as stream, TemporaryDirectory() as folder:
-        film, sent = Path(folder) / "film.mp4", 0
+        film, written = Path(folder) / "film.mp4", 0
         writer = imageio_ffmpeg.write_frames(str(film), size, fps=RATE, quality=8, macro_block_size=16)
         writer.send(None)
         try:
-            for sent, frame in enumerate(frames, 1):  # noqa: B007 - counted to the end
+            for written, frame in enumerate(frames, 1):  # noqa: B007 - counted to the end
                 writer.send(np.ascontiguousarray(frame))
         finally:
             writer.close()
         try:
-            held, _ = imageio_ffmpeg.count_frames_and_secs(str(film))
+            found, _ = imageio_ffmpeg.count_frames_and_secs(str(film))
         except RuntimeError:  # ffmpeg cannot read what it wrote
-            held = 0
-        if held != sent:
+            found = 0
+        if found != written:
             room = f"make room in {gettempdir()}, where it works"
-            raise FileError(f"{spoken(path)}: ffmpeg wrote {held} of {sent} frames; {room}, or choose .gif or .html.")
+            raise FileError(f"{spoken(path)}: ffmpeg wrote {found} of {written} frames; {room}, or choose .gif or .html.")
         with film.open("rb") as whole:
             copyfileobj(whole, stream)
-
-
-GIF_DPI = 100
-MP4_DPI = 150
-PAGE_FINENESS = 3
-
-Progress = Callable[[int, int], None]
-
-
-def animate(
-    machine: Mechanism,
-    path: str | Path,
-    *,
-    count: int = 60,
-    column: str | None = None,
-    trace: Sequence[str] = (),
-    limit: Sequence[Any] | None = None,
-    at: At = NOTHING,
-    progress: Progress | None = None,
-) -> Path:
-    """Return the path of the animation it wrote; see `linkage.animate`."""
-    require_mechanism(machine)
-    if not isinstance(path, (str, os.PathLike)):
-        raise DefinitionError(f"{cited(path)} is no path of a file; give one that ends in .gif, .mp4 or .html.")
-    if progress is not None and (not callable(progress) or isinstance(progress, type)):
-        raise DefinitionError(f"progress={cited(progress)} is no function; give one of (done, total).")
-    target, poses = Path(path), whole(count)
-    kind = target.suffix.lower()
-    if kind not in KINDS:
-        raise DefinitionError(f"{target.name}: an animation is written as .gif, .mp4 or .html; give a name with one of these endings.")
-    trace = named_points(machine, trace, "trace")
-    if limit is not None:
-        limit_of(limit)
-    check_place(target)
-    write, fineness = KINDS[kind]
-    run = course(machine, fineness * (poses - 1) + 1, column, at=at, eased=fineness == 1)
-    write(run, target, trace, limit, progress or silent)
-    return target
-
-
-def page(machine: Mechanism, path: str | Path, **given: Any) -> Path:
-    """Return the path of the browser page it wrote; see `linkage.page`."""
-    if not isinstance(path, (str, os.PathLike)) or Path(path).suffix.lower() != ".html":
-        raise DefinitionError(f"{cited(path)} is no name of a page; give one that ends in .html.")
-    return animate(machine, path, **given)
-
-
-def silent(done: int, total: int) -> None:
-    """Say nothing."""
-
-
-def gif(run: Course, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
-    """Write a GIF; a pose that comes twice is drawn once."""
-    stage = Stage(run, trace, limit, GIF_DPI)
-    sample = np.concatenate([stage.frame(pose) for pose in (run.order[0], run.order[len(run.order) // 2])])
-    poses = list(dict.fromkeys(run.order))
-    write_gif(target, counted(frames(stage, poses), len(poses), progress), run.order, sample)
-
-
-def mp4(run: Course, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
-    """Write an MP4."""
-    stage = Stage(run, trace, limit, MP4_DPI)
-    width, height = stage.canvas.get_width_height()
-    write_mp4(target, counted(frames(stage, run.order), len(run.order), progress), (width, height))
-
-
-def html(run: Course, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
-    """Write a page."""
-    text = page_html(run.motion, run.column, trace, limit, is_turn=run.is_turn)
-    progress(1, 2)
-    with replacing_text(target) as stream:
-        stream.write(text)
-    progress(2, 2)
-
-
-KINDS = {".gif": (gif, 1), ".mp4": (mp4, 1), ".html": (html, PAGE_FINENESS)}
-"""An ending -> what writes it, and between how many times as many poses it moves: a page runs at its own pace."""
-
-
-def frames(stage: Stage, poses: Iterable[int]) -> Iterator[npt.NDArray[np.uint8]]:
-    """Yield the picture at each pose."""
-    return (stage.frame(pose) for pose in poses)
-
-
-def counted(each: Iterator[npt.NDArray[np.uint8]], total: int, progress: Progress) -> Iterator[npt.NDArray[np.uint8]]:
-    """Yield the same pictures, and report each when it has been taken."""
-    progress(0, total)
-    for done, picture in enumerate(each, 1):
-        yield picture
-        progress(done, total)

@@ -41,12 +41,12 @@ def props(scene: Scene) -> dict[str, float]:
     shown = scene.some(7) or [scene.at(0)]
     covered = np.concatenate([cloud(scene, at) for at in shown])
     pins = {name: shown[0][name] for name in scene.grounds}
-    chosen: dict[str, float] = {}
+    ways: dict[str, float] = {}
     for name, pin in pins.items():
-        others = [symbol(place, chosen.get(other, DOWN), scene.size) for other, place in pins.items() if other != name]
+        others = [symbol(place, ways.get(other, DOWN), scene.size) for other, place in pins.items() if other != name]
         crowd = np.concatenate([covered, *(np.tile(other, (len(shown), 1)) for other in others)]) - pin
-        chosen[name] = min(WORTH, key=lambda way: _crowding(crowd / scene.size, way) / len(shown) + WORTH[way])
-    return chosen
+        ways[name] = min(WORTH, key=lambda way: _crowding(crowd / scene.size, way) / len(shown) + WORTH[way])
+    return ways
 
 
 def symbol(pin: FloatArray, way: float, size: float) -> FloatArray:
@@ -55,7 +55,7 @@ def symbol(pin: FloatArray, way: float, size: float) -> FloatArray:
     return np.array([pin + size * (u * along + v * across) for u, v in SYMBOL])
 
 
-def taken(scene: Scene, poses: Sequence[Places]) -> list[FloatArray]:
+def label_free(scene: Scene, poses: Sequence[Places]) -> list[FloatArray]:
     """Return points that no label should cover at each pose, shape (m, 2) [m]; ground symbols count double, rails with their hatches."""
     symbols = [np.tile(symbol(scene.at(0)[name], way, scene.size), (2, 1)) for name, way in props(scene).items()]
     rails = [segment(start, end, 0.5 * scene.size) for lines in hatched(scene) for start, end in lines]

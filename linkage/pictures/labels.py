@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,14 +12,14 @@ from ..program import FloatArray
 from . import style
 from .scene import Places
 from .style import Look
-from .symbols import Part
+from .symbols import MovingPart
 
 REACH = (1.0, 1.4, 2.0, 2.8, 4.0)
 WAYS = np.radians(np.arange(60.0, 420.0, 22.5))
 """The places a label tries: distances, as multiples of the nearest, and directions [rad], the preferred one first."""
 
 
-class LabelPart(Part):
+class LabelPart(MovingPart):
     """A point's name at an offset [points]."""
 
     def __init__(self, ax: Axes, name: str, offset: FloatArray, look: Look) -> None:
@@ -50,15 +50,17 @@ def offsets(
         pins = [np.array([at[name] for name in names]).reshape(-1, 2) * scale for at in poses]
         taken = [np.concatenate([points, np.repeat(each, 4, axis=0)]) for points, each in zip(taken, pins, strict=True)]
     far = max(gap, 0.9 * font) if len(poses) > 1 else np.inf
-    chosen: dict[str, FloatArray] = {}
-    for name in sorted(names, key=lambda each: -_crowd(each, poses, taken, scale, 3 * font)):
+    spots_of: dict[str, FloatArray] = {}
+    around = np.array([3 * font, 3 * font])
+    crowds = {name: sum(_count(points, at[name] * scale, around) for at, points in zip(poses, taken, strict=True)) for name in names}
+    for name in sorted(names, key=lambda each: -crowds[each]):
         half = 0.5 * font * np.array([0.68 * len(name) + 0.15, 0.95])
         anchors = [at[name] * scale for at in poses]
         spots = candidates(half, gap, far)
         costs = [_cost(spot, rank, half, anchors, taken) for rank, spot in enumerate(spots)]
-        chosen[name] = spots[int(np.argmin(costs))]
-        taken = [np.concatenate([points, _covered(anchor + chosen[name], half)]) for points, anchor in zip(taken, anchors, strict=True)]
-    return chosen
+        spots_of[name] = spots[int(np.argmin(costs))]
+        taken = [np.concatenate([points, _covered(anchor + spots_of[name], half)]) for points, anchor in zip(taken, anchors, strict=True)]
+    return spots_of
 
 
 def candidates(half: FloatArray, gap: float, far: float = np.inf) -> list[FloatArray]:
@@ -73,11 +75,6 @@ def _cost(spot: FloatArray, rank: int, half: FloatArray, anchors: Sequence[Float
     return sum(covered) / max(len(anchors), 1) + 0.02 * rank
 
 
-def _crowd(name: str, poses: Sequence[Places], taken: Sequence[FloatArray], scale: float, radius: float) -> float:
-    """Return how many taken points lie around a point."""
-    return sum(_count(points, at[name] * scale, np.array([radius, radius])) for at, points in zip(poses, taken, strict=True))
-
-
 def _count(points: FloatArray, centre: FloatArray, half: FloatArray) -> int:
     """Return how many points lie in a box."""
     return int(np.count_nonzero((np.abs(points - centre) < half).all(axis=1)))
@@ -87,8 +84,3 @@ def _covered(centre: FloatArray, half: FloatArray) -> FloatArray:
     """Return points that cover a label, weighted to keep others off, shape (n, 2)."""
     steps = np.linspace(-1.0, 1.0, 5)
     return np.array([centre + half * (u, v) for u in steps for v in steps for _ in range(3)])
-
-
-def labels(ax: Axes, spots: Mapping[str, FloatArray], look: Look) -> list[LabelPart]:
-    """Return the labels of some points."""
-    return [LabelPart(ax, name, offset, look) for name, offset in spots.items()]

@@ -113,7 +113,7 @@ for (const lines of scene.rails) {
 }
 const plates = scene.bodies.filter((each) => each.points.length > 2), bars = scene.bodies.filter((each) => each.points.length <= 2);
 const parts = [
-  ...plates.map(body), ...scene.blocks.filter((each) => !each.inside).map(block), ...bars.map(body),
+  ...scene.contours.map(straight), ...plates.map(body), ...scene.blocks.filter((each) => !each.inside).map(block), ...bars.map(body),
   ...scene.slots.map(slot), ...scene.blocks.filter((each) => each.inside).map(block), ...scene.stays.map(stay), ...scene.rams.map(ram), ...scene.straights.map(straight),
   ...scene.pins.map((i) => circle(i, 0.5 * size, css("paper"), css("ink"), 1.3 * EDGE)),
   ...scene.dots.map((i) => circle(i, 0.48 * size, css("ink"), css("paper"), 1)),

@@ -16,8 +16,8 @@ from ..loads import TwoPoint
 from ..motion import Motion, require_motion
 from ..program import FloatArray
 from ..quantities import Joint
-from ..steps import Guide, Offset, Slide
-from .shapes import APART, HALF, OUTLINES, Outline, hull, yokes
+from ..steps import Guide
+from .shapes import APART, HALF, OUTLINES, Outline, hull, turning_with, yokes
 
 # What points slide along: fixed rails and slots on moving bodies, each as long as the travel asks.
 
@@ -26,7 +26,7 @@ MARGIN = 3.2
 
 
 @dataclass(frozen=True, eq=False)
-class Track:
+class SlideTrack:
     """A straight track: its origin [m] and its direction at every pose, shape (2, n), and the points that slide on it."""
 
     name: str
@@ -53,48 +53,46 @@ class Track:
         return {start: self.origin + (low - pad) * self.along, end: self.origin + (high + pad) * self.along}
 
 
-def tracks(motion: Motion) -> tuple[Track, ...]:
+def slide_tracks(motion: Motion) -> tuple[SlideTrack, ...]:
     """Return the tracks that something slides on."""
     return (*guides(motion), *slots(motion))
 
 
-def guides(motion: Motion) -> Iterator[Track]:
+def guides(motion: Motion) -> Iterator[SlideTrack]:
     """Yield the guides that points slide on."""
     plan = motion.plan
     for name, guide in plan.of_kind(Guide).items():
-        riders = tuple(dict.fromkeys(joint.point for joint in every(motion) if joint.track == (name,)))
+        riders = tuple(dict.fromkeys(joint.point for joint in slide_joints(motion) if joint.track == (name,)))
         if riders:
             fixed = set(guide.points) <= set(plan.ground) and (guide.angle is None or not plan.moves(guide.angle))
             line = motion._reading.line(guide)
-            yield Track(
-                name, row(motion, line.origin.x, line.origin.y), row(motion, line.direction.x, line.direction.y), riders, fixed
-            )  # fmt: skip
+            origin, along = pose_rows(motion, line.origin.x, line.origin.y), pose_rows(motion, line.direction.x, line.direction.y)
+            yield SlideTrack(name, origin, along, riders, fixed)
 
 
-def slots(motion: Motion) -> Iterator[Track]:
+def slots(motion: Motion) -> Iterator[SlideTrack]:
     """Yield the slots of bodies: each of a step of its own, with the pin in it."""
     guides = motion.plan.of_kind(Guide)
     for name, step in motion.plan.points.items():
         for joint in step.joints():
             if joint.track and joint.line is not None and joint.track[0] not in guides:
                 line = joint.line(motion._reading)
-                along = row(motion, line.direction.x, line.direction.y)
-                yield Track(f"{name}|slot", row(motion, line.origin.x, line.origin.y), along, (joint.point,), False)
+                along = pose_rows(motion, line.direction.x, line.direction.y)
+                yield SlideTrack(f"{name}|slot", pose_rows(motion, line.origin.x, line.origin.y), along, (joint.point,), False)
 
 
-def every(motion: Motion) -> Iterator[Joint]:
+def slide_joints(motion: Motion) -> Iterator[Joint]:
     """Yield all joints that points slide in, driven or not."""
-    members = {**motion.plan.points, **motion.plan.of_kind(Slide)}
-    return (joint for member in members.values() for joint in member.joints() if joint.track)
+    return (joint for member in motion.plan.holding.values() for joint in member.joints() if joint.track)
 
 
-def row(motion: Motion, x: object, y: object) -> FloatArray:
+def pose_rows(motion: Motion, x: object, y: object) -> FloatArray:
     """Return two components over all poses, shape (2, n)."""
     return np.array([np.broadcast_to(np.asarray(each, float), motion.shape).ravel() for each in (x, y)])
 
 
 Places: TypeAlias = dict[str, FloatArray]
-Box: TypeAlias = tuple[float, float, float, float]
+Bounds: TypeAlias = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True)
@@ -221,7 +219,7 @@ class Scene:
                 driven.discard(pair)
             else:
                 by_pair.setdefault(pair, []).append(Hung(*element.ends, element.drawn_as))
-        return tuple(each for members in by_pair.values() for each in beside(members))
+        return tuple(each for members in by_pair.values() for each in side_by_side(members))
 
     @cached_property
     def rams(self) -> tuple[Ram, ...]:
@@ -252,6 +250,12 @@ class Scene:
                 found.append(Straight(hung.P, hung.Q, tuple(lines)))
         return tuple(found)
 
+    @cached_property
+    def contours(self) -> tuple[Straight, ...]:
+        """What steps draw of themselves, behind the bodies."""
+        found = [each for step in self.motion.plan.points.values() for each in step.outline(self.motion._reading)]
+        return tuple(Straight(each.P, each.Q, (turning_with(each),)) for each in found)
+
     def _lengths(self, hung: Hung) -> tuple[float, float]:
         """Return the least and the greatest distance of two points over the motions and the declared strokes' ends [m]; inf, 0 for none."""
         seen = [motion for motion in (self.motion, self.over, self._ends) if motion is not None]
@@ -267,14 +271,14 @@ class Scene:
         return Motion(plan, self.motion.designs, values, "nan")
 
     @cached_property
-    def tracks(self) -> tuple[Track, ...]:
+    def tracks(self) -> tuple[SlideTrack, ...]:
         """The guides and slots that something slides on."""
-        return tracks(self.motion)
+        return slide_tracks(self.motion)
 
     @cached_property
     def rims(self) -> Places:
         """The two ends of every track at every pose, shape (2, n) each [m]."""
-        wide = [] if self.over is None else list(zip(tracks(self.over), self.tracks, strict=True))
+        wide = [] if self.over is None else list(zip(slide_tracks(self.over), self.tracks, strict=True))
         reach = {track.name: track.travel(self.places) for track in self.tracks}
         for other, track in wide:
             low, high = other.travel(Scene(self.over).places) if self.over is not None else reach[track.name]
@@ -286,7 +290,7 @@ class Scene:
     def stays(self) -> tuple[tuple[str, str], ...]:
         """Pairs that a construction joins and no body does: drawn as thin lines."""
         bodies = [set(body.points) for body in self.motion.plan.links] + [{each.P, each.Q} for each in self.hung]
-        pairs = [(step.P if isinstance(step.P, str) else step.P.name, name) for name, step in self.motion.plan.of_kind(Offset).items()]
+        pairs = [(point.hangs_from, name) for name, point in self.motion.plan.points.items() if point.hangs_from]
         return tuple((P, X) for P, X in pairs if not any({P, X} <= body for body in bodies))
 
     @cached_property
@@ -317,14 +321,19 @@ class Scene:
     # -- sizes -----------------------------------------------------------------------------------------
 
     @cached_property
-    def extent(self) -> Box:
+    def extent(self) -> Bounds:
         """The least and greatest x and y of all points over all poses [m]."""
-        every = np.concatenate([np.empty((2, 0)), *self.places.values()], axis=1)
+        every = np.concatenate([np.empty((2, 0)), *self.places.values(), *map(self._swept, self.contours)], axis=1)
         every = every[:, np.isfinite(every).all(axis=0)]
         if not every.size:
             raise DefinitionError(f"{self.motion.plan.title}: there is nothing to draw, no point stands anywhere.")
         low, high = every.min(axis=1), every.max(axis=1)
         return float(low[0]), float(high[0]), float(low[1]), float(high[1])
+
+    def _swept(self, contour: Straight) -> FloatArray:
+        """Return the box that a contour turns in about its first point, its corners at every pose, shape (2, n) [m]."""
+        reach = max(float(np.max(np.hypot(*line.rows.T[1:]), initial=0.0)) for line in contour.lines)
+        return np.concatenate([self.places[contour.P] + reach * np.array([[x], [y]]) for x, y in product((-1.0, 1.0), repeat=2)], axis=1)
 
     @cached_property
     def size(self) -> float:
@@ -340,7 +349,7 @@ class Scene:
         gaps = [float(np.hypot(*(self.places[P] - self.places[Q])[:, pose])) for pose in self.picks(3) for P, Q in pairs]
         return min((gap for gap in gaps if gap > 0), default=np.inf)
 
-    def box(self, margin: float = 5.0) -> Box:
+    def box(self, margin: float = 5.0) -> Bounds:
         """Return the extent with a margin around it, in sizes [m]."""
         left, right, bottom, top = self.extent
         pad, near = margin * self.size, 2.5 * self.size
@@ -350,7 +359,7 @@ class Scene:
         return min(left - pad, float(x0)), max(right + pad, float(x1)), min(bottom - pad, float(y0)), max(top + pad, float(y1))
 
 
-def beside(members: list[Hung]) -> list[Hung]:
+def side_by_side(members: list[Hung]) -> list[Hung]:
     """Return members on the same two points side by side about the line between these; a single one stays on it."""
     middle = 0.5 * (len(members) - 1)
     placed = []

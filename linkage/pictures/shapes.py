@@ -9,6 +9,7 @@ from types import MappingProxyType
 import numpy as np
 
 from ..program import FloatArray
+from ..steps import Contour
 
 ARC = np.radians(11.3)  # no part of a right angle, so that rounding does not change how many steps a corner takes
 
@@ -101,6 +102,12 @@ class Outline:
 def outline(*rows: tuple[float, float, float], fill: str = "", closed: bool = False, bold: bool = False) -> Outline:
     """Return a line through some rows."""
     return Outline(np.array(rows), fill, closed, bold)
+
+
+def turning_with(contour: Contour) -> Outline:
+    """Return a step's contour as a line that moves with its two points."""
+    along, across = contour.corners
+    return Outline(np.column_stack([np.zeros_like(along), along, across]), fill="ROD", closed=True)
 
 
 def spring(short: float, long: float, size: float) -> tuple[Outline, ...]:

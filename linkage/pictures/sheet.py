@@ -10,15 +10,16 @@ from typing import Any
 import numpy as np
 from matplotlib import rcParams
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator, ScalarFormatter
 
 from ..disk import check_place, replacing
 from . import style
-from .scene import Box
+from .scene import Bounds
 
 
-def sheet(ax: Axes, box: Box) -> None:
+def sheet(ax: Axes, box: Bounds) -> None:
     """Set up axes for a mechanism within a box [m]; they show more of the plane where their shape is another."""
     left, right, bottom, top = filling(ax, box)
     in_metres = max(right - left, top - bottom) > 1.0
@@ -33,14 +34,28 @@ def sheet(ax: Axes, box: Box) -> None:
         ax.spines[side].set_visible(True)
 
 
+def panels(size: tuple[float, float], across: int, down: int = 1, count: int | None = None, **room: Any) -> tuple[Figure, list[Axes]]:
+    """Return an empty figure of a size [inch] and its axes, row by row: as many as there is room for, or the first so many.
+
+    `room` is matplotlib's for its constrained layout: w_pad, h_pad, rect.
+    """
+    figure = Picture(figsize=size, dpi=style.DPI, facecolor=style.PAPER)
+    figure.set_layout_engine("constrained", **room)
+    FigureCanvasAgg(figure)
+    axes = [figure.add_subplot(down, across, place + 1) for place in range(across * down if count is None else count)]
+    for ax in axes:
+        quiet(ax)
+    return figure, axes
+
+
 def millimetres(value: float, _: int | None = None) -> str:
     """Return a length [m] as text in mm."""
     return f"{value * 1e3:.6g}".replace("-", "\N{MINUS SIGN}")
 
 
-def filling(ax: Axes, box: Box) -> Box:
+def filling(ax: Axes, box: Bounds) -> Bounds:
     """Return a box [m] made wider or higher until it has the shape of the axes."""
-    figure = ax.get_figure(root=True)
+    figure = ax.figure.figure  # of axes in a subfigure, too
     assert figure is not None
     place = ax.get_position(original=True)
     shape = place.width * figure.get_figwidth() / (place.height * figure.get_figheight())
@@ -66,7 +81,7 @@ def points_a_metre(ax: Axes) -> float:
     """Return the drawing's scale, printer's points a metre, once its limits and place stand."""
     ax.apply_aspect()
     ends = ax.transData.transform([(0.0, 0.0), (1.0, 0.0)])
-    figure = ax.get_figure(root=True)
+    figure = ax.figure.figure  # of axes in a subfigure, too
     assert figure is not None
     return float(np.hypot(*(ends[1] - ends[0]))) * 72.0 / figure.dpi
 

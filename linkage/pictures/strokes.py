@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,70 +14,79 @@ from ..plan import Plan
 from ..program import FloatArray
 from ..reports import NOTHING, At, Run, results, run_of
 from ..units import factor
-from . import strokes
 
 
-def unit(plan: Plan, name: str) -> str:
+@dataclass(frozen=True, eq=False)
+class StrokeAxis:
+    """The stroke that a motion runs along, as a picture shows it: its name, its unit, and its values in that unit, shape (n,).
+
+    `held` are the values of the other strokes in words.
+    """
+
+    name: str
+    unit: str
+    values: FloatArray
+    held: str
+
+    @classmethod
+    def of(cls, motion: Motion) -> StrokeAxis:
+        """Return the axis of a motion's curves; DefinitionError for a grid of strokes or a batch of designs."""
+        require_motion(motion)
+        check_any(motion.strokes, motion.plan)
+        plan = motion.plan
+        if motion._design_shape or len(motion._stroke_shape) != 1:
+            raise DefinitionError(
+                f"{plan.title}: curves over a stroke need one design and one row of poses, this motion has the shape {motion.shape}; "
+                f"sweep one stroke and give every other a value: {', '.join(plan.strokes)}."
+            )
+        name = max(motion.strokes, key=lambda name: float(np.ptp(motion.strokes[name])))
+        unit = shown_unit(plan, name)
+        return cls(name, unit, np.asarray(motion.strokes[name] / factor(unit)), others_in_words(motion, name))
+
+    @property
+    def is_turning(self) -> bool:
+        """Whether it goes through so many degrees that these are told in thirds of a right angle."""
+        return self.unit == "deg" and float(np.ptp(self.values)) >= 90.0
+
+
+def shown_unit(plan: Plan, name: str) -> str:
     """Return the unit a stroke is shown in: mm, or deg where it turns something."""
     return stroke_display_unit(plan, name, "mm")
 
 
-def shown(plan: Plan, name: str, value: Any) -> Any:
-    """Return stroke values [SI] in the unit they are shown in."""
-    return np.asarray(value) / factor(unit(plan, name))
+def stroke_words(plan: Plan, name: str, value: float, *, fixed: bool = False) -> str:
+    """Return a stroke's value [SI] as text: `S = 550 mm`, `phi = 90°`; fixed, with whole units."""
+    unit = shown_unit(plan, name)
+    text = f"{name} = {value / factor(unit):{'.0f' if fixed else '.4g'}}".replace("-", "\N{MINUS SIGN}")
+    return text + ("°" if unit == "deg" else f" {unit}")
 
 
-def words(plan: Plan, name: str, value: float, *, fixed: bool = False) -> str:
-    """Return a stroke's value as text: `S = 550 mm`, `phi = 90°`; fixed, with whole units."""
-    end = "°" if unit(plan, name) == "deg" else f" {unit(plan, name)}"
-    return f"{name} = {float(shown(plan, name, value)):{'.0f' if fixed else '.4g'}}{end}".replace("-", "\N{MINUS SIGN}")
+def others_in_words(motion: Motion, moving: str) -> str:
+    """Return the values of the strokes beside the one that moves, as text; empty where there is one stroke."""
+    others = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items() if name != moving}
+    return ", ".join(stroke_words(motion.plan, name, value) for name, value in others.items())
 
 
-def driven(motion: Motion) -> str:
-    """Return the stroke that a motion runs along; DefinitionError for a grid of strokes or a batch of designs."""
-    require_motion(motion)
-    check_any(motion.strokes, motion.plan)
-    plan = motion.plan
-    if motion._design_shape or len(motion._stroke_shape) != 1:
-        raise DefinitionError(
-            f"{plan.title}: curves over a stroke need one design and one row of poses, this motion has the shape {motion.shape}; "
-            f"sweep one stroke and give every other a value: {', '.join(plan.strokes)}."
-        )
-    return max(motion.strokes, key=lambda name: float(np.ptp(motion.strokes[name])))
-
-
-def is_turn(machine: Mechanism, run: Run) -> bool:
-    """Return whether a run goes full turns, so that a crank ends where it began."""
-    turns = abs(run.end - run.start) / (2 * np.pi)
-    return unit(machine.plan, run.stroke) == "deg" and round(turns) >= 1 and abs(turns - round(turns)) < 1e-9
-
-
-def unreached(motion: Motion, moving: str) -> str:
+def unreached_words(motion: Motion, moving: str) -> str:
     """Return which parts of a stroke a motion along it does not reach, in words; empty where it reaches all."""
     values, reached = motion.strokes[moving].ravel(), motion.reached.ravel()
     if reached.all() or not reached.any():
         return ""
-    edges = np.flatnonzero(reached[1:] != reached[:-1])
     said = []
-    for edge in edges.tolist():
+    for edge in np.flatnonzero(reached[1:] != reached[:-1]).tolist():
         inside, outside = (edge, edge + 1) if reached[edge] else (edge + 1, edge)
-        beyond = "beyond" if outside > inside else "before"
-        said.append(f"{beyond} {words(motion.plan, moving, _last(motion, moving, values[inside], values[outside]))}")
+        last = _last_reached(motion, moving, values[inside], values[outside])
+        said.append(f"{'beyond' if outside > inside else 'before'} {stroke_words(motion.plan, moving, last)}")
     return "not reached " + " and ".join(said)
 
 
-def _last(motion: Motion, moving: str, inside: float, outside: float) -> float:
+def _last_reached(motion: Motion, moving: str, inside: float, outside: float) -> float:
     """Return the last value of a stroke in reach between one that is and one that is not [SI]."""
-    held_at = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
-    return float(last_holding(lambda at: np.array(motion.moved(held_at | {moving: at}).reached), inside, outside)[0])
+    others = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
+    return float(last_holding(lambda at: np.array(motion.moved(others | {moving: at}).reached), inside, outside)[0])
 
 
-def held(plan: Plan, strokes: Mapping[str, Any], moving: str) -> str:
-    """Return the other strokes' values as text; empty where there is one stroke."""
-    return ", ".join(words(plan, name, float(np.ravel(value)[0])) for name, value in strokes.items() if name != moving)
-
-
-# The course of an animation: which strokes, in which order, smoothly there and back.
+# What an animation plays: which poses of a stroke, in which order, smoothly there and back.
 
 MANY = 1_000_000
 """Poses of an animation: more are no film."""
@@ -91,7 +99,7 @@ CLOSED = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Course:
+class Playback:
     """A motion along one stroke, the poses in reach in the order they are shown, the column to follow."""
 
     motion: Motion
@@ -100,8 +108,8 @@ class Course:
     is_turn: bool
 
 
-def course(machine: Mechanism, count: int, column: str | None = None, *, at: At = NOTHING, eased: bool = True) -> Course:
-    """Return the course over one stroke, the others held: `count` poses, there and back.
+def playback(machine: Mechanism, count: int, column: str | None = None, *, at: At = NOTHING, eased: bool = True) -> Playback:
+    """Return what is played over one stroke, the others held: `count` poses, there and back.
 
     `at` holds strokes at a value, or says between which two values the one that moves runs [m or rad]; without it the
     first stroke runs over its range and the others stand in their middle. A full turn that ends where it began goes
@@ -109,46 +117,52 @@ def course(machine: Mechanism, count: int, column: str | None = None, *, at: At 
     left out; raises AssemblyError where none is in reach.
     """
     run = run_of(machine, at)
-    turn = strokes.is_turn(machine, run)
-    values = run.over(along(run, whole(count), eased and not turn))
+    turn = is_turn(machine, run)
+    values = run.over(eased_values(run, frame_count(count), eased and not turn))
     motion = machine.at(unreachable="nan", **values)
     if not motion.reached.any():
         machine.at(**values)
-    turn = turn and closes(motion)
+    turn = turn and ends_where_begun(motion)
     there = [int(pose) for pose in np.flatnonzero(motion.reached)]
-    return Course(motion, tuple(there if turn else there + there[-2:0:-1]), followed(machine, motion, column), turn)
+    return Playback(motion, tuple(there if turn else there + there[-2:0:-1]), column_shown(machine, motion, column), turn)
 
 
-def whole(count: Any) -> int:
+def is_turn(machine: Mechanism, run: Run) -> bool:
+    """Return whether a run goes full turns, so that a crank ends where it began."""
+    turns = abs(run.end - run.start) / (2 * np.pi)
+    return shown_unit(machine.plan, run.stroke) == "deg" and round(turns) >= 1 and abs(turns - round(turns)) < 1e-9
+
+
+def frame_count(count: Any) -> int:
     """Return a number of poses; DefinitionError unless it is a whole number of at least 2."""
     if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not 2 <= count <= MANY:
         raise DefinitionError(f"count={cited(count)}: an animation has at least 2 poses; give a whole number such as 60.")
     return int(count)
 
 
-def along(run: Run, count: int, eased: bool) -> FloatArray:
+def eased_values(run: Run, count: int, eased: bool) -> FloatArray:
     """Return the values of a stroke from end to end [m or rad]."""
     share = np.linspace(0.0, 1.0, count)
     share = 0.5 - 0.5 * np.cos(np.pi * share) if eased else share
     return np.asarray(run.start + (run.end - run.start) * share)
 
 
-def closes(motion: Motion) -> bool:
+def ends_where_begun(motion: Motion) -> bool:
     """Return whether a motion ends where it began; a group may take two turns."""
     places = np.array([motion[name] for name in motion.plan.points])
     return not np.abs(places[..., -1] - places[..., 0]).max() > CLOSED * np.nanmax(np.ptp(places, axis=0))
 
 
-def changes(values: FloatArray) -> bool:
+def is_changing(values: FloatArray) -> bool:
     """Return whether values differ by more than rounding."""
     finite = values[np.isfinite(values)]
     return finite.size > 0 and bool(np.ptp(finite) > CLOSED * np.abs(finite).max())
 
 
-def followed(machine: Mechanism, motion: Motion, name: str | None) -> Column:
+def column_shown(machine: Mechanism, motion: Motion, name: str | None) -> Column:
     """Return a column of results by name; without one, the last that is not a stroke and changes."""
     columns = {column.name: column for column in results(machine, motion) if column.name not in motion.strokes}
     if name is None and columns:
-        moving = [each for each, column in columns.items() if changes(column.drawn)]
+        moving = [each for each, column in columns.items() if is_changing(column.drawn)]
         return columns[(moving or list(columns))[-1]]
     return columns[known_name("Column", name, columns, where=machine.plan.title)]

@@ -1,10 +1,10 @@
-"""A part of the picture: artists made once and moved from pose to pose."""
+"""Parts of the picture: artists made once and moved from pose to pose; cylinders, ground symbols, sliders and rails."""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -21,13 +21,7 @@ from .style import Look
 Kind = TypeVar("Kind", bound=Patch)
 
 
-def added(ax: Axes, patch: Kind) -> Kind:
-    """Return a patch that is now on the axes."""
-    ax.add_patch(patch)
-    return patch
-
-
-class Part(ABC):
+class MovingPart(ABC):
     """Artists that follow some points. They hide where one of these is not reached."""
 
     points: tuple[str, ...]
@@ -46,34 +40,47 @@ class Part(ABC):
         """Move to a pose at which all points are reached."""
 
 
+def added(ax: Axes, patch: Kind) -> Kind:
+    """Return a patch that is now on the axes."""
+    ax.add_patch(patch)
+    return patch
+
+
+def polygon(ax: Axes, level: float, **options: Any) -> Polygon:
+    """Return a polygon on the axes in a layer; its corners are set when it is moved."""
+    return added(ax, Polygon(np.zeros((1, 2)), zorder=level, **options))
+
+
+def direction_of(start: FloatArray, end: FloatArray) -> tuple[float, FloatArray]:
+    """Return the distance of two points and the unit vector from one to the other, shape (2,)."""
+    length = float(np.hypot(*(end - start)))
+    return length, (end - start) / (length or 1.0)
+
+
 # Hydraulic cylinders: a barrel cut open, its piston, and the rod to the other end.
 
 #: part -> half its width, and half the thickness of the two that are discs, in sizes
 WIDTH = {"eye": 0.62, "rod": 0.42, "barrel": 1.3, "piston": 1.12, "cap": 1.5}
 THICK = {"piston": 0.45, "cap": 0.35}
-FILL = {"eye": style.PISTON, "rod": style.ROD, "barrel": style.BARREL, "piston": style.PISTON, "cap": style.PISTON}
+FILL = {"eye": style.PISTON, "barrel": style.BARREL, "rod": style.ROD, "piston": style.PISTON, "cap": style.PISTON}
+"""The pieces from the lowest layer up, with their colours."""
 
 
-class CylinderPart(Part):
+class CylinderPart(MovingPart):
     """A cylinder from P to Q: the barrel is pinned at P, the rod at Q."""
 
     def __init__(self, ax: Axes, ram: Ram, size: float, look: Look) -> None:
         self.ram, self.size, self.points = ram, size, (ram.P, ram.Q)
-        pieces = ("eye", "barrel", "rod", "piston", "cap")
-        self.pieces = {name: added(ax, self._piece(name, look.level + 0.4 + 0.02 * layer, look)) for layer, name in enumerate(pieces)}
+        line = {"edgecolor": look.colour(style.INK), "linewidth": 0.8 * style.OUTLINE, "joinstyle": "round"}
+        self.pieces = {
+            name: polygon(ax, look.level + 0.4 + 0.02 * layer, facecolor=look.colour(fill), **line)
+            for layer, (name, fill) in enumerate(FILL.items())
+        }
         self.artists = tuple(self.pieces.values())
-
-    @staticmethod
-    def _piece(name: str, level: float, look: Look) -> Polygon:
-        return Polygon(
-            np.zeros((1, 2)), facecolor=look.colour(FILL[name]), edgecolor=look.colour(style.INK),
-            linewidth=0.8 * style.OUTLINE, joinstyle="round", zorder=level,
-        )  # fmt: skip
 
     def move(self, at: Places) -> None:
         P, Q = at[self.ram.P], at[self.ram.Q]
-        length = float(np.hypot(*(Q - P)))
-        along = (Q - P) / (length or 1.0)
+        length, along = direction_of(P, Q)
         P = P + self.ram.aside * np.array([-along[1], along[0]])
         for name, (start, end) in lengthwise(self.ram, length, self.size).items():
             self.pieces[name].set_xy(box(P, along, start, end, WIDTH[name] * self.size))
@@ -100,18 +107,19 @@ def box(P: FloatArray, along: FloatArray, start: float, end: float, half: float)
 
 # Pins on the frame: a triangle on hatched ground.
 
-HEIGHT, HALF, HATCH = 3.2, 1.9, 0.9
-"""The triangle's height, half its base, and the depth of the hatching, in sizes."""
+HEIGHT, BASE = 3.2, 1.9
+"""The triangle's height and half its base, in sizes."""
+HATCH = 0.9
+"""The depth of the hatching of ground and rails, in sizes."""
 
 
 def ground(ax: Axes, pin: FloatArray, way: float, size: float, look: Look) -> None:
     """Draw the frame under a pin, on the side of a direction [rad]. It never moves."""
     corners, lines = support(pin, way, size)
-    colour = look.colour(style.INK)
-    level = look.level - 0.5
+    ink, level = look.colour(style.INK), look.level - 0.5
     fill = look.colour(style.ROD)
-    ax.add_patch(Polygon(corners, facecolor=fill, edgecolor=colour, linewidth=style.OUTLINE, joinstyle="round", zorder=level))
-    ax.add_collection(LineCollection(list(lines), colors=colour, linewidths=style.THIN, zorder=level), autolim=False)
+    ax.add_patch(Polygon(corners, facecolor=fill, edgecolor=ink, linewidth=style.OUTLINE, joinstyle="round", zorder=level))
+    ax.add_collection(LineCollection(list(lines), colors=ink, linewidths=style.THIN, zorder=level), autolim=False)
 
 
 def support(pin: FloatArray, way: float, size: float) -> tuple[FloatArray, FloatArray]:
@@ -121,42 +129,37 @@ def support(pin: FloatArray, way: float, size: float) -> tuple[FloatArray, Float
     def place(along: float, aside: float) -> FloatArray:
         return np.asarray(pin + size * (along * down + aside * across))
 
-    lines = [(place(HEIGHT, -1.4 * HALF), place(HEIGHT, 1.4 * HALF))]
-    for aside in np.linspace(-1.4 * HALF, 1.4 * HALF - HATCH, 6):
+    lines = [(place(HEIGHT, -1.4 * BASE), place(HEIGHT, 1.4 * BASE))]
+    for aside in np.linspace(-1.4 * BASE, 1.4 * BASE - HATCH, 6):
         lines.append((place(HEIGHT, aside + HATCH), place(HEIGHT + HATCH, aside)))
-    return np.array([pin, place(HEIGHT, HALF), place(HEIGHT, -HALF)]), np.array(lines)
+    return np.array([pin, place(HEIGHT, BASE), place(HEIGHT, -BASE)]), np.array(lines)
 
 
-# Sliding: rails with their hatching, slots on moving bodies, and the blocks that slide along them.
+# Sliding: slots on moving bodies, the blocks that slide along, and fixed rails with their hatching.
 
-LONG, HALF, SLOT, HATCH = 2.1, 1.25, 0.7, 0.9
-"""Half a block's length and width, half a slot's width, and the depth of the hatching, in sizes."""
+LONG, HALF, SLOT = 2.1, 1.25, 0.7
+"""Half a block's length and width, and half a slot's width, in sizes."""
 
 
-class SlotPart(Part):
+class SlotPart(MovingPart):
     """A slot on a moving body, open from end to end."""
 
     def __init__(self, ax: Axes, ends: tuple[str, str], size: float, look: Look) -> None:
         self.points, self.size = ends, size
-        edge = look.colour(style.INK)
-        self.face = added(
-            ax, Polygon(np.zeros((1, 2)), facecolor=style.PAPER, edgecolor=edge, linewidth=style.OUTLINE, zorder=look.level + 0.3)
-        )  # fmt: skip
+        self.face = polygon(ax, look.level + 0.3, facecolor=style.PAPER, edgecolor=look.colour(style.INK), linewidth=style.OUTLINE)
         self.artists = (self.face,)
 
     def move(self, at: Places) -> None:
         self.face.set_xy(rounded(np.array([at[name] for name in self.points]), SLOT * self.size))
 
 
-class BlockPart(Part):
+class BlockPart(MovingPart):
     """A slider block: a box along its track."""
 
     def __init__(self, ax: Axes, rider: str, ends: tuple[str, str], half: float, size: float, look: Look) -> None:
         self.points, self.half, self.size = (rider, *ends), half, size
-        fill, edge = look.colour(style.RULE), look.colour(style.INK)
-        shape = Polygon(np.zeros((1, 2)), facecolor=fill, edgecolor=edge, linewidth=style.OUTLINE, joinstyle="round")
-        shape.set_zorder(look.level + (0.17 if half == HALF else 0.32))
-        self.face = added(ax, shape)
+        fill, edge, level = look.colour(style.RULE), look.colour(style.INK), look.level + (0.17 if half == HALF else 0.32)
+        self.face = polygon(ax, level, facecolor=fill, edgecolor=edge, linewidth=style.OUTLINE, joinstyle="round")
         self.artists = (self.face,)
 
     def move(self, at: Places) -> None:
@@ -166,19 +169,17 @@ class BlockPart(Part):
 
 def block(rider: FloatArray, start: FloatArray, end: FloatArray, half: float, size: float) -> FloatArray:
     """Return a block's corners, shape (4, 2) [m]; `half` is half its width [m]."""
-    u = (end - start) / np.hypot(*(end - start))
-    along, across = LONG * size * u, half * np.array([-u[1], u[0]])
-    return np.array([rider - along - across, rider + along - across, rider + along + across, rider - along + across])
+    return box(rider, direction_of(start, end)[1], -LONG * size, LONG * size, half)
 
 
-def sliders(ax: Axes, scene: Scene, look: Look) -> list[Part]:
+def sliders(ax: Axes, scene: Scene, look: Look) -> list[MovingPart]:
     """Return the slots and the blocks."""
     slots = [SlotPart(ax, track.ends, scene.size, look) for track in scene.tracks if not track.fixed]
-    blocks = [BlockPart(ax, rider, track.ends, width(track.fixed), scene.size, look) for track in scene.tracks for rider in track.riders]
-    return [*slots, *blocks]
+    riding = [(track, rider) for track in scene.tracks for rider in track.riders]
+    return [*slots, *(BlockPart(ax, rider, track.ends, half_width(track.fixed), scene.size, look) for track, rider in riding)]
 
 
-def width(fixed: bool) -> float:
+def half_width(fixed: bool) -> float:
     """Return half a block's width, in sizes: in a slot it fits the slot."""
     return HALF if fixed else SLOT
 
@@ -202,15 +203,12 @@ def hatched(scene: Scene) -> list[FloatArray]:
 
 def rail(start: FloatArray, end: FloatArray, pins: list[FloatArray], size: float) -> FloatArray:
     """Return a rail's line under its blocks and its hatches: below the track, above where a pin stands on the track."""
-    long = float(np.hypot(*(end - start)))
-    along = (end - start) / long
+    long, along = direction_of(start, end)
     below = np.array([along[1], -along[0]])
     below = -below if below[1] > 1e-6 or (abs(below[1]) <= 1e-6 and below[0] < 0.0) else below
-    held = [pin - start for pin in pins]
-    if any(-2 * size < pin @ along < long + 2 * size and -size < pin @ below < 4 * size for pin in held):
+    from_start = [pin - start for pin in pins]
+    if any(-2 * size < pin @ along < long + 2 * size and -size < pin @ below < 4 * size for pin in from_start):
         below = -below
-    shift = HALF * size * below
-    places = np.arange(0.0, long - HATCH * size, 1.1 * HATCH * size)
-    lines = [(start + shift, end + shift)]
-    lines += [(start + shift + (s + HATCH * size) * along, start + shift + s * along + HATCH * size * below) for s in places]
-    return np.array(lines)
+    base, hatch = start + HALF * size * below, HATCH * size
+    places = np.arange(0.0, long - hatch, 1.1 * hatch)
+    return np.array([(base, base + (end - start)), *((base + (s + hatch) * along, base + s * along + hatch * below) for s in places)])

@@ -30,7 +30,7 @@ def load_quantities(plan: Members) -> tuple[Quantity, ...]:
 def has_angles(plan: Members, asked: Iterable[str | Member]) -> bool:
     """Return whether some members are built from directions of points."""
     parts = [part for each in asked if isinstance(each, Quantity) for part in (each, *unnamed(each))]
-    parts += [part for name in set[str]().union(*map(plan.reaches, asked)) for part in plan.with_parts(name)]
+    parts += [part for name in plan.reaches(*asked) for part in plan.with_parts(name)]
     return any(isinstance(part, Angle) or (isinstance(part, Function) and part.function == "arctan2") for part in parts)
 
 
@@ -49,7 +49,8 @@ def followed_angles(plan: Members, trace: Trace, loads: Sequence[Quantity]) -> t
         raise DefinitionError(
             f"{plan.title}: {grouped[0]} is used in another way than by a whole multiple, its cosine or its sine, and the pins {pins} "
             "hang on it. Such an angle and pins that are found by iteration cannot both be followed from the sketch; use a whole multiple, "
-            "or drive the angle by a Stroke."
+            "or drive the angle by a Stroke.",
+            member=grouped[0],
         )
     return found
 

@@ -10,11 +10,12 @@ from math import pi
 from types import MappingProxyType
 from typing import TypeVar
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, about, unknown
 from ..frozen import FrozenDict
 from ..quantities import (
     Distance,
     Function,
+    Holding,
     Joint,
     Length,
     Member,
@@ -31,7 +32,7 @@ from ..quantities import (
     quantity,
     unnamed,
 )
-from ..steps import Arrow, Bar, Drawn, Ground, Group, Guide, Link, Point, Slide
+from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point
 from ..units import deg
 from .bodies import Body, gruebler, merged
 from .table import Table
@@ -67,8 +68,8 @@ def gruebler_count(plan: Members) -> int:
 
 
 def half_joints(point: Point) -> int:
-    """Return how many guides and slots take one freedom each at a step."""
-    return sum(1 for joint in point.joints() if joint.track)
+    """Return how many guides, slots and contacts take one freedom each at a step."""
+    return sum(1 for joint in point.joints() if joint.is_half)
 
 
 # A plan as text: lines that can be pasted into a class.
@@ -119,10 +120,8 @@ def turning(members: Mapping[str, Member]) -> frozenset[str]:
 
 def angles(members: Mapping[str, Member]) -> Iterator[Quantity]:
     """Yield the quantities that stand for angles."""
-    rigid = [step for member in members.values() if isinstance(member, Group) for step in member.rigid]
-    for member in (*members.values(), *rigid):
-        found = [getattr(member, "angle", None), getattr(member, "QPX", None)]
-        yield from (angle for angle in found if isinstance(angle, Quantity))
+    for member in members.values():
+        yield from member.angles()
 
 
 Kind = TypeVar("Kind", bound=Member)
@@ -144,18 +143,21 @@ class Members:
         self.table = Table(title)
         self.members: dict[str, Member] = {}
         for name in order:
-            self.members[name] = self._bound(name, members[name])
+            with about(name):
+                self.members[name] = self._bound(name, members[name])
         strokes = self.of_kind(Stroke)
         self.strokes: Mapping[str, Stroke] = FrozenDict({name: strokes[name] for name in members if name in strokes})
         self.members = FrozenDict(self.members)
-        self._check_kinds()
+        for name, member in self.members.items():
+            with about(name):
+                self._check_kinds(name, member)
 
     def _needs(self, name: str, member: Member) -> list[str]:
         """Return the names that a member needs; DefinitionError, with the place, where a part of it cannot be one."""
         try:
             return list(needs(member))
         except DefinitionError as error:
-            raise DefinitionError(f"{self.title}.{name}: {error}") from None
+            raise DefinitionError(f"{self.title}.{name}: {error}", member=name) from None
 
     def _bound(self, name: str, member: Member) -> Member:
         """Return a member with its dimensions entered in the table."""
@@ -176,53 +178,63 @@ class Members:
     @cached_property
     def ground(self) -> tuple[str, ...]:
         """The names of the fixed points."""
-        return tuple(self.of_kind(Ground))
+        return tuple(name for name, point in self.points.items() if point.is_fixed)
 
-    def _check_kinds(self) -> None:
+    def _check_kinds(self, name: str, member: Member) -> None:
         """Raise DefinitionError where a point, a vector or a quantity stands in the place of another kind."""
-        for name, member in self.members.items():
-            member.examine(self.members, self.title)
-            for part in self.with_parts(name):
-                for length in part.lengths():
-                    if isinstance(length, Number) and not length.number > 0.0:
-                        raise DefinitionError(f"{self.title}: {name} = {member}: the length {length.number:.6g} m is not positive.")
-                for attribute, kind in part.expects:
-                    reference = getattr(part, attribute)
-                    found = self.members[reference] if isinstance(reference, str) else reference
-                    if reference is not None and found.kind != kind:
-                        raise DefinitionError(f"{self.title}: {name} = {member}: {found.name or found} is not a {kind}.")
-            if isinstance(member, Stroke) and name in self.turning and abs(member.end - member.start) > TURNS * 2.0 * pi:
-                text = f"{self.title}: {name} = {member} is an angle in radians, {abs(member.end - member.start) / (2.0 * pi):.3g} turns"
-                raise DefinitionError(f"{text}; write Stroke({member.start:.6g} * deg, {member.end:.6g} * deg).")
-            if isinstance(member, Ground) and self.moves(member):
-                text = f"{self.title}: {name} = {member} follows a stroke, but is fixed; drive a point by OnGuide, Dyad or Crank."
-                raise DefinitionError(text)
+        member.examine(self.members, self.title)
+        for part in self.with_parts(name):
+            for length in part.lengths():
+                if isinstance(length, Number) and not length.number > 0.0:
+                    raise DefinitionError(f"{self.title}: {name} = {member}: the length {length.number:.6g} m is not positive.")
+            for attribute, kind in part.expects:
+                reference = getattr(part, attribute)
+                found = self.members[reference] if isinstance(reference, str) else reference
+                if reference is not None and found.kind != kind:
+                    raise DefinitionError(f"{self.title}: {name} = {member}: {found.name or found} is not a {kind}.")
+        if isinstance(member, Stroke) and name in self.turning and abs(member.end - member.start) > TURNS * 2.0 * pi:
+            text = f"{self.title}: {name} = {member} is an angle in radians, {abs(member.end - member.start) / (2.0 * pi):.3g} turns"
+            raise DefinitionError(f"{text}; write Stroke({member.start:.6g} * deg, {member.end:.6g} * deg).")
+        if isinstance(member, Point) and member.is_fixed and self.moves(member):
+            text = f"{self.title}: {name} = {member} follows a stroke, but is fixed; drive a point by OnGuide, Dyad or Crank."
+            raise DefinitionError(text)
 
     # -- what moves with what --------------------------------------------------------------------------
 
-    def reaches(self, start: Member | str) -> set[str]:
-        """Return the names of all members that something is built from, itself included."""
-        if isinstance(start, str):
-            if start not in self._behind:
-                self._behind[start] = frozenset(self._reached([start]))
-            return set(self._behind[start])
-        return self._reached(list(needs(start)))
-
-    def _reached(self, stack: list[str]) -> set[str]:
+    def reaches(self, *starts: Member | str) -> set[str]:
+        """Return the names of all members that some things are built from, themselves included."""
+        if len(starts) == 1 and isinstance(starts[0], str) and starts[0] in self._behind:
+            return set(self._behind[starts[0]])
+        stack = [name for each in starts for name in ([each] if isinstance(each, str) else needs(each))]
         found: set[str] = set()
         while stack:
             name = stack.pop()
-            if name not in self.members:
-                raise unknown("Name", name, self.named(), where=self.title)
             if name not in found:
-                member = self.members[name]
+                member = self.member(name)
                 found.add(name)
                 stack += [*needs(member), *(member.companions if isinstance(member, Point) else ())]
+        if len(starts) == 1 and isinstance(starts[0], str):
+            self._behind[starts[0]] = frozenset(found)
         return found
+
+    def member(self, name: str) -> Member:
+        """Return a member by its name; DefinitionError, with the names there are, where there is none."""
+        if name not in self.members:
+            raise unknown("Name", name, self.named(), where=self.title)
+        return self.members[name]
 
     def moves(self, quantity: Member) -> bool:
         """Return whether a quantity follows a stroke."""
-        return isinstance(quantity, Stroke) or any(name in self.strokes for name in self.reaches(quantity))
+        return isinstance(quantity, Stroke) or any(self.member(name).name in self._driven for name in needs(quantity))
+
+    @cached_property
+    def _driven(self) -> frozenset[str]:
+        """The names of the members that follow a stroke."""
+        found = set(self.strokes)
+        for name, member in self.members.items():  # in order: what a member needs stands before it
+            if not found.isdisjoint(needs(member)):
+                found.add(name)
+        return frozenset(found)
 
     @cached_property
     def bars(self) -> tuple[Bar, ...]:
@@ -250,8 +262,19 @@ class Members:
     @cached_property
     def joints(self) -> tuple[tuple[str, Joint], ...]:
         """What the steps, guides and slides hold, each with its member's name; driven joints only where a stroke drives them."""
-        holding = {**self.of_kind(Point), **self.of_kind(Guide), **self.of_kind(Slide)}
-        return tuple((name, joint) for name, member in holding.items() for joint in member.joints() if self.is_there(joint))
+        return tuple((name, joint) for name, member in self.holding.items() for joint in member.joints() if self.is_there(joint))
+
+    @cached_property
+    def holding(self) -> dict[str, Holding]:
+        """The members that hold others without being a load: points first, then guides and slides."""
+        others = {name: member for name, member in self.of_kind(Holding).items() if member.kind != "load"}
+        return FrozenDict({**self.points, **others})
+
+    @cached_property
+    def sliding(self) -> dict[str, Holding]:
+        """The members beside points that let a point slide on a line."""
+        found = {name: member for name, member in self.holding.items() if any(joint.track for joint in member.joints())}
+        return FrozenDict({name: member for name, member in found.items() if name not in self.points})
 
     def is_there(self, joint: Joint) -> bool:
         """Return whether a joint holds two bodies apart: one whose drives all stand still makes them one body."""
@@ -296,7 +319,7 @@ class Members:
         """The lengths that follow other quantities, and so can become negative, each with the member that it places."""
         place = list(self.members).index
         found = [(max(ends, key=place), length) for ends, length in self.table.lengths.items()]
-        names = set().union(*map(self.reaches, self.points))
+        names = self.reaches(*self.points)
         found += [(name, length) for name in sorted(names, key=place) for part in self.with_parts(name) for length in part.lengths()]
         return tuple((name, length) for name, length in found if not isinstance(length, (Variable, Number, Length, Distance)))
 
@@ -307,7 +330,7 @@ class Members:
     @cached_property
     def may_overflow(self) -> bool:
         """Whether a place depends on arithmetic that has no value everywhere: quotients, powers, functions."""
-        names = set().union(*map(self.reaches, self.points))
+        names = self.reaches(*self.points)
         parts = [part for name in names for part in self.with_parts(name)]
         return any(isinstance(part, Function) or (isinstance(part, Operation) and part.symbol != "*") for part in parts)
 
@@ -319,7 +342,7 @@ class Members:
     @cached_property
     def defaults(self) -> dict[str, float]:
         """The design variables at their defaults [SI]."""
-        return FrozenDict({name: entry.default for name, entry in self.table.entries.items()})
+        return FrozenDict(self.table.defaults)
 
     @cached_property
     def sketch_strokes(self) -> dict[str, float]:
@@ -358,10 +381,10 @@ def ordered(needs: Mapping[str, Iterable[str]], title: str) -> list[str]:
     for name, wanted in graph.items():
         for each in wanted:
             if each not in graph:
-                raise unknown("Name", each, graph, where=f"{title}.{name}")
+                raise unknown("Name", each, graph, where=f"{title}.{name}", member=name)
     try:
         return list(TopologicalSorter(graph).static_order())
     except CycleError as error:
         cycle = list(reversed(error.args[1]))
-        words = " needs ".join(cycle)
-        raise DefinitionError(f"{title}: {words}. Nothing in this cycle can come first; take one of them from another point.") from None
+        text = f"{title}: {' needs '.join(cycle)}. Nothing in this cycle can come first; take one of them from another point."
+        raise DefinitionError(text, member=cycle[0]) from None

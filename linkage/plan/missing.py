@@ -60,7 +60,7 @@ def called(plan: Members, name: str) -> str:
 def missing_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) -> tuple[str, float]:
     """Return why a member cannot be placed at the poses `lost` of a reading, at the worst of them, and what is missing [m]."""
     told = negative_words(plan, name, reading) or coinciding_words(plan, name, reading) or followed_words(plan, name, reading)
-    return told or triangle_words(plan, name, reading, lost)
+    return told or outside_words(plan, name, reading) or triangle_words(plan, name, reading, lost)
 
 
 def negative_words(plan: Members, name: str, reading: ArrayReading) -> tuple[str, float] | None:
@@ -94,6 +94,12 @@ def followed_words(plan: Members, name: str, reading: ArrayReading) -> tuple[str
             remedy = "Take a whole multiple of it, which need not be followed, or drive the angle by a Stroke"
             return f"{angle}, whose whole turns count here, cannot be followed there from the sketch: {why}. {remedy}.", float("nan")
     return None
+
+
+def outside_words(plan: Members, name: str, reading: ArrayReading) -> tuple[str, float] | None:
+    """Return which table has no row for a point; None where none is missing."""
+    words = next((reading.outside[each] for each in (name, *sorted(plan.reaches(name))) if each in reading.outside), "")
+    return (f"{words}. Shorten the stroke or give the table more rows.", float("nan")) if words else None
 
 
 def triangle_words(plan: Members, name: str, reading: ArrayReading, lost: Mask) -> tuple[str, float]:

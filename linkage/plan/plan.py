@@ -12,7 +12,7 @@ from weakref import WeakValueDictionary
 import numpy as np
 
 from ..errors import DefinitionError, unknown
-from ..program import Kernel, Level, Node, Tangent
+from ..program import Kernel, Level, Node
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
 from .followed import followed_angles, has_angles, load_quantities, told_apart
@@ -118,8 +118,7 @@ class Plan(Members):
     def derived(self, nodes: Sequence[Node], along: Sequence[str]) -> tuple[Node, ...]:
         """Return the derivatives of nodes by strokes or dimensions, one after the other."""
         for name in along:
-            tangent = Tangent(self.trace.graph, {self.trace.inputs[name]: 1.0})
-            nodes = [tangent.of(node) for node in nodes]
+            nodes = list(map(self.trace.tangent(name).of, nodes))
         return tuple(nodes)
 
     def kernel(self, targets: tuple[str | Quantity, ...], along: tuple[str, ...] = (), guarded: bool = False) -> Kernel:

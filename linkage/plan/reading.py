@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import DefinitionError, unknown
-from ..quantities import Member, Quantity, Reference, Stroke, Turning, name_of
-from ..steps import Ground, Point
+from ..quantities import Member, Quantity, Reference, Stroke, Tabulated, Turning, name_of
+from ..steps import Point
 from ..vectors import Line, Scalar, Vec
 
 
@@ -39,7 +39,7 @@ class Reading:
                 self.positions[name] = step.place(self)
             except ArithmeticError as error:
                 text = f"{name} = {step}: a value overflows or is divided by zero ({error}); look for extreme numbers and lengths of zero."
-                raise DefinitionError(text) from error
+                raise DefinitionError(text, member=name) from error
             self.positions[name] = self.closed(step, self.positions[name])
             self.placing.pop()
         return self.positions[name]
@@ -104,6 +104,10 @@ class Reading:
         found: Line = self._once("line", guide, "line")
         return found
 
+    def curve(self, curve: Tabulated, x: Scalar, order: int = 0) -> Scalar:
+        """Return what a table gives for x, or its derivative of that order; NaN outside it."""
+        return curve.value(x, order)
+
     def angle_of(self, vector: Vec) -> Scalar:
         """Return a vector's direction [rad]."""
         return np.arctan2(vector.y, vector.x)
@@ -146,7 +150,7 @@ class Reading:
     @cached_property
     def extent(self) -> Scalar:
         """The square of the machine's size [m2]: the longest length that follows no stroke, or the distance of two fixed points."""
-        fixed = [self.at(name) for name, member in self.members.items() if isinstance(member, Ground)]
+        fixed = [self.at(name) for name, member in self.members.items() if isinstance(member, Point) and member.is_fixed]
         squares = [(place - fixed[0]).square() for place in fixed[1:]]
         squares += [value * value for length in self.lengths.values() if self.stays(value := self.value(length))]
         ranges = [max(abs(member.start), abs(member.end)) for member in self.members.values() if isinstance(member, Stroke)]
@@ -166,7 +170,8 @@ class ArrayReading(Reading):
 
     `sines` holds, for each step that closes a loop, the sine of the angle between its links (NaN where it fails);
     `rounding` how much larger the numbers are whose difference closes the loop than its own links; `spans`, for each member that takes a
-    direction between points, their least distance over the machine's size.
+    direction between points, their least distance over the machine's size; `outside`, for each that asks a table for what it does not
+    have, the words for it.
     """
 
     ROUNDING = 8 * np.finfo(float).eps
@@ -176,6 +181,16 @@ class ArrayReading(Reading):
         self.sines: dict[str, Any] = {}
         self.rounding: dict[str, Any] = {}
         self.spans: dict[str, Any] = {}
+        self.outside: dict[str, str] = {}
+
+    def curve(self, curve: Tabulated, x: Scalar, order: int = 0) -> Scalar:
+        if curve.ends is not None:
+            low, high = curve.ends
+            worst = float(np.ravel(x)[np.argmax(np.maximum(low - x, x - high))])
+            if not low <= worst <= high:
+                ends = " to ".join(f"{round(end, 9) + 0.0:.6g}" for end in curve.ends)
+                self.outside |= dict.fromkeys(self.placing, f"{curve.name} is asked for {worst:.6g}, and its table goes from {ends}")
+        return super().curve(curve, x, order)
 
     def root(self, radicand: Scalar, scale: Scalar, size: Scalar, most: Scalar | None = None) -> Scalar:
         inside = np.where((radicand < 0.0) & (radicand >= -self.ROUNDING * size), 0.0, radicand)

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import isclose
-from typing import Any
+from typing import TypeAlias, cast
 
 import numpy as np
+import numpy.typing as npt
 
 from ..errors import DefinitionError, unknown
 from ..frozen import read_only
-from ..quantities import Number, Quantity, Variable, quantity, real, spelled
+from ..quantities import Number, Operand, Quantity, Variable, quantity, real, spelled
 from ..steps import Slot
+from ..steps.step import TURN
 from ..units import deg
+from ..vectors import FloatArray
+
+Label: TypeAlias = frozenset[str] | tuple[str, frozenset[str]]
+"""What a label measures: the two ends of a length, or the corner of an angle and its two sides' ends."""
 
 
 @dataclass(frozen=True)
@@ -33,17 +39,18 @@ class Table:
     def __init__(self, title: str) -> None:
         self.title = title
         self.entries: dict[str, Entry] = {}
+        self.defaults: dict[str, float] = {}
         self.spellings: dict[str, tuple[str, int]] = {}
         self.following: dict[str, str] = {}
         self.lengths: dict[frozenset[str], Quantity] = {}
-        self._labels: dict[Any, tuple[str, Quantity]] = {}
+        self._labels: dict[Label, tuple[str, Quantity]] = {}
 
     def add(self, name: str, default: float, kind: str, where: str, unit: str = "") -> None:
         """Enter a design variable; raise DefinitionError where its name is taken or its value cannot be."""
         self.check_free(name, where)
         entry = Entry(name, default, kind, where, unit)
         checked(entry, default)
-        self.entries[name] = entry
+        self.entries[name], self.defaults[name] = entry, default
         self.spellings[name] = (name, 1)
 
     def check_free(self, name: str, where: str) -> None:
@@ -52,7 +59,7 @@ class Table:
             owner = self.entries[self.spellings[name][0]]
             raise DefinitionError(f"{where}: the name {name} already belongs to {owner.name} of {owner.where}; rename one of them.")
 
-    def claim(self, slot: Slot, spelling: str, value: Any, where: str) -> Quantity:
+    def claim(self, slot: Slot, spelling: str, value: Operand, where: str) -> Quantity:
         """Return the quantity a label stands for; a number makes a design variable of that name."""
         given = quantity(value)
         key = frozenset(slot.points) if slot.kind == "length" else (slot.points[1], frozenset((slot.points[0], slot.points[2])))
@@ -71,7 +78,7 @@ class Table:
             self.lengths[frozenset(slot.points)] = stands
         return stands
 
-    def _repeated(self, key: Any, slot: Slot, spelling: str, given: Quantity, where: str) -> Quantity:
+    def _repeated(self, key: Label, slot: Slot, spelling: str, given: Quantity, where: str) -> Quantity:
         """Return the quantity of a label that stands somewhere already; the values must agree."""
         first, owner = self._labels[key]
         sign = 1 if slot.spellings[first] == slot.spellings[spelling] else -1
@@ -81,27 +88,27 @@ class Table:
             return owner
         raise DefinitionError(f"{where}: {spelling}={spelled(given)} contradicts {first}={spelled(owner)}; a dimension has one value.")
 
-    def settings(self, given: Mapping[str, Any]) -> dict[str, Any]:
+    def settings(self, given: Mapping[str, npt.ArrayLike]) -> dict[str, float | FloatArray]:
         """Return the design variables with some of them set: floats, or arrays for a batch of designs.
 
         Raises DefinitionError for an unknown name, one that follows others, or a value that cannot be.
         """
-        values: dict[str, Any] = {name: entry.default for name, entry in self.entries.items()}
+        values: dict[str, float | FloatArray] = dict(self.defaults)
         by: dict[str, str] = {}
         for name, value in given.items():
-            for each, part in self._pairs(name, value):
+            for each, part in ((name, value),) if name in self.spellings else self._pairs(name, value):
                 owner, sign = self.spellings[each]
                 if by.setdefault(owner, name) != name:
                     raise DefinitionError(f"{self.title}: {by[owner]} and {name} both set {owner}; leave one of them out.")
                 values[owner] = checked(self.entries[owner], signed(part, sign, self.entries[owner]))
         return values
 
-    def _pairs(self, name: str, value: Any) -> list[tuple[str, Any]]:
+    def _pairs(self, name: str, value: npt.ArrayLike) -> list[tuple[str, npt.ArrayLike]]:
         """Return a setting as variables: a point's position is two of them."""
         if name in self.spellings:
             return [(name, value)]
         if f"{name}.x" in self.spellings or f"{name}.y" in self.spellings:
-            pair = list(value) if isinstance(value, (list, tuple)) or np.ndim(value) else []
+            pair = list(cast(Iterable[npt.ArrayLike], value)) if isinstance(value, (list, tuple)) or np.ndim(value) else []
             if len(pair) != 2:
                 raise DefinitionError(f"{self.title}({name}={value!r}): a point takes two coordinates, {name}=(x, y) in m.")
             return [part for axis, each in zip("xy", pair, strict=True) for part in self._pairs(f"{name}.{axis}", each)]
@@ -117,11 +124,20 @@ class Table:
 FARTHEST = 1e11
 """m; no mechanism is larger, and the squares of such lengths no longer add."""
 
-TURN = 2.0 * np.pi * (1.0 + 1e-9)
+LARGEST = float(np.finfo(float).max)
+RANGES: Mapping[str, tuple[float, float]] = {
+    "length": (float(np.nextafter(0.0, 1.0)), FARTHEST),
+    "coordinate": (-FARTHEST, FARTHEST),
+    "angle": (-TURN, TURN),
+    "not negative": (0.0, LARGEST),
+}
+"""The least and the greatest value that is in order [SI], by what a variable measures."""
 
 
-def signed(value: Any, sign: int, entry: Entry) -> Any:
+def signed(value: float | npt.ArrayLike, sign: int, entry: Entry) -> float | FloatArray:
     """Return a setting under its owner's sign; raise DefinitionError for what is not a number."""
+    if isinstance(value, float):
+        return sign * float(value)
     try:
         array = real(value)
     except ValueError:
@@ -129,20 +145,21 @@ def signed(value: Any, sign: int, entry: Entry) -> Any:
     return float(sign * array) if array.ndim == 0 else read_only(sign * array)
 
 
-def checked(entry: Entry, value: Any) -> Any:
-    """Return a value that the variable may take; raise DefinitionError for NaN, infinity and lengths not above zero."""
-    if not np.all(np.isfinite(np.asarray(value, float))):
+def checked(entry: Entry, value: float | FloatArray) -> float | FloatArray:
+    """Return a value that the variable may take; raise DefinitionError for NaN, infinity and what is out of its range."""
+    low, high = RANGES.get(entry.kind, (-LARGEST, LARGEST))
+    if low <= value <= high if type(value) is float else np.all((np.asarray(value) >= low) & (np.asarray(value) <= high)):
+        return value
+    values = np.ravel(value)
+    if not np.all(np.isfinite(values)):
         raise DefinitionError(f"{entry.where}: {entry.name}={value!r} is not a finite number; give a value in SI.")
-    if entry.kind == "not negative" and np.any(np.asarray(value) < 0.0):
-        raise DefinitionError(f"{entry.where}: {entry.name}={np.min(value):.6g} is negative; give zero or more.")
-    if entry.kind == "angle" and np.any(np.abs(value) > TURN):
-        large = float(np.ravel(value)[np.argmax(np.abs(value))])
-        said = f"the angle {entry.name}={large:.6g} rad ({large / deg:.6g} deg) is more than a full turn"
-        raise DefinitionError(f"{entry.where}: {said}; write {large:.6g} * deg if these are degrees, or take whole turns off.")
-    if entry.kind in ("length", "coordinate") and np.any(np.abs(value) > FARTHEST):
-        far = float(np.ravel(value)[np.argmax(np.abs(value))])
+    least, far = float(values.min()), float(values[np.argmax(np.abs(values))])
+    if entry.kind == "not negative":
+        raise DefinitionError(f"{entry.where}: {entry.name}={least:.6g} is negative; give zero or more.")
+    if entry.kind == "angle":
+        said = f"the angle {entry.name}={far:.6g} rad ({far / deg:.6g} deg) is more than a full turn"
+        raise DefinitionError(f"{entry.where}: {said}; write {far:.6g} * deg if these are degrees, or take whole turns off.")
+    if abs(far) > FARTHEST:
         raise DefinitionError(f"{entry.where}: {entry.name}={far:.6g} m is farther than the sun; give it in m.")
-    if entry.kind == "length" and np.any(np.asarray(value) <= 0.0):
-        what = "has no length" if np.all(np.asarray(value) >= 0.0) else "is negative"
-        raise DefinitionError(f"{entry.where}: the length {entry.name}={np.min(value):.6g} m {what}; give a positive one.")
-    return value
+    what = "has no length" if least >= 0.0 else "is negative"
+    raise DefinitionError(f"{entry.where}: the length {entry.name}={least:.6g} m {what}; give a positive one.")

@@ -10,9 +10,9 @@ from functools import cached_property, reduce
 import numpy as np
 
 from ..errors import DefinitionError
-from ..program import Graph, Level, Node
-from ..quantities import Member, Quantity, Turning
-from ..steps import Arrow, Ground, Point
+from ..program import Graph, Level, Node, Tangent
+from ..quantities import Member, Quantity, Tabulated, Turning
+from ..steps import Arrow, Point
 from ..vectors import Scalar, Vec
 from .reading import ArrayReading, Reading
 
@@ -63,15 +63,22 @@ class Trace(Reading):
         inputs = {name: self.graph.input(name, level) for name, level in levels.items()}
         super().__init__(members, lengths, inputs)
         self.guards: list[Guard] = []
-        self.measures: list[Measure] = []
+        self.measures: dict[Measure, None] = {}
         self.loops: list[Loop] = []
         self.noted: dict[str, Node] = {}
         self.angles: list[Node] = []
+        self._tangents: dict[str, Tangent] = {}
+
+    def tangent(self, name: str) -> Tangent:
+        """Return the derivatives by an input, shared by all who ask: those of a loop are worked out once."""
+        if name not in self._tangents:
+            self._tangents[name] = Tangent(self.graph, {self.inputs[name]: 1.0})
+        return self._tangents[name]
 
     def view(self) -> Trace:
         """Return this trace as it stands, for reading more: what is read there leaves nothing here but nodes."""
         view = copy(self)
-        view.guards, view.measures, view.loops, view.angles = list(self.guards), list(self.measures), list(self.loops), list(self.angles)
+        view.guards, view.measures, view.loops, view.angles = list(self.guards), dict(self.measures), list(self.loops), list(self.angles)
         view.placing = []
         view.positions, view.noted, view._values = dict(self.positions), dict(self.noted), dict(self._values)
         view.directions = dict(self.directions)
@@ -80,7 +87,7 @@ class Trace(Reading):
     def alone(self, member: Member | None) -> Trace:
         """Return this trace with nothing read that has no name, and then a quantity or a vector read: what is measured is its own."""
         view = self.view()
-        view.measures = [measure for measure in view.measures if measure.member]
+        view.measures = {measure: None for measure in view.measures if measure.member}
         view._values = {key: known for key, known in view._values.items() if isinstance(key[1], str)}
         if isinstance(member, Quantity):
             view.value(member)
@@ -112,8 +119,8 @@ class Trace(Reading):
                 self.loops.append(Loop(self.owner, "guides", (sine,)))
             self.noted[self.owner] = sine
         elif sine == 0.0:
-            step = self.members[self.owner]
-            raise DefinitionError(f"{self.owner} = {step}: the lines that meet in it are parallel at every pose; change an angle.")
+            text = f"{self.owner} = {self.members[self.owner]}: the lines that meet in it are parallel at every pose; change an angle."
+            raise DefinitionError(text, member=self.owner)
         return sine
 
     def apart(self, square: Scalar) -> Scalar:
@@ -130,10 +137,20 @@ class Trace(Reading):
             self.loops.append(Loop(self.owner, "meeting", (length,)))
         return length
 
+    def curve(self, curve: Tabulated, x: Scalar, order: int = 0) -> Scalar:
+        at = self.graph.node(x)
+        point = next((name for name in reversed(self.placing) if isinstance(self.members[name], Point)), "")
+        if point and curve.ends is not None:  # of an output it is enough that it has no value there
+            low, high = curve.ends
+            inside = self.graph.apply("minimum", at - low, high - at)
+            if Guard(point, inside) not in self.guards:
+                self.guards.append(Guard(point, inside))
+                self.loops += [Loop(point, "length", (inside,))] if inside.level is Level.POSE else []
+        return curve.value(at, order, self.graph.pick)
+
     def _measure(self, node: Node, exact: Node | None = None) -> None:
         found = Measure(self.owner, node, node if exact is None else exact)
-        if found not in self.measures:
-            self.measures.append(found)
+        self.measures.setdefault(found)
 
     def stays(self, value: Scalar) -> bool:
         return self.graph.node(value).level is not Level.POSE
@@ -141,7 +158,7 @@ class Trace(Reading):
     @cached_property
     def away(self) -> Node:
         """What is above zero where the fixed points stand near enough to the origin."""
-        places = [self.at(name) for name, member in self.members.items() if isinstance(member, Ground)]
+        places = [self.at(name) for name, member in self.members.items() if isinstance(member, Point) and member.is_fixed]
         coordinates = [part for place in places for part in (place.x, place.y)]
         return self.graph.node(self.extent * AWAY**2 - reduce(np.maximum, (part * part for part in coordinates), 0.0))
 

@@ -1,5 +1,6 @@
 """The traced straight-line program, its derivatives and its kernels."""
 
+from ..vectors import FloatArray
 from .derivatives import Tangent, gradient, jacobian
 from .elimination import eliminated
 from .foreign import c_text, javascript_text
@@ -7,7 +8,6 @@ from .interpret import Iterated, interpret, scatter
 from .kernel import QUICKEST, Kernel, Result, Way, pinned
 from .linear import solve_arrays
 from .node import Closure, Graph, Level, Node
-from .numpy_backend import FloatArray
 from .operations import NO_VALUE
 from .schedule import ancestors
 from .traced import Notes, Traced, node_of

@@ -81,7 +81,8 @@ class Tangent:
         if moving:
             partials = OPERATIONS[node.op].partials(node, *node.args)
             for index, change in moving:
-                total = total + change * partials[index]
+                part = change if partials[index] == 1.0 else change * partials[index]
+                total = part if total is self.zero else total + part
         self._known[node] = total
 
 
@@ -92,10 +93,12 @@ def rates(graph: Graph, closure: Closure, along: Tangent) -> Sequence[Node]:
     return solution(graph, jacobian(graph, closure), drive, closure.determinant)
 
 
-def jacobian(graph: Graph, closure: Closure) -> list[list[Node]]:
-    """Return the derivatives of a loop's residuals (rows) by its unknowns (columns)."""
-    columns = [Tangent(graph, {each: float(each is root) for each in closure.roots}) for root in closure.roots]
-    return [[column.of(residual) for column in columns] for residual in closure.residuals]
+def jacobian(graph: Graph, closure: Closure) -> Sequence[Sequence[Node]]:
+    """Return the derivatives of a loop's residuals (rows) by its unknowns (columns), worked out once."""
+    if closure.jacobian is None:
+        columns = [Tangent(graph, {each: float(each is root) for each in closure.roots}) for root in closure.roots]
+        closure.jacobian = [[column.of(residual) for column in columns] for residual in closure.residuals]
+    return closure.jacobian
 
 
 # Gradients of a program, as nodes of the same program: reverse mode, from a result back to the inputs.

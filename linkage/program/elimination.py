@@ -11,7 +11,7 @@ import numpy as np
 
 from .linear import unknowns
 from .node import Graph, Node
-from .schedule import ancestors, plain
+from .schedule import rewritten
 
 
 def solution(graph: Graph, matrix: Sequence[Sequence[Node]], right: Sequence[Node], determinant: Node | None = None) -> list[Node]:
@@ -47,19 +47,15 @@ def entries(system: Node) -> tuple[list[list[Node]], list[Node]]:
 
 def expanded(outputs: Sequence[Node]) -> list[Node]:
     """Return nodes of the same values as some outputs, without systems behind them."""
-    wanted = list(map(plain, outputs))
-    better: dict[Node, Node] = {}
     found: dict[Node, list[Node]] = {}
-    for node in ancestors(wanted):
-        args = tuple(better[plain(arg)] for arg in node.args)
+
+    def written_out(node: Node, args: tuple[Node, ...]) -> Node | None:
         if node.op == "solve":
             found[node] = eliminated(*entries(node.graph.made("solve", args)))
-            better[node] = node
-        elif node.op == "component":
-            better[node] = found[plain(node.args[0])][int(node.args[1].value)]
-        else:
-            better[node] = node if args == node.args else node.graph.made(node.op, args)
-    return [better[each] for each in wanted]
+            return node
+        return found[node.args[0].origin][int(node.args[1].value)] if node.op == "component" else None
+
+    return rewritten(outputs, written_out)
 
 
 def eliminated(matrix: Sequence[Sequence[Node]], right: Sequence[Node]) -> list[Node]:

@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
+from ..vectors import FloatArray
 from .derivatives import jacobian
 from .linear import solve_arrays
 from .node import Closure, Node
-from .numpy_backend import FloatArray
 from .operations import OPERATIONS
-from .schedule import ancestors, plain
+from .schedule import ancestors
 
 
 def interpret(
@@ -35,11 +35,11 @@ def interpret(
             elif node.op == "input":
                 values[node] = inputs[node.value]
             else:
-                args = [values[plain(arg)] for arg in node.args]
+                args = [values[arg.origin] for arg in node.args]
                 if clipped and node.op == "sqrt":
                     args = [np.maximum(args[0], 0.0)]
                 values[node] = OPERATIONS[node.op].array(*args)
-    return [values[plain(node)] for node in outputs]
+    return [values[node.origin] for node in outputs]
 
 
 # What rounding leaves of a program's results: the same program run again with its last digits shaken.
@@ -73,7 +73,7 @@ class Iterated:
         """Return the unknowns of a loop whose selected values are inputs."""
         graph = closure.roots[0].graph
         rows = tuple(entry for row in jacobian(graph, closure) for entry in row)
-        return cls(tuple(map(plain, closure.roots)), closure.residuals, rows)
+        return cls(tuple([each.origin for each in closure.roots]), closure.residuals, rows)
 
 
 def scatter(outputs: Sequence[Node], inputs: Mapping[str, Any], iterated: Iterable[Iterated] = ()) -> tuple[FloatArray, FloatArray]:
@@ -123,21 +123,21 @@ def shaken(outputs: Sequence[Node], given: Mapping[str, Any]) -> list[Any]:
             elif node.op == "input":
                 values[node] = given[node.value]
             else:
-                args = [values[plain(arg)] for arg in node.args]
+                args = [values[arg.origin] for arg in node.args]
                 if node.op == "sqrt":
                     args = [np.maximum(args[0], 0.0)]  # a dead point is reached to rounding; NaN stays
                 found = OPERATIONS[node.op].array(*args)
                 if node.op == "arctan2":
                     found = near_first(np.where((np.asarray(args[0]) == 0.0) & (np.asarray(args[1]) == 0.0), np.nan, found))
                 values[node] = found if node.op in EXACT or doubles(node) else found + found * changes[node.number % PERIOD]
-    return [values[plain(node)] for node in outputs]
+    return [values[node.origin] for node in outputs]
 
 
 def doubles(node: Node) -> bool:
     """Return whether an operation multiplies by a power of two, which rounds nothing."""
     if node.op != "multiply":
         return False
-    return any(arg.op == "constant" and abs(frexp(arg.value)[0]) == 0.5 for arg in map(plain, node.args))
+    return any(arg.op == "constant" and abs(frexp(arg.value)[0]) == 0.5 for arg in [each.origin for each in node.args])
 
 
 def near_first(angle: FloatArray) -> FloatArray:

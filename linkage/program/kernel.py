@@ -14,12 +14,13 @@ from typing import Any, Protocol
 import numpy as np
 
 from ..errors import DefinitionError
+from ..vectors import FloatArray
 from .elimination import expanded
 from .float_backend import Floats
 from .node import Level, Node
 from .numba_backend import Fused
-from .numpy_backend import LARGEST, Arrays, FloatArray, is_array, is_table
-from .schedule import Schedule, ancestors, plain, schedule
+from .numpy_backend import LARGEST, Arrays, is_array, is_table
+from .schedule import Schedule, rewritten, schedule
 
 # Cosine and sine from the tangent of half the angle: NumPy takes that on vectors, eight times as fast as each of the two.
 #
@@ -28,17 +29,15 @@ from .schedule import Schedule, ancestors, plain, schedule
 
 def halved(outputs: Sequence[Node]) -> list[Node]:
     """Return nodes of the same values as some outputs, without cosines and sines of what moves."""
-    wanted = list(map(plain, outputs))
-    better: dict[Node, Node] = {}
-    for node in ancestors(wanted):
-        args = tuple(better[plain(arg)] for arg in node.args)
-        if node.op in ("cos", "sin") and node.level is Level.POSE:
-            t = node.graph.apply("tan", 0.5 * args[0])
-            w = 2.0 / (1.0 + t * t)
-            better[node] = w - 1.0 if node.op == "cos" else t * w
-        else:
-            better[node] = node if args == node.args else node.graph.made(node.op, args)
-    return [better[each] for each in wanted]
+
+    def by_tangent(node: Node, args: tuple[Node, ...]) -> Node | None:
+        if node.op not in ("cos", "sin") or node.level is not Level.POSE:
+            return None
+        t = node.graph.apply("tan", 0.5 * args[0])
+        w = 2.0 / (1.0 + t * t)
+        return w - 1.0 if node.op == "cos" else t * w
+
+    return rewritten(outputs, by_tangent)
 
 
 # A back end held for some time, in one thread: what a result is then depends on its inputs alone.
@@ -159,7 +158,7 @@ class Kernel:
         """Return the schedule after a change that leaves the values as they are."""
         outputs, guards = self._wanted
         nodes = change((*outputs, *guards))
-        if nodes == list(map(plain, (*outputs, *guards))):
+        if nodes == [each.origin for each in (*outputs, *guards)]:
             return self.plan
         return schedule(nodes[: len(outputs)], nodes[len(outputs) :])
 

@@ -109,7 +109,7 @@ def loop(plan: Schedule, dialect: Dialect) -> Loop:
     """Return the pose part in a language; constants are called c0, c1, ..., inputs i0, i1, ..."""
     given = numbered("c", plan.passed) | numbered("i", plan.pose_inputs)
     names = Names(dialect, given)
-    lines = names.assign(plan.pose, "v")
+    lines = names.assign(plan.economical, "v")
     return Loop(tuple(lines), tuple(map(names.read, plan.outputs)), tuple(map(names.read, plan.guards)))
 
 

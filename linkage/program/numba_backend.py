@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 
 from ..errors import LinkageError
+from ..vectors import FloatArray
 from .cache import Kept, compiled_in_file, is_kept
 from .loop import numba_text
-from .numpy_backend import Arrays, FloatArray, is_number, is_table, numbers
+from .numpy_backend import Arrays, is_number, is_table, numbers
 from .schedule import Schedule
 
 #: NaN stays NaN: a pose out of reach is told by it.

@@ -11,12 +11,12 @@ from threading import local
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from ..vectors import FloatArray
 from .cache import compiled
 from .node import Node
 from .operations import ARRAYS, FLOATS
-from .schedule import Schedule, plain
+from .schedule import Schedule
 from .text import GUARDED, function
 
 # The NumPy text of a program: calls that write into a pool of registers, allocated by liveness.
@@ -79,24 +79,24 @@ class Registers:
 
 def block_code(plan: Schedule) -> BlockCode:
     """Return the pose part as NumPy calls without temporaries."""
-    registers, watched = Registers(plan), set(plan.guards)
-    last = {arg: place for place, node in enumerate(plan.pose) for arg in map(plain, node.args)}
+    registers = Registers(plan)
+    watched: dict[Node, list[int]] = {}
+    for place, guard in enumerate(plan.guards):
+        watched.setdefault(guard, []).append(place)
+    last = {arg.origin: place for place, node in enumerate(plan.economical) for arg in node.args}
     lines: list[str] = []
-    for place, node in enumerate(plan.pose):
-        args = list(map(plain, node.args))
+    for place, node in enumerate(plan.economical):
+        args = [each.origin for each in node.args]
         operands = list(map(registers.read, args)) if node.op != "component" else [registers.read(args[0]), repr(int(args[1].value))]
         registers.release(arg for arg in dict.fromkeys(args) if last[arg] == place)
         target = registers.take(node)
         if node.op == "reciprocal":
             operands.insert(0, registers.number(1.0))
         lines.append(statement(node.op, ", ".join(operands), target))
-        if node in watched:
-            lines += guard_lines(plan, node, target)
+        lines += [f"g[{guard}] = least({target}, None)" for guard in watched.pop(node, ())]
         if node not in last:
             registers.release((node,))
-    for guard in dict.fromkeys(plan.guards):
-        if guard not in plan.pose:
-            lines += guard_lines(plan, guard, registers.read(guard))
+    lines += [f"g[{guard}] = least({registers.read(node)}, None)" for node, places in watched.items() for guard in places]
     copied = [(place, node) for place, node in enumerate(plan.outputs) if registers.names.get(node) != f"o{place}"]
     lines += [f"o{place}[...] = {registers.read(node)}" for place, node in copied]
     sizes = (("c", len(plan.passed)), ("i", len(plan.pose_inputs)), ("r", registers.count), ("o", len(plan.outputs)))
@@ -116,12 +116,6 @@ def statement(op: str, operands: str, target: str) -> str:
     return f"{op}({operands}, {'out=' if op in NAMED else ''}{target})"
 
 
-def guard_lines(plan: Schedule, node: Node, operand: str) -> list[str]:
-    """Return the lines that keep the least value of a guard."""
-    return [f"g[{place}] = least({operand}, None)" for place, guard in enumerate(plan.guards) if guard is node]
-
-
-FloatArray = npt.NDArray[np.float64]
 SMALLEST, LARGEST = 8192, 16384
 
 

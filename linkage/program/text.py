@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from .node import Node
 from .operations import OPERATIONS
-from .schedule import plain
 
 
 @dataclass(frozen=True)
@@ -36,7 +35,7 @@ class Names:
 
     def read(self, node: Node) -> str:
         """Return an operand: a name, or a number; a negative one in brackets."""
-        node = plain(node)
+        node = node.origin
         if node.op != "constant":
             return self.names[node]
         text = self.dialect.number(node.value)

@@ -1,13 +1,15 @@
 """Scalars of a mechanism: strokes, dimensions, outputs, and arithmetic of them."""
 
+from .curve import Curve, CurveValue
 from .inputs import Dimension, Stroke, Variable
 from .joint import FRAME_SIDE, Driven, Holding, Joint, JointSide, guided, pinned
-from .member import Member, Reference, Turning, Where, name_of, needs, unnamed
+from .member import Member, Reference, Tabulated, Turning, Where, name_of, needs, unnamed
 from .outputs import Angle, Coordinate, Distance, Length, angle, distance, label, x, y
 from .quantity import (
     Function,
     Negative,
     Number,
+    Operand,
     Operation,
     Quantity,
     Ref,

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias, final
 
 from ..frozen import refuses_changes
-from ..vectors import Line
+from ..vectors import Line, Scalar
 from .member import Member, Where
 from .quantity import Quantity
 
@@ -55,7 +55,8 @@ class Joint:
 
     `holds` are letters: x, y (a pin), n across the joint's line, t along it, c a couple. `line` gives the line in a reading; `track`
     tells equal lines: a guide's name, or the two points of a slot's body, sorted. A joint with `drives` is there while one of them
-    follows a stroke; an `arm` then leaves the body it is measured on. `still` must not follow a stroke, in words.
+    follows a stroke; an `arm` then leaves the body it is measured on. `still` must not follow a stroke, in words. A contact `pushes`: the
+    force across its line acts to the left of it alone, and where it would have to pull the bodies come apart.
     """
 
     kind: str
@@ -68,6 +69,12 @@ class Joint:
     drives: tuple[Driven, ...] = ()
     arm: bool = False
     still: tuple[tuple[Quantity, str], ...] = ()
+    pushes: bool = False
+
+    @property
+    def is_half(self) -> bool:
+        """Whether it takes one freedom of two bodies, or of a point: a guide, a slot, a contact."""
+        return "n" in self.holds and not self.arm
 
 
 class Holding(Member):
@@ -75,6 +82,10 @@ class Holding(Member):
 
     def joints(self) -> tuple[Joint, ...]:
         """Return the joints it brings, beside the pins of bodies that share a point."""
+        return ()
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        """Return what must vanish where it holds, in every reading; empty for a free construction, and for what holds nothing."""
         return ()
 
 

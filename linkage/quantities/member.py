@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from functools import lru_cache
 from inspect import Parameter, Signature, signature
 from math import inf
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias
 
 from ..errors import DefinitionError, cited
@@ -25,6 +26,16 @@ class Member:
 
     expects: ClassVar[tuple[tuple[str, str], ...]] = ()
     """Its attributes that refer to others, with the kind each must be."""
+
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({})
+    """What its arguments are where `expects` and annotations do not tell, for files. What a class says adds to what its bases say.
+
+    A word, such as `body`, `place`, `length` (see `linkage.files.validators`); a class, whose own arguments stand among those of the
+    member; such a class in a tuple, for a list of values; an object with `read(given, number)` and `write(value)`.
+    """
+
+    file_section: ClassVar[str] = ""
+    """The section of a file that it stands in, where its class is not known to `linkage.files`."""
 
     needs_name: ClassVar[bool] = False
     """Whether its value goes by its name, so that it cannot stand in an expression without one."""
@@ -99,6 +110,10 @@ class Member:
 
     def lengths(self) -> tuple[Any, ...]:
         """Return the quantities that stand for lengths in this member, beside its labels: none may be negative."""
+        return ()
+
+    def angles(self) -> tuple[Any, ...]:
+        """Return the quantities that stand for angles in this member: strokes and dimensions that they are sums of are in rad."""
         return ()
 
     def examine(self, members: Any, title: str) -> None:
@@ -185,6 +200,30 @@ Turning: TypeAlias = tuple[Scalar, Scalar]
 """The cosine and the sine of an angle: how angles are carried between steps."""
 
 
+Pick: TypeAlias = Callable[[Scalar, Scalar, Scalar, Scalar], Scalar]
+"""What returns its third argument where the first is not above the second, else its fourth."""
+
+
+class Tabulated(Protocol):
+    """A tabulated function, such as `linkage.Curve`."""
+
+    @property
+    def name(self) -> str:
+        """What equations call it."""
+
+    @property
+    def ends(self) -> tuple[float, float] | None:
+        """The least and greatest x that it has a value for; None where it goes on for ever."""
+
+    def __hash__(self) -> int: ...
+
+    def value(self, x: Scalar, order: int = 0, pick: Pick = ..., wrap: Callable[[Scalar], Scalar] = ...) -> Scalar:
+        """Return its value, or a derivative of that order; NaN outside it.
+
+        It is made of arithmetic, `pick(a, b, x, y)`, which is x where a <= b, else y, and `wrap(angle)`, the angle within half a turn.
+        """
+
+
 class Where(Protocol):
     """A reading of the mechanism: it knows where the points are and what the quantities amount to."""
 
@@ -227,6 +266,9 @@ class Where(Protocol):
 
     def direction(self, P: str, Q: str) -> Vec:
         """Return the vector from one point to another [m], noted as one whose direction is taken."""
+
+    def curve(self, curve: Tabulated, x: Scalar, order: int = 0) -> Scalar:
+        """Return what a table gives for x, or its derivative of that order; NaN outside it."""
 
     def link_length(self, P: str, Q: str) -> Scalar:
         """Return the distance of two points [m]; the link's own length where one body holds both."""

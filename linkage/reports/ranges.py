@@ -33,7 +33,7 @@ def reached_span(motion: Motion) -> Range:
 
     Raises AssemblyError where none is.
     """
-    found = below_zero(motion, lambda each: -np.ones(each.shape))
+    found = ranges_below_zero(motion, lambda each: -np.ones(each.shape))
     if not found:
         raise out_of_reach(motion)
     return found[0][0], found[-1][1]
@@ -45,7 +45,7 @@ def closely(motion: Motion, values: FloatArray | None = None) -> Motion:
     return motion.moved({name: np.linspace(*reached_span(motion), 513) if values is None else values})
 
 
-def below_zero(motion: Motion, spare: Spare) -> list[Range]:
+def ranges_below_zero(motion: Motion, spare: Spare) -> list[Range]:
     """Return the stroke ranges [SI] where `spare` of a motion, shape (poses,), is below zero; their ends are roots."""
     name = one_stroke(motion)
     return [(each.start[name], each.end[name]) for each in between.below_zero(motion, spare)]
@@ -86,11 +86,11 @@ def run_of(machine: Mechanism, at: At = NOTHING) -> Run:
 
     Strokes that are not given stand in their middle. DefinitionError where nothing is left to move.
     """
-    one = first(machine)
+    one = first_stroke(machine)
     title = machine.plan.title
     if not isinstance(at, Mapping):
         raise DefinitionError(f"{title}: at={cited(at)}: values of strokes by name are expected, such as at=dict({one}=0.1).")
-    given = {name: values_of(machine, name, value) for name, value in at.items()}
+    given = {name: stroke_ends(machine, name, value) for name, value in at.items()}
     runs = [name for name in machine.strokes if len(given.get(name, ())) == 2]
     free = [name for name in machine.strokes if name not in given]
     if len(runs) > 1:
@@ -99,11 +99,11 @@ def run_of(machine: Mechanism, at: At = NOTHING) -> Run:
         raise DefinitionError(f"{title}: every stroke is held, so that nothing moves; give {one} two values, its run.")
     moving = (runs or free)[0]
     start, end = given.get(moving, (machine.strokes[moving].start, machine.strokes[moving].end))
-    held = middle(machine) | {name: values[0] for name, values in given.items()}
+    held = stroke_middles(machine) | {name: values[0] for name, values in given.items()}
     return Run(moving, start, end, {name: value for name, value in held.items() if name != moving})
 
 
-def values_of(machine: Mechanism, name: str, value: Any) -> tuple[float, ...]:
+def stroke_ends(machine: Mechanism, name: str, value: Any) -> tuple[float, ...]:
     """Return what a stroke is given: one value, or the two ends of its run; DefinitionError for anything else."""
     title = machine.plan.title
     if name not in machine.strokes:
@@ -117,7 +117,7 @@ def values_of(machine: Mechanism, name: str, value: Any) -> tuple[float, ...]:
     return values
 
 
-def first(machine: Mechanism) -> str:
+def first_stroke(machine: Mechanism) -> str:
     """Return the first stroke; DefinitionError for a structure without one, and for what is no mechanism."""
     if not isinstance(machine, Mechanism):
         raise DefinitionError(f"{machine!r:.60} is no mechanism; give a design such as Boom(), and its strokes by at=.")
@@ -126,6 +126,6 @@ def first(machine: Mechanism) -> str:
     return next(iter(machine.strokes))
 
 
-def middle(machine: Mechanism) -> dict[str, float]:
+def stroke_middles(machine: Mechanism) -> dict[str, float]:
     """Return the middle of every stroke [m or rad]."""
     return {name: 0.5 * (stroke.start + stroke.end) for name, stroke in machine.strokes.items()}

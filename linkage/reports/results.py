@@ -27,7 +27,7 @@ def results(machine: Mechanism, motion: Motion) -> list[Column]:
         return columns
     whole = motion.moved(motion.strokes)
     taken = {column.name for column in columns}
-    return columns + [column for column in (*drives(whole), *shown(whole)) if column.name not in taken]
+    return columns + [column for column in (*drive_columns(whole), *member_columns(whole)) if column.name not in taken]
 
 
 def columns_by(machine: Mechanism, motion: Motion) -> list[Column]:
@@ -39,14 +39,14 @@ def columns_by(machine: Mechanism, motion: Motion) -> list[Column]:
     return list(found)
 
 
-def drives(motion: Motion) -> Iterator[Column]:
+def drive_columns(motion: Motion) -> Iterator[Column]:
     """Yield the generalised force of each stroke under the machine's own loads, without friction: of a length [N], of an angle [Nm]."""
     for name in motion.strokes:
         what, unit = ("torque", "Nm") if stroke_unit(motion.plan, name) == "rad" else ("drive force", "kN")
         yield Column(what if len(motion.strokes) == 1 else f"{what} {name}", driving_force(motion, drive=name), unit)
 
 
-def shown(motion: Motion) -> Iterator[Column]:
+def member_columns(motion: Motion) -> Iterator[Column]:
     """Yield the columns of the members that have some, with their names where several members have the same."""
     found = [(name, column) for name, member in motion.plan.of_kind(Tabled).items() for column in member.columns(motion)]
     count = Counter(column.name for _, column in found)

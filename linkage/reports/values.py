@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -31,18 +31,13 @@ def measure(plan: Plan, variable: str) -> str:
     return "angle" if variable in plan.turning else ""
 
 
-def in_unit(value: float, unit: str) -> str:
-    """Return an SI value as text in a unit; as it is where the unit is ""."""
-    return show(value, unit) if unit else f"{value:.6g}"
-
-
 def design_rows(machine: Mechanism) -> Iterator[tuple[str, str, str]]:
     """Yield, for each design variable, its name, its value with unit, and the step that has it; a batch shows its range."""
     require_mechanism(machine)
     for name, value in machine.dimensions.items():
         entry = machine.plan.table.entries[name]
         unit = entry.unit or display_unit(measure(machine.plan, name), "mm")
-        low, high = in_unit(float(np.min(value)), unit), in_unit(float(np.max(value)), unit)
+        low, high = show(float(np.min(value)), unit), show(float(np.max(value)), unit)
         yield name, low if low == high else f"{low} to {high}", entry.where if entry.kind in STEPS else ""
 
 
@@ -52,10 +47,3 @@ def stroke_rows(machine: Mechanism) -> Iterator[tuple[str, str]]:
     for name, stroke in machine.strokes.items():
         unit = stroke_display_unit(machine.plan, name, "mm")
         yield name, f"{stroke.start / factor(unit):.6g} to {stroke.end / factor(unit):.6g} {unit}"
-
-
-def aligned(rows: Sequence[Sequence[str]]) -> Iterator[str]:
-    """Yield rows of text as lines whose cells start below each other."""
-    sizes = [max(map(len, cells)) for cells in zip(*rows, strict=True)]
-    for row in rows:
-        yield "  ".join(cell.ljust(size) for cell, size in zip(row, sizes, strict=True)).rstrip()

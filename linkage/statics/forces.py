@@ -16,8 +16,9 @@ from ..program import FloatArray
 from .acting import Case, Loaded, Loads, gathered, movement_of
 from .force_program import by_program
 from .holding import holding_of
+from .joints import direction as line_direction
 from .levers import with_levers
-from .poses import Poses
+from .poses import Poses, left
 from .result import PinForces
 from .solution import Equilibrium, Rubbed, by_equations
 from .work import by_work
@@ -47,7 +48,7 @@ def pin_forces(
     loaded = gathered(motion, loads, case, movement)
     found = equilibrium(held_poses(motion, loaded, "The joint forces"), loaded, loads, case, split)
     poses, structure = found.poses, found.structure
-    remarks = [*locked_words(found, direction), *held_words(poses, loaded, found.drives), *rest_words(loaded)]
+    remarks = [*locked_words(found, direction), *lifted_words(found), *held_words(poses, loaded, found.drives), *rest_words(loaded)]
     on = tuple((structure.name(structure.bearer(each.load)), each) for each in loaded.acting)
     locked = poses.full(found.locked.astype(float)) == 1.0
     again = partial(pin_forces, loads=loads, case=case, direction=direction, drive=drive, rates=rates, split=split)
@@ -84,6 +85,23 @@ def locked_words(found: Rubbed, direction: str) -> list[str]:
     if motion.unreachable == "raise":
         raise SingularError(text, mask=mask, motion=motion)
     return [text]
+
+
+def lifted_words(found: Equilibrium) -> list[str]:
+    """Return the words for contacts that would have to pull to hold their bodies together: there these come apart."""
+    poses, structure, words = found.poses, found.structure, []
+    for contact, (force, _) in zip(structure.contacts, found.forces, strict=True):
+        if contact.joint is None or not contact.joint.pushes:
+            continue
+        push = (poses.flat(force) * left(line_direction(contact, poses))).sum(axis=0)
+        mask = poses.full(np.where(push < 0.0, 1.0, 0.0)) == 1.0
+        if mask.any():
+            bodies = f"{structure.name(contact.on)} from {structure.name(contact.by)}"
+            words.append(
+                f"{contact.owner} lifts off ({contact.kind}, {bodies}) {where_words(poses.plan, mask, poses.motion.strokes)}: there the "
+                f"contact would have to pull, with up to {-float(np.nanmin(push)):.6g} N. Press it on with a spring or a weight."
+            )
+    return words
 
 
 def held_words(poses: Poses, loaded: Loaded, drives: Mapping[str, FloatArray]) -> list[str]:

@@ -16,7 +16,7 @@ from ..motion import Motion
 from ..motion.requests import stroke_of
 from ..motion.strokes import checked_name
 from ..plan import ArrayReading, Plan, Trace
-from ..program import FloatArray, Level, Node, Notes, Tangent, Traced, eliminated, node_of
+from ..program import FloatArray, Level, Node, Notes, Traced, eliminated, node_of
 from ..quantities import Angle, Distance, Quantity, Reference
 from ..steps import Arrow, Point
 from .acting import AT_REST, Acting, Case, Chosen, Loaded, Loads, Movement, Pushing, called, case_of, chosen, known_points, member_name
@@ -42,7 +42,6 @@ class TracedMotion:
         self.plan, self._reading = plan, trace
         self.notes = Notes()
         self.read: set[str] = set()
-        self._tangents: dict[str, Tangent] = {}
 
     def _refused(self, what: Any, words: str) -> Any:
         """Return that no pose is refused: what is made of the program here is looked at where it is asked for."""
@@ -126,9 +125,7 @@ class TracedMotion:
     def ratio(self, target: Any, *, wrt: str | None = None) -> Any:
         """Return the derivative of a point, a vector or a quantity by a stroke."""
         stroke = stroke_of(self.plan, wrt)
-        if stroke not in self._tangents:
-            self._tangents[stroke] = Tangent(self._reading.graph, {self._reading.inputs[stroke]: 1.0})
-        return self._shaped(tuple(self._tangents[stroke].of(self.node(each)) for each in self._nodes(target)))
+        return self._shaped(tuple(self._reading.tangent(stroke).of(self.node(each)) for each in self._nodes(target)))
 
 
 ONE = RLock()
@@ -172,7 +169,7 @@ class Law:
     @property
     def carriers(self) -> set[str]:
         """The members that the loaded points are built from."""
-        return set[str]().union(*map(self.motion.plan.reaches, self.loaded.points))
+        return self.motion.plan.reaches(*self.loaded.points)
 
     @property
     def names(self) -> set[str]:

@@ -1,13 +1,13 @@
 """Construction steps: each places one thing from things already placed."""
 
 from .crank import Crank
-from .dyad import Dyad, triangle
+from .dyad import Dyad
 from .ground import Ground
 from .guide import Guide, OnGuide, Slide
 from .labels import Claims, Slot, match
 from .link import Link
 from .onlink import OnLink
 from .pin import Drawn, Group, Pin, drawn
-from .primitives import Arrow, CosineAngle, Offset, Turn, Vector
+from .primitives import Arrow, Axis, CosineAngle, Offset, Turn, Vector, triangle
 from .sliders import GuideCross, PinSlotDyad, SliderDyad, YokeDyad
-from .step import UNBOUND, Bar, Point, Step
+from .step import UNBOUND, Assignment, Bar, Contour, Point, Step

@@ -8,7 +8,8 @@ from ..errors import DefinitionError
 from ..quantities import FRAME_SIDE, Driven, Joint, JointSide, Quantity, Reference, Where, quantity, spelled
 from ..vectors import Scalar, Vec
 from .labels import Slot
-from .step import UNBOUND, Bar, Step
+from .primitives import Axis, Offset, Turn
+from .step import UNBOUND, Assignment, Bar, Step
 
 
 class Crank(Step):
@@ -28,6 +29,9 @@ class Crank(Step):
 
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), self.angle)
+
+    def angles(self) -> tuple[Quantity, ...]:
+        return (self.angle,)
 
     def slots(self) -> tuple[Slot, ...]:
         return (Slot("PX", (self.P, self.X)),)
@@ -53,6 +57,10 @@ class Crank(Step):
 
     def joints(self) -> tuple[Joint, ...]:
         return (Joint("crank", self.P, JointSide((self.P, self.X)), FRAME_SIDE, "c", drives=(Driven(self.angle, "c"),)),)
+
+    def expansion(self) -> tuple[Assignment, ...]:
+        arm = Turn(Axis(), self.angle, length=self.PX)
+        return Assignment(self.P + self.X, self.PX), Assignment(self.P + self.X, arm), Assignment(self.X, Offset(self.P, arm))
 
     def arguments(self) -> list[str]:
         return [*super().arguments(), f"angle={spelled(self.angle, 0, 'angle')}"]

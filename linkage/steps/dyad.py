@@ -1,26 +1,14 @@
-"""The intersection of two circles: written once, read by every step that closes a triangle."""
+"""The joint of two links that hang from two points."""
 
 from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
-from ..quantities import Quantity, Reference, Where
+from ..quantities import Quantity, Reference, Where, distance
 from ..vectors import Scalar, Side, Vec
 from .labels import Slot
-from .step import UNBOUND, Bar, Step
-
-
-def triangle(where: Where, base2: Scalar, p: Scalar, q: Scalar) -> tuple[Scalar, Scalar]:
-    """Return base times the apex's distance along the base, and twice the area [m2].
-
-    `base2` is the squared base [m2], `p` and `q` the sides from its first and second end [m]. By Heron,
-    twice the area is base times height; it is NaN where the sides do not meet.
-    """
-    along = (base2 + p * p - q * q) * 0.5
-    largest = np.maximum(base2, np.maximum(p * p, q * q))
-    return along, where.root(p * p * base2 - along * along, scale=p * q, size=np.abs(along) * largest, most=p * (p + q) ** 3)
+from .primitives import CosineAngle, Offset, Turn, Vector, triangle
+from .step import UNBOUND, Assignment, Bar, Step
 
 
 class Dyad(Step):
@@ -84,3 +72,16 @@ class Dyad(Step):
 
     def bars(self) -> tuple[Bar, ...]:
         return Bar(self.P, self.X, self.PX), Bar(self.Q, self.X, self.QX)
+
+    def expansion(self) -> tuple[Assignment, ...]:
+        base = Vector(self.P, self.Q)
+        angle = CosineAngle(distance(self.P, self.Q), self.PX, self.QX)
+        arm = Turn(base, angle if self.settled_side is Side.LEFT else -angle, length=self.PX)
+        return (
+            Assignment(self.P + self.X, self.PX),
+            Assignment(self.Q + self.X, self.QX),
+            Assignment(self.P + self.Q, base),
+            Assignment(self.Q + self.P + self.X, angle),
+            Assignment(self.P + self.X, arm),
+            Assignment(self.X, Offset(self.P, arm)),
+        )

@@ -26,8 +26,11 @@ class Ground(Point):
     def parts(self) -> tuple[Reference, ...]:
         return tuple(part for part in (self.x, self.y) if not part.is_constant)
 
+    @property
+    def is_fixed(self) -> bool:
+        return True
+
     def coordinates(self) -> tuple[tuple[str, Quantity], ...]:
-        """Return the names and values of both coordinates."""
         return (f"{self.name}.x", self.x), (f"{self.name}.y", self.y)
 
     def variables(self) -> tuple[tuple[str, float, str, str], ...]:

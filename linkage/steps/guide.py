@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 from ..errors import DefinitionError
@@ -38,6 +39,7 @@ class Guide(Holding):
 
     kind = "guide"
     expects = (("P", "point"), ("Q", "point"))
+    argument_kinds = MappingProxyType({"P": "origin", "angle": "direction"})
 
     def __init__(self, P: Reference | tuple[float, float], Q: Reference | None = None, *, angle: Any = None) -> None:
         if P is None or (Q is None) == (angle is None):
@@ -52,6 +54,9 @@ class Guide(Holding):
     def parts(self) -> tuple[Reference, ...]:
         angle = () if self.angle is None or self.angle.is_constant else (self.angle,)
         return (*(point for point in (self.P, self.Q) if point is not None), *angle)
+
+    def angles(self) -> tuple[Quantity, ...]:
+        return () if self.angle is None else (self.angle,)
 
     @property
     def points(self) -> tuple[str, ...]:
@@ -106,6 +111,9 @@ class Slide(Holding):
         """Return the point's distance from the guide [m], positive on its left: zero when it slides on it."""
         line = where.line(self.guide)
         return line.direction.cross(where.at(self.point) - line.origin)
+
+    def constraints(self, where: Where) -> tuple[Scalar, ...]:
+        return (self.miss(where),)
 
     def joints(self) -> tuple[Joint, ...]:
         return (guided(name_of(self.point), name_of(self.guide)),)

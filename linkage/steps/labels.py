@@ -12,7 +12,7 @@ from typing import Any, Protocol
 
 from ..errors import DefinitionError
 from ..frozen import refuses_changes
-from ..quantities import Quantity, quantity, spelled
+from ..quantities import Operand, Quantity, quantity, spelled
 
 
 @refuses_changes
@@ -38,7 +38,7 @@ class Slot:
 class Claims(Protocol):
     """The table of a mechanism's dimensions: it gives each label its one quantity."""
 
-    def claim(self, slot: Slot, spelling: str, value: Any, where: str) -> Quantity:
+    def claim(self, slot: Slot, spelling: str, value: Operand, where: str) -> Quantity:
         """Return the quantity a label stands for; a number makes a design variable of that name."""
 
 

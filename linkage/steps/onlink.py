@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from ..errors import DefinitionError
-from ..quantities import Driven, Joint, JointSide, Number, Quantity, Reference, Turning, Where
+from ..quantities import Driven, Joint, JointSide, Number, Quantity, Reference, Turning, Where, distance
 from ..vectors import Line, Scalar, Side, Vec
-from .dyad import triangle
 from .labels import Slot
-from .step import UNBOUND, Step
+from .primitives import CosineAngle, Offset, Turn, Vector, triangle
+from .step import UNBOUND, Assignment, Step
 
 
 class OnLink(Step):
@@ -47,6 +47,9 @@ class OnLink(Step):
     def dimensions(self) -> tuple[Quantity, ...]:
         """Return the quantities of its labels."""
         return tuple(each for each in (self.PX, self.QX, self.QPX) if each is not UNBOUND)
+
+    def angles(self) -> tuple[Quantity, ...]:
+        return () if self.QPX is UNBOUND else (self.QPX,)
 
     def modes(self) -> tuple[Side, ...]:
         return (Side.LEFT, Side.RIGHT) if self.QX is not UNBOUND else ()
@@ -102,3 +105,18 @@ class OnLink(Step):
 
     def bodies(self) -> tuple[tuple[str, ...], ...]:
         return ((self.P, self.Q, self.X),)
+
+    def expansion(self) -> tuple[Assignment, ...]:
+        base, by_sides = Vector(self.P, self.Q), self.QX is not UNBOUND
+        given = Number(0.0) if self.QPX is UNBOUND else self.QPX
+        angle = CosineAngle(distance(self.P, self.Q), self.PX, self.QX) if by_sides else given
+        arm = Turn(base, -angle if self.side is Side.RIGHT else angle, length=self.PX)
+        lengths = (Assignment(self.P + self.X, self.PX), Assignment(self.Q + self.X, self.QX))
+        return (
+            *lengths[: 2 if by_sides else 1],
+            Assignment(self.P + self.Q, base),
+            Assignment(self.X + self.P + self.Q if by_sides else self.Q + self.P + self.X, angle),
+            Assignment(self.P + self.X, arm),
+            Assignment(self.X, Offset(self.P, arm)),
+            *([Assignment(self.Q + self.X, Vector(self.Q, self.X))] if by_sides else []),
+        )

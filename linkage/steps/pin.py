@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
 from typing import Any
 
 from ..errors import DefinitionError, cited
@@ -19,6 +20,8 @@ class Pin(Point):
     `at=(x, y)` is its place in a drawing: lengths and angles that are not given are measured from it.
     A pin that no dyad places belongs to a group, whose pins are found together.
     """
+
+    argument_kinds = MappingProxyType({"near": "place", "at": "place"})
 
     def __init__(self, *place: Any, near: Any = None, at: Any = None) -> None:
         if place:
@@ -90,6 +93,9 @@ class Group(Member):
     def inputs(self) -> tuple[str, ...]:
         """The names of what its solution supplies: coordinates [m] and the sine that tells how near it is to a singular pose."""
         return (*(f"{pin}.{axis}" for pin in self.pins for axis in "xy"), f"{self.name}.sine")
+
+    def angles(self) -> tuple[Quantity, ...]:
+        return tuple(angle for step in self.rigid for angle in step.angles())
 
     def parts(self) -> tuple[Reference, ...]:
         points = [point for P, Q, _ in self.given for point in (P, Q)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,6 @@ import numpy as np
 from ..errors import DefinitionError
 from ..quantities import Length, Member, Quantity, Reference, Turning, Where, label, name_of, quantity, spelled
 from ..vectors import Scalar, Vec
-from .dyad import triangle
 from .step import Point, direction
 
 
@@ -52,6 +52,19 @@ class Vector(Arrow):
         return f"Vector({label(self.P)}, {label(self.Q)})"
 
 
+class Axis(Arrow):
+    """The unit vector of the x axis: what a crank's arm is turned from."""
+
+    def vector(self, where: Where) -> Vec:
+        return Vec(1.0, 0.0)
+
+    def length(self, where: Where) -> Scalar:
+        return 1.0
+
+    def __str__(self) -> str:
+        return "Axis()"
+
+
 class Turn(Arrow):
     """A vector turned by an angle [rad], then scaled to a length [m]; the length is kept where none is given."""
 
@@ -63,6 +76,9 @@ class Turn(Arrow):
 
     def parts(self) -> tuple[Reference, ...]:
         return (self.base, self.angle) if self.scaled_to is None else (self.base, self.angle, self.scaled_to)
+
+    def angles(self) -> tuple[Quantity, ...]:
+        return (self.angle,)
 
     def lengths(self) -> tuple[Quantity, ...]:
         return () if self.scaled_to is None else (self.scaled_to,)
@@ -80,6 +96,17 @@ class Turn(Arrow):
     def __str__(self) -> str:
         end = "" if self.scaled_to is None else f", length={spelled(self.scaled_to)}"
         return f"Turn({label(self.base)}, {spelled(self.angle, 0, 'angle')}{end})"
+
+
+def triangle(where: Where, base2: Scalar, p: Scalar, q: Scalar) -> tuple[Scalar, Scalar]:
+    """Return base times the apex's distance along the base, and twice the area [m2].
+
+    `base2` is the squared base [m2], `p` and `q` the sides from its first and second end [m]. By Heron,
+    twice the area is base times height; it is NaN where the sides do not meet.
+    """
+    along = (base2 + p * p - q * q) * 0.5
+    largest = np.maximum(base2, np.maximum(p * p, q * q))
+    return along, where.root(p * p * base2 - along * along, scale=p * q, size=np.abs(along) * largest, most=p * (p + q) ** 3)
 
 
 class CosineAngle(Quantity):
@@ -123,6 +150,7 @@ class Offset(Point):
 
     X: str = ""
     expects = (("P", "point"), ("by", "vector"))
+    argument_kinds = MappingProxyType({"vector": "vector"})
 
     def __init__(self, P: Reference, vector: Reference) -> None:
         self.P, self.by = P, vector
@@ -134,6 +162,10 @@ class Offset(Point):
 
     def place(self, where: Where) -> Vec:
         return where.at(self.P) + where.vector(self.by)
+
+    @property
+    def hangs_from(self) -> str:
+        return name_of(self.P)
 
     def __str__(self) -> str:
         return f"Offset({label(self.P)}, {label(self.by)})"

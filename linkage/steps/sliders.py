@@ -213,6 +213,9 @@ class YokeDyad(Step):
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), self.angle)
 
+    def angles(self) -> tuple[Quantity, ...]:
+        return (self.angle,)
+
     def slots(self) -> tuple[Slot, ...]:
         return ()
 

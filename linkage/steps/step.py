@@ -7,13 +7,15 @@ from collections.abc import Mapping
 from copy import copy
 from dataclasses import dataclass
 from math import pi
+from types import MappingProxyType
 from typing import Any, Self
 
 import numpy as np
+import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
-from ..quantities import Holding, Number, Quantity, Reference, Where, is_number, name_of, quantity
+from ..quantities import Holding, Member, Number, Quantity, Reference, Where, is_number, name_of, quantity
 from ..units import deg
 from ..vectors import Scalar, Side, Vec
 from .labels import Claims, Slot, match, relabelled, written_labels
@@ -41,10 +43,33 @@ class Bar:
     length: Quantity
 
 
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Contour:
+    """A closed line that is drawn and moves with the points P and Q: its corners along P -> Q and to its left from P, shape (2, n) [m]."""
+
+    P: str
+    Q: str
+    corners: npt.NDArray[np.float64]
+
+
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Assignment:
+    """A name given to a primitive of the vector method, `OAB = CosineAngle(...)`; to a quantity, it is the label of a length."""
+
+    name: str
+    value: Member
+
+
 class Point(Holding):
-    """A named point of the mechanism."""
+    """A named point of the mechanism.
+
+    A step of one's own says `parts`, `place`, `constraints` and `joints`; all the rest has a default that serves.
+    """
 
     kind = "point"
+    file_section = "points"
 
     def bind(self, X: str, claims: Claims) -> Self:
         """Return this step with its name, its parents' names and its dimensions settled."""
@@ -54,9 +79,23 @@ class Point(Holding):
     def place(self, where: Where) -> Vec:
         """Return the position [m]; NaN where it cannot be assembled."""
 
-    def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        """Return what must vanish at this point's place, in every reading; empty for a free construction."""
+    def expansion(self) -> tuple[Assignment, ...]:
+        """Return the primitives that this step stands for, in the vector method's order; empty where its own rule is written out."""
         return ()
+
+    @property
+    def is_fixed(self) -> bool:
+        """Whether it belongs to the frame."""
+        return False
+
+    def coordinates(self) -> tuple[tuple[str, Quantity], ...]:
+        """Return the names and values of both coordinates, where it is given by them."""
+        return ()
+
+    @property
+    def hangs_from(self) -> str:
+        """The point that a construction alone leads from, drawn as a thin line where no body joins them; empty where others hold it."""
+        return ""
 
     @property
     def closes(self) -> bool:
@@ -93,6 +132,10 @@ class Point(Holding):
         """Return what is too short to place this point, in words, and by how much [m]."""
         return "its point lies nowhere", float("nan")
 
+    def outline(self, where: Where) -> tuple[Contour, ...]:
+        """Return what is drawn of this step beside bodies, guides and pins."""
+        return ()
+
 
 class Step(Point):
     """A step that hangs a point X from parents by labelled lengths and angles.
@@ -103,6 +146,7 @@ class Step(Point):
     X: str = ""
     parents: tuple[Reference, ...]
     parent_letters: tuple[str, ...] = ("P", "Q")
+    argument_kinds = MappingProxyType({"side": "side", "near": "place", "at": "place"})
     measures: str = ""
     """What `at=(x, y)` supplies: the `distances` from both parents, or one distance and the `angle`."""
 

@@ -15,50 +15,8 @@ from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number, is_whole
 from ..units import mm, show
-from .checks import a_mechanism, unit_of
+from .checks import check_mechanism, unit_of
 from .designs import check_once
-
-# Points spread evenly over a unit cube: by a Sobol sequence or a Latin hypercube.
-
-MOST_SETTINGS = 1 << 30
-"""Designs of one sample."""
-
-METHODS = ("sobol", "latin")
-
-
-def unit_points(count: int, k: int, method: str, seed: int) -> FloatArray:
-    """Return points (count, k) of [0, 1); the same for the same seed. A Sobol sequence is evenest where count is a power of two."""
-    if not is_whole(count) or count < 1:
-        raise DefinitionError(f"count={cited(count)}: a whole number of designs is expected, at least 1.")
-    if count > MOST_SETTINGS:
-        raise DefinitionError(f"count={cited(count)}: so many designs do not fit into memory; ask for fewer.")
-    one_word("method", method, METHODS)
-    if not is_whole(seed) or seed < 0:
-        raise DefinitionError(f"seed={seed!r}: a whole number is expected, at least 0.")
-    if not k:
-        return np.empty((count, 0))
-    return sobol(int(count), k, seed) if method == "sobol" else latin(count, k, seed)
-
-
-def sobol(count: int, k: int, seed: int) -> FloatArray:
-    """Return the first points (count, k) of a scrambled Sobol sequence."""
-    from scipy.stats import qmc
-
-    engine: Any = qmc.Sobol(k, seed=np.random.default_rng(seed))
-    power = count.bit_length() - 1
-    points = engine.random_base2(power)
-    rest = count - (1 << power)
-    found: FloatArray = np.concatenate([points, engine.random(rest)]) if rest else points
-    return found
-
-
-def latin(count: int, k: int, seed: int) -> FloatArray:
-    """Return a Latin hypercube (count, k): every coordinate has one point in each of count equal intervals."""
-    from scipy.stats import qmc
-
-    found: FloatArray = qmc.LatinHypercube(k, seed=np.random.default_rng(seed)).random(count)
-    return found
-
 
 MOST = 8
 
@@ -76,7 +34,7 @@ class Box:
 
         Raises DefinitionError for an unknown dimension, a range the wrong way round, or anything else.
         """
-        a_mechanism(machine)
+        check_mechanism(machine)
         if not isinstance(over, Mapping):
             raise DefinitionError(f"{machine.plan.title}: over={over!r:.60}: a dictionary of ranges and choices by name is expected.")
         for name in over:
@@ -118,15 +76,14 @@ class Box:
 
 def setting_words(plan: Plan, settings: Mapping[str, Any], place: int) -> str:
     """Return one of some settings (m,) in words: `MK = 800 mm, M = (220, 950) mm`."""
-    return ", ".join(f"{name} = {spoken(plan, name, value, place)}" for name, value in settings.items())
+    return ", ".join(f"{name} = {value_words(plan, name, value, place)}" for name, value in settings.items())
 
 
-def spoken(plan: Plan, name: str, value: Any, place: int) -> str:
+def value_words(plan: Plan, name: str, value: Any, place: int) -> str:
     """Return one value of a setting as text; a point's is a pair."""
     if isinstance(value, tuple):
         return f"({', '.join(f'{part[place] / mm:.6g}' for part in value)}) mm"
-    unit = unit_of(plan, name)
-    return show(float(value[place]), unit) if unit else f"{value[place]:.6g}"
+    return show(float(value[place]), unit_of(plan, name))
 
 
 def range_of(name: str, given: Any) -> tuple[float, float]:
@@ -145,3 +102,35 @@ def choices_of(name: str, given: Any) -> list[Any]:
         if not (is_number(each) or (isinstance(each, (list, tuple)) and len(each) == 2 and all(map(is_number, each)))):
             raise DefinitionError(f"{name}: {cited(each)} is no choice; write a number, or the two coordinates (x, y) of a point.")
     return list(given)
+
+
+MOST_SETTINGS = 1 << 30
+"""Designs of one sample."""
+
+METHODS = ("sobol", "latin")
+
+
+def unit_points(count: int, k: int, method: str, seed: int) -> FloatArray:
+    """Return points (count, k) spread evenly over [0, 1), by a scrambled Sobol sequence or a Latin hypercube; the same for the same seed.
+
+    A Sobol sequence is evenest where count is a power of two.
+    """
+    if not is_whole(count) or count < 1:
+        raise DefinitionError(f"count={cited(count)}: a whole number of designs is expected, at least 1.")
+    if count > MOST_SETTINGS:
+        raise DefinitionError(f"count={cited(count)}: so many designs do not fit into memory; ask for fewer.")
+    one_word("method", method, METHODS)
+    if not is_whole(seed) or seed < 0:
+        raise DefinitionError(f"seed={seed!r}: a whole number is expected, at least 0.")
+    if not k:
+        return np.empty((count, 0))
+    from scipy.stats import qmc
+
+    random = np.random.default_rng(seed)
+    if method == "latin":  # every coordinate has one point in each of count equal intervals
+        return np.asarray(qmc.LatinHypercube(k, seed=random).random(count))
+    engine: Any = qmc.Sobol(k, seed=random)
+    power = int(count).bit_length() - 1
+    points = engine.random_base2(power)
+    rest = int(count) - (1 << power)
+    return np.concatenate([points, engine.random(rest)]) if rest else np.asarray(points)

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import ast
 import json
 import os
 import re
-from collections.abc import Collection, Iterator, Mapping
+import sys
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import partial, singledispatchmethod
+from functools import partial
 from hashlib import blake2b
+from inspect import getsource
 from io import BytesIO
 from pathlib import Path
-from types import CodeType, FunctionType, MethodType
-from typing import Any
+from textwrap import dedent
+from types import CellType, FunctionType, MethodType
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -21,119 +25,15 @@ from ..errors import DefinitionError, FileError, cited
 from ..mechanism import Mechanism
 from .designs import Batch, Designs, Task
 
-# What a function does, as text: its code, that of its module which it calls, and the values that they read from outside.
-#
-# It tells a changed `measure` from the one that a folder was begun with. Lines, comments and other modules do not enter.
-
-def word(text: str | bytes) -> str:
-    """Return a word of 32 characters for a text."""
-    return blake2b(text.encode() if isinstance(text, str) else text, digest_size=16).hexdigest()
-
-
-def fingerprint(function: Any) -> str:
-    """Return a word for what a function does."""
-    return word(Reader(function).text(function))
-
-
-def plan_text(machine: Mechanism) -> str:
-    """Return the members of a machine as text."""
-    return re.sub(r" at 0x[0-9a-f]+", "", f"{type(machine).__qualname__}\n{machine.plan}")
-
-
-class Reader:
-    """Reads values as text. Of what is neither plain data nor a function of the first one's module only the name is read."""
-
-    def __init__(self, first: Any) -> None:
-        self.home = getattr(getattr(first, "func", first), "__module__", None)  # of a partial that of its function
-        self.seen: set[int] = set()
-
-    @singledispatchmethod
-    def text(self, value: Any) -> str:
-        """Return a value as text."""
-        kind = type(value)
-        called = getattr(kind, "__call__", None)  # noqa: B004 - the code of an object that is called like a function
-        if isinstance(called, FunctionType) and kind.__module__ == self.home and id(value) not in self.seen:
-            self.seen.add(id(value))
-            return f"{kind.__qualname__} {self.text(called)} {self.text(vars(value))}"
-        return str(getattr(value, "__qualname__", getattr(value, "__name__", kind.__qualname__)))
-
-    @text.register(type(None))
-    @text.register(int)
-    @text.register(float)
-    @text.register(complex)
-    @text.register(str)
-    @text.register(bytes)
-    @text.register(np.generic)
-    def _(self, value: Any) -> str:
-        return repr(value)
-
-    @text.register(list)
-    @text.register(tuple)
-    def _(self, value: Collection[Any]) -> str:
-        return f"[{', '.join(map(self.text, value))}]"
-
-    @text.register(set)
-    @text.register(frozenset)
-    def _(self, value: Collection[Any]) -> str:
-        return f"{{{', '.join(sorted(map(self.text, value)))}}}"
-
-    @text.register(dict)
-    def _(self, value: dict[Any, Any]) -> str:
-        return f"{{{', '.join(f'{self.text(key)}: {self.text(each)}' for key, each in value.items())}}}"
-
-    @text.register(np.ndarray)
-    def _(self, value: np.ndarray) -> str:
-        return f"{value.dtype} {value.shape} {word(value.tobytes()) if value.dtype.kind != 'O' else ''}"
-
-    @text.register(Mechanism)
-    def _(self, value: Mechanism) -> str:
-        return f"{plan_text(value)} {self.text(dict(value.dimensions))}"
-
-    @text.register(partial)
-    def _(self, value: partial[Any]) -> str:
-        return self.text([value.func, value.args, value.keywords])
-
-    @text.register(MethodType)
-    def _(self, value: MethodType) -> str:
-        return self.text([value.__func__, value.__self__])
-
-    @text.register(FunctionType)
-    def _(self, value: FunctionType) -> str:
-        name = f"{value.__module__}.{value.__qualname__}"
-        if value.__module__ != self.home or id(value) in self.seen:
-            return name
-        self.seen.add(id(value))
-        outside = {each: value.__globals__[each] for each in sorted(names_in(value.__code__)) if each in value.__globals__}
-        return self.text([name, *code_in(value.__code__), value.__defaults__, value.__kwdefaults__, *cells_of(value), outside])
-
-
-def names_in(code: CodeType) -> set[str]:
-    """Return the names that a code reads, the functions inside it included."""
-    return {*code.co_names}.union(*(names_in(each) for each in code.co_consts if isinstance(each, CodeType)))
-
-
-def code_in(code: CodeType) -> Iterator[Any]:
-    """Yield the operations of a code, its names and its constants, of the functions inside it too."""
-    yield from (code.co_code, code.co_names, code.co_varnames)
-    for each in code.co_consts:
-        yield from code_in(each) if isinstance(each, CodeType) else (each,)
-
-
-def cells_of(function: FunctionType) -> Iterator[Any]:
-    """Yield the values that a function closes over."""
-    for cell in function.__closure__ or ():
-        try:
-            yield cell.cell_contents
-        except ValueError:  # nothing in it yet
-            yield None
-
-
 NOTE = "study.json"
 NAME = re.compile(r"designs-(\d+)-(\d+)-([0-9a-f]{32})\.npy")
 
+Facts: TypeAlias = Mapping[str, Any]
+"""What makes a study the same, by name, as JSON holds it."""
+
 
 @dataclass(frozen=True)
-class Shelf:
+class Checkpoint:
     """A folder of batches: `designs-START-STOP-CHECK.npy`, an array with a field for each result.
 
     CHECK follows from the study and from every byte of the file: what is torn, changed or of another study is passed over.
@@ -143,17 +43,17 @@ class Shelf:
     key: bytes
 
     @classmethod
-    def of(cls, folder: str | os.PathLike[str], task: Task, designs: Designs) -> Shelf:
-        """Return the shelf of a study; DefinitionError where the folder holds another one, with what differs."""
+    def of(cls, folder: str | os.PathLike[str], task: Task, designs: Designs, version: str | int) -> Checkpoint:
+        """Return the checkpoint of a study; DefinitionError where the folder holds another one, with what differs."""
         if not isinstance(folder, (str, os.PathLike)) or folder == "":
             raise DefinitionError(f"folder={cited(folder)}: the path of a folder is expected.")
-        place, facts = Path(folder), facts_of(task, designs)
+        place, facts = Path(folder), facts_of(task, designs, version)
         note = place / NOTE
-        there = noted(note)
+        there = read_note(note)
         if there is None:
-            begin(note, facts)
+            write_note(note, facts)
         else:
-            check_same(place, there, facts)
+            check_same_study(place, there, facts)
         return cls(place, blake2b(json.dumps(facts, sort_keys=True).encode()).digest())
 
     def check(self, start: int, stop: int, content: bytes) -> str:
@@ -189,7 +89,7 @@ class Shelf:
                 yield Batch(start, stop, kept=True, values={name: table[name] for name in table.dtype.names})
 
 
-def begin(note: Path, facts: Mapping[str, Any]) -> None:
+def write_note(note: Path, facts: Facts) -> None:
     """Write which study a folder is of; FileError where it cannot be written."""
     try:
         with in_words(note.parent):
@@ -200,7 +100,7 @@ def begin(note: Path, facts: Mapping[str, Any]) -> None:
         raise FileError(f"{error} Finished batches cannot be kept here; name a folder that can be written.") from error
 
 
-def noted(note: Path) -> dict[str, Any] | None:
+def read_note(note: Path) -> dict[str, Any] | None:
     """Return what a folder says of its study, None where it says nothing; FileError where it cannot be read."""
     check_name(note)
     with in_words(note):
@@ -208,25 +108,26 @@ def noted(note: Path) -> dict[str, Any] | None:
     if not is_there:
         return None
     try:
-        found = json.loads(read(note))
+        found, why = json.loads(read(note)), ""
     except (ValueError, RecursionError) as error:
-        raise FileError(f"{note}: it does not say which study is kept here ({error}); take another folder, or delete this one.") from None
+        found, why = None, f" ({error})"
     if not isinstance(found, dict):
-        raise FileError(f"{note}: it does not say which study is kept here; take another folder, or delete this one.")
+        raise FileError(f"{note}: it does not say which study is kept here{why}; take another folder, or delete this one.")
     return found
 
 
-def facts_of(task: Task, designs: Designs) -> dict[str, Any]:
+def facts_of(task: Task, designs: Designs, version: str | int) -> dict[str, Any]:
     """Return what makes a study the same: the machine, its dimensions, the designs, what is measured and how."""
     machine, measure = task.machine, task.measure
     facts = {
         "machine": f"{type(machine).__module__}.{type(machine).__qualname__}",
-        "members": word(plan_text(machine)),
+        "members": digest(plan_text(machine)),
         **{f"dimension {name}": value for name, value in machine.dimensions.items() if name not in designs.columns},
         "designs": designs.count,
-        **{f"array {name}": digest for name, digest in designs.digests().items()},
+        **{f"array {name}": found for name, found in designs.digests().items()},
         "measure": f"{getattr(measure, '__module__', '')}.{getattr(measure, '__qualname__', type(measure).__qualname__)}",
-        "its code": fingerprint(measure),
+        "its code": digest(measure_text(measure, has_version=version != "")),
+        "version": version,
         "piece": task.piece,
         "backend": task.backend,
     }
@@ -234,16 +135,117 @@ def facts_of(task: Task, designs: Designs) -> dict[str, Any]:
     return found
 
 
-def check_same(folder: Path, there: Mapping[str, Any], here: Mapping[str, Any]) -> None:
+def check_same_study(folder: Path, there: Facts, here: Facts) -> None:
     """Raise DefinitionError where a folder is of another study, with what differs."""
     differing = [name for name in dict.fromkeys([*here, *there]) if here.get(name) != there.get(name)]
     if differing:
-        said = ", ".join(f"{name} ({told(there, name)} there, {told(here, name)} here)" for name in differing[:4])
+        said = ", ".join(f"{name} ({fact_words(there, name)} there, {fact_words(here, name)} here)" for name in differing[:4])
         more = f" and {len(differing) - 4} more" if len(differing) > 4 else ""
         raise DefinitionError(f"{folder} holds another study; it differs in {said}{more}. Take another folder, or delete this one.")
 
 
-def told(facts: Mapping[str, Any], name: str) -> str:
+def fact_words(facts: Facts, name: str) -> str:
     """Return a fact in a sentence; a digest by its first characters."""
     value = facts.get(name, "none")
     return value[:8] if isinstance(value, str) and re.fullmatch(r"[0-9a-f]{32}", value) else str(value)
+
+# What is measured, as text. The source text of a function is the same under every version of Python, its bytecode is not.
+
+def digest(text: str | bytes) -> str:
+    """Return 32 characters that stand for a text."""
+    return blake2b(text.encode() if isinstance(text, str) else text, digest_size=16).hexdigest()
+
+
+def plan_text(machine: Mechanism) -> str:
+    """Return the members of a machine as text."""
+    return re.sub(r" at 0x[0-9a-f]+", "", f"{type(machine).__qualname__}\n{machine.plan}")
+
+
+def measure_text(measure: Any, has_version: bool = False) -> str:
+    """Return the source text of a function, of those of its module that it names, and the values that they read from outside.
+
+    Raises DefinitionError for a lambda, and for a function whose source cannot be found, unless a version is said for it.
+    """
+    home = getattr(getattr(measure, "func", measure), "__module__", None)  # of a partial that of its function
+    return SourceReader(home, has_version).text(measure)
+
+
+class SourceReader:
+    """Reads values as text: plain data, functions and classes of the module `home`. Of anything else only the name is read."""
+
+    def __init__(self, home: str | None, has_version: bool) -> None:
+        self.home, self.has_version = home, has_version
+        self.seen: set[int] = set()
+
+    def text(self, value: Any) -> str:
+        """Return a value as text."""
+        match value:
+            case None | int() | float() | complex() | str() | bytes():
+                return repr(value)
+            case np.generic():
+                return repr(value.item())
+            case np.ndarray():
+                return f"{value.dtype} {value.shape} {digest(value.tobytes()) if value.dtype.kind != 'O' else ''}"
+            case list() | tuple():
+                return self.listed(value)
+            case set() | frozenset():
+                return f"{{{', '.join(sorted(map(self.text, value)))}}}"
+            case dict():
+                return self.listed(value.items())
+            case Mechanism():
+                return f"{plan_text(value)} {self.text(dict(value.dimensions))}"
+            case partial():
+                return self.listed((value.func, value.args, value.keywords))
+            case MethodType():
+                return self.listed((value.__func__, value.__self__))
+            case FunctionType() | type():
+                return self.with_source(value)
+        kind = type(value)
+        if kind.__module__ != self.home or id(value) in self.seen:
+            return str(getattr(value, "__qualname__", getattr(value, "__name__", kind.__qualname__)))
+        self.seen.add(id(value))
+        return f"{self.text(kind)} {self.text(getattr(value, '__dict__', None))}"
+
+    def listed(self, values: Iterable[Any]) -> str:
+        """Return several values as text."""
+        return f"[{', '.join(map(self.text, values))}]"
+
+    def with_source(self, value: FunctionType | type) -> str:
+        """Return a function or a class with its source text and the values it reads from outside; only its name if it is of elsewhere."""
+        name = f"{value.__module__}.{value.__qualname__}"
+        if value.__module__ != self.home or id(value) in self.seen:
+            return name
+        self.seen.add(id(value))
+        source = source_text(value)
+        if source is None and isinstance(value, FunctionType) and not self.has_version:
+            lacks = "is a lambda, without source text of its own" if value.__name__ == "<lambda>" else "has no source text that is found"
+            raise DefinitionError(
+                f"measure: {name} {lacks}, so that a folder cannot tell it from another one; "
+                "define it by `def` in a file, or say version=1 and count it up when you change it."
+            )
+        return self.listed((name, source, outside_values(value, source or "")))
+
+
+def source_text(value: FunctionType | type) -> str | None:
+    """Return the source text of a function or a class; None for a lambda, and where no file has it."""
+    try:
+        return None if value.__name__ == "<lambda>" else dedent(getsource(value)).strip()
+    except (OSError, TypeError):
+        return None
+
+
+def outside_values(value: FunctionType | type, source: str) -> dict[str, Any]:
+    """Return what a function or a class reads from its defaults and from the functions and the module around it, by name."""
+    found: dict[str, Any] = {}
+    around = vars(sys.modules[value.__module__])
+    if isinstance(value, FunctionType):
+        cells = zip(value.__code__.co_freevars, value.__closure__ or (), strict=True)
+        found = {name: cell.cell_contents for name, cell in cells if cell != CellType()}  # one with nothing in it yet equals an empty one
+        found |= {"its defaults": [value.__defaults__, value.__kwdefaults__]}
+        around = value.__globals__
+    try:
+        names = [each for each in ast.walk(ast.parse(source)) if isinstance(each, ast.Name)]
+    except SyntaxError:  # a part of an expression in brackets
+        names = []
+    inside = {each.id for each in names if not isinstance(each.ctx, ast.Load)}
+    return found | {name: around[name] for name in sorted({each.id for each in names} - inside - found.keys()) if name in around}

@@ -1,4 +1,4 @@
-"""What a study asks a motion for: an output by name, or any function of the motion."""
+"""What a study measures: an output by name, a quantity, or any function of a motion; and of which machines."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import Quantity
 
-Asked: TypeAlias = str | Quantity | Callable[[Motion], FloatArray]
+QuantityLike: TypeAlias = str | Quantity | Callable[[Motion], FloatArray]
 """A named output, a quantity, or a function of a motion that returns a number for each pose, NaN where it has none."""
 
 
-def title_of(asked: Asked) -> str:
-    """Return what is asked for, in words."""
-    if callable(asked):
-        name = str(getattr(asked, "__name__", ""))
+def title_of(quantity: QuantityLike) -> str:
+    """Return a quantity in words."""
+    if callable(quantity):
+        name = str(getattr(quantity, "__name__", ""))
         return name.replace("_", " ") if name.isidentifier() else "the quantity"
-    return asked if isinstance(asked, str) else str(asked.name or asked)
+    return quantity if isinstance(quantity, str) else str(quantity.name or quantity)
 
 
 def unit_of(plan: Plan, name: str) -> str:
@@ -32,7 +32,7 @@ def unit_of(plan: Plan, name: str) -> str:
     return found.unit or {"length": "mm", "coordinate": "mm", "angle": "deg"}.get(found.kind, "")
 
 
-def a_mechanism(machine: Any) -> None:
+def check_mechanism(machine: Any) -> None:
     """Raise DefinitionError for anything but an instance of a mechanism."""
     if not isinstance(machine, Mechanism):
         name = machine.__name__ if isinstance(machine, type) else ""
@@ -40,9 +40,9 @@ def a_mechanism(machine: Any) -> None:
         raise DefinitionError(f"A study is of a mechanism: {remedy}.")
 
 
-def one_design(machine: Mechanism) -> None:
+def check_one_design(machine: Mechanism) -> None:
     """Raise DefinitionError for a batch of designs, and for what is no mechanism."""
-    a_mechanism(machine)
+    check_mechanism(machine)
     if any(np.ndim(value) for value in machine.dimensions.values()):
         raise DefinitionError(f"{type(machine).__name__}: a study starts from one design, this is a batch; choose one of them.")
 
@@ -53,25 +53,28 @@ def poses_of(machine: Mechanism, settings: Mapping[str, Any], base: Motion, plac
     return each_at_its_stroke(machine.plan, machine.replaced(**settings).dimensions, strokes, base, place)
 
 
-def called(asked: Callable[[Motion], Any], motion: Motion) -> Any:
+def function_value(quantity: Callable[[Motion], Any], motion: Motion) -> Any:
     """Return what a function of a motion gives; DefinitionError, with the line, for whatever goes wrong in it."""
-    name = getattr(asked, "__name__", cited(asked))
+    name = getattr(quantity, "__name__", cited(quantity))
     with told(f"{motion.plan.title}: the function {name} of a motion of many settings"):
-        return asked(motion)
+        return quantity(motion)
 
 
-def values(motion: Motion, asked: Asked) -> FloatArray:
-    """Return what is asked for at every pose of a motion, NaN where it has no value; nearness to a dead point is told by the study."""
+def quantity_values(motion: Motion, quantity: QuantityLike) -> FloatArray:
+    """Return a quantity at every pose of a motion, NaN where it has no value; nearness to a dead point is told by the study."""
     title = motion.plan.title
-    if isinstance(asked, type) or not (callable(asked) or isinstance(asked, (str, Quantity))):
-        raise DefinitionError(f"{title}: {cited(asked)} is no output, quantity or function of a motion; give one, such as 'tilt'.")
+    if isinstance(quantity, type) or not (callable(quantity) or isinstance(quantity, (str, Quantity))):
+        raise DefinitionError(f"{title}: {cited(quantity)} is no output, quantity or function of a motion; give one, such as 'tilt'.")
     with unwarned(), np.errstate(all="ignore"):
-        found = called(asked, motion) if callable(asked) else motion.value(asked) if isinstance(asked, Quantity) else motion[asked]
+        if callable(quantity):
+            found = function_value(quantity, motion)
+        else:
+            found = motion.value(quantity) if isinstance(quantity, Quantity) else motion[quantity]
     try:
         result = np.asarray(found, float)
     except (TypeError, ValueError):
-        raise DefinitionError(f"{title}: {title_of(asked)} gives {cited(found)}; a number for each pose is expected.") from None
+        raise DefinitionError(f"{title}: {title_of(quantity)} gives {cited(found)}; a number for each pose is expected.") from None
     if result.shape != motion.shape:
-        what = f"{title_of(asked)} has the shape {result.shape} where {motion.shape} is expected"
+        what = f"{title_of(quantity)} has the shape {result.shape} where {motion.shape} is expected"
         raise DefinitionError(f"{motion.plan.title}: {what}; ask for a number such as an output, or lambda motion: motion.y('G').")
     return np.where(np.isfinite(result) & motion.reached, result, np.nan)

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import DefinitionError, StudyError
+from ..errors import DefinitionError, StudyError, cited
 from ..frozen import unmasked
 from ..mechanism import Mechanism
 from ..program import pinned
@@ -39,7 +39,7 @@ class Designs:
         title = machine.plan.title
         if not isinstance(over, Mapping):
             raise DefinitionError(f"{title}: over={over!r:.60}: a dictionary of names and arrays is expected; Box.sample(count) makes one.")
-        columns = {name: columns_of(machine, name, value) for name, value in over.items()}
+        columns = {name: arrays_of(machine, name, value) for name, value in over.items()}
         sizes = {name: part.size for name, parts in columns.items() for part in parts if part.ndim}
         if not any(sizes.values()):
             example = next(iter(machine.dimensions), "OB")
@@ -57,9 +57,9 @@ class Designs:
         """Raise DefinitionError for a value that a dimension cannot take, with the design where it stands."""
         for name, parts in self.columns.items():
             for part in parts:
-                bad = np.flatnonzero(~np.isfinite(cut(part, start, stop)))
+                bad = np.flatnonzero(~np.isfinite(array_part(part, start, stop)))
                 if bad.size:
-                    where = f"{name} of design {start + bad[0]} is {np.ravel(cut(part, start, stop))[bad[0]]}"
+                    where = f"{name} of design {start + bad[0]} is {np.ravel(array_part(part, start, stop))[bad[0]]}"
                     raise DefinitionError(f"{machine.plan.title}: {where}; a finite number is expected.")
         try:
             machine.replaced(**self.rows(start, stop))
@@ -73,7 +73,7 @@ class Designs:
 
     def rows(self, start: int, stop: int) -> Rows:
         """Return the dimensions of the designs from start to before stop."""
-        found = {name: tuple(cut(part, start, stop) for part in parts) for name, parts in self.columns.items()}
+        found = {name: tuple(array_part(part, start, stop) for part in parts) for name, parts in self.columns.items()}
         return {name: parts if len(parts) > 1 else parts[0] for name, parts in found.items()}
 
     @property
@@ -88,24 +88,24 @@ class Designs:
             word = blake2b(digest_size=16)
             for part in parts:
                 for start, stop in self.ranges(LOOKED_AT):
-                    word.update(cut(part, start, stop).tobytes())
+                    word.update(array_part(part, start, stop).tobytes())
             found[name] = word.hexdigest()
         return found
 
 
-def columns_of(machine: Mechanism, name: str, value: Any) -> tuple[Array, ...]:
+def arrays_of(machine: Mechanism, name: str, value: Any) -> tuple[Array, ...]:
     """Return the array of a dimension, or the two of a point."""
     _ = machine[name]  # raises for a name that is none
     if name in machine.plan.table.spellings:
-        return (column(machine, name, value, 1),)
+        return (design_array(machine, name, value, 1),)
     try:
         x, y = value
     except (TypeError, ValueError):
         raise DefinitionError(f"{machine.plan.title}: {name} is a point and takes a pair of arrays, {name}=(xs, ys) in m.") from None
-    return column(machine, name, x, 0), column(machine, name, y, 0)
+    return design_array(machine, name, x, 0), design_array(machine, name, y, 0)
 
 
-def column(machine: Mechanism, name: str, value: Any, least: int) -> Array:
+def design_array(machine: Mechanism, name: str, value: Any, least: int) -> Array:
     """Return an array of one dimension, or of at least so many, as it is given, NaN where it is masked."""
     try:
         found = np.asarray(unmasked(value))
@@ -127,7 +127,7 @@ def check_once(machine: Mechanism, names: Mapping[str, Any]) -> None:
             seen[owner] = name
 
 
-def cut(part: Array, start: int, stop: int) -> npt.NDArray[np.float64]:
+def array_part(part: Array, start: int, stop: int) -> npt.NDArray[np.float64]:
     """Return a part of an array; a number as it is."""
     return np.ascontiguousarray(part[start:stop], float) if part.ndim else np.asarray(part, float)
 
@@ -165,7 +165,7 @@ class Batch:
         return replace(self, values=None)
 
 
-def measured(task: Task, start: int, stop: int, rows: Rows, attempt: int) -> Batch:
+def measure_batch(task: Task, start: int, stop: int, rows: Rows, attempt: int) -> Batch:
     """Return a batch, measured; raises StudyError where `measure` fails, DefinitionError where it returns what it should not.
 
     `attempt` sets a second try apart from the first for executors that know a call by its arguments.
@@ -173,14 +173,14 @@ def measured(task: Task, start: int, stop: int, rows: Rows, attempt: int) -> Bat
     clock, processor = perf_counter(), thread_time()
     with pinned(task.backend):
         whole = task.machine.replaced(**rows)
-        found = [piece(task, whole, start, first, min(first + task.piece, stop)) for first in range(start, stop, task.piece)]
+        found = [measure_piece(task, whole, start, first, min(first + task.piece, stop)) for first in range(start, stop, task.piece)]
     for first, each in zip(range(start, stop, task.piece), found, strict=True):
-        check_same(task, found[0], each, f"designs {first} to {min(first + task.piece, stop) - 1}")
+        check_same_results(task, found[0], each, f"designs {first} to {min(first + task.piece, stop) - 1}")
     values = {name: np.concatenate([each[name] for each in found]) for name in found[0]}
     return Batch(start, stop, perf_counter() - clock, thread_time() - processor, values=values)
 
 
-def piece(task: Task, whole: Mechanism, start: int, first: int, stop: int) -> dict[str, Array]:
+def measure_piece(task: Task, whole: Mechanism, start: int, first: int, stop: int) -> dict[str, Array]:
     """Return the results of the designs from first to before stop, out of a batch that begins at start."""
     where = f"designs {first} to {stop - 1}"
     machine = whole._part(first - start, stop - start)
@@ -189,33 +189,27 @@ def piece(task: Task, whole: Mechanism, start: int, first: int, stop: int) -> di
     except Exception as error:
         text = f"{machine.plan.title}: measure failed at {where}: {type(error).__name__}: {error}"
         raise StudyError(text, designs=(first, stop - 1)) from error
-    return checked(task, found, stop - first, where)
+    return result_arrays(task, found, stop - first, where)
 
 
-def checked(task: Task, found: Any, size: int, where: str) -> dict[str, Array]:
+def result_arrays(task: Task, found: Any, size: int, where: str) -> dict[str, Array]:
     """Return results as arrays of floats, or of truth values; DefinitionError for anything else."""
     title = task.machine.plan.title
     if not isinstance(found, Mapping) or not found or not all(isinstance(name, str) and name for name in found):
-        text = f"measure returned {brief(found)} for {where}"
+        text = f"measure returned {cited(found)} for {where}"
         raise DefinitionError(f'{title}: {text}; return a dictionary of names and arrays, {{"travel": travel}}.')
     arrays = {}
     for name, value in found.items():
         array = np.asarray(value)
         if array.shape != (size,) or array.dtype.kind not in "fiub":
-            what = f"{array.dtype} of the shape {array.shape}" if array.dtype.kind != "O" else brief(value)
+            what = f"{array.dtype} of the shape {array.shape}" if array.dtype.kind != "O" else cited(value)
             text = f"measure returned {name} = {what} for {where}; a number for each design is expected, shape ({size},)."
             raise DefinitionError(f"{title}: {text}")
         arrays[name] = array if array.dtype.kind == "b" else np.asarray(array, float)
     return arrays
 
 
-def brief(value: Any) -> str:
-    """Return the beginning of a value as it prints, on one line."""
-    text = " ".join(repr(value).split())
-    return text if len(text) <= 60 else f"{text[:57]}..."
-
-
-def check_same(task: Task, known: Mapping[str, Array], found: Mapping[str, Array], where: str) -> None:
+def check_same_results(task: Task, known: Mapping[str, Array], found: Mapping[str, Array], where: str) -> None:
     """Raise DefinitionError where results have not the names and kinds that others have."""
     here, there = (", ".join(f"{name} ({each[name].dtype})" for name in sorted(each)) for each in (found, known))
     if here != there:

@@ -15,7 +15,7 @@ from ..program import FloatArray
 from ..quantities import is_number
 from ..units import show, unit_or_none
 from .box import range_of
-from .checks import Asked, one_design, poses_of, title_of, unit_of, values
+from .checks import QuantityLike, check_one_design, poses_of, quantity_values, title_of, unit_of
 
 SAMPLES = 1025
 TOUCH = 1e-9  # of the values' span: what comes as near as this to the target touches it
@@ -36,14 +36,21 @@ class Settings:
 
 
 def settings_for(
-    machine: Mechanism, name: str, quantity: Asked, target: float = 0.0, *, between: tuple[float, float], unit: str = "", **strokes: float
+    machine: Mechanism,
+    name: str,
+    quantity: QuantityLike,
+    target: float = 0.0,
+    *,
+    between: tuple[float, float],
+    unit: str = "",
+    **strokes: float,
 ) -> Settings:
     """Return every value of a dimension in a range at which a quantity has a target value [SI], at one pose of one design.
 
     `settings_for(hitch, "MK", "tilt", 0.0, between=(0.5, 1.3), S=0.1)`. Roots are found to rounding; two that lie closer than a
     thousandth of the range may be missed. Settings that cannot be assembled are passed over. `unit` is the quantity's in the sentence.
     """
-    one_design(machine)
+    check_one_design(machine)
     known_name("Dimension", name, machine.plan.table.spellings, where=machine.plan.title)
     unit_or_none(unit, where="settings_for(unit=...)")
     low, high = range_of("between", between)
@@ -56,14 +63,14 @@ def settings_for(
     base = machine.at(unreachable="nan", **{each: [value] for each, value in strokes.items()})
 
     def curve(at: FloatArray) -> FloatArray:
-        return values(poses_of(machine, {name: at}, base, np.zeros(at.shape, int)), quantity) - target
+        return quantity_values(poses_of(machine, {name: at}, base, np.zeros(at.shape, int)), quantity) - target
 
     at = np.linspace(low, high, SAMPLES)
     at = ends_of_reach(curve, at)
     off = curve(at)
-    found = [root for root in (*crossings(curve, at, off), *touchings(curve, at, off)) if is_root(curve, root, off)]
+    found = [root for root in (*sign_changes(curve, at, off), *touchings(curve, at, off)) if is_root(curve, root, off)]
     unique = [root for place, root in enumerate(sorted(found)) if not place or root - sorted(found)[place - 1] > 1e-9 * (high - low)]
-    words = Words(name, unit_of(machine.plan, name), title_of(quantity), unit)
+    words = SettingWords(name, unit_of(machine.plan, name), title_of(quantity), unit)
     return Settings(name, tuple(unique), words.roots(unique, target) if unique else words.none(at, off + target, target))
 
 
@@ -81,15 +88,15 @@ def ends_of_reach(curve: Curve, at: FloatArray) -> FloatArray:
     return np.sort(np.concatenate([at, ends]))
 
 
-def crossings(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
+def sign_changes(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
     """Return where the curve goes through zero."""
     with np.errstate(invalid="ignore"):
         places = np.flatnonzero((np.sign(off[1:]) * np.sign(off[:-1])) < 0.0)
-    return [*at[off == 0.0].tolist(), *(crossing(curve, float(at[place]), float(at[place + 1])) for place in places)]
+    return [*at[off == 0.0].tolist(), *(zero_between(curve, float(at[place]), float(at[place + 1])) for place in places)]
 
 
-def crossing(curve: Curve, low: float, high: float) -> float:
-    """Return the zero between two values of opposite sign; NaN where the curve ends before it."""
+def zero_between(curve: Curve, low: float, high: float) -> float:
+    """Return the zero between two values of opposite sign; NaN where the curve has a gap before it."""
     sign = np.sign(curve(np.array([low]))[0])
     near = np.array(last_holding(lambda at: np.sign(curve(at)) == sign, low, high))
     off = np.abs(curve(near))
@@ -102,11 +109,12 @@ def touchings(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
     with np.errstate(invalid="ignore"):
         dips = (size[1:-1] <= size[:-2]) & (size[1:-1] <= size[2:]) & (np.sign(off[2:]) == np.sign(off[:-2]))
         dips &= (size[1:-1] < size[:-2]) | (size[1:-1] < size[2:])  # along a level stretch it comes no nearer
-    return [nearest(curve, float(at[place]), float(at[place + 2])) for place in np.flatnonzero(dips)]
+    return [nearest_between(curve, float(at[place]), float(at[place + 2])) for place in np.flatnonzero(dips)]
 
 
-def nearest(curve: Curve, low: float, high: float) -> float:
+def nearest_between(curve: Curve, low: float, high: float) -> float:
     """Return where the curve is nearest to zero between two values."""
+
     def look(_: Any, t: FloatArray) -> tuple[FloatArray, Any]:
         off = curve(low + (high - low) * t.ravel())
         return -np.abs(off).reshape(1, 1, -1), np.isfinite(off)[None]
@@ -121,8 +129,8 @@ def is_root(curve: Curve, root: float, off: FloatArray) -> bool:
 
 
 @dataclass(frozen=True)
-class Words:
-    """How a dimension and a quantity are spoken of: names and units, "" for plain SI."""
+class SettingWords:
+    """How a dimension and a quantity stand in a sentence: names and units, "" for plain SI."""
 
     name: str
     unit: str
@@ -131,19 +139,14 @@ class Words:
 
     def roots(self, roots: Sequence[float], target: float) -> str:
         """Return the settings that give the target."""
-        return f"{self.what} = {spoken(target, self.shown_in)} with {self.name} = {' or '.join(spoken(root, self.unit) for root in roots)}."
+        return f"{self.what} = {show(target, self.shown_in)} with {self.name} = {' or '.join(show(root, self.unit) for root in roots)}."
 
     def none(self, at: FloatArray, value: FloatArray, target: float) -> str:
         """Return why no setting gives the target."""
-        known, looked = np.isfinite(value), f"{self.name} between {spoken(at[0], self.unit)} and {spoken(at[-1], self.unit)}"
+        known, looked = np.isfinite(value), f"{self.name} between {show(at[0], self.unit)} and {show(at[-1], self.unit)}"
         if not known.any():
             return f"No {looked} can be assembled there, so that {self.what} has no value. Look farther, or change the stroke."
-        least, most = (spoken(float(end), self.shown_in) for end in (value[known].min(), value[known].max()))
-        first, last = (spoken(float(end), self.unit) for end in (at[known].min(), at[known].max()))
+        least, most = (show(float(end), self.shown_in) for end in (value[known].min(), value[known].max()))
+        first, last = (show(float(end), self.unit) for end in (at[known].min(), at[known].max()))
         reach = f"it can be assembled from {first} to {last}, where {self.what} goes from {least} to {most}"
-        return f"No {looked} gives {self.what} = {spoken(target, self.shown_in)}: {reach}."
-
-
-def spoken(value: float, unit: str) -> str:
-    """Return an SI value in a unit; as it is where the unit is ""."""
-    return show(value, unit) if unit else f"{value:.6g}"
+        return f"No {looked} gives {self.what} = {show(target, self.shown_in)}: {reach}."

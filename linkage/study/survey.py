@@ -11,9 +11,9 @@ from ..errors import DefinitionError, cited, known_name, one_word
 from ..frozen import FrozenDict, read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..quantities import is_whole
-from .batching import Here, Progress, Run, Submits, shown
-from .checkpoint import Shelf
-from .checks import one_design
+from .batching import Executor, LocalExecutor, Progress, SurveyRun, progress_told
+from .checkpoint import Checkpoint
+from .checks import check_one_design
 from .designs import Array, Batch, Designs, Measure, Task
 
 SMALLEST, LARGEST, PARTS = 64, 2048, 64
@@ -71,11 +71,12 @@ def survey(
     over: Mapping[str, Any],
     measure: Measure,
     *,
-    executor: Submits | None = None,
+    executor: Executor | None = None,
     folder: str | os.PathLike[str] | None = None,
     progress: bool | Progress = False,
     backend: str = "numpy",
     piece: int | None = None,
+    version: str | int = "",
 ) -> Survey:
     """Return what `measure` gives for many designs: `survey(hitch, {"OB": array, "M": (xs, ys)}, measure)["travel"]`, shape (m,).
 
@@ -86,6 +87,8 @@ def survey(
     `executor` is anything with `submit`: a pool of `concurrent.futures`, `distributed.Client(...).get_executor()`; without one
     this process does the work. Batches go out that take some tenths of a second, a few for each worker. A batch whose worker was lost
     is sent again. With `folder` finished batches are kept there, and the same call goes on where another one stopped.
+    A folder knows `measure` by its source text, that of the functions of its module which it names, and the values they read;
+    `version` is yours to count up when something changes that lies deeper, and is needed for a lambda.
     `progress=True` shows a bar on stderr; a function is called with (done, total) designs.
 
     The results are the same to the last bit whoever does the work, on processors of one kind with the same libraries and
@@ -95,32 +98,29 @@ def survey(
     Raises DefinitionError for designs or results that cannot be, or a folder of another study; StudyError where measure fails, naming
     the designs, and where the executor breaks.
     """
-    one_design(machine)
+    check_one_design(machine)
     designs = Designs.of(machine, over)
-    task = Task(machine, measure, piece_of(machine, designs.count, piece), backend_of(backend))
+    task = Task(machine, measure, piece_size(machine, designs.count, piece), one_word("backend", backend, ("numpy", "numba")))
     if not callable(measure):
         raise DefinitionError(f"{machine.plan.title}: measure={measure!r:.60}: a function of a mechanism is expected.")
     if executor is not None and (isinstance(executor, type) or not callable(getattr(executor, "submit", None))):
         what = "is a class" if isinstance(executor, type) else "has no submit"
         raise DefinitionError(f"executor={executor!r:.60} {what}; give a pool of concurrent.futures or client.get_executor().")
+    if isinstance(version, bool) or not isinstance(version, (str, int)):
+        raise DefinitionError(f"version={cited(version)}: a text or a whole number is expected, such as version=2.")
     if not isinstance(progress, bool) and (not callable(progress) or isinstance(progress, type)):
         raise DefinitionError(f"progress={cited(progress)}: say True for a bar, or give a function of (done, total) designs.")
-    shelf = None if folder is None else Shelf.of(folder, task, designs)
-    with shown(progress, machine.plan.heading) as tell:
-        run = Run(task, designs, executor or Here(), shelf, tell)
+    checkpoint = None if folder is None else Checkpoint.of(folder, task, designs, version)
+    with progress_told(progress, machine.plan.heading) as tell:
+        run = SurveyRun(task, designs, executor or LocalExecutor(), checkpoint, tell)
         run.go()
     return Survey(machine, designs, run.values, tuple(run.batches))
 
 
-def piece_of(machine: Mechanism, count: int, given: int | None) -> int:
+def piece_size(machine: Mechanism, count: int, given: int | None) -> int:
     """Return how many designs are measured at a time: by their number alone, so that results do not depend on who does the work."""
     if given is None:
         return min(max(-(-count // PARTS), SMALLEST), LARGEST)
     if not is_whole(given) or given < 1:
         raise DefinitionError(f"{machine.plan.title}: piece={given!r}: a whole number of designs is expected, at least 1.")
     return int(given)
-
-
-def backend_of(name: str) -> str:
-    """Return the back end by its name; DefinitionError where it is none that many designs can be left to."""
-    return one_word("backend", name, ("numpy", "numba"))

@@ -4,7 +4,6 @@ import mpmath
 import numpy as np
 
 from linkage.program import ancestors
-from linkage.program.schedule import plain
 
 DIGITS = 60
 POWER = {
@@ -45,7 +44,7 @@ def exactly(nodes, inputs):
             if node.op in ("constant", "input"):
                 values[node] = mpmath.mpf(node.value if node.op == "constant" else inputs[node.value])
                 continue
-            args = [values[plain(arg)] for arg in node.args]
+            args = [values[arg.origin] for arg in node.args]
             try:
                 if node.op == "solve":
                     values[node] = solved(args)
@@ -55,7 +54,7 @@ def exactly(nodes, inputs):
                     values[node] = POWER[node.op](*args)
             except ZeroDivisionError:
                 return None
-        found = [values[plain(node)] for node in nodes]
+        found = [values[node.origin] for node in nodes]
         return None if any(mpmath.isnan(each) or mpmath.isinf(each) for each in found) else found
 
 
@@ -66,7 +65,7 @@ def pins_exactly(plan, inputs):
         for group in plan.groups.values():
             pins = [part for name in group.pins for part in (plan.trace.at(name).x, plan.trace.at(name).y)]
             closure = pins[0].closure
-            names = [plain(root).value for root in closure.roots]
+            names = [root.origin.value for root in closure.roots]
             from linkage.program import jacobian
 
             rows = [entry for row in jacobian(plan.trace.graph, closure) for entry in row]

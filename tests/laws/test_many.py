@@ -171,7 +171,7 @@ def violations(seeds, folder):
 
 
 def test_a_few_random_mechanisms_hold_every_law(tmp_path):
-    assert violations(range(1, 5), tmp_path) == []
+    assert violations(range(1, 4), tmp_path) == []  # of two, three strokes and one
 
 
 @pytest.mark.slow

@@ -1,7 +1,7 @@
 """Laws of forces over random machines, against bodies and loads that the package did not see.
 
 Every machine is drawn with its bodies, loads and cylinders in plain numbers (`random_machines`), and equilibrium, work and friction are
-worked out from those (`by_hand`). Fifty machines are looked at daily, three hundred with `-m slow`.
+worked out from those (`by_hand`). Twenty machines are looked at daily, three hundred with `-m slow`.
 """
 
 import math
@@ -20,7 +20,7 @@ from tests.laws.by_hand import FRAME, ByHand, by_point, full
 from tests.laws.plane import G0, PLAIN, Move, cross, facing, size, turned
 from tests.laws.random_machines import TAGS, random_machine, wants
 
-MANY, DAILY, BLOCK = 300, 50, 10
+MANY, DAILY, BLOCK = 300, 20, 10
 NOTHING = 1e-12  # of the largest force: what rounding leaves
 FRICTION = 1e-10  # of the largest force: where friction and joint forces are found by iteration
 

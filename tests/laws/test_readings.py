@@ -78,10 +78,20 @@ def test_some_of_these_poses_are_out_of_reach_and_some_are_not():
     assert sum(0.0 < share < 1.0 for share in shares) > len(shares) / 2
 
 
-@ALL
-@pytest.mark.parametrize(
-    ("designs", "poses"), [(1, 1), (1, FEW), (1, FEW + 1), (1, 2 * BLOCK + 3), (3, 40), (40, 3), (2, BLOCK + 1), (BLOCK + 1, 2), (7, 1)]
-)
+SHAPES = [(1, 1), (1, FEW), (1, FEW + 1), (1, 2 * BLOCK + 3), (3, 40), (40, 3), (2, BLOCK + 1), (BLOCK + 1, 2), (7, 1)]
+EACH_WAY = [(1, 1), (3, 40), (40, 3)]  # floats, blocks along the poses, blocks along the designs
+SEVERAL = [ThreePointHitch, *MACHINES[-3:]]  # the last three are of three strokes, of one and of two
+
+
+def shapes():
+    """Return machines with numbers of designs and poses: every machine each way, every shape of several machines, the rest in the soak."""
+    for shape in SHAPES:
+        for machine in MACHINES:
+            daily = shape in EACH_WAY or machine in SEVERAL
+            yield pytest.param(machine, *shape, marks=[] if daily else [pytest.mark.slow], id=f"{shape[0]}-{shape[1]}-{machine.__name__}")
+
+
+@pytest.mark.parametrize(("machine", "designs", "poses"), list(shapes()))
 def test_kernel_is_the_program_node_by_node(machine, designs, poses):
     nodes, given = everything(machine), inputs(machine, designs, poses)
     tall = {name: value[:, None] if np.ndim(value) and name not in machine.plan.strokes else value for name, value in given.items()}

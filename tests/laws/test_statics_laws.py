@@ -54,8 +54,17 @@ def shipped():
 
 SHIPPED = list(shipped())
 RANDOM = [random_mechanism(seed) for seed in range(4)] + [random_mechanism(seed, strokes=2) for seed in (10, 11)]
+TWINS = {  # of the structure of another shipped machine, in other dimensions
+    "DragLink", "DoubleRocker", "TripleRocker", "Parallelogram", "Hoeken", "ImprovedBalancer", "HitchCategory1", "HitchCategory2",
+}  # fmt: skip
 ALL = pytest.mark.parametrize("machine", SHIPPED + RANDOM, ids=lambda machine: machine.__name__)
 ONE = pytest.mark.parametrize("machine", [each for each in SHIPPED if len(each.plan.strokes) == 1], ids=lambda machine: machine.__name__)
+
+
+def of_each_structure(machines):
+    """Return the parameters of a long law: one machine of each structure and every other random one daily, all in the soak."""
+    seldom = {*TWINS, *(machine.__name__ for machine in RANDOM[1::2])}
+    return [pytest.param(machine, marks=[pytest.mark.slow] if machine.__name__ in seldom else []) for machine in machines]
 
 
 def weights(machine):

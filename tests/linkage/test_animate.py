@@ -27,7 +27,7 @@ from linkage import (  # fmt: skip
 )
 from linkage.pictures import animate, page_html, style
 from linkage.pictures.film import Stage, palette_of
-from linkage.pictures.strokes import course
+from linkage.pictures.strokes import playback
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.classics.slider_crank import SliderCrank
 from mechanisms.mower_lift import MowerLift
@@ -56,7 +56,7 @@ class Longest(MowerLift):
 
 
 def test_a_lift_goes_there_and_back_and_eases_at_its_ends():
-    run = course(MowerLift(), 5)
+    run = playback(MowerLift(), 5)
     assert run.order == (0, 1, 2, 3, 4, 3, 2, 1)
     S = run.motion.strokes["S"]
     assert_allclose(S[[0, 2, 4]], [0.55, 0.675, 0.80])
@@ -64,38 +64,38 @@ def test_a_lift_goes_there_and_back_and_eases_at_its_ends():
 
 
 def test_a_full_turn_goes_round_and_the_last_pose_is_the_first():
-    run = course(FourBar(), 9)
+    run = playback(FourBar(), 9)
     assert run.is_turn
     assert_allclose(run.motion.strokes["phi"], np.linspace(0, 2 * pi, 9))
 
 
 def test_poses_out_of_reach_are_left_out():
-    run = course(TooLong(), 40)
+    run = playback(TooLong(), 40)
     reached = run.motion.reached
     assert 0 < reached.sum() < 40
     assert set(run.order) == set(np.flatnonzero(reached))
     with pytest.raises(AssemblyError, match="B = Dyad"):
-        course(Longest(), 10)
+        playback(Longest(), 10)
 
 
 def test_the_column_is_the_one_named_or_the_last():
-    assert course(MowerLift(), 3, "I").column.name == "I"
-    assert course(MowerLift(), 3).column.name == "kz"
+    assert playback(MowerLift(), 3, "I").column.name == "I"
+    assert playback(MowerLift(), 3).column.name == "kz"
     with pytest.raises(DefinitionError, match=r"Column 'kx' is unknown in MowerLift. Did you mean kz"):
-        course(MowerLift(), 3, "kx")
+        playback(MowerLift(), 3, "kx")
 
 
 @pytest.mark.parametrize("count", [1, 0, 2.5, True, "60"])
 def test_a_count_is_a_whole_number_from_two(count):
     with pytest.raises(DefinitionError, match="at least 2 poses"):
-        course(MowerLift(), count)
+        playback(MowerLift(), count)
 
 
 # -- frames ------------------------------------------------------------------------------------------------
 
 
 def test_a_frame_is_the_same_however_it_is_reached():
-    stage = Stage(course(ThreePointHitch(), 7), ["G"], None, 50)
+    stage = Stage(playback(ThreePointHitch(), 7), ["G"], None, 50)
     first = stage.frame(0)
     assert first.shape == (240, 480, 3)
     assert (stage.frame(3) != first).any()
@@ -103,7 +103,7 @@ def test_a_frame_is_the_same_however_it_is_reached():
 
 
 def test_a_frame_shows_the_pose_and_the_value():
-    run = course(MowerLift(), 5)
+    run = playback(MowerLift(), 5)
     stage = Stage(run, [], (1.0, "kz = 1", "below"), 50)
     stage.frame(4)
     assert stage.stroke.get_text() == "S = 800 mm"
@@ -113,7 +113,7 @@ def test_a_frame_shows_the_pose_and_the_value():
 
 
 def test_the_palette_holds_plain_colours_exactly():
-    stage = Stage(course(MowerLift(), 3), [], None, 100)
+    stage = Stage(playback(MowerLift(), 3), [], None, 100)
     flat = palette_of(stage.frame(0)).getpalette()
     colours = {tuple(flat[i : i + 3]) for i in range(0, len(flat), 3)}
     assert (255, 255, 255) in colours
@@ -121,14 +121,14 @@ def test_the_palette_holds_plain_colours_exactly():
 
 
 def test_strokes_held_and_poses_not_reached_are_said():
-    held = Stage(course(FrontLoader(), 5), [], None, 50)
+    held = Stage(playback(FrontLoader(), 5), [], None, 50)
     assert any(text.get_text().startswith("at tilt = ") for text in held.figure.texts)
-    short = Stage(course(TooLong(), 40), [], None, 50)
+    short = Stage(playback(TooLong(), 40), [], None, 50)
     assert any(text.get_text().startswith("not reached beyond S = ") for text in short.figure.texts)
 
 
 def test_names_keep_close_to_their_points():
-    stage = Stage(course(FrontLoader(), 9), [], None, 100)
+    stage = Stage(playback(FrontLoader(), 9), [], None, 100)
     for part in stage.drawing.parts:
         if hasattr(part, "text"):
             assert np.hypot(*part.text.xyann) < 1.7 * style.LABEL

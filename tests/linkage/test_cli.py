@@ -13,10 +13,10 @@ from importlib.metadata import EntryPoint
 import numpy as np
 import pytest
 
-from linkage.cli import Command, machines, main
+from linkage.cli import Command, listing, main
 from linkage.cli import command as progress
-from linkage.cli import main as commands
-from linkage.cli import show as listing
+from linkage.cli import entry as commands
+from linkage.cli.command import lined_up
 
 OWN = '''
     """A machine of a user."""
@@ -359,13 +359,13 @@ def plugged(monkeypatch):
     """Let two commands and two machines be installed, one of each broken."""
     entries = {
         commands.GROUP: [EntryPoint("weigh", f"{__name__}:Weigh", commands.GROUP), EntryPoint("burn", "no_package:Burn", commands.GROUP)],
-        machines.GROUP: [
-            EntryPoint("good", "mechanisms.mower_lift:MowerLift", machines.GROUP),
-            EntryPoint("bad", "no_package:Bad", machines.GROUP),
+        listing.GROUP: [
+            EntryPoint("good", "mechanisms.mower_lift:MowerLift", listing.GROUP),
+            EntryPoint("bad", "no_package:Bad", listing.GROUP),
         ],
     }
     monkeypatch.setitem(sys.modules, __name__, sys.modules.get(__name__) or sys.modules[Weigh.__module__])
-    for module in (commands, machines):
+    for module in (commands, listing):
         monkeypatch.setattr(module, "entry_points", lambda group: entries[group])
 
 
@@ -391,6 +391,10 @@ def test_nothing_installed_is_said(said, monkeypatch):
     assert code == 2 and "install the package" in err
 
 
+def test_rows_are_lined_up():
+    assert list(lined_up([("a", "1", ""), ("bcd", "20", "x")])) == ["a    1", "bcd  20  x"]
+
+
 # -- as a process ------------------------------------------------------------------------------------------
 
 
@@ -405,6 +409,33 @@ def test_numbers_load_nothing_heavy():
     assert (done.returncode, err) == (0, "")
     assert "numpy" in loaded
     assert not loaded & {"matplotlib", "sympy", "scipy", "networkx", "rich", "pydantic", "PIL", "numba"}
+
+
+def test_list_loads_no_machine():
+    program = "import sys; from linkage.cli import main; main(['list']); print('loaded', *sys.modules)"
+    done = shell("-c", program, text=True)
+    out, err = done.communicate()
+    assert (done.returncode, err) == (0, "") and "three_point_hitch" in out
+    loaded = set(out[out.rindex("loaded") :].split())
+    assert not [name for name in loaded if name.startswith(("mechanisms.", "hydraulics"))]
+    assert not loaded & {"linkage.mechanism", "matplotlib", "sympy", "scipy", "networkx", "rich", "pydantic", "PIL", "numba"}
+
+
+@pytest.mark.parametrize("source", ['"""It."""\nHitch = type("Hitch", (), {"__doc__": "Made by a call."})\n', "Hitch = 1 +\n", None])
+def test_first_line_that_no_source_says_is_none(tmp_path, monkeypatch, source):
+    if source is not None:
+        (tmp_path / "strange.py").write_text(source, encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    assert listing.docstring("strange", "Hitch") is None
+    assert "strange" not in sys.modules
+
+
+def test_first_line_follows_a_class_that_is_handed_on(tmp_path, monkeypatch):
+    (tmp_path / "handing").mkdir()
+    (tmp_path / "handing" / "__init__.py").write_text("from .inner import Far as Near\nraise SystemExit\n", encoding="utf-8")
+    (tmp_path / "handing" / "inner.py").write_text('class Far:\n    """What it is.\n\n    More."""\n', encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    assert listing.first_line(EntryPoint("near", "handing:Near", listing.GROUP)) == "What it is."
 
 
 def test_module_is_the_command():

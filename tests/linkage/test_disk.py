@@ -18,7 +18,7 @@ from linkage.disk import check_place, read, replacing, replacing_text
 from linkage.files import load, save
 from linkage.pictures import animate, draw, plot
 from linkage.pictures.film import html, write_gif, write_mp4
-from linkage.pictures.strokes import course
+from linkage.pictures.strokes import playback
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.header_balancer.measured import read_measured
 
@@ -59,7 +59,7 @@ def filmed(path):
 @cache
 def run():
     """Return a short run of a machine."""
-    return course(FourBar(), 4)
+    return playback(FourBar(), 4)
 
 
 def paged(path):
@@ -390,7 +390,7 @@ def test_the_place_is_looked_at_before_the_work(tmp_path, monkeypatch):
     def worked(*given, **options):
         raise AssertionError("worked for nothing")
 
-    monkeypatch.setattr("linkage.pictures.film.course", worked)
+    monkeypatch.setattr("linkage.pictures.film.playback", worked)
     with pytest.raises(FileError, match="is not there"):
         animate(FourBar(), tmp_path / "nowhere" / "bars.gif")
 

@@ -29,12 +29,13 @@ from linkage import (  # fmt: skip
     Vector,
     deg,
 )
-from linkage.pictures import draw, mechanism, plot, strokes, style
-from linkage.pictures.curves import crossings
+from linkage.pictures import draw, mechanism, plot, style
+from linkage.pictures.curves import limit_crossings
 from linkage.pictures.drawing import BodyPart
 from linkage.pictures.scene import Scene
 from linkage.pictures.shapes import hull, rounded
 from linkage.pictures.sheet import sheet
+from linkage.pictures.strokes import stroke_words
 from linkage.pictures.symbols import BlockPart, hatched, lengthwise
 from mechanisms.classics.inverted_slider_crank import InvertedSliderCrank
 from mechanisms.classics.scotch_yoke import ScotchYoke
@@ -407,8 +408,8 @@ def test_a_limit_shades_the_side_that_fails_and_marks_the_crossing():
 
 def test_crossings_lie_between_poses_in_reach():
     along = np.arange(5.0)
-    assert crossings(along, np.array([1.0, -1.0, np.nan, 3.0, 4.0]), 0.0) == [0.5]
-    assert crossings(along, np.array([1.0, 2.0, 3.0, 4.0, 3.0]), 3.5) == [2.5, 3.5]
+    assert limit_crossings(along, np.array([1.0, -1.0, np.nan, 3.0, 4.0]), 0.0) == [0.5]
+    assert limit_crossings(along, np.array([1.0, 2.0, 3.0, 4.0, 3.0]), 3.5) == [2.5, 3.5]
 
 
 def test_a_stroke_that_turns_is_shown_in_degrees():
@@ -416,7 +417,7 @@ def test_a_stroke_that_turns_is_shown_in_degrees():
     ax = plot(motion, [Column("B_x", motion.x("B"), "m")]).axes[0]
     assert ax.get_xlabel() == "phi, deg"
     assert ax.get_xlim() == (0.0, 360.0)
-    assert strokes.words(motion.plan, "phi", -pi / 2) == "phi = \N{MINUS SIGN}90°"
+    assert stroke_words(motion.plan, "phi", -pi / 2) == "phi = \N{MINUS SIGN}90°"
 
 
 def test_a_constant_column_a_single_pose_and_gaps_can_be_drawn():

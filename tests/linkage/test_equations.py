@@ -9,7 +9,6 @@ from linkage import LEFT, AssemblyError, Crank, DefinitionError, Dyad, Ground, L
 from linkage.formulas import Equations, Tcos, TurnVL, equations, explicit
 from linkage.formulas.oracle import program_expressions
 from linkage.plan import ArrayReading
-from linkage.steps.expansion import expansion
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.equation_machines import ALL, HITCHES, MowerInPrimitives, Outputs, Slider, check_values, poses
@@ -170,7 +169,7 @@ def test_expansion_places_the_point(machine):
     reading = ArrayReading(design.plan.members, design.plan.table.lengths, motion.inputs)
     for name, step in design.plan.points.items():
         reading.placing.append(name)
-        for each in expansion(step):
+        for each in step.expansion():
             if each.name == name:
                 place = each.value.place(reading)
                 assert_allclose([place.x, place.y], motion[name], rtol=0, atol=1e-12)

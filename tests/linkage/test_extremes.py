@@ -72,7 +72,7 @@ SHAPES = {
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-@settings(deadline=None, max_examples=30)
+@settings(deadline=None, max_examples=15)
 @given(place=st.floats(0.0, 1.0, exclude_min=True))
 def test_a_top_anywhere(shape, place):
     found = greatest(Lift().sweep(2), of_stroke(lambda u: SHAPES[shape](u, place)))
@@ -80,6 +80,11 @@ def test_a_top_anywhere(shape, place):
     assert share(found) == pytest.approx(place, abs=1e-4)
     assert not found.unbounded
     assert lowest(Lift().sweep(2), of_stroke(lambda u: -SHAPES[shape](u, place))).value == -found.value
+
+
+def seeds(every, daily):
+    """Return the seeds of a test: the first `daily` in each run of the suite, the others in the soak."""
+    return [pytest.param(seed, marks=[pytest.mark.slow] if seed >= daily else []) for seed in range(every)]
 
 
 def pieces(rng, least, most):
@@ -90,7 +95,7 @@ def pieces(rng, least, most):
     return x / x[-1], rng.uniform(-1.0, 1.0, count + 1)
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", seeds(40, daily=15))
 def test_broken_lines_with_gaps(seed):
     """The highest corner, or the highest edge of a gap, of lines of up to 1500 pieces."""
     rng = np.random.default_rng(seed)
@@ -239,7 +244,7 @@ def test_a_quotient_is_without_bounds_where_its_divisor_vanishes():
     assert found.value == pytest.approx(10.0 / np.cos(1.5), rel=1e-12) and not found.unbounded
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", seeds(60, daily=20))
 def test_poles_and_what_is_none(seed):
     """Poles of several orders on a moving ground, refused about them or at the end of the reach, against values that stay finite."""
     rng = np.random.default_rng(seed)

@@ -1,6 +1,7 @@
 """Gradients of thrusts and pin forces: exact against differences of the forces, over every shipped machine, and by laws they keep."""
 
 import warnings
+from functools import cache
 
 import numpy as np
 import pytest
@@ -23,12 +24,12 @@ from linkage import (
     y,
 )
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.laws.test_statics_laws import RANDOM, SHIPPED
+from tests.laws.test_statics_laws import RANDOM, SHIPPED, of_each_structure
 from tests.linkage.test_gradient import mid
 from tests.linkage.test_groups import Platform
 
 MACHINES = [*SHIPPED, *RANDOM, Platform]
-ALL = pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
+ALL = pytest.mark.parametrize("machine", of_each_structure(MACHINES), ids=lambda machine: machine.__name__)
 STEPS = np.array([1.0, 2.0, 4.0])
 ALONE = {"n", "atmosphere"}  # of the header balancer: n is 1 or more, and the atmosphere one for all designs
 
@@ -49,6 +50,13 @@ def loaded(machine):
     members |= {"pull": Force(last, (300.0, -120.0)), "turn": Moment(body, M=40.0), "own": LinkMass(body, mass=8.0, at=(0.1, 0.02))}
     members["spring"] = Spring([*machine.plan.ground, *machine.plan.moving][0], last, stiffness=900.0, free_length=0.13)
     return type(f"Loaded{machine.__name__}", (machine,), members)
+
+
+@cache
+def compared(machine):
+    """Return the motion of a loaded machine, and what its derivatives by all variables are compared with."""
+    own = loaded(machine)
+    return own().at(**mid(machine)), Differences(own, mid(machine))
 
 
 class Differences:
@@ -84,8 +92,7 @@ class Differences:
 
 @ALL
 def test_gradient_of_thrust_is_the_difference_of_designs(machine):
-    own = loaded(machine)
-    motion, differences = own().at(**mid(machine)), Differences(own, mid(machine))
+    motion, differences = compared(machine)
     for drive in machine.plan.strokes:
         found = motion.gradient(drive_force(drive), differences.names)
         differences.check(found, driving_force(differences.motion, drive=drive), drive)
@@ -93,8 +100,7 @@ def test_gradient_of_thrust_is_the_difference_of_designs(machine):
 
 @ALL
 def test_gradient_of_pin_forces_is_the_difference_of_designs(machine):
-    own = loaded(machine)
-    motion, differences = own().at(**mid(machine)), Differences(own, mid(machine))
+    motion, differences = compared(machine)
     joints = [each for each in pin_forces(differences.motion).joints if each.has_force]
     alone = [each for each in joints if sum((each.point, each.on) in ((o.point, o.on), (o.point, o.by)) for o in joints) == 1]
     for joint, component in ((alone[0], "x"), (alone[len(alone) // 2], "y"), (alone[-1], "size")):

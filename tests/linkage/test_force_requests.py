@@ -38,7 +38,7 @@ from linkage import (
 )
 from linkage.loads import Load
 from mechanisms.three_point_hitch import ThreePointHitch
-from tests.laws.test_statics_laws import RANDOM, SHIPPED, moved, weights
+from tests.laws.test_statics_laws import RANDOM, SHIPPED, moved, of_each_structure, weights
 from tests.linkage.test_groups import Platform
 
 MACHINES = [*SHIPPED, *RANDOM, Platform]
@@ -68,7 +68,7 @@ def agree(found, wanted, room):
     assert_allclose(found, wanted, rtol=0, atol=room * np.nanmax(np.abs(wanted)))
 
 
-@pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
+@pytest.mark.parametrize("machine", of_each_structure(MACHINES), ids=lambda machine: machine.__name__)
 def test_requests_are_the_forces_of_every_machine(machine):
     motion, loads = moved(machine, 9, 3), weights(machine)
     for drive in machine.plan.strokes:

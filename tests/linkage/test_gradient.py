@@ -18,18 +18,12 @@ def mid(machine):
     return {name: stroke.start + (stroke.end - stroke.start) * np.array([0.4, 0.45, 0.5]) for name, stroke in machine.plan.strokes.items()}
 
 
-def shifted(machine, name, step, **strokes):
-    """Return the motion of the default design with one variable changed."""
-    design = machine()
-    design._values = dict(design._values) | {name: design._values[name] + step}
-    return design.at(**strokes)
-
-
 def difference(machine, name, read, strokes, h=1e-5):
-    """Return the derivative of a reading by a dimension: central differences of designs, extrapolated once."""
-    near, wide = (
-        (read(shifted(machine, name, step, **strokes)) - read(shifted(machine, name, -step, **strokes))) / (2 * step) for step in (h, 2 * h)
-    )
+    """Return the derivative of a reading by a dimension: central differences of one batch of designs, extrapolated once."""
+    design = machine()
+    design._values = dict(design._values) | {name: design._values[name] + h * np.array([1.0, -1.0, 2.0, -2.0])}
+    one, back, two, far_back = np.moveaxis(read(design.at(**strokes)), -2, 0)
+    near, wide = (one - back) / (2 * h), (two - far_back) / (4 * h)
     return (4 * near - wide) / 3
 
 

@@ -8,7 +8,7 @@ import pytest
 import linkage
 from linkage import LEFT, AssemblyError, Crank, DefinitionError, Dyad, Ground, Mechanism, Pin, Stroke, deg
 
-NAMES = {name: value for name, value in vars(linkage).items() if not name.startswith("_")}
+NAMES = {name: getattr(linkage, name) for name in linkage.__all__}
 
 CRANK = '''
     phi = Stroke(0, 360 * deg)

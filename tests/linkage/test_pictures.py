@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from linkage.pictures import draw
-from linkage.pictures.film import stroke_words
+from linkage.pictures.film import value_text
 from linkage.pictures.poses import on_its_way
 from linkage.pictures.scene import Scene
 from linkage.pictures.shapes import segment
-from linkage.pictures.strokes import course
+from linkage.pictures.strokes import playback
 from linkage.pictures.symbols import hatched
 from mechanisms.classics.front_loader import FrontLoader
 from mechanisms.classics.pantograph import Pantograph
@@ -48,8 +48,8 @@ def test_names_keep_clear_of_the_hatches_of_rails(machine):
 
 
 def test_an_animation_follows_what_changes():
-    assert course(FrontLoader(), 5).column.name == "boom"  # the attitude stays
-    assert course(FrontLoader(), 5, at=dict(lift=0.1)).column.name == "attitude"
+    assert playback(FrontLoader(), 5).column.name == "boom"  # the attitude stays
+    assert playback(FrontLoader(), 5, at=dict(lift=0.1)).column.name == "attitude"
 
 
 @pytest.mark.parametrize(
@@ -62,4 +62,4 @@ def test_an_animation_follows_what_changes():
     ],
 )
 def test_a_value_has_as_many_decimals_as_its_column_needs(values, texts):
-    assert [stroke_words(np.array(values), pose) for pose in range(len(values))] == texts
+    assert [value_text(np.array(values), pose) for pose in range(len(values))] == texts

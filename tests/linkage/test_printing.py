@@ -35,7 +35,7 @@ from linkage.plan import printed
 from linkage.quantities import in_degrees
 
 FUNCTIONS = {name: getattr(np, name) for name in ("sqrt", "cos", "sin", "tan", "arctan2")}
-NAMES = {name: value for name, value in vars(linkage).items() if not name.startswith("_")} | {"Cylinder": Cylinder} | FUNCTIONS
+NAMES = {name: getattr(linkage, name) for name in linkage.__all__} | {"Cylinder": Cylinder} | FUNCTIONS
 MACHINES = {each.name: each.load() for each in entry_points(group="hydrolinkage.machines") if ".classics." in each.value}
 
 

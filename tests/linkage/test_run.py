@@ -10,7 +10,7 @@ from linkage import LEFT, RIGHT, Column, Crank, DefinitionError, Dyad, Ground, M
 from linkage.pictures import animate, plot
 from linkage.pictures.browser import chart
 from linkage.pictures.film import Stage
-from linkage.pictures.strokes import course
+from linkage.pictures.strokes import playback
 from linkage.reports import results, run_of
 from linkage.statics import driving_force
 from mechanisms.classics.front_loader import FrontLoader
@@ -82,13 +82,13 @@ def test_a_run_that_cannot_be_is_refused(at, words):
 
 def test_a_motion_is_no_mechanism():
     motion = Lever().sweep(3)
-    for show in (lambda: animate(motion, "a.gif"), lambda: course(motion, 5)):
+    for show in (lambda: animate(motion, "a.gif"), lambda: playback(motion, 5)):
         with pytest.raises(DefinitionError, match=r"<Motion of Lever.* is no mechanism"):
             show()
 
 
 def test_an_animation_runs_where_it_is_asked_to():
-    run = course(FrontLoader(), 5, at=dict(lift=(0.1, 0.3), tilt=0.05))
+    run = playback(FrontLoader(), 5, at=dict(lift=(0.1, 0.3), tilt=0.05))
     assert_allclose(run.motion.strokes["lift"][[0, 2, 4]], [0.1, 0.2, 0.3])
     assert_allclose(run.motion.strokes["tilt"], 0.05)
 
@@ -149,14 +149,14 @@ def test_rounding_noise_is_drawn_as_zero():
 
 
 def test_a_yoke_in_the_middle_stands_at_zero():
-    run = course(ScotchYoke(), 5, "travel")
+    run = playback(ScotchYoke(), 5, "travel")
     stage = Stage(run, [], None, 50)
     stage.frame(1)
     assert stage.value.get_text() == "0.00000"
     assert stage.run.get_ydata()[-1] == 0.0
     stage.frame(2)
     assert stage.value.get_text() == "\N{MINUS SIGN}0.05000"
-    flat = course(ScotchYoke(), 9, "X_y")
+    flat = playback(ScotchYoke(), 9, "X_y")
     assert chart(flat.motion, flat.column, None)["range"] == [-1.0, 1.0]
     (ax,) = plot(flat.motion, [flat.column]).axes
     assert ax.get_ylim() == (-1.0, 1.0)
@@ -169,5 +169,5 @@ def test_a_part_of_a_turn_goes_there_and_back():
         A = Crank(O, OA=1, angle=phi)
         B = Dyad(A, C, AB=3, CB=2.5, side=LEFT)
 
-    assert course(FourBar(), 9).is_turn
-    assert not course(FourBar(), 9, at=dict(phi=(0.0, 3.0))).is_turn
+    assert playback(FourBar(), 9).is_turn
+    assert not playback(FourBar(), 9, at=dict(phi=(0.0, 3.0))).is_turn

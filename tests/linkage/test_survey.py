@@ -14,8 +14,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from linkage import AssemblyError, DefinitionError, FileError, StudyError
 from linkage.program import pinned
 from linkage.program.numba_backend import Fused
-from linkage.study import batching as pace
-from linkage.study import survey
+from linkage.study import batching, survey
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.survey_measures import failing, far_points, group_designs, hitch_designs, logged, travel
 
@@ -23,8 +22,8 @@ from tests.linkage.survey_measures import failing, far_points, group_designs, hi
 @pytest.fixture
 def small(monkeypatch):
     """Batches of one piece: many of them from few designs."""
-    monkeypatch.setattr(pace, "AIM", 1e-9)
-    monkeypatch.setattr(pace, "LEAST", 1e-9)
+    monkeypatch.setattr(batching, "AIM", 1e-9)
+    monkeypatch.setattr(batching, "LEAST", 1e-9)
 
 
 def same(found, wanted):
@@ -65,8 +64,8 @@ def test_every_design_is_measured_once_and_in_its_place(small):
 def test_results_do_not_depend_on_the_batches(small, monkeypatch):
     machine, over = group_designs(400)
     many = survey(machine, over, far_points)
-    monkeypatch.setattr(pace, "AIM", 1e9)
-    monkeypatch.setattr(pace, "LEAST", 1e9)
+    monkeypatch.setattr(batching, "AIM", 1e9)
+    monkeypatch.setattr(batching, "LEAST", 1e9)
     few = survey(machine, over, far_points)
     assert len(many.batches) > len(few.batches) == 2
     same(many, few)
@@ -406,7 +405,7 @@ def beside_results(count):
 
 
 def test_memory_is_bounded_by_the_batch(monkeypatch):
-    monkeypatch.setattr(pace, "AIM", 1e-3)
-    monkeypatch.setattr(pace, "LEAST", 5e-4)
+    monkeypatch.setattr(batching, "AIM", 1e-3)
+    monkeypatch.setattr(batching, "LEAST", 5e-4)
     few, many = (min(beside_results(count) for _ in range(2)) for count in (200_000, 1_600_000))
     assert many < few + 1_000_000, "eight times as many designs: their inputs alone are 11 MB more"

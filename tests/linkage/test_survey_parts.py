@@ -10,8 +10,8 @@ from numpy.testing import assert_array_equal
 
 from linkage import DefinitionError
 from linkage.study import Box, survey
-from linkage.study.batching import Left, Pace
-from linkage.study.checkpoint import fingerprint
+from linkage.study.batching import BatchSizes, OpenRanges
+from linkage.study.checkpoint import measure_text
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.survey_measures import far_points, travel
 
@@ -20,7 +20,7 @@ from tests.linkage.survey_measures import far_points, travel
 
 @given(st.integers(1, 500), st.integers(1, 70), st.data())
 def test_every_design_is_dealt_out_once_on_the_borders_of_pieces(count, piece, data):
-    left = Left(count, piece)
+    left = OpenRanges(count, piece)
     given_out = np.zeros(count, int)
     while left.ranges:
         assert left.pieces == sum(-(-(stop - start) // piece) for start, stop in left.ranges)
@@ -34,34 +34,34 @@ def test_every_design_is_dealt_out_once_on_the_borders_of_pieces(count, piece, d
 
 
 def test_batches_grow_to_their_time_and_shrink_towards_the_end():
-    pace = Pace(1000)
-    assert (pace.pieces(10_000), pace.ahead) == (1, 1)
-    pace.heard(1, 0.01, waited=0.0)
-    assert (pace.pieces(10_000), pace.ahead) == (40, 2)
-    assert pace.pieces(60) == 30
-    assert pace.pieces(30) == 30, "what is left over is no batch of its own"
-    pace.heard(40, 0.04, waited=1.0)
-    assert (pace.pieces(10_000), pace.pieces(100_000), pace.ahead) == (400, 400, 2)
-    assert Pace(7).pieces(100) == 1
+    sizes = BatchSizes(1000)
+    assert (sizes.pieces(10_000), sizes.ahead) == (1, 1)
+    sizes.learn(1, 0.01, waited=0.0)
+    assert (sizes.pieces(10_000), sizes.ahead) == (40, 2)
+    assert sizes.pieces(60) == 30
+    assert sizes.pieces(30) == 30, "what is left over is no batch of its own"
+    sizes.learn(40, 0.04, waited=1.0)
+    assert (sizes.pieces(10_000), sizes.pieces(100_000), sizes.ahead) == (400, 400, 2)
+    assert BatchSizes(7).pieces(100) == 1
 
 
 def test_batches_at_the_bound_of_memory_are_equal():
-    pace = Pace(71)
-    pace.heard(1, 0.002, waited=0.0)
+    sizes = BatchSizes(71)
+    sizes.learn(1, 0.002, waited=0.0)
     left, dealt = 977, []
     while left:
-        dealt.append(pace.pieces(left))
+        dealt.append(sizes.pieces(left))
         left -= dealt[-1]
     assert len(dealt) == 14 and set(dealt) == {69, 70}
 
 
 def test_more_batches_go_out_while_workers_wait():
-    pace = Pace(100)
+    sizes = BatchSizes(100)
     for _ in range(5):
-        pace.heard(1, 0.4, waited=0.01)
-    assert pace.ahead == 6
-    pace.heard(1, 0.4, waited=0.3)
-    assert pace.ahead == 6
+        sizes.learn(1, 0.4, waited=0.01)
+    assert sizes.ahead == 6
+    sizes.learn(1, 0.4, waited=0.3)
+    assert sizes.ahead == 6
 
 
 # -- what a measure is --------------------------------------------------------------------------------------
@@ -76,16 +76,74 @@ def made(constant, name="G", extra=None):
     return measure
 
 
-def test_fingerprint_tells_measures_apart():
+def doubled(machine):
+    return 2.0 * machine["OB"]
+
+
+def length(machine):
+    return machine["OB"]
+
+
+def test_source_text_tells_measures_apart():
     several = [
         travel, far_points, made(2.0), made(3.0), made(2.0, "K"), made(np.arange(3)), made(np.arange(4)), made(ThreePointHitch()),
-        made(ThreePointHitch(OB=0.31)), made(2.0, extra=lambda machine: machine["OB"]), made(2.0, extra=lambda machine: machine["CD"]),
+        made(ThreePointHitch(OB=0.31)), made(2.0, extra=doubled), made(2.0, extra=length),
         functools.partial(made, 2.0), functools.partial(made, 3.0), made({"a": [1, (2, None)]}), made({"a": [1, (2, True)]}),
         made({"a", "b"}), Callable(1.0), Callable(2.0), Callable(2.0).method, len,
     ]  # fmt: skip
-    words = [fingerprint(measure) for measure in several]
+    words = [measure_text(measure) for measure in several]
     assert len(set(words)) == len(several)
-    assert words[2] == fingerprint(made(2.0)) and words[16] == fingerprint(Callable(1.0)) and words[15] == fingerprint(made({"b", "a"}))
+    assert words[2] == measure_text(made(2.0)) and words[16] == measure_text(Callable(1.0)) and words[15] == measure_text(made({"b", "a"}))
+
+
+SCALE = 2.0
+
+
+def scaled(machine):
+    """Measures with a number of its module, and a function of it."""
+    return {"OB": SCALE * doubled(machine)}
+
+
+def test_values_and_functions_that_a_measure_reads_are_part_of_it(monkeypatch):
+    before = measure_text(scaled)
+    assert 'return 2.0 * machine["OB"]' in before and "['SCALE', 2.0]" in before
+    monkeypatch.setitem(globals(), "SCALE", 3.0)
+    assert measure_text(scaled) != before
+
+
+def test_measure_text_does_not_depend_on_the_bytecode(monkeypatch):
+    text, code = measure_text(scaled), scaled.__code__
+    monkeypatch.setattr(scaled, "__code__", code.replace(co_consts=(*code.co_consts, "of another Python")))
+    assert measure_text(scaled) == text
+
+
+NEEDS_A_VERSION = r".* cannot tell it from another one; define it by `def` in a file, or say version=1"
+
+
+def test_function_without_source_needs_a_version():
+    space = {"__name__": __name__}
+    exec("def other(machine):\n    return {'OB': machine['OB']}\n", space)
+    assert measure_text(space["other"], has_version=True)
+    with pytest.raises(DefinitionError, match=f"other has no source text that is found, {NEEDS_A_VERSION}"):
+        measure_text(space["other"])
+
+
+@pytest.mark.parametrize("measure", [lambda machine: {"OB": machine["OB"]}, made(2.0, extra=lambda machine: machine["OB"])])
+def test_lambda_needs_a_version(measure, tmp_path):
+    hitch, over = ThreePointHitch(), {"OB": np.linspace(0.29, 0.31, 5)}
+    with pytest.raises(DefinitionError, match=f"is a lambda, without source text {NEEDS_A_VERSION}"):
+        survey(hitch, over, measure, folder=tmp_path)
+    assert survey(hitch, over, measure), "without a folder nobody has to know"
+    survey(hitch, over, measure, folder=tmp_path, version=1)
+    assert "5 designs from the folder" in repr(survey(hitch, over, measure, folder=tmp_path, version=1))
+    with pytest.raises(DefinitionError, match=r"differs in version \(1 there, 2 here\)"):
+        survey(hitch, over, measure, folder=tmp_path, version=2)
+
+
+@pytest.mark.parametrize("version", [True, 1.5, None, ["a"]])
+def test_version_that_cannot_be(version):
+    with pytest.raises(DefinitionError, match="a text or a whole number is expected"):
+        survey(ThreePointHitch(), {"OB": np.linspace(0.29, 0.31, 5)}, travel, version=version)
 
 
 class Callable:

@@ -14,8 +14,7 @@ import pytest
 
 from linkage import LinkageError, StudyError
 from linkage.plan.plan import KNOWN, LATEST
-from linkage.study import batching as pace
-from linkage.study import survey
+from linkage.study import batching, survey
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.survey_measures import deadly, failing, far_points, group_designs, hitch_designs, logged, travel
 from tests.linkage.test_survey import read, same
@@ -27,8 +26,8 @@ FORKING = pytest.mark.filterwarnings("ignore:.*use of fork.*:DeprecationWarning"
 @pytest.fixture
 def small(monkeypatch):
     """Batches of one piece: many of them from few designs."""
-    monkeypatch.setattr(pace, "AIM", 1e-9)
-    monkeypatch.setattr(pace, "LEAST", 1e-9)
+    monkeypatch.setattr(batching, "AIM", 1e-9)
+    monkeypatch.setattr(batching, "LEAST", 1e-9)
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, Crank, Dyad, Ground, Link, Mechanism, OnLink, Pin, Stroke
-from linkage.pictures.strokes import course
+from linkage.pictures.strokes import playback
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
 from mechanisms.classics.stephenson_two import StephensonTwo, StephensonTwoFar
 
@@ -85,6 +85,6 @@ def test_nothing_is_told_of_what_returns(machine):
 def test_a_group_on_a_full_turn_returns_where_nothing_is_told():
     motion = OneTurn().at(phi=[0.0, 2 * pi])
     assert_allclose(motion["D"][:, 1], motion["D"][:, 0], atol=1e-12)
-    assert course(OneTurn(), 9).is_turn
-    assert not course(TwoTurns(), 9).is_turn
-    assert course(TwoTurns(), 9, at=dict(phi=(0.0, 4 * pi))).is_turn
+    assert playback(OneTurn(), 9).is_turn
+    assert not playback(TwoTurns(), 9).is_turn
+    assert playback(TwoTurns(), 9, at=dict(phi=(0.0, 4 * pi))).is_turn

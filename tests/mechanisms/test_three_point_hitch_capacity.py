@@ -1,6 +1,7 @@
 """What the hitch lifts, its zones, upper link, mast and tractor: against hand equilibrium, differences and random samples."""
 
 import re
+from functools import cache
 
 import numpy as np
 import pytest
@@ -29,7 +30,7 @@ from mechanisms.three_point_hitch import (
     vertical_mast,
     weakest,
 )
-from mechanisms.three_point_hitch.weakest import stages
+from mechanisms.three_point_hitch.capacity import stages
 from tests.mechanisms.hitch_reference import REFERENCE
 
 ALL = pytest.mark.parametrize("machine", [ThreePointHitch, HitchCategory2, HitchCategory1])
@@ -37,10 +38,16 @@ FORCE = 2 * np.pi / 4 * 0.110**2 * 18e6
 ETA = 0.85
 
 
-def verdict(machine, rule, count=21, **dimensions):
+@cache
+def verdicts(machine, *dimensions):
+    """Return all sentences on a hitch with some dimensions, pairs of name and value."""
+    hitch = machine(**dict(dimensions))
+    return hitch.verdicts(hitch.sweep(21))
+
+
+def verdict(machine, rule, **dimensions):
     """Return the one sentence on a rule."""
-    hitch = machine(**dimensions)
-    (found,) = [text for text in hitch.verdicts(hitch.sweep(count)) if text[5:].startswith(f"{rule}:")]
+    (found,) = [text for text in verdicts(machine, *dimensions.items()) if text[5:].startswith(f"{rule}:")]
     return found
 
 

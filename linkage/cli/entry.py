@@ -12,33 +12,38 @@ from typing import Any, NoReturn
 
 from ..errors import DefinitionError, FileError, LinkageError, SingularWarning, unknown
 from .command import Command
-from .plot import Animate, Plot
-from .show import List, Save, Show
-from .table import Table
 
 # The commands there are: the built-in ones, and those of other packages by entry point.
 
 GROUP = "hydrolinkage.commands"
-BUILT_IN: tuple[Command, ...] = (List(), Show(), Table(), Plot(), Animate(), Save())
+HOMES = {
+    "list": "listing:ListCommand",
+    "show": "show:ShowCommand",
+    "table": "table:TableCommand",
+    "plot": "plot:PlotCommand",
+    "animate": "plot:AnimateCommand",
+    "save": "show:SaveCommand",
+}
+BUILT_IN = {name: EntryPoint(name, f"{__package__}.{home}", GROUP) for name, home in HOMES.items()}
 
 
-def chosen(arguments: Sequence[str]) -> tuple[Command, ...]:
-    """Return the commands that the arguments may mean; other packages are loaded only where they are needed.
+def commands_for(arguments: Sequence[str]) -> list[Command]:
+    """Return the command that the arguments begin with, all commands where they begin with none; no other one is loaded.
 
     Raises DefinitionError for an unknown command, naming the nearest.
     """
     word = arguments[0] if arguments and not arguments[0].startswith("-") else ""
-    if word in {command.name for command in BUILT_IN}:
-        return BUILT_IN
+    if word in BUILT_IN:
+        return [load_command(BUILT_IN[word])]
     added = {entry.name: entry for entry in entry_points(group=GROUP)}
     if word in added:
-        return (loaded(added[word]),)
+        return [load_command(added[word])]
     if word:
-        raise unknown("Command", word, [*(command.name for command in BUILT_IN), *added])
-    return (*BUILT_IN, *working(added.values()))
+        raise unknown("Command", word, [*BUILT_IN, *added])
+    return [*map(load_command, BUILT_IN.values()), *working(added.values())]
 
 
-def loaded(entry: EntryPoint) -> Command:
+def load_command(entry: EntryPoint) -> Command:
     """Return another package's command; DefinitionError where it cannot be loaded or is none."""
     try:
         found = entry.load()
@@ -54,7 +59,7 @@ def working(entries: Iterable[EntryPoint]) -> list[Command]:
     commands = []
     for entry in entries:
         try:
-            commands.append(loaded(entry))
+            commands.append(load_command(entry))
         except DefinitionError as error:
             print(f"hydrolinkage: warning: {error}", file=sys.stderr)
     return commands
@@ -64,7 +69,7 @@ PROGRAM = "hydrolinkage"
 BAD_INPUT, INTERRUPTED, PIPE_CLOSED = 2, 130, 141
 
 
-class Parser(ArgumentParser):
+class OneLineParser(ArgumentParser):
     """A parser that reports a mistake in one line."""
 
     def error(self, message: str) -> NoReturn:
@@ -77,7 +82,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         with warnings.catch_warnings():
             warnings.simplefilter("default", SingularWarning)
             warnings.showwarning = say_warning
-            code = run(list(sys.argv[1:] if argv is None else argv))
+            code = execute(list(sys.argv[1:] if argv is None else argv))
             sys.stdout.flush()
             return code
     except FileError as error:
@@ -100,24 +105,25 @@ def main(argv: Sequence[str] | None = None) -> int:
         return int(leaving.code or 0)
 
 
-def run(arguments: list[str]) -> int:
+def execute(arguments: list[str]) -> int:
     """Return the exit code of the command that the arguments name."""
-    commands = chosen(arguments)
-    parser = Parser(prog=PROGRAM, description="Planar linkages moved by cylinders: numbers, equations and pictures.", allow_abbrev=False)
+    commands = commands_for(arguments)
+    what = "Planar linkages moved by cylinders: numbers, equations and pictures."
+    parser = OneLineParser(prog=PROGRAM, description=what, allow_abbrev=False)
     parser.add_argument("--version", action="version", version=f"{PROGRAM} {installed_version()}")
     subparsers = parser.add_subparsers(metavar="COMMAND", dest="command")
     for command in commands:
         branch = subparsers.add_parser(command.name, help=command.help, description=command.help, allow_abbrev=False)
         command.add(branch)
         branch.set_defaults(run=command.run)
-    options = parsed(parser, arguments)
+    options = parse_arguments(parser, arguments)
     if options.command is None:
         parser.print_help(sys.stderr)
         return BAD_INPUT
     return int(options.run(options))
 
 
-def parsed(parser: Parser, arguments: list[str]) -> Namespace:
+def parse_arguments(parser: OneLineParser, arguments: list[str]) -> Namespace:
     """Return the arguments by name; names of columns may stand behind options, where argparse leaves them over."""
     options, left = parser.parse_known_args(arguments)
     names = [word for word in left if word != "--"]

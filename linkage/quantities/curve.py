@@ -1,0 +1,195 @@
+"""Tabulated functions: a smooth curve through the rows of a table, with exact derivatives in every reading."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi
+from typing import Any, final
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import DefinitionError, cited
+from ..frozen import read_only, refuses_changes
+from ..vectors import Scalar
+from .member import Pick, Reference, Where
+from .quantity import Quantity, is_number, quantity, real, spelled
+
+Floats = npt.NDArray[np.float64]
+
+ROUNDING = 1e-12
+"""So far beyond its ends, as a share of its length, a table still has a value."""
+
+
+def pick(a: Scalar, b: Scalar, x: Scalar, y: Scalar) -> Scalar:
+    """Return x where a <= b, else y."""
+    return np.where(a <= b, x, y)
+
+
+def wrap(angle: Scalar) -> Scalar:
+    """Return an angle [rad] within half a turn."""
+    return np.arctan2(np.sin(angle), np.cos(angle))
+
+
+@final
+@refuses_changes
+class Curve:
+    """The cubic spline through the rows of a table: `lift = Curve([0.0, 0.1, 0.2], [0.0, 0.02, 0.05])`.
+
+    It passes through all rows, and its slope and curvature are continuous. `lift(S)` of a quantity is a quantity of the class; of
+    numbers it is the value, as the law of a force element asks for it. A `period` makes it periodic: the last row lies one period
+    after the first and has the same value. Else the first two pieces are one polynomial, and the last two ("not a knot").
+    `name` is what equations call it. Source: de Boor, "A Practical Guide to Splines", chapter IV.
+    """
+
+    xs: Floats
+    ys: Floats
+    period: float | None
+    name: str
+
+    def __init__(self, xs: npt.ArrayLike, ys: npt.ArrayLike, *, period: float | None = None, name: str = "curve") -> None:
+        self.__dict__.update(xs=column("xs", xs), ys=column("ys", ys), period=period, name=name)
+        if len(self.xs) != len(self.ys) or len(self.xs) < 2:
+            raise DefinitionError(f"Curve: {len(self.xs)} values of x and {len(self.ys)} of y; a table has two rows or more.")
+        if np.any(np.diff(self.xs) <= 0.0):
+            row = int(np.argmax(np.diff(self.xs) <= 0.0)) + 1
+            raise DefinitionError(f"Curve: x must grow from row to row; {self.xs[row]:.6g} follows {self.xs[row - 1]:.6g}.")
+        if self.period is not None:
+            self._check_period(self.period)
+
+    def _check_period(self, period: Any) -> None:
+        """Raise DefinitionError for a table that does not close after its period."""
+        if not is_number(period) or period <= 0.0:
+            raise DefinitionError(f"Curve: period={cited(period)}: a positive number is expected, such as 2 * pi.")
+        if abs(self.xs[-1] - self.xs[0] - period) > 1e-9 * period or abs(self.ys[-1] - self.ys[0]) > 1e-9 * np.ptp(self.ys):
+            ends = f"from ({self.xs[0]:.6g}, {self.ys[0]:.6g}) to ({self.xs[-1]:.6g}, {self.ys[-1]:.6g})"
+            raise DefinitionError(f"Curve: the last row must lie one period after the first, with the same value; the table goes {ends}.")
+
+    def __call__(self, x: Any, order: int = 0) -> Any:
+        """Return the curve of a quantity as a quantity, of numbers as numbers; or its derivative of that order.
+
+        DefinitionError for numbers outside the table.
+        """
+        if isinstance(x, (Quantity, str)):
+            return CurveValue(self, quantity(x), order)
+        if self.ends is not None and np.any((x < self.ends[0]) | (x > self.ends[1])):
+            raise DefinitionError(f"{self.title} is asked for a value outside its table; give it more rows.")
+        return self.value(x, order)
+
+    @property
+    def ends(self) -> tuple[float, float] | None:
+        """The least and greatest x that it has a value for; None where it is periodic."""
+        low, high = float(self.xs[0]), float(self.xs[-1])
+        return None if self.period is not None else (low - ROUNDING * (high - low), high + ROUNDING * (high - low))
+
+    @property
+    def title(self) -> str:
+        """What it is called in a message: its name, and from where to where it goes."""
+        return f"{self.name}, a table from {self.xs[0]:.6g} to {self.xs[-1]:.6g},"
+
+    # -- the spline ------------------------------------------------------------------------------------------
+
+    def value(self, x: Scalar, order: int = 0, pick: Pick = pick, wrap: Callable[[Scalar], Scalar] = wrap) -> Scalar:
+        """Return the value at x, or a derivative of that order; NaN outside the table.
+
+        Plain arithmetic, `pick(a, b, x, y)`, which is x where a <= b, else y, and `wrap(angle)`, the angle [rad] within half a turn: so it
+        can be read on anything that calculates.
+        """
+        if self.period is not None:
+            turn, middle = 2.0 * pi / self.period, 0.5 * float(self.xs[0] + self.xs[-1])
+            x = wrap((x - middle) * turn) * (1.0 / turn) + middle
+        start, *powers = (self._chosen(x, row, pick) for row in (self.xs[:-1], *self._derived(order)))
+        away, total = x - start, powers[-1]
+        for factor in powers[-2::-1]:
+            total = total * away + factor
+        if self.ends is None:
+            return total
+        low, high = self.ends
+        return pick(low, x, pick(x, high, total, np.nan), np.nan)
+
+    def _chosen(self, x: Scalar, row: Floats, pick: Pick) -> Scalar:
+        """Return the entry of a row of coefficients that belongs to x, by halving."""
+
+        def between(first: int, last: int) -> Scalar:
+            if last - first == 1:
+                return float(row[first])
+            middle = (first + last) // 2
+            return pick(x, float(self.xs[middle]), between(first, middle), between(middle, last))
+
+        return between(0, len(row))
+
+    def _derived(self, order: int) -> Floats:
+        """Return the coefficients of the pieces' derivatives of an order, by powers."""
+        found = self._pieces
+        for _ in range(order):
+            found = found[1:] * np.arange(1, len(found))[:, None] if len(found) > 1 else np.zeros_like(found)
+        return found
+
+    @cached_property
+    def _pieces(self) -> Floats:
+        """The polynomials between the rows, by powers of the distance from the row: shape (4, rows - 1)."""
+        h, rise = np.diff(self.xs), np.diff(self.ys) / np.diff(self.xs)
+        bend = self._bend(h, rise)
+        slope = rise - h * (2.0 * bend[:-1] + bend[1:]) / 6.0
+        return np.array([self.ys[:-1], slope, bend[:-1] / 2.0, np.diff(bend) / (6.0 * h)])
+
+    def _bend(self, h: Floats, rise: Floats) -> Floats:
+        """Return the second derivative at every row, so that the first one is continuous."""
+        count = len(h) + 1
+        A, b = np.eye(count), np.zeros(count)
+        for row in range(1, count - 1):
+            A[row, row - 1 : row + 2] = h[row - 1], 2.0 * (h[row - 1] + h[row]), h[row]
+            b[row] = 6.0 * (rise[row] - rise[row - 1])
+        if self.period is not None:
+            A[0], A[-1, 0] = 0.0, -1.0
+            A[0, 0], b[0] = 2.0 * (h[-1] + h[0]), 6.0 * (rise[0] - rise[-1])
+            A[0, 1] += h[0]
+            A[0, -2] += h[-1]
+        elif count == 3:  # a parabola
+            A[0, 1] = A[-1, 1] = -1.0
+        elif count > 3:  # the third derivative goes on over the second row, and over the last but one
+            A[0, :3] = h[1], -(h[0] + h[1]), h[0]
+            A[-1, -3:] = h[-1], -(h[-2] + h[-1]), h[-2]
+        return np.asarray(np.linalg.solve(A, b))
+
+    def __str__(self) -> str:
+        period = "" if self.period is None else f", period={self.period!r}"
+        name = "" if self.name == "curve" else f", name={self.name!r}"
+        return f"Curve({self.xs.tolist()}, {self.ys.tolist()}{period}{name})"
+
+    __repr__ = __str__
+
+
+def column(what: str, given: Any) -> Floats:
+    """Return one column of a table, read-only; DefinitionError for anything but finite numbers."""
+    try:
+        found = read_only(real(given))
+    except (ValueError, TypeError):
+        found = np.zeros(())
+    if found.ndim != 1 or not np.isfinite(found).all():
+        raise DefinitionError(f"Curve: {what}={cited(given)}: a list of finite numbers is expected.")
+    return found
+
+
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class CurveValue(Quantity):
+    """What a curve, or a derivative of it, gives for a quantity."""
+
+    curve: Curve
+    x: Quantity
+    order: int = 0
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (self.x,)
+
+    def angles(self) -> tuple[Quantity, ...]:
+        return (self.x,) if self.curve.period is not None and abs(self.curve.period - 2.0 * pi) < 1e-9 else ()
+
+    def rule(self, where: Where) -> Scalar:
+        return where.curve(self.curve, where.value(self.x), self.order)
+
+    def __str__(self) -> str:
+        return f"{self.curve}({spelled(self.x)}{f', {self.order}' if self.order else ''})"

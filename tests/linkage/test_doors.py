@@ -1,0 +1,47 @@
+"""The doors draw, plot, animate, page, equations: functions of `linkage` whatever was imported before or after; what they load."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import linkage
+
+ROOT = Path(__file__).parents[2]
+DOORS = ("animate", "draw", "equations", "page", "plot")
+SAY = f"print([type(getattr(linkage, name)).__name__ for name in {DOORS}], [type(name).__name__ for name in ({', '.join(DOORS)})])"
+STAR, PICTURES, FORMULAS = "from linkage import *", "import linkage.pictures", "import linkage.formulas"
+
+
+def printed(*lines):
+    return subprocess.run([sys.executable, "-c", "\n".join(lines)], cwd=ROOT, check=True, capture_output=True, text=True).stdout.strip()
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        (STAR, PICTURES, FORMULAS), (PICTURES, FORMULAS, STAR), (FORMULAS, STAR, PICTURES), (PICTURES, STAR, FORMULAS, STAR),
+        ("import linkage, linkage.pictures.film, linkage.formulas.numbered, linkage.reports, linkage.study", STAR),
+        ("from linkage.pictures import *", "from linkage.formulas import *", STAR),
+    ],
+)  # fmt: skip
+def test_doors_are_functions_whatever_is_imported(lines):
+    assert printed("import linkage", *lines, SAY) == f"{['function'] * 5} {['function'] * 5}"
+
+
+def test_star_import_loads_no_library_behind_the_doors():
+    loaded = printed(STAR, "import sys", "print(*sys.modules)").split()
+    assert "linkage.mechanism" in loaded
+    heavy = ("matplotlib", "sympy", "scipy", "networkx", "rich", "PIL", "pydantic", "numba", "linkage.pictures", "linkage.formulas")
+    assert not [name for name in loaded if name.startswith(heavy)]
+
+
+def test_every_name_of_the_door_is_there():
+    assert len(linkage.__all__) == len(set(linkage.__all__)) > 60
+    assert all(getattr(linkage, name) is not None for name in linkage.__all__)
+    assert set(linkage.__all__) <= set(dir(linkage))
+    with pytest.raises(AttributeError, match="module 'linkage' has no attribute 'Dyed'"):
+        linkage.Dyed  # noqa: B018 - the name itself is what is tried
+    with pytest.raises(ImportError, match="cannot import name 'Dyed'"):
+        exec("from linkage import Dyed")

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import SingularError, SingularWarning, warn
 from ..loads import TwoPoint
-from ..motion.conditions import REFUSE, WARN, condition, is_or_are
+from ..motion.conditions import REFUSE, WARN, condition_of_sine, is_or_are
 from ..motion.limits import where_words
 from ..program import FloatArray
 from .equilibrium import areas
@@ -29,7 +29,7 @@ def quotient(poses: Poses, divisor: FloatArray, size: FloatArray, what: str, rea
     with `unreachable="nan"`; a warning with the error to expect near it. `what` opens the sentence, `reason` ends it.
     """
     with np.errstate(divide="ignore", invalid="ignore"):
-        cond = condition(np.where(size > 0.0, divisor / np.where(size > 0.0, size, 1.0), 0.0))
+        cond = condition_of_sine(np.where(size > 0.0, divisor / np.where(size > 0.0, size, 1.0), 0.0))
     return refused_where(poses, divisor, cond, what, reason)
 
 
@@ -85,7 +85,7 @@ class Levers:
         rows = (self.sizes / columns).max(axis=2, keepdims=True)
         scaled = self.matrix / columns / np.where(rows > 0.0, rows, 1.0)
         if self.matrix.shape[1] == 1:
-            return condition(scaled[:, 0, 0])
+            return condition_of_sine(scaled[:, 0, 0])
         return inverse_size(scaled)
 
 

@@ -63,7 +63,9 @@ def at_one_pose(
     values = []
     for name, stroke in plan.strokes.items():
         value = strokes.get(name)
-        if not (isinstance(value, float) or type(value) is int) or not (stroke.start <= value <= stroke.end or stroke.end <= value <= stroke.start):
+        if not (isinstance(value, float) or type(value) is int):
+            return None
+        if not (stroke.start <= value <= stroke.end or stroke.end <= value <= stroke.start):
             return None
         values.append(float(value))  # NumPy's own would not raise where it is divided by zero
     identities = identities_of(plan, requests)

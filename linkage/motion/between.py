@@ -23,14 +23,14 @@ LONGEST = 16  # times the samples of one leg: of any way, however often it turns
 
 
 @dataclass(frozen=True, eq=False)
-class Route:
+class Legs:
     """Legs from corner to corner: the strokes [SI] at the corners (legs + 1,), and in how many intervals each leg is looked at."""
 
     corners: Mapping[str, FloatArray]
     counts: tuple[int, ...]
 
     @classmethod
-    def of(cls, strokes: Mapping[str, FloatArray]) -> Route:
+    def of(cls, strokes: Mapping[str, FloatArray]) -> Legs:
         """Return the way that poses cover, whatever their number.
 
         A single stroke, and a grid in which a single one moves, goes from its least to its greatest value. Several strokes in arrays
@@ -112,7 +112,7 @@ def values_of(f: Function, motion: Motion) -> FloatArray:
     return np.where(motion.reached, found, np.nan)
 
 
-class Between:
+class OnLegs:
     """A function of the poses on a motion's way, of K quantities and D designs; `look` is what a search asks.
 
     The samples are worked out once, at the same strokes for all designs; poses between them take their angles from these.
@@ -120,7 +120,7 @@ class Between:
 
     def __init__(self, motion: Motion, f: Function, sense: float = 1.0) -> None:
         self.motion, self.f, self.sense = motion, f, sense
-        self.route = Route.of(motion.strokes)
+        self.route = Legs.of(motion.strokes)
         self.leg, self.t = leg, t = samples(self.route.counts)
         self.first = Motion(
             motion.plan, motion.designs, self.route.strokes(leg, t), "nan", joining=joined_in_order, tangent=self.route.tangent(leg)

@@ -169,7 +169,7 @@ def judged(plan: Plan, reading: ArrayReading, steep: set[str], names: set[str], 
 def conditions(plan: Plan, reading: ArrayReading, names: set[str]) -> dict[str, FloatArray]:
     """Return the condition of every loop among some members, at every pose of a reading."""
     return {
-        name: condition(np.asarray(sine, float)) * np.sqrt(np.maximum(reading.rounding.get(name, 1.0), 1.0))
+        name: condition_of_sine(np.asarray(sine, float)) * np.sqrt(np.maximum(reading.rounding.get(name, 1.0), 1.0))
         for name, sine in loops(plan, reading).items()
         if name in names
     }
@@ -182,7 +182,7 @@ def loops(plan: Plan, reading: ArrayReading) -> dict[str, Any]:
     return {name: reading.sines[name] for name in closing if plan.moves(members[name])}
 
 
-def condition(sine: FloatArray) -> FloatArray:
+def condition_of_sine(sine: FloatArray) -> FloatArray:
     """Return the condition of two unit rows that meet under an angle of that sine; infinite in line."""
     with np.errstate(divide="ignore", invalid="ignore"):
         size = np.minimum(np.abs(sine), 1.0)
@@ -190,7 +190,7 @@ def condition(sine: FloatArray) -> FloatArray:
         return worst
 
 
-def refusal(found: Judged, mask: Mask, strokes: Mapping[str, Any], what: str, motion: MotionLike) -> SingularError:
+def singular_error(found: Judged, mask: Mask, strokes: Mapping[str, Any], what: str, motion: MotionLike) -> SingularError:
     """Return the error for a result asked at singular poses; `found` is of these alone, `mask` in the motion's shape."""
     plan = found.plan
     near = found.culprit()

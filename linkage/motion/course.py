@@ -121,7 +121,7 @@ class Course:
     def grid(self, low: float, high: float) -> FloatArray:
         """Return the values at which a way is looked at first."""
         turns = (high - low) / (2.0 * np.pi) if self.name in self.plan.turning else 1.0
-        found: FloatArray = low + (high - low) * shares(GRID * max(1, int(np.ceil(turns))))
+        found: FloatArray = low + (high - low) * equal_steps(GRID * max(1, int(np.ceil(turns))))
         return found
 
     def interruptions(self, low: float, high: float) -> tuple[Interruption, ...]:
@@ -217,7 +217,7 @@ def divided(
 
 
 @cache
-def shares(count: int) -> FloatArray:
+def equal_steps(count: int) -> FloatArray:
     """Return equal steps from 0 to 1."""
     found: FloatArray = np.linspace(0.0, 1.0, count + 1)
     found.flags.writeable = False

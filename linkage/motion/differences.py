@@ -106,7 +106,7 @@ def losses(found: FloatArray, error: FloatArray, still: float, axes: int, most: 
     return useless, float(np.max(kept, initial=0.0)) / size if size else 0.0
 
 
-def refusal(step: float | None) -> str:
+def why_refused(step: float | None) -> str:
     """Return why a numerical derivative is refused, and what to ask for: with the step chosen at every pose, or one given."""
     if step is None:
         return 'differences do not settle so near a dead point. Ask for method="exact".'

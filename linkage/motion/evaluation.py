@@ -63,9 +63,11 @@ def at_one_pose(
     values = []
     for name, stroke in plan.strokes.items():
         value = strokes.get(name)
-        if type(value) is not float or not (stroke.start <= value <= stroke.end or stroke.end <= value <= stroke.start):
+        if not (isinstance(value, float) or type(value) is int):
             return None
-        values.append(value)
+        if not (stroke.start <= value <= stroke.end or stroke.end <= value <= stroke.start):
+            return None
+        values.append(float(value))  # NumPy's own would not raise where it is divided by zero
     identities = identities_of(plan, requests)
     if identities is None:
         return None

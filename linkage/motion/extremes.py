@@ -16,7 +16,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..program import FloatArray
-from .between import Between, Function, require_function, values_of
+from .between import Function, OnLegs, require_function, values_of
 from .grid import JoinedTo, joined_in_order
 from .limits import place_text, stroke_unit
 from .motion import Motion
@@ -73,17 +73,17 @@ def extremum(motion: Motion, f: Function, sense: float) -> Extremum:
         raise DefinitionError(f"{motion.plan.title} has no stroke, so there is nothing between its poses.")
     units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
     if len(motion._stroke_shape) > 1 and len(moving(motion)) > 1:
-        box = Box(motion, f, sense)
+        box = InBox(motion, f, sense)
         top, shape = highest_in(box), (*box.front, *motion._design_shape)
-        strokes = {name: given(value, shape) for name, value in box.strokes(top.unit).items()}
-        return Extremum(given(sense * top.value, shape), strokes, given(top.unbounded, shape), units)
-    between = Between(motion, f, sense)
+        strokes = {name: in_shape(value, shape) for name, value in box.strokes(top.unit).items()}
+        return Extremum(in_shape(sense * top.value, shape), strokes, in_shape(top.unbounded, shape), units)
+    between = OnLegs(motion, f, sense)
     found, shape = highest(between.look, between.route.counts), (*between.front, *motion._design_shape)
-    strokes = {name: given(value, shape) for name, value in between.route.strokes(found.leg, found.t).items()}
-    return Extremum(given(sense * found.value, shape), strokes, given(found.unbounded, shape), units)
+    strokes = {name: in_shape(value, shape) for name, value in between.route.strokes(found.leg, found.t).items()}
+    return Extremum(in_shape(sense * found.value, shape), strokes, in_shape(found.unbounded, shape), units)
 
 
-def given(values: Any, shape: tuple[int, ...]) -> Any:
+def in_shape(values: Any, shape: tuple[int, ...]) -> Any:
     """Return values (K, D) in the shape asked for; a single one as a plain number."""
     return values.reshape(shape) if shape else values.item()
 
@@ -125,7 +125,7 @@ def below_zero(motion: Motion, f: Function) -> tuple[Span, ...]:
     require_function(motion, f)
     if motion._design_shape or len(motion._stroke_shape) > 1:
         raise DefinitionError(f"{motion.plan.title}: ranges are told for one design along one stroke or one path; this is {motion.shape}.")
-    between = Between(motion, f)
+    between = OnLegs(motion, f)
     if between.front:
         raise DefinitionError(f"{motion.plan.title}: ranges are told for one number a pose; there are {between.front}.")
     leg, t, value = with_dips(between)
@@ -143,7 +143,7 @@ def reached(motion: Motion) -> tuple[Span, ...]:
     return below_zero(motion, lambda each: -np.ones(each.shape))
 
 
-def with_dips(between: Between) -> tuple[Index, FloatArray, FloatArray]:
+def with_dips(between: OnLegs) -> tuple[Index, FloatArray, FloatArray]:
     """Return leg, t and value of the samples, and of places between them where the value is on the other side of zero."""
     leg, t, value = between.leg, between.t, between.seen.ravel()
     found = [each for sense in (1.0, -1.0) for each in dips(between, sense, np.asarray(sense * value >= 0.0))]
@@ -153,7 +153,7 @@ def with_dips(between: Between) -> tuple[Index, FloatArray, FloatArray]:
 
 
 @np.errstate(all="ignore")
-def dips(between: Between, sense: float, among: Mask) -> list[tuple[Index, FloatArray, FloatArray]]:
+def dips(between: OnLegs, sense: float, among: Mask) -> list[tuple[Index, FloatArray, FloatArray]]:
     """Return leg, t and value of places between the samples where sense * f is below zero though it is not at the samples about them."""
 
     def look(leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
@@ -172,7 +172,7 @@ def dips(between: Between, sense: float, among: Mask) -> list[tuple[Index, Float
     return found
 
 
-def ends(between: Between, leg: Index, t: FloatArray, inside: Index, by: int) -> FloatArray:
+def ends(between: OnLegs, leg: Index, t: FloatArray, inside: Index, by: int) -> FloatArray:
     """Return how far (c,) the parts go from places that are below zero towards the next ones, which are not."""
 
     def look(leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
@@ -213,7 +213,7 @@ class HighestInBox:
     unbounded: Mask
 
 
-class Box:
+class InBox:
     """A function of the poses in the box from the least to the greatest value of k strokes that a motion moves; others stand still."""
 
     def __init__(self, motion: Motion, f: Function, sense: float = 1.0) -> None:
@@ -258,7 +258,7 @@ class Box:
 
 
 @np.errstate(all="ignore")
-def highest_in(box: Box) -> HighestInBox:
+def highest_in(box: InBox) -> HighestInBox:
     """Return the highest values in a box."""
     D = box._reached.shape[0]
     seen = box.seen.reshape(-1, D, box.side**box.k)
@@ -269,14 +269,14 @@ def highest_in(box: Box) -> HighestInBox:
             break
         steps = np.concatenate([half[..., None, None] * sequence.around(), last[..., None, :] * AGAIN], axis=-2)
         at = np.clip(unit[..., None, :] + steps, 0.0, 1.0)
-        found, _ = of_each(box, at)
+        found, _ = at_own_places(box, at)
         place = np.argmax(missing_lowest(found), axis=-1)[..., None]
         top = np.take_along_axis(missing_lowest(found), place, axis=-1)[..., 0]
         better = top > value
         new = np.where(better[..., None], np.take_along_axis(at, place[..., None], axis=-2)[..., 0, :], unit)
         last = np.where(better[..., None], new - unit, 0.5 * last)
         unit, value, half = new, np.where(better, top, value), np.where(better, half, 0.5 * half)
-    return best_of_starts(unit, value, grows(box, unit, value), np.asarray(np.isnan(seen).all(axis=-1)))
+    return best_of_starts(unit, value, grows_in_box(box, unit, value), np.asarray(np.isnan(seen).all(axis=-1)))
 
 
 class Sequence:
@@ -297,7 +297,7 @@ class Sequence:
         return np.concatenate([self._stencil, 2.0 * ((0.5 + numbers[:, None] * self._steps) % 1.0) - 1.0])
 
 
-def starts(values: FloatArray, box: Box) -> tuple[FloatArray, FloatArray]:
+def starts(values: FloatArray, box: InBox) -> tuple[FloatArray, FloatArray]:
     """Return of each function and design the best grid points that no neighbour betters: unit (K, D, c, k) and value (K, D, c)."""
     K, D, _ = values.shape
     cube = values.reshape(K, D, *[box.side] * box.k)
@@ -311,7 +311,7 @@ def starts(values: FloatArray, box: Box) -> tuple[FloatArray, FloatArray]:
     return unit, np.take_along_axis(values, place, axis=-1)
 
 
-def of_each(box: Box, unit: FloatArray) -> tuple[FloatArray, Mask]:
+def at_own_places(box: InBox, unit: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the values of K functions at places of their own (K, D, c, n, k), and whether these are reached, shape (K, D, c, n)."""
     K, D, c, n, k = unit.shape
     values, reached = box.look(np.moveaxis(unit, 0, 1).reshape(D, K * c, n, k))
@@ -319,13 +319,13 @@ def of_each(box: Box, unit: FloatArray) -> tuple[FloatArray, Mask]:
     return values_of_each, np.moveaxis(reached.reshape(D, K, c, n), 1, 0)
 
 
-def grows(box: Box, unit: FloatArray, value: FloatArray) -> Mask:
-    """Return at which places (K, D, c, k) a value (K, D, c) grows beyond bounds along a stroke; see `peaks.grows`."""
+def grows_in_box(box: InBox, unit: FloatArray, value: FloatArray) -> Mask:
+    """Return at which places (K, D, c, k) a value (K, D, c) grows beyond bounds along a stroke; see `peaks.grows_along_leg`."""
     far = np.ldexp(1.0, -np.arange(1, 41))
     ways = np.array([-1.0, 1.0])[:, None, None] * far[:, None] * np.eye(box.k)[:, None, None, :]  # (k, 2, n, k)
     at = unit[..., None, None, None, :] + ways
     on = ((at >= 0.0) & (at <= 1.0)).all(axis=-1)
-    seen, reached = of_each(box, np.clip(at, 0.0, 1.0).reshape(*value.shape, -1, box.k))
+    seen, reached = at_own_places(box, np.clip(at, 0.0, 1.0).reshape(*value.shape, -1, box.k))
     seen, reached = np.where(on, seen.reshape(on.shape), np.nan), reached.reshape(on.shape) & on
     poles = is_pole(np.broadcast_to(value[..., None], on.shape[:-2]), seen, reached, far, BORDER, SEEN)
     return np.asarray(np.isposinf(value) | poles.any(axis=(-2, -1)))

@@ -184,7 +184,7 @@ def end_of_reach(scan: Scan, inside: float, outside: float) -> tuple[float, str]
 # Where a mechanism cannot be assembled, in words: the strokes, and what is missing there.
 
 @np.errstate(all="ignore")
-def refusal(plan: Plan, reading: ArrayReading, mask: Mask, strokes: Mapping[str, Any], stop: str = "") -> AssemblyError:
+def assembly_error(plan: Plan, reading: ArrayReading, mask: Mask, strokes: Mapping[str, Any], stop: str = "") -> AssemblyError:
     """Return the error for poses that cannot be assembled.
 
     `reading` holds the failing poses, `mask` all of them (designs first, strokes last), `strokes` their values.

@@ -432,7 +432,7 @@ class Motion:
             useless |= self.reached & ~np.isfinite(found).all(axis=tuple(range(found.ndim - len(self.shape))))
         if useless.any() and self.unreachable == "raise":
             where = reach.where_words(self.plan, useless, self.strokes)
-            raise SingularError(f"{what} is refused {where}: {numeric.refusal(step)}", mask=useless, motion=self)
+            raise SingularError(f"{what} is refused {where}: {numeric.why_refused(step)}", mask=useless, motion=self)
         if lost > numeric.WARN[order]:
             other = "the exact one is not" if step is None else "without a step it is chosen at every pose"
             text = f"{what} is off by up to about {lost:.0e} of its greatest value; {other}."
@@ -475,7 +475,7 @@ class Motion:
         """Return the mask of poses where a result is refused; raise or warn as asked. `words` begin a sentence about it."""
         if not self._is_near(what):
             return np.zeros(self.shape, bool)
-        return self._refused_near(what, words, lambda found, mask: conditions.refusal(found, mask, self.strokes, words, self))
+        return self._refused_near(what, words, lambda found, mask: conditions.singular_error(found, mask, self.strokes, words, self))
 
     def _refused_near(self, what: BoundRequest, words: str, error: Callable[[Judged, Mask], SingularError]) -> Mask:
         """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked.
@@ -556,7 +556,7 @@ def out_of_reach(motion: Motion) -> AssemblyError:
     if motion._crossed.any():
         return scan.group_change_point_error(motion, motion._crossed)
     missing = ~motion.reached
-    return reach.refusal(motion.plan, motion._grid.read_at(missing), missing, motion.strokes, scan.stop_words(motion))
+    return reach.assembly_error(motion.plan, motion._grid.read_at(missing), missing, motion.strokes, scan.stop_words(motion))
 
 
 def require_motion(given: object) -> Motion:

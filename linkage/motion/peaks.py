@@ -9,7 +9,7 @@ A line is made of legs, a place on it is a leg and a share t of it, 0 to 1. Noth
   highest, by what it rises above the places next to it, is narrowed 16-fold (4-fold) a round until the bracket is 1e-13 of the leg, or
   flat to rounding. A kink is found like a smooth top, and so is a jump from its larger side.
 * Every border of the places that have a value is bisected to 1e-13 of the leg, and looked at in steps that halve towards it.
-* A value that grows with a power of the distance up to a border, or as far as numbers go, is unbounded there; see `grows`.
+* A value that grows with a power of the distance up to a border, or as far as numbers go, is unbounded there; see `grows_along_leg`.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ def highest(look: Look, counts: Sequence[int]) -> Highest:
         tops = zoomed(look, tops.best(MANY if rounds < PATIENCE else LAST))
         rounds += 1
     ends = tops if edges is None else tops.joined(edges)
-    return best_of_rows(ends, grows(look, ends), np.asarray(np.isnan(seen).all(axis=-1)))
+    return best_of_rows(ends, grows_along_leg(look, ends), np.asarray(np.isnan(seen).all(axis=-1)))
 
 
 def missing_lowest(values: FloatArray) -> FloatArray:
@@ -106,7 +106,7 @@ def missing_lowest(values: FloatArray) -> FloatArray:
     return np.where(np.isnan(values), -np.inf, np.maximum(values, LOWEST))
 
 
-def of_each(look: Look, leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
+def at_own_legs(look: Look, leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the values of K functions at places of their own (K, D, c, n), and whether these are reached, same shape."""
     K, D = t.shape[:2]
     leg = np.broadcast_to(leg[..., None], t.shape)
@@ -160,7 +160,7 @@ def zoomed(look: Look, tops: Tops) -> Tops:
     places = FINE if tops.t.shape[-1] <= FEW else COARSE
     low, high = np.maximum(tops.t - tops.half, 0.0)[..., None], np.minimum(tops.t + tops.half, 1.0)[..., None]
     t = low + (high - low) * np.linspace(0.0, 1.0, places)
-    seen, _ = of_each(look, tops.leg, t)
+    seen, _ = at_own_legs(look, tops.leg, t)
     return best_seen(tops, t, seen, np.broadcast_to(tops.half[..., None] * 2.0 / (places - 1), t.shape))
 
 
@@ -201,13 +201,13 @@ def borders(look: Look, missing: Mask, values: FloatArray, leg: Index, t: FloatA
     ahead = np.take_along_axis(missing[..., :-1], place, axis=-1)  # the value stands after the border
     inside, outside = (np.where(is_border, place + (ahead if side else ~ahead), 0) for side in (True, False))
     found = bisected(look, leg[inside], t[inside], t[outside])
-    value = missing_lowest(of_each(look, leg[inside], found[..., None])[0][..., 0])
+    value = missing_lowest(at_own_legs(look, leg[inside], found[..., None])[0][..., 0])
     return Tops(leg[inside], found, value, t[inside] - found, np.full(value.shape, np.inf))
 
 
 def bisected(look: Look, leg: Index, inside: FloatArray, outside: FloatArray) -> FloatArray:
     """Return the last places (K, D, c) with a value between those that have one and those that have none."""
-    return last_holding(lambda t: ~np.isnan(of_each(look, leg, t)[0]), inside, outside, CLOSE)[0]
+    return last_holding(lambda t: ~np.isnan(at_own_legs(look, leg, t)[0]), inside, outside, CLOSE)[0]
 
 
 def last_holding(
@@ -236,19 +236,19 @@ def steps_to_borders(look: Look, edges: Tops) -> Tops:
     shares = np.append(0.5 ** np.arange(36), 0.0)
     t = edges.t[..., None] + edges.half[..., None] * shares
     half = np.abs(edges.half)[..., None] * np.append(shares[:-1], shares[-2])
-    return best_seen(edges, t, of_each(look, edges.leg, t)[0], half)
+    return best_seen(edges, t, at_own_legs(look, edges.leg, t)[0], half)
 
 
 # -- without bounds ------------------------------------------------------------------------------------------
 
 
-def grows(look: Look, tops: Tops) -> Mask:
+def grows_along_leg(look: Look, tops: Tops) -> Mask:
     """Return at which places (K, D, c) a value grows beyond bounds: looked at from 2^-1 to 2^-48 of the leg before and behind a place."""
     far = np.ldexp(1.0, -np.arange(1, HALVINGS + 1))
     t = tops.t[..., None, None] + np.array([-1.0, 1.0])[:, None] * far
     on = (t >= 0.0) & (t <= 1.0)
     K, D, c = tops.t.shape
-    seen, reached = of_each(look, tops.leg, np.clip(t, 0.0, 1.0).reshape(K, D, c, -1))
+    seen, reached = at_own_legs(look, tops.leg, np.clip(t, 0.0, 1.0).reshape(K, D, c, -1))
     seen, reached = np.where(on, seen.reshape(t.shape), np.nan), reached.reshape(t.shape) & on
     return np.asarray(np.isposinf(tops.value) | is_pole(tops.value, seen, reached, far).any(axis=-1))
 

@@ -179,15 +179,17 @@ def dead_points(
             continue
         if not any(stroke in plan.reaches(end) for end in element.ends):
             continue
-        if not follows(motion, element, stroke, held, ranges):
+        if not follows_stroke(motion, element, stroke, held, ranges):
             continue
-        rate = rate_of(motion, element, stroke, held)
-        at = np.array(sorted(root for low, high in ranges for root in roots(rate, low, high)))
+        rate = length_ratio(motion, element, stroke, held)
+        at = np.array(sorted(root for low, high in ranges for root in roots_between(rate, low, high)))
         found += [(float(each), name) for each in at[first_times(motion, stroke, held, at)]]
     return sorted(found)
 
 
-def follows(motion: MotionLike, element: TwoPoint, stroke: str, held: Mapping[str, float], ranges: Sequence[tuple[float, float]]) -> bool:
+def follows_stroke(
+    motion: MotionLike, element: TwoPoint, stroke: str, held: Mapping[str, float], ranges: Sequence[tuple[float, float]]
+) -> bool:
     """Return whether an element's length changes with a stroke beyond rounding, as that of one between two points of a body does not."""
     at = np.concatenate([np.linspace(low, high, LOOKS) for low, high in ranges])
     moved = motion.moved({**held, stroke: at})
@@ -208,7 +210,7 @@ def first_times(motion: MotionLike, stroke: str, held: Mapping[str, float], at: 
     return np.asarray(~np.tril(apart <= AGAIN * size, -1).any(axis=1))
 
 
-def rate_of(motion: MotionLike, element: TwoPoint, stroke: str, held: Mapping[str, float]) -> Callable[[FloatArray], FloatArray]:
+def length_ratio(motion: MotionLike, element: TwoPoint, stroke: str, held: Mapping[str, float]) -> Callable[[FloatArray], FloatArray]:
     """Return the ratio of an element's length by a stroke, as a function of that stroke (n,); NaN where it has none."""
     length = Distance(*element.ends)
 
@@ -219,7 +221,7 @@ def rate_of(motion: MotionLike, element: TwoPoint, stroke: str, held: Mapping[st
     return rate
 
 
-def roots(rate: Callable[[FloatArray], FloatArray], low: float, high: float) -> list[float]:
+def roots_between(rate: Callable[[FloatArray], FloatArray], low: float, high: float) -> list[float]:
     """Return where a function passes zero between two strokes, or at one of them, to 1e-13 of the range between them."""
     ends, beyond = (low, high), 2.0 * NEAR * (high - low)
     low, span = low - beyond, high - low + 2.0 * beyond

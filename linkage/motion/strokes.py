@@ -44,7 +44,7 @@ def at_values(given: Mapping[str, Any], plan: Plan, take: Callable[[Any], FloatA
             ends = float(array.min()), float(array.max())
             if not (isfinite(ends[0]) and isfinite(ends[1])):
                 raise DefinitionError(f"{title}: the stroke {name} holds a value that is not finite.")
-            check_unit(name, ends, plan)
+            check_magnitude(name, ends, plan)
     try:
         return dict(zip(strokes, np.broadcast_arrays(*arrays), strict=True))
     except ValueError:
@@ -59,7 +59,7 @@ def check_any(values: Mapping[str, FloatArray], plan: Plan) -> None:
         raise DefinitionError(f"{plan.title}: {empty[0]} holds no value, so that there is no pose; give one at least, {empty[0]}=[0.0].")
 
 
-def check_unit(name: str, values: tuple[float, ...], plan: Plan) -> None:
+def check_magnitude(name: str, values: tuple[float, ...], plan: Plan) -> None:
     """Raise DefinitionError for a stroke's value so far beyond its declared range that degrees or millimetres were meant."""
     stroke = plan.strokes[name]
     low, high = min(stroke.start, stroke.end), max(stroke.start, stroke.end)
@@ -118,7 +118,7 @@ def _axis(name: str, given: Any, plan: Plan) -> FloatArray:
         except (MemoryError, OverflowError, ValueError):
             raise DefinitionError(f"{title}: sweep({name}={given}): so many poses do not fit into memory; ask for fewer.") from None
     if isinstance(given, (float, np.floating)) and np.isfinite(given):
-        check_unit(name, (float(given),), plan)
+        check_magnitude(name, (float(given),), plan)
         return np.asarray(given, float)
     raise DefinitionError(f"{title}: sweep({name}={given!r}): an int is a count, a float a value; for chosen values use at({name}=...).")
 
@@ -135,10 +135,12 @@ def rates_of(what: str, given: Any, strokes: Mapping[str, FloatArray], shape: tu
     if not isinstance(given, Mapping):
         example = f"{what}=dict({next(iter(strokes), 'S')}=0.05)"
         raise DefinitionError(f"{title}: {what}={given!r}: a value for each stroke is expected, such as {example}.")
-    return {checked_name("Stroke", name, strokes, title): rate_of(f"{what}: {name}", value, shape, title) for name, value in given.items()}
+    return {
+        checked_name("Stroke", name, strokes, title): checked_rate(f"{what}: {name}", value, shape, title) for name, value in given.items()
+    }
 
 
-def rate_of(what: str, value: Any, shape: tuple[int, ...], title: str) -> FloatArray:
+def checked_rate(what: str, value: Any, shape: tuple[int, ...], title: str) -> FloatArray:
     """Return one rate; DefinitionError unless it is finite and fits the poses."""
     try:
         rate = real(value)

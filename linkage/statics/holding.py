@@ -19,7 +19,7 @@ import numpy as np
 from ..errors import DefinitionError, SingularError, SingularWarning, unwarned, warn
 from ..loads import ForceElement, TwoPinned, TwoPoint
 from ..motion import Motion
-from ..motion.conditions import REFUSE, WARN, condition, is_or_are
+from ..motion.conditions import REFUSE, WARN, condition_of_sine, is_or_are
 from ..motion.limits import where_words
 from ..plan import Plan
 from ..program import FloatArray
@@ -229,14 +229,14 @@ class Levers:
         return np.asarray(np.linalg.solve(np.swapaxes(self.matrix, 1, 2), need[:, :, None])[:, :, 0])
 
     @property
-    def condition(self) -> FloatArray:
+    def condition_of_sine(self) -> FloatArray:
         """How near the levers are to a singular pose, relative to their sizes (n,); infinite where they are at one."""
         columns = self.sizes.max(axis=1, keepdims=True)
         columns = np.where(columns > 0.0, columns, 1.0)
         rows = (self.sizes / columns).max(axis=2, keepdims=True)
         scaled = self.matrix / columns / np.where(rows > 0.0, rows, 1.0)
         if self.matrix.shape[1] == 1:
-            return condition(scaled[:, 0, 0])
+            return condition_of_sine(scaled[:, 0, 0])
         return inverse_size(scaled)
 
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ..errors import DefinitionError, known_name
 from ..loads import Support
 from ..motion import Motion, require_motion
-from ..motion.conditions import condition
+from ..motion.conditions import condition_of_sine
 from ..motion.requests import stroke_of
 from ..program import FloatArray
 from ..quantities import name_of, real
@@ -92,6 +92,6 @@ def way_along(poses: FlatPoses, support: Support, drive: str, name: str) -> Floa
     carrying = [each for each in poses.plan.moving if each in poses.plan.reaches(point)]
     size = np.max([np.hypot(*poses.rate(each, drive)) for each in carrying], axis=0, initial=0.0)  # of the fastest point on the way to it
     with np.errstate(divide="ignore", invalid="ignore"):
-        cond = condition(np.where(size > 0.0, along / np.where(size > 0.0, size, 1.0), 0.0))
+        cond = condition_of_sine(np.where(size > 0.0, along / np.where(size > 0.0, size, 1.0), 0.0))
     why = f"its point {point} does not move along its direction with {drive}, so that no reaction balances the drive"
     return refused_where(poses, along, cond, f"The reaction of {name}", why)

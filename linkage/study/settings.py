@@ -96,7 +96,7 @@ def sign_changes(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
 
 
 def zero_between(curve: Curve, low: float, high: float) -> float:
-    """Return the zero between two values of opposite sign; NaN where the curve ends before it."""
+    """Return the zero between two values of opposite sign; NaN where the curve has a gap before it."""
     sign = np.sign(curve(np.array([low]))[0])
     near = np.array(last_holding(lambda at: np.sign(curve(at)) == sign, low, high))
     off = np.abs(curve(near))

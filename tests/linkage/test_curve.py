@@ -82,7 +82,7 @@ def test_quantities_and_points_follow_it_with_exact_ratios():
 
 
 def test_every_way_to_run_a_program_agrees():
-    kernel, inputs = everything(Lifted), Lifted().at(phi=np.linspace(-7.0, 14.0, 200)).grid.flat
+    kernel, inputs = everything(Lifted), Lifted().at(phi=np.linspace(-7.0, 14.0, 200))._grid.flat
     wanted = by_nodes(kernel, inputs)
     for way in ("numpy", "floats"):
         agree(kernel(inputs, way=Way(way)).values[:, 0], wanted)

@@ -218,7 +218,8 @@ def test_one_pose_is_that_of_many(machine):
     for share in (0.0, 0.3, 0.77, 1.0):
         strokes = {name: float(stroke.start + share * (stroke.end - stroke.start)) for name, stroke in machine.plan.strokes.items()}
         told = []
-        for given in (strokes, strokes, {name: np.array(value) for name, value in strokes.items()}):
+        for kind in (float, np.float64, np.array):
+            given = {name: kind(value) for name, value in strokes.items()}
             with warnings.catch_warnings(record=True) as caught:
                 warnings.simplefilter("always")
                 try:

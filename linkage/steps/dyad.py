@@ -21,6 +21,7 @@ class Dyad(Step):
     PX: Quantity = UNBOUND
     QX: Quantity = UNBOUND
     from_drawing = "distances"
+    closes = True
     chooses = "two circles meet in two points"
     expects = (("P", "point"), ("Q", "point"), ("PX", "quantity"), ("QX", "quantity"))
 
@@ -40,9 +41,6 @@ class Dyad(Step):
         X: Vec = P + (base * (along * inverse) + base.left() * (float(self.settled_side) * (height * inverse)))
         return X
 
-    def modes(self) -> tuple[Side, ...]:
-        return Side.LEFT, Side.RIGHT
-
     def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
         base = (where.at(self.Q) - where.at(self.P)).length()
         return (self.P + self.Q, base), (self.P + self.X, where.value(self.PX)), (self.Q + self.X, where.value(self.QX))
@@ -54,10 +52,6 @@ class Dyad(Step):
     def meeting(self, where: Where) -> tuple[Vec, ...]:
         X = where.at(self.X)
         return where.at(self.P) - X, where.at(self.Q) - X
-
-    @property
-    def closes(self) -> bool:
-        return True
 
     @property
     def sense(self) -> float:

@@ -20,6 +20,8 @@ class Pin(Point):
     A pin that no dyad places belongs to a group, whose pins are found together.
     """
 
+    closes = True
+
     def __init__(self, *place: Any, near: Position | None = None, at: Position | None = None) -> None:
         if place:
             raise DefinitionError(f"Pin({', '.join(map(repr, place))}): say near=(x, y) for a place in a sketch or at=(x, y) in a drawing.")
@@ -54,10 +56,6 @@ class Pin(Point):
     @property
     def companions(self) -> tuple[str, ...]:
         return () if self.group is None else self.group.pins
-
-    @property
-    def closes(self) -> bool:
-        return True
 
     def __str__(self) -> str:
         word, (x, y) = ("near" if self.near else "at"), self.sketched

@@ -18,6 +18,7 @@ class SliderDyad(Step):
     guide: str
     PX: Quantity = UNBOUND
     parent_letters = ("P", "guide")
+    closes = True
     chooses = "a circle meets a line in two points"
     expects = (("P", "point"), ("guide", "guide"))
 
@@ -28,9 +29,6 @@ class SliderDyad(Step):
 
     def slots(self) -> tuple[Slot, ...]:
         return (Slot("PX", (self.P, self.X)),)
-
-    def modes(self) -> tuple[Side, ...]:
-        return Side.LEFT, Side.RIGHT
 
     def place(self, where: Where) -> Vec:
         line, p = where.line(self.guide), where.value(self.PX)
@@ -45,10 +43,6 @@ class SliderDyad(Step):
 
     def meeting(self, where: Where) -> tuple[Vec, ...]:
         return where.at(self.P) - where.at(self.X), where.line(self.guide).direction.left()
-
-    @property
-    def closes(self) -> bool:
-        return True
 
     @property
     def sense(self) -> float:
@@ -76,6 +70,8 @@ class PinSlotDyad(Step):
     P: str
     Q: str
     PX: Quantity = UNBOUND
+    closes = True
+    chooses = "its pin may lie ahead of P or behind it"
     expects = (("P", "point"), ("Q", "point"))
 
     def __init__(
@@ -90,9 +86,6 @@ class PinSlotDyad(Step):
 
     def slots(self) -> tuple[Slot, ...]:
         return (Slot("PX", (self.P, self.X)),)
-
-    def modes(self) -> tuple[Side, ...]:
-        return Side.LEFT, Side.RIGHT
 
     def place(self, where: Where) -> Vec:
         P, to_pin, e = where.at(self.P), where.direction(self.P, self.Q), where.value(self.offset)
@@ -109,10 +102,6 @@ class PinSlotDyad(Step):
     def meeting(self, where: Where) -> tuple[Vec, ...]:
         P = where.at(self.P)
         return where.at(self.Q) - P, (where.at(self.X) - P).left()
-
-    @property
-    def closes(self) -> bool:
-        return True
 
     @property
     def sense(self) -> float:
@@ -149,6 +138,7 @@ class GuideCross(Step):
 
     guide: str
     other: str
+    closes = True
     parent_letters = ("guide", "other")
     expects = (("guide", "guide"), ("other", "guide"))
 
@@ -169,10 +159,6 @@ class GuideCross(Step):
         return where.line(self.guide).direction, where.line(self.other).direction
 
     @property
-    def closes(self) -> bool:
-        return True
-
-    @property
     def sense(self) -> float:
         return 1.0
 
@@ -189,6 +175,7 @@ class YokeDyad(Step):
 
     P: str
     guide: str
+    closes = True
     parent_letters = ("P", "guide")
     expects = (("P", "point"), ("guide", "guide"))
 
@@ -216,10 +203,6 @@ class YokeDyad(Step):
     def meeting(self, where: Where) -> tuple[Vec, ...]:
         direction = where.line(self.guide).direction
         return direction, direction.turned(*where.turn(self.angle))
-
-    @property
-    def closes(self) -> bool:
-        return True
 
     @property
     def sense(self) -> float:

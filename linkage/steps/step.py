@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass
 from math import pi
-from typing import Any, Self, TypeAlias
+from typing import Any, ClassVar, Self, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -72,6 +72,8 @@ class Point(Jointed):
 
     X: str = ""
     """Its name once it is bound, in a class or in a group."""
+    closes: ClassVar[bool] = False
+    """Whether placing this point closes a loop, so that it can fail and become singular."""
 
     kind = "point"
 
@@ -110,11 +112,6 @@ class Point(Jointed):
     def hangs_from(self) -> str:
         """The point that a construction alone leads from, drawn as a thin line where no body joins them; empty where others hold it."""
         return ""
-
-    @property
-    def closes(self) -> bool:
-        """Whether placing this point closes a loop, so that it can fail and become singular."""
-        return False
 
     @property
     def sense(self) -> float:
@@ -187,6 +184,9 @@ class Step(Point):
                 raise self.missing(slot)
         if self.chooses and self.side is None and self.near is None:
             raise self.needs_side(self.chooses)
+
+    def modes(self) -> tuple[Side, ...]:
+        return (Side.LEFT, Side.RIGHT) if self.chooses else ()
 
     def parts(self) -> tuple[Reference, ...]:
         return (*self.parents, *(part for part in map(quantity, self.labels.values()) if not part.is_constant))

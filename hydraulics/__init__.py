@@ -1,5 +1,6 @@
 """Cylinders, gas and accumulators: what moves a linkage and what it rests on."""
 
+from .accumulator import Accumulator as Accumulator
 from .accumulator import AccumulatorBlock as AccumulatorBlock
 from .buckling import Buckling as Buckling
 from .cylinder import CylinderSize as CylinderSize
@@ -19,4 +20,3 @@ from .lift import Lowering as Lowering
 from .member import Cylinder as Cylinder
 from .nitrogen import real_nitrogen as real_nitrogen
 from .verdict import Verdict as Verdict
-from .vessel import Accumulator as Accumulator

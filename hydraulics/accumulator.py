@@ -11,10 +11,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
-from typing import Any, final
+from types import MappingProxyType
+from typing import Any, ClassVar, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,14 +28,67 @@ from linkage.loads.element import written
 from linkage.quantities import Dimension, Quantity, spelled
 from linkage.units import UNITS, cm3, litre, show, unit_or_none
 
+from .files import GasLaw
 from .gas import Gas, Polytropic, isothermal
-from .inputs import Array, above_vacuum, absolute, finite, in_pascals, is_traced, not_negative, one_number, over_poses, positive
-from .rules import WorkingRange
-from .settings import following, follows, setting
+from .inputs import (
+    Array,
+    above_vacuum,
+    absolute,
+    finite,
+    following,
+    follows,
+    in_pascals,
+    is_traced,
+    not_negative,
+    one_number,
+    over_poses,
+    positive,
+    setting,
+)
 from .verdict import Verdict
-from .vessel import Accumulator
 
-# Several gas charges on one line: the exact piecewise law. Every pressure in this file is absolute [Pa].
+VOLUME = ("Accumulator volume", "give 0 for a vessel that is absent")
+LARGEST = 10.0
+"""m3; the volume of a larger accumulator was given in litres."""
+CHARGE = "Accumulator charge"
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Accumulator:
+    """A vessel of `volume` [m3] charged with gas to `charge` [Pa gauge], the fluid out, at the gas's temperature.
+
+    Either may be an array: one design per element. In a class either may follow dimensions: `Accumulator(V_I, charge=P_I)`.
+    A volume of 0 is an absent vessel: the block is that of the others. DefinitionError for a negative volume.
+    """
+
+    volume: Any
+    charge: Any
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"volume": "l", "charge": "bar"})
+
+    def __post_init__(self) -> None:
+        keep_own(self)
+        volume = np.ones(()) if follows(self.volume) else not_negative(self.volume, *VOLUME)
+        if np.any(volume > LARGEST):
+            large = f"{np.max(volume):.6g}"
+            raise DefinitionError(f"{VOLUME[0]} = {large} m3 is more than any has; write {large} * litre if these are litres.")
+        if not follows(self.charge):
+            in_pascals(np.where(volume > 0.0, finite(self.charge, CHARGE), 0.0), CHARGE)
+
+    def recharged(self, charge: Any) -> Accumulator:
+        """Return the same vessel with another charge [Pa gauge], one that a gas law gives."""
+        changed = copy(self)
+        object.__setattr__(changed, "charge", charge)
+        return changed
+
+    def __str__(self) -> str:
+        return f"Accumulator(volume={written(self.volume)}, charge={written(self.charge)})"
+
+
+# -- several gas charges on one line ------------------------------------------------------------------------
+#
+# The exact piecewise law; every pressure in this part is absolute [Pa].
 #
 # A vessel of volume 0 is absent: it adds nothing to any sum, and its charge is not looked at.
 #
@@ -139,6 +194,8 @@ class AccumulatorBlock:
     gas: Gas = isothermal
     atmosphere: Any = 101325.0
     unit: str = ""
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"atmosphere": "Pa"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"accumulators": (Accumulator,), "gas": GasLaw()})
 
     def __post_init__(self) -> None:
         if not isinstance(self.accumulators, (list, tuple)):
@@ -358,3 +415,69 @@ def single(atmosphere: Any) -> Array:
     if np.ndim(atmosphere):
         raise DefinitionError("atmosphere is one number for all designs of a batch; give a float.")
     return finite(atmosphere, "Atmosphere")
+
+
+# -- the rules an accumulator is chosen by, each with a verdict --------------------------------------------
+#
+# Source: makers' sizing rules for bladder accumulators (HYDAC, Olaer): charge at most 0.9 of the lowest working
+# pressure, so that the bladder does not strike the valve; highest working pressure at most 4 times the charge,
+# so that it is not overstretched. Both compare absolute pressures; what is to be set is said as gauge pressure.
+
+CHARGE_SHARE = 0.9
+COMPRESSION = 4.0
+
+
+@final
+@dataclass(frozen=True)
+class WorkingRange:
+    """A line that works from `p_min` to `p_max` and may reach `allowed`, all gauge [Pa]; `unit` is for the sentences.
+
+    DefinitionError for `p_min` above `p_max`.
+    """
+
+    p_min: float
+    p_max: float
+    allowed: float
+    atmosphere: float
+    unit: str
+
+    def __post_init__(self) -> None:
+        if self.p_min > self.p_max:
+            raise DefinitionError(f"p_min = {self._text(self.p_min)} is above p_max = {self._text(self.p_max)}; exchange them.")
+
+    def charge(self, number: int, charge: float) -> Verdict:
+        """Return whether a charge [Pa absolute] stays below the lowest pressure by the margin."""
+        low = self.p_min + self.atmosphere
+        ok = charge <= CHARGE_SHARE * low
+        says = f"{self._text(charge)} against {self._text(CHARGE_SHARE * low)}, {CHARGE_SHARE:g} of the lowest pressure (absolute)"
+        idle = "; it is idle there, full of gas" if charge >= low else ""
+        wanted, possible = self._gauge(CHARGE_SHARE * low), self._gauge(charge / CHARGE_SHARE)
+        remedy = f"{idle}; lower the charge to {wanted}, or raise the lowest pressure to {possible}"
+        return Verdict(f"charge of accumulator {number}", ok, f"{says}{'' if ok else remedy}.")
+
+    def compression(self, number: int, charge: float) -> Verdict:
+        """Return whether the gas of a charge [Pa absolute] is not compressed too far."""
+        high = self.p_max + self.atmosphere
+        ok = high <= COMPRESSION * charge
+        says = f"{self._text(high)} at most is {high / charge:.4g} times the charge, limit {COMPRESSION:g} (absolute)"
+        wanted, possible = self._gauge(high / COMPRESSION), self._gauge(COMPRESSION * charge)
+        remedy = f"; raise the charge to {wanted}, or lower the highest pressure to {possible}"
+        return Verdict(f"compression of accumulator {number}", ok, f"{says}{'' if ok else remedy}.")
+
+    def exhausted(self, held: float) -> Verdict:
+        """Return whether the line still holds fluid [m3] at its lowest pressure."""
+        says = f"{held / cm3:.4g} cm3 of fluid left at the lowest pressure, {self._text(self.p_min)} gauge"
+        return Verdict("exhausted", held > 0.0, f"{says}{'' if held > 0.0 else '; lower a charge, or charge the line higher'}.")
+
+    def permitted(self) -> Verdict:
+        """Return whether the highest pressure is allowed."""
+        ok = self.p_max <= self.allowed
+        says = f"highest pressure {self._text(self.p_max)}, allowed {self._text(self.allowed)} (gauge)"
+        remedy = "; set the relief valve lower or take a stronger accumulator"
+        return Verdict("allowed pressure", ok, f"{says}{'' if ok else remedy}.")
+
+    def _text(self, pressure: float) -> str:
+        return show(pressure, self.unit, 4)
+
+    def _gauge(self, absolute: float) -> str:
+        return f"{self._text(absolute - self.atmosphere)} gauge"

@@ -1,116 +1,78 @@
-"""Cylinders and circuits in mechanism files: section [hydraulics], found by the entry points of the group `hydrolinkage.files`."""
+"""Gas laws in mechanism files: a word, or a table of the law and its numbers."""
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from collections.abc import Callable, Mapping
+from functools import singledispatch
+from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from linkage.errors import DefinitionError, cited, unknown
+from linkage.quantities import is_number
+from linkage.quantities.quantity import plain
 
-from linkage.errors import DefinitionError
-from linkage.files import ElementEntry
-from linkage.files.amounts import Amount, FixedMetres, FixedNumber, LoadName, LoadNames, Metres, Pressure, Volume, Word
-from linkage.files.design import Design
-from linkage.files.fields import TwoPoints
-from linkage.quantities import Member, name_of
+from .gas import ROOM, Gas, Polytropic, adiabatic, isothermal, polytropic
+from .nitrogen import RealNitrogen, real_nitrogen
 
-from .accumulator import AccumulatorBlock
-from .floating import FloatCircuit
-from .gas_file import GasLaw, written_gas
-from .lift import LiftCircuit
-from .member import Cylinder
-from .vessel import Accumulator
+LAWS: Mapping[str, tuple[Callable[..., Gas], tuple[str, ...]]] = {
+    "isothermal": (lambda: isothermal, ()),
+    "adiabatic": (lambda: adiabatic, ()),
+    "polytropic": (polytropic, ("n", "temperature")),
+    "real_nitrogen": (real_nitrogen, ("temperature",)),
+}
+"""The gas laws by name, each with the numbers it takes."""
 
-VESSELS = 100
-
-
-class CylinderEntry(ElementEntry):
-    """`lift = { Cylinder = ["A", "B"], bore = "110 mm", rod = "63 mm", count = 2, closed = 0.5, stroke = 0.25 }`"""
-
-    section: ClassVar[str] = "hydraulics"
-    describes: ClassVar[type[Member]] = Cylinder
-    parents: TwoPoints = Field(alias="Cylinder")
-    bore: Metres
-    rod: Metres
-    count: FixedNumber = None
-    works: Word = ""
-    stroke: FixedMetres = None
-    closed: FixedMetres = None
-    mounting: Word = ""
-    safety: FixedNumber = None
+EXAMPLE = '"isothermal" or { law = "polytropic", n = 1.2 }'
 
 
-class CircuitEntry(ElementEntry):
-    """The base of entries of circuits, which stand on a cylinder."""
-
-    section: ClassVar[str] = "hydraulics"
-
-    @classmethod
-    def written_parents(cls, member: Any) -> Any:
-        return name_of(member.cylinder)
-
-
-class LiftCircuitEntry(CircuitEntry):
-    """`circuit = { LiftCircuit = "lift", pressure = "180 bar", flow = "60 l / min" }`; of several cylinders `["lift", "aux"]`"""
-
-    describes: ClassVar[type[Member]] = LiftCircuit
-    parents: LoadNames = Field(alias="LiftCircuit")
-    pressure: Pressure
-    flow: Amount = None
-    mechanical_efficiency: Amount = None
-    hydraulic_efficiency: Amount = None
-    back_pressure: Pressure = None
-    relief: Pressure = None
-
-    @classmethod
-    def written_parents(cls, member: Any) -> Any:
-        names = [name_of(each) for each in member.references]
-        return names[0] if len(names) == 1 else names
+def gas_of(given: Any, number: Callable[[Any], float]) -> Gas:
+    """Return the gas law that a word or a table says; `number` reads a number of it."""
+    table = {"law": given} if isinstance(given, str) else given
+    if not isinstance(table, Mapping) or not isinstance(table.get("law"), str):
+        raise DefinitionError(f"{cited(given)} is no gas law; write {EXAMPLE}.")
+    name = table["law"]
+    if name not in LAWS:
+        raise unknown("Gas law", name, LAWS)
+    make, keys = LAWS[name]
+    for key in table:
+        if key not in ("law", *keys):
+            raise unknown(f"Key of {name}", key, keys)
+    if "n" in keys and "n" not in table:
+        raise DefinitionError(f"the exponent n of {name} is missing; write {EXAMPLE}.")
+    return make(**{key: number(table[key]) for key in keys if key in table})
 
 
-class Vessel(BaseModel):
-    """`{ volume = "4 l", charge = "25 bar" }`"""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-    volume: Volume
-    charge: Pressure
+@singledispatch
+def written_gas(gas: Gas) -> Any:
+    """Return a gas law as a file holds it; DefinitionError for one that it cannot."""
+    raise DefinitionError(f"a file cannot hold the gas law {gas}; it knows {', '.join(LAWS)}.")
 
 
-class FloatCircuitEntry(CircuitEntry):
-    """`line = { FloatCircuit = "lift", charge_pressure = "40 bar", accumulators = [{ volume = "4 l", charge = "25 bar" }] }`"""
-
-    describes: ClassVar[type[Member]] = FloatCircuit
-    parents: LoadName = Field(alias="FloatCircuit")
-    charge_pressure: Pressure
-    at: Amount = None
-    seal_friction: Pressure = None
-    exponent: Amount = None
-    accumulators: tuple[Vessel, ...] = Field(max_length=VESSELS)
-    gas: GasLaw = None
-    atmosphere: Pressure = None
-    unit: Word = ""
-
-    def given(self) -> dict[str, Any]:
-        given = super().given()
-        vessels = [Accumulator(each.volume, each.charge) for each in given.pop("accumulators")]
-        block = AccumulatorBlock(vessels, **{name: given.pop(name) for name in ("gas", "atmosphere", "unit") if name in given})
-        return given | {"block": block}
-
-    @classmethod
-    def written_numbers(cls, member: Any, design: Design) -> dict[str, Any]:
-        if not isinstance(member.block, AccumulatorBlock):
-            words = "its block is a Python function, which a file cannot hold; write AccumulatorBlock([Accumulator(volume=V, charge=P)])"
-            raise DefinitionError(f"{words}, whose numbers may follow dimensions.")
-        return super().written_numbers(member, design) | written_block(member.block, design)
+@written_gas.register
+def _(gas: Polytropic) -> Any:
+    if gas.spelled in LAWS:
+        return gas.spelled
+    return {"law": "polytropic", "n": one_number(gas.n), **temperature(gas)}
 
 
-def written_block(block: AccumulatorBlock, design: Design) -> dict[str, Any]:
-    """Return what a file says of a block; its gas and the atmosphere only where they are not the usual ones."""
-    usual = AccumulatorBlock(block.accumulators)
-    pairs = [(design.amount(each.volume, "l"), design.amount(each.charge, "bar")) for each in block.accumulators]
-    found: dict[str, Any] = {"accumulators": [{"volume": volume, "charge": charge} for volume, charge in pairs]}
-    if block.gas.spelled != usual.gas.spelled:
-        found["gas"] = written_gas(block.gas)
-    if block.unit:
-        found["unit"] = block.unit
-    atmosphere = design.amount(block.atmosphere)
-    return found if repr(atmosphere) == repr(usual.atmosphere) else found | {"atmosphere": atmosphere}
+@written_gas.register
+def _(gas: RealNitrogen) -> Any:
+    return {"law": "real_nitrogen", **temperature(gas)} if temperature(gas) else "real_nitrogen"
+
+
+def temperature(gas: Gas) -> dict[str, Any]:
+    """Return the temperature of a law [K] where it is not the usual one."""
+    return {} if gas.temperature == ROOM else {"temperature": one_number(gas.temperature)}
+
+
+def one_number(value: Any) -> Any:
+    """Return a number of a gas law; DefinitionError where there are several."""
+    if not is_number(plain(value)):
+        raise DefinitionError(f"the gas law has several values, {value!r}; a file holds one design.")
+    return plain(value)
+
+
+class GasLaw:
+    """What stands in the place of a gas law: how it is read from a file, and written into one."""
+
+    read = staticmethod(gas_of)
+    write = staticmethod(written_gas)

@@ -24,9 +24,8 @@ from linkage.quantities import Reference, label, name_of
 from linkage.statics import Case, Loads, stroke_followed
 
 from .accumulator import AccumulatorBlock
-from .inputs import Array, finite, in_pascals, is_traced
+from .inputs import Array, finite, follows, in_pascals, is_traced, number_set
 from .member import Circuit, Cylinder, found_in, is_named, the_cylinder
-from .settings import follows, number_set
 
 Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
 
@@ -54,6 +53,7 @@ class FloatCircuit(Circuit):
         {"charge_pressure": "bar", "at": "m", "seal_friction": "bar", "exponent": ""}
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"block": AccumulatorBlock})
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -168,4 +168,4 @@ def length_by_groups(motion: Poses, ram: Cylinder, stroke: str, at: Array) -> Ar
     found = Motion(motion.plan, motion.designs, {name: strokes[name] for name in motion.strokes}, "nan").distance(ram.A, ram.B)
     if not np.all(np.isfinite(found)):
         raise DefinitionError(f"{ram}: the mechanism cannot be assembled at the charging stroke {stroke} = {value:.6g}.")
-    return np.asarray(found.reshape((*motion.design_shape, *(1,) * len(motion.stroke_shape))))
+    return np.asarray(found.reshape((*motion._design_shape, *(1,) * len(motion._stroke_shape))))

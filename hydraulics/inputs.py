@@ -1,7 +1,8 @@
 """The user's numbers, looked at where they come in.
 
 A setting (a bore, a charge) is finite. A value over poses may be NaN inside an array, where it marks a pose that
-was not reached; a lone NaN is a mistake and refused like any other.
+was not reached; a lone NaN is a mistake and refused like any other. A setting may follow the design: a dimension, an
+expression of dimensions or its name may stand in the place of a number.
 """
 
 from __future__ import annotations
@@ -13,7 +14,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import unmasked
+from linkage.loads import ForceElement, Poses
+from linkage.loads.element import written
+from linkage.plan import ArrayReading
 from linkage.program import Traced
+from linkage.quantities import Quantity, quantity
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -154,3 +159,34 @@ def _floats(value: ArrayLike, what: str) -> Array:
     if array.dtype.kind not in "iuf":
         raise DefinitionError(f"{what} = {cited(value)} is not a number; give a number in SI units.")
     return array.astype(np.float64)
+
+
+# -- settings that may follow the design --------------------------------------------------------------------
+
+
+def follows(*values: Any) -> bool:
+    """Return whether one of the values is no number: a quantity, or the name of one."""
+    return any(isinstance(value, Quantity) or (isinstance(value, str) and value.isidentifier()) for value in values)
+
+
+def following(*values: Any) -> tuple[Quantity, ...]:
+    """Return those of the values that are no numbers, as quantities."""
+    return tuple(quantity(value) for value in values if follows(value))
+
+
+def setting(motion: Poses, given: Any, what: str) -> Any:
+    """Return a setting as a motion's designs have it [SI], shaped to broadcast against the motion.
+
+    DefinitionError for one that follows a stroke.
+    """
+    if not follows(given):
+        return given
+    if motion.plan.moves(quantity(given)):
+        raise DefinitionError(f"{what} = {written(given)} follows a stroke, but is set before it moves; let it follow dimensions only.")
+    return ArrayReading(motion.plan.members, motion.plan.table.lengths, motion.inputs).value(quantity(given))
+
+
+def number_set(element: ForceElement, motion: Poses, name: str) -> Array:
+    """Return a parameter of a force element as a motion's designs have it [SI], shaped to broadcast against the motion."""
+    given = getattr(element, name)
+    return finite(setting(motion, given, name.capitalize()), name.capitalize()) if follows(given) else element.number(motion, name)

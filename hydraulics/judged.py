@@ -37,7 +37,7 @@ def lift_verdicts(
     not_negative(one_number(resistance, "Return resistance"), "Return resistance")
     known_name("Unit", unit, UNITS, where="lift_verdicts(unit=...)")
     one_design(motion, "A lift")
-    if len(motion.stroke_shape) > 1:
+    if len(motion._stroke_shape) > 1:
         raise DefinitionError("A lift is judged along one stroke or one path; this motion is a grid of several strokes. Give at() arrays.")
     if not motion.reached.any():
         raise DefinitionError(f"{motion.plan.title}: no pose of this motion can be assembled, so that there is nothing to judge.")

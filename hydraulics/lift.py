@@ -27,9 +27,20 @@ from linkage.quantities import Reference, label, name_of, real
 from linkage.statics import Case, Loads, elements_of
 
 from .cylinder import CylinderSize
-from .inputs import Array, efficient, finite, in_cubic_metres, in_pascals, is_traced, not_negative, one_number, positive
+from .inputs import (
+    Array,
+    efficient,
+    finite,
+    follows,
+    in_cubic_metres,
+    in_pascals,
+    is_traced,
+    not_negative,
+    number_set,
+    one_number,
+    positive,
+)
 from .member import DIRECTIONS, Circuit, Cylinder, found_in, is_named, the_cylinder
-from .settings import follows, number_set
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
 
@@ -58,6 +69,7 @@ class LiftCircuit(Circuit):
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow", "back_pressure", "relief"})
     optional: ClassVar[frozenset[str]] = frozenset({"relief"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"cylinder": "loads"})
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -475,5 +487,5 @@ def least_of(each: Sequence[Array]) -> Array:
 
 def for_designs(motion: Motion, value: ArrayLike) -> Array:
     """Return a value that broadcasts against the motion and is the same at all poses, as one of each design."""
-    array, tail = np.asarray(value), (1,) * len(motion.stroke_shape)
+    array, tail = np.asarray(value), (1,) * len(motion._stroke_shape)
     return np.asarray(array.reshape(array.shape[: array.ndim - len(tail)]) if array.ndim else array)

@@ -28,8 +28,7 @@ from linkage.units import mm
 
 from .buckling import Buckling
 from .cylinder import BORES_MM, RODS_MM, CylinderSize, standard_rods
-from .inputs import Array, one_number, positive, stroke_in_metres
-from .settings import follows, number_set
+from .inputs import Array, follows, number_set, one_number, positive, stroke_in_metres
 from .verdict import Verdict
 
 DIRECTIONS = ("frictionless", "extending", "retracting")
@@ -58,6 +57,8 @@ class Cylinder(TwoPoint, Tabled):
     mounting: str = "pin-pin"
     safety: float = 3.5
     drawn_as: ClassVar[DrawnAs] = "cylinder"
+    file_section: ClassVar[str] = "hydraulics"
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"stroke": "length", "closed": "length"})
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"bore", "rod"})
 
@@ -275,6 +276,8 @@ class Circuit(ForceElement):
     """The base of circuits: what feeds cylinders."""
 
     places: ClassVar[tuple[str, ...]] = ()
+    file_section: ClassVar[str] = "hydraulics"
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"cylinder": "load"})
 
     def members(self, members: Mapping[str, Any]) -> tuple[Cylinder, ...]:
         """Return its cylinders, as a class has them."""
@@ -293,8 +296,8 @@ def rubs(motion: Motion, loads: Loads) -> bool:
 def one_design(motion: Motion, what: str) -> None:
     """Raise DefinitionError for a motion of several designs, and for what is no motion."""
     require_motion(motion)
-    if motion.design_shape:
-        raise DefinitionError(f"{what} is judged for one design at a time; this motion has {motion.design_shape}. Take one.")
+    if motion._design_shape:
+        raise DefinitionError(f"{what} is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
 
 
 def one_area(size: CylinderSize, thrust: float) -> float:

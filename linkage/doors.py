@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, overload
 
 from .mechanism import Mechanism
 from .motion import Column, Motion
+from .reports import NOTHING
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,12 +16,7 @@ if TYPE_CHECKING:
 
     from .formulas import Equations
     from .pictures import Drawing
-
-NOTHING: Mapping[str, Any] = MappingProxyType({})
-"""No stroke is held."""
-
-Progress = Callable[[int, int], None]
-"""What is called as the poses of an animation are done: with their number, and that of all."""
+    from .pictures.film import Progress
 
 
 @overload

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -10,6 +11,7 @@ from traceback import extract_tb
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 
 class LinkageError(Exception):
@@ -31,7 +33,7 @@ def about(member: str) -> Iterator[None]:
 
 
 class DefinitionError(LinkageError, ValueError):
-    """What a class, a file or a setting says cannot be."""
+    """What a class, a file or a setting says cannot be. `member` is the name of the member at fault, "" where it is no single one."""
 
 
 class AssemblyError(LinkageError):
@@ -41,7 +43,7 @@ class AssemblyError(LinkageError):
     shape of the motion), `shortfall` is the largest missing length [m] (NaN where it is not a length).
     """
 
-    def __init__(self, message: str, *, point: str = "", mask: Any = None, shortfall: float = float("nan")) -> None:
+    def __init__(self, message: str, *, point: str = "", mask: npt.ArrayLike | None = None, shortfall: float = float("nan")) -> None:
         super().__init__(message, member=point)
         self.point = point
         self.mask = np.zeros((), bool) if mask is None else np.asarray(mask, bool)
@@ -51,7 +53,7 @@ class AssemblyError(LinkageError):
 class SingularError(AssemblyError):
     """A ratio or a force was asked for at a singular pose; positions stay available in `motion`."""
 
-    def __init__(self, message: str, *, point: str = "", mask: Any = None, motion: Any = None) -> None:
+    def __init__(self, message: str, *, point: str = "", mask: npt.ArrayLike | None = None, motion: Any = None) -> None:
         super().__init__(message, point=point, mask=mask)
         self.reason = message
         self.motion = motion
@@ -63,6 +65,14 @@ class SingularWarning(UserWarning):
     def __init__(self, message: str = "", *, estimate: float = float("nan")) -> None:
         super().__init__(message)
         self.estimate = estimate
+
+
+def warn(warning: SingularWarning) -> None:
+    """Warn at the line that called the package, however many of its functions lie between."""
+    frame, level = sys._getframe(1), 2
+    while str(frame.f_globals.get("__name__")).partition(".")[0] == __package__ and frame.f_back is not None:
+        frame, level = frame.f_back, level + 1
+    warnings.warn(warning, stacklevel=level)
 
 
 @contextmanager

@@ -18,12 +18,12 @@ Kind = TypeVar("Kind", bound=type)
 class FrozenDict(dict[Key, Value]):
     """A dict that does not change; `dict(...)` of it is a copy that does."""
 
-    def _refuse(self, *given: Any, **named: Any) -> NoReturn:
+    def _refuse(self, *given: object, **named: object) -> NoReturn:
         raise DefinitionError("These values are what was worked out or declared, and do not change; take a copy of them, dict(...).")
 
     __setitem__ = __delitem__ = pop = popitem = clear = update = setdefault = __ior__ = _refuse
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self) -> tuple[type, tuple[dict[Key, Value]]]:
         return type(self), (dict(self),)
 
 
@@ -52,7 +52,7 @@ def own(value: Any) -> Any:
     return value
 
 
-def keep_own(holder: Any) -> None:
+def keep_own(holder: object) -> None:
     """Put copies of one's own in the place of what a frozen dataclass was given."""
     for name, value in vars(holder).items():
         object.__setattr__(holder, name, own(value))
@@ -61,7 +61,7 @@ def keep_own(holder: Any) -> None:
 def refuses_changes(kind: Kind) -> Kind:
     """Let a frozen dataclass refuse changes in words: a class decorator, written above `@dataclass(frozen=True)`."""
 
-    def refuse(self: Any, name: str, *value: Any) -> NoReturn:
+    def refuse(self: object, name: str, *value: object) -> NoReturn:
         title = type(self).__name__
         remedy = f"make a new one, {title}(...), or dataclasses.replace of this one"
         raise DefinitionError(f"{title}.{name} = ...: it does not change; {remedy}.")

@@ -12,17 +12,16 @@ from types import MethodType
 from typing import Any, ClassVar, NoReturn, Self, TypeVar, cast
 
 import numpy as np
+import numpy.typing as npt
 
 from .assembly import Assembly, assembled, assemblies
 from .errors import DefinitionError, cited, told, unknown
 from .mobility import FourBar, Mobility, check, four_bars, mobility
 from .motion import (
     Column,
-    Grid,
     Motion,
     PoseFunction,
     RequestLike,
-    as_given,
     at_values,
     columns_of,
     evaluate,
@@ -34,8 +33,10 @@ from .plan import Body, Plan
 from .program import FloatArray, Way
 from .quantities import Member, Stroke
 from .steps import Drawn
+from .vectors import Numbers
 
-Method = TypeVar("Method", bound=Callable[..., Any])
+Method = TypeVar("Method", bound=Callable[..., object])
+Answer = TypeVar("Answer")
 
 
 def of_a_design(method: Method) -> Method:
@@ -46,12 +47,12 @@ def of_a_design(method: Method) -> Method:
 class OfADesign:
     """A method that is bound to a design as any other; on the class it takes a design as its first argument, or refuses in words."""
 
-    def __init__(self, method: Callable[..., Any]) -> None:
+    def __init__(self, method: Callable[..., object]) -> None:
         self.method = method
         self.__doc__ = method.__doc__
 
         @wraps(method)
-        def unbound(*given: Any, **options: Any) -> Any:
+        def unbound(*given: object, **options: object) -> object:
             if not (given and isinstance(given[0], Mechanism)):
                 name = method.__name__
                 said = f"{name}(...) is asked of a design, and this is the class, which is the structure; make one first"
@@ -60,15 +61,15 @@ class OfADesign:
 
         self.unbound = unbound
 
-    def __get__(self, design: Any, owner: type | None = None) -> Any:
+    def __get__(self, design: object, owner: type | None = None) -> Callable[..., object]:
         return self.unbound if design is None else MethodType(self.method, design)
 
 
-def of_own_motion(method: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
+def of_own_motion(method: Callable[[Mechanism, Motion], Answer]) -> Callable[[Mechanism, Motion], Answer]:
     """Return a machine's own `columns` or `verdicts`, which refuses in words what is no motion of the machine."""
 
     @wraps(method)
-    def checked(machine: Any, motion: Any) -> Any:
+    def checked(machine: Mechanism, motion: Motion) -> Answer:
         require_motion(motion)
         missing = [name for name in machine.plan.members if name not in motion.plan.members]
         if missing:
@@ -85,7 +86,7 @@ class Structure(ABCMeta):
 
     plan: Plan
 
-    def __setattr__(cls, name: str, value: Any) -> None:
+    def __setattr__(cls, name: str, value: object) -> None:
         builder = str(sys._getframe(1).f_globals.get("__name__", ""))
         by_value = builder.startswith("cloudpickle")  # which makes a class of another process empty, then gives it what it has
         if not by_value and (isinstance(value, Member) or cls._is_made_of(name)):
@@ -114,7 +115,7 @@ class Mechanism(metaclass=Structure):
 
     plan: ClassVar[Plan] = Plan({}, "Mechanism")
 
-    def __init_subclass__(cls, **options: Any) -> None:
+    def __init_subclass__(cls, **options: object) -> None:
         super().__init_subclass__(**options)
         for name in ("columns", "verdicts"):
             if isfunction(vars(cls).get(name)):
@@ -135,10 +136,10 @@ class Mechanism(metaclass=Structure):
         for member in (*members.values(), *cls.plan.members.values()):
             member.settle(cls.__name__)
 
-    def __init__(self, **dimensions: Any) -> None:
+    def __init__(self, **dimensions: npt.ArrayLike) -> None:
         self._values = self._settings(dimensions)
 
-    def _settings(self, dimensions: Mapping[str, Any]) -> dict[str, Any]:
+    def _settings(self, dimensions: Mapping[str, npt.ArrayLike]) -> dict[str, Numbers]:
         """Return the values of all dimensions, some of them set; DefinitionError for what is none, and for what it cannot be."""
         for name in dimensions:
             if name in self.plan.strokes:
@@ -163,11 +164,11 @@ class Mechanism(metaclass=Structure):
         """Raise DefinitionError: a design is no row of things."""
         raise DefinitionError(f"{type(self).__name__}: a design is gone through by its dimensions; take machine.dimensions.")
 
-    def __class_getitem__(cls, name: Any) -> NoReturn:
+    def __class_getitem__(cls, name: object) -> NoReturn:
         """Raise DefinitionError: a class has members, its designs have values."""
         raise DefinitionError(f"{cls.__name__}[{name!r}]: {cls.__name__} is a class; ask a design of it, {cls.__name__}()[{name!r}].")
 
-    def __setattr__(self, name: str, value: Any) -> None:
+    def __setattr__(self, name: str, value: object) -> None:
         if not name.startswith("_"):
             new = f"{type(self).__name__}({name}=...)"
             raise DefinitionError(f"{type(self).__name__}.{name} = ...: an instance does not change; make a new one, {new}.")
@@ -190,7 +191,7 @@ class Mechanism(metaclass=Structure):
         return sign * self._values[owner]
 
     @of_a_design
-    def replaced(self, **dimensions: Any) -> Self:
+    def replaced(self, **dimensions: npt.ArrayLike) -> Self:
         """Return the same design with some dimensions changed."""
         given = self._settings(dimensions)
         touched = {owner for name in dimensions for owner in self._owners(name)}
@@ -201,7 +202,7 @@ class Mechanism(metaclass=Structure):
     def _part(self, start: int, stop: int) -> Self:
         """Return the designs from start to before stop of a batch, whose dimensions are floats or arrays (m,)."""
         part = copy(self)
-        part._values = {name: value if type(value) is float else value[start:stop] for name, value in self._values.items()}
+        part._values = {name: value if isinstance(value, float) else value[start:stop] for name, value in self._values.items()}
         return part
 
     def _owners(self, name: str) -> set[str]:
@@ -249,8 +250,7 @@ class Mechanism(metaclass=Structure):
         change points between them. Raises AssemblyError out of reach and SingularError for ratios at a dead point, unless
         `unreachable="nan"`.
         """
-        grid = Grid(self.plan, self._values, at_values(strokes, self.plan, as_given))
-        return evaluate(grid, of, out, Way(backend, threads), unreachable)
+        return evaluate(self.plan, self._values, strokes, of, out, Way(backend, threads), unreachable)
 
     @of_a_design
     def function(self, of: Sequence[RequestLike]) -> PoseFunction:
@@ -345,7 +345,7 @@ def declared(cls: type) -> dict[str, Member]:
     return members
 
 
-def check_no_member(title: str, name: str, value: Any) -> None:
+def check_no_member(title: str, name: str, value: object) -> None:
     """Raise DefinitionError for what was meant as a member and is none: its class, or members in a list or behind a comma too many."""
     if isinstance(value, type) and issubclass(value, Member):
         raise DefinitionError(f"{title}.{name} = {value.__name__} is the class, no member; write {name} = {value.__name__}(...).")
@@ -356,7 +356,7 @@ def check_no_member(title: str, name: str, value: Any) -> None:
         raise DefinitionError(f"{what}; bind each to a name of its own, and look for a comma too many at the end of the line.")
 
 
-def require_mechanism(given: Any) -> None:
+def require_mechanism(given: object) -> None:
     """Raise DefinitionError for what is no design of a mechanism."""
     if isinstance(given, type) and issubclass(given, Mechanism):
         raise DefinitionError(f"{given.__name__} is a class, the structure; give a design of it, {given.__name__}().")

@@ -48,6 +48,17 @@ UNITS: dict[str, tuple[float, str]] = {
     "cm2": (cm2, "area"), "m2": (1.0, "area"), "rad/m": (1.0, "angle per length"),
 }  # fmt: skip
 
+
+def factor(unit: str) -> float:
+    """Return how much of SI a unit is; 1.0 for "", a plain number."""
+    return UNITS[unit][0] if unit else 1.0
+
+
+def display_unit(measure: str, length: str = "m") -> str:
+    """Return the unit that an "angle" or a "length" is shown in, this one in that which is said; "" for anything else."""
+    return {"angle": "deg", "length": length}.get(measure, "")
+
+
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\s\d]\S*)?\s*\Z")
 _COMMA = re.compile(r"\s*[-+]?\d*,\d+\s*[^\s\d,]*\s*\Z")
 

@@ -11,6 +11,8 @@ import numpy.typing as npt
 
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 Mask: TypeAlias = npt.NDArray[np.bool_]
+Numbers: TypeAlias = float | FloatArray
+"""One number, or one for each design or pose."""
 Scalar: TypeAlias = Any
 """A number, an array or a traced node: whatever the reading at hand works on."""
 

@@ -116,7 +116,7 @@ class MowerLift(Mechanism):
 
         Beside these whatever else fails: holding, lowering, or the rod, which buckles.
         """
-        if motion.design_shape:
+        if motion._design_shape:
             return [batch_verdict(self.circuit, motion)]
         if not motion.reached.any():
             return ["No pose of this motion can be assembled; there is nothing to lift."]

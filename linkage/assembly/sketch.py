@@ -86,7 +86,8 @@ def sided(name: str, step: Step, settled: Mapping[str, Member], title: str) -> S
     if not flat and distance[other] - distance[side] <= 1e-6 * max(apart, 1e-12):
         raise DefinitionError(
             f"{title}: {name} = {step} does not choose an assembly mode: both poses are equally near, the sketch lies on the dead line. "
-            "Move near=(x, y) to the side that is meant, or say side=LEFT or side=RIGHT."
+            "Move near=(x, y) to the side that is meant, or say side=LEFT or side=RIGHT.",
+            member=name,
         )
     chosen = copy(step)
     chosen.side, chosen.near = side, None

@@ -116,14 +116,14 @@ def execute(arguments: list[str]) -> int:
         branch = subparsers.add_parser(command.name, help=command.help, description=command.help, allow_abbrev=False)
         command.add(branch)
         branch.set_defaults(run=command.run)
-    options = parse(parser, arguments)
+    options = parse_arguments(parser, arguments)
     if options.command is None:
         parser.print_help(sys.stderr)
         return BAD_INPUT
     return int(options.run(options))
 
 
-def parse(parser: OneLineParser, arguments: list[str]) -> Namespace:
+def parse_arguments(parser: OneLineParser, arguments: list[str]) -> Namespace:
     """Return the arguments by name; names of columns may stand behind options, where argparse leaves them over."""
     options, left = parser.parse_known_args(arguments)
     names = [word for word in left if word != "--"]

@@ -26,7 +26,9 @@ def find(text: str) -> type[Mechanism]:
     if text in entries:
         return machine(guarded(entries[text].load, f"The machine {text} ({entries[text].value})"), text)
     if text.endswith((".toml", ".json")):
-        return of_file(text)
+        from ..files import load
+
+        return load(text)
     place, name = split(text)
     if place.endswith(".py"):
         return of_module(guarded(lambda: module_of_file(place), place), name, place)
@@ -56,22 +58,18 @@ def find_like(text: str, base: type[Kind], what: str, **instead: Any) -> type[Ki
 
 
 def lacking(found: type[Mechanism], base: type[Mechanism]) -> list[str]:
-    """Return the members and the dimensions of a class that another one does not have."""
-    own, other = declared(base), declared(found)
-    members = [name for name, member in own.items() if not (name in other and is_such(other[name], member))]
+    """Return the members and the dimensions of a class that another one does not have.
+
+    A member stands for another of its kind, a force element for one of its class.
+    """
+    other = declared(found)
+
+    def is_there(name: str, member: Member) -> bool:
+        own = other.get(name)
+        return own is not None and own.kind == member.kind and (type(own) is type(member) or not isinstance(member, ForceElement))
+
+    members = [name for name, member in declared(base).items() if not is_there(name, member)]
     return members + [name for name in base.plan.defaults if name not in found.plan.defaults and name not in members]
-
-
-def is_such(found: Member, wanted: Member) -> bool:
-    """Return whether a member may stand for another: of the same kind, a force element of the same class."""
-    return found.kind == wanted.kind and (type(found) is type(wanted) or not isinstance(wanted, ForceElement))
-
-
-def of_file(path: str) -> type[Mechanism]:
-    """Return the machine of a TOML or JSON file; FileError, with the keys, where it says none."""
-    from ..files import load
-
-    return load(path)
 
 
 def split(text: str) -> tuple[str, str]:

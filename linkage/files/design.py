@@ -12,12 +12,11 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..mechanism import Mechanism, declared
-from ..quantities import Member, Number, Quantity, is_number, label, name_of, quantity, spelled
+from ..quantities import Member, Number, Quantity, Ref, is_number, label, name_of, quantity, spelled
 from ..quantities.quantity import plain
 from ..steps import Link, Pin, Step
-from ..units import UNITS, parse
+from ..units import factor, parse
 from .expression import arrow, expression
-from .form import form, own_form
 from .names import Names
 
 
@@ -27,7 +26,6 @@ class Design:
     def __init__(self, machine: type[Mechanism] | Mechanism, names: Names) -> None:
         self.plan, self.names = machine.plan, names
         self.set: Mapping[str, Any] = changed(machine) if isinstance(machine, Mechanism) else {}
-        self.machine = machine
         self.written: set[str] = set()
 
     def variable(self, name: str, given: Quantity) -> float | str:
@@ -67,17 +65,13 @@ class Design:
             return given.number
         return self.checked(spelled(given), form(given), expression)
 
-    def own(self, given: Quantity) -> str:
-        """Return the text of a quantity's own rule, whatever its name; DefinitionError unless it reads back as the same."""
-        return self.checked(str(given), own_form(given), expression)
-
     def arrow(self, given: Member | str) -> str:
         """Return a vector as text, or its name; DefinitionError unless it reads back as the same."""
         return self.checked(label(given), form(given), arrow)
 
-    def own_arrow(self, given: Member) -> str:
-        """Return the text of a vector's own rule, whatever its name; DefinitionError unless it reads back as the same."""
-        return self.checked(str(given), own_form(given), arrow)
+    def own(self, given: Member) -> str:
+        """Return the text of a quantity's or a vector's own rule, whatever its name; DefinitionError unless it reads back as the same."""
+        return self.checked(str(given), own_form(given), expression if isinstance(given, Quantity) else arrow)
 
     def checked(self, text: str, says: Any, read: Callable[[str, Names], Any]) -> str:
         """Return a text; DefinitionError unless it is read as what it says."""
@@ -86,17 +80,17 @@ class Design:
         return text
 
 
-def in_degrees(value: float) -> float | str:
+def in_degrees(value: float | str) -> float | str:
     """Return an angle [rad] as text in degrees where that is short and reads back as the same, else as it is."""
     return in_unit(value, "deg") if isinstance(value, float) and abs(value) < 1e9 else value
 
 
 def in_unit(value: float, unit: str) -> float | str:
     """Return a value [SI] as text in a unit where that is short and reads back as the same, else as it is."""
-    factor = UNITS[unit][0] if unit else 1.0
-    if factor == 1.0 or not isinstance(value, float) or value == 0.0 or not isfinite(value / factor):
+    size = factor(unit)
+    if size == 1.0 or not isinstance(value, float) or value == 0.0 or not isfinite(value / size):
         return value
-    text = f"{value / factor:.9g} {unit}"
+    text = f"{value / size:.9g} {unit}"
     return text if parse(text) == value else value
 
 
@@ -162,3 +156,22 @@ def joined(text: str, link: Link) -> bool:
     """Return whether a label is made of a link's own points."""
     names = [name_of(point) for point in link.points]
     return text in {"".join(several) for count in (2, 3) for several in permutations(names, count)}
+
+
+# -- what a quantity or a vector says, apart from how it is written: whether a text reads back as the same --
+
+
+def own_form(member: Any) -> Any:
+    """Return what a member says, as nested tuples that compare; its own name does not count."""
+    if isinstance(member, Ref):
+        return member.target
+    if not isinstance(member, Member):
+        return member
+    return type(member), *(form(value) for name, value in vars(member).items() if name not in ("_name", "_class"))
+
+
+def form(part: Any) -> Any:
+    """Return what a part of a member says: its name where it has one."""
+    if isinstance(part, tuple):
+        return tuple(map(form, part))
+    return part.name if isinstance(part, Member) and part.name else own_form(part)

@@ -1,121 +1,346 @@
-"""An entry of a file: how one kind of member is read from it and written into it."""
+"""An entry of a file: how a member is read from it and written into it, as the signature of its class says.
+
+Where a section holds several classes, the class's name is the key of what the member is built from, its other arguments stand under
+their own names: `B = { Dyad = ["A", "O"], AB = "L0 + S", side = "RIGHT" }`. A class that is named by its import path has all arguments
+under their names: `P = { kind = "mypackage.cams:CamFollower", O = "A", lift = "phi" }`.
+"""
 
 from __future__ import annotations
 
-from abc import abstractmethod
-from collections.abc import Mapping
-from inspect import signature
-from typing import Any, ClassVar
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
+from inspect import Parameter, signature
+from typing import Any
 
-from pydantic import BaseModel, ConfigDict, model_validator
-
-from ..errors import DefinitionError
-from ..plan import Table
+from ..errors import DefinitionError, told
+from ..loads import ForceElement
 from ..quantities import Member
+from ..steps import Point, Step
 from .design import Design
-from .fields import Value
-from .limits import LABELS, NAME_LENGTH
-from .names import shortened
+from .names import NAME_LENGTH, Names, shortened
+from .source import Mistakes
+from .validators import KINDS, Kind, amount, each_of, number_of, value_of
+
+LABELS = 100
+VALUES = 100
+"""Values in a list of them."""
+
+PATH = "kind"
+"""The key of the import path of a class that has no name of its own in files."""
+
+KEPT_AS = {"at": ("drawn_at", "along"), "vector": ("by",), "P": ("fixed_at",)}
+"""The attributes in which members keep an argument that is not in the one of its name."""
+
+ANNOTATED = {
+    "str": "word", "Literal": "word", "float": "number", "int": "number", "bool": "switch", "Reference": "member", "Member": "member",
+    "Sequence": "numbers", "list": "numbers", "tuple": "numbers",
+}  # fmt: skip
+"""The kinds of arguments by how their annotation begins, where the class says no other."""
+
+EXAMPLES = {"point": ("A", "O"), "guide": ("rail", "post"), "vector": ("AB",), "load": ("lift",), "loads": ("lift",), "body": ("O B",)}
 
 
-class Entry(BaseModel):
-    """One kind of member in a file: a pydantic model of its keys. A package adds its own kind by a subclass.
+# -- the arguments of a class ------------------------------------------------------------------------------
 
-    `section` is the table it stands in and `describes` its class. Where a section holds several kinds, the key named as
-    the class tells them apart: `B = { Dyad = ["A", "O"], ... }`; `word` is that key, else "". An entry that is no table of
-    keys, such as `A = [0.2, 0.55]`, has the one field `bare`. `family`: subclasses of the class are written in the same way.
+
+@dataclass(frozen=True)
+class Argument:
+    """An argument of a class, its key in a file, and its default, Parameter.empty where it must be given.
+
+    One as it is by default `may_go` unwritten: all of a frozen dataclass, which prints without them as well; else what is nothing.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+    name: str
+    key: str
+    kind: Kind
+    default: Any
+    may_go: bool
 
-    section: ClassVar[str]
-    describes: ClassVar[type[Member]]
-    word: ClassVar[str] = ""
-    family: ClassVar[bool] = False
+    @property
+    def needed(self) -> bool:
+        """Whether it must be given."""
+        return self.default is Parameter.empty
 
-    @model_validator(mode="before")
+    def written(self, member: Any, design: Design, owner: str) -> Any:
+        """Return the argument that a member has as a file holds it; None where it need not be written. `owner` is the member's name."""
+        value = kept(member, self.name)
+        if value is None and not self.needed:
+            return None
+        found = self.kind.write(value, design, f"{owner}.{self.name}" if owner else "")
+        return None if self.may_go and repr(found) == repr(self.kind.write(self.default, design, "")) else found
+
+
+def kept(member: Any, argument: str) -> Any:
+    """Return what a member was given for an argument; DefinitionError where it does not keep it."""
+    values = [getattr(member, name) for name in (argument, *KEPT_AS.get(argument, ())) if hasattr(member, name)]
+    if not values:
+        raise DefinitionError(f"it has no attribute {argument}; let its class keep each argument in the attribute of that name.")
+    return next((each for each in values if each is not None), None)
+
+
+def parameters_of(cls: type[Any]) -> list[Parameter]:
+    """Return what a class is called with."""
+    return list(signature(cls.__init__).parameters.values())[1:]
+
+
+def arguments_of(cls: type[Any]) -> tuple[Argument, ...]:
+    """Return the arguments that a class takes by name, in order."""
+    said = kinds_said(cls)
+    factories = {each.name: each.default_factory for each in fields(cls)} if is_dataclass(cls) else {}
+    found = []
+    for each in parameters_of(cls):
+        is_spread = each.kind is Parameter.VAR_POSITIONAL and each.name in said
+        if is_spread or each.kind in (Parameter.POSITIONAL_OR_KEYWORD, Parameter.KEYWORD_ONLY):
+            factory = factories.get(each.name, MISSING)
+            default = each.default if factory is MISSING else factory()
+            is_nothing = isinstance(default, (int, float, str, tuple)) and not default
+            may_go = is_nothing or (is_dataclass(cls) and default is not None and default is not Parameter.empty)
+            found.append(Argument(each.name, each.name, kind_of(cls, each, said), default, may_go))
+    return tuple(found)
+
+
+def kinds_said(cls: type[Any]) -> dict[str, Any]:
+    """Return the kinds of arguments as a class and its bases say them."""
+    said: dict[str, Any] = {}
+    for base in reversed(cls.__mro__):
+        said |= dict(vars(base).get("expects", ())) | dict.fromkeys(vars(base).get("places", ()), "point")
+        said |= {name: amount(unit) for name, unit in vars(base).get("parameters", {}).items()} | dict(vars(base).get("argument_kinds", {}))
+    if issubclass(cls, Step):
+        parents = [each.name for each in parameters_of(cls) if each.kind is Parameter.POSITIONAL_OR_KEYWORD]
+        said = {own: said.get(letter, "point") for own, letter in zip(parents, cls.parent_letters, strict=False)} | said
+    return said
+
+
+def kind_of(cls: type[Any], parameter: Parameter, said: Mapping[str, Any]) -> Kind:
+    """Return the kind of an argument: as the class says it, else by its annotation; else a quantity of a point, an option of a load."""
+    kind, annotation = said.get(parameter.name), parameter.annotation
+    if kind is None:
+        text = annotation if isinstance(annotation, str) else getattr(annotation, "__name__", str(annotation))
+        kind = ANNOTATED.get(text.replace("[", " ").partition(" ")[0], "quantity" if issubclass(cls, Point) else "option")
+    if kind == "quantity" and parameter.name.endswith("angle"):
+        kind = "direction"
+    if isinstance(kind, type):
+        return Within.of(kind)
+    if isinstance(kind, tuple):
+        return list_of(*kind)
+    if isinstance(kind, str):
+        return KINDS[kind]
+    return kind if isinstance(kind, Kind) else Kind(
+        lambda given, names: kind.read(given, lambda each: number_of(each, names)), lambda value, design, name: kind.write(value)
+    )  # fmt: skip
+
+
+# -- their table -------------------------------------------------------------------------------------------
+
+
+def read_table(given: Mapping[Any, Any], names: Names, arguments: Iterable[Argument], mistakes: Mistakes) -> dict[str, Any]:
+    """Return the arguments that a table says, by name; what is wrong or missing is noted under its key."""
+    found: dict[str, Any] = {}
+    for each in arguments:
+        if isinstance(each.kind, Within):
+            found[each.name] = read_table(given, names, each.kind.arguments, mistakes)
+        elif each.key in given:
+            with mistakes.at(each.key):
+                is_nothing = given[each.key] is None and each.default is None
+                found[each.name] = None if is_nothing else each.kind.read(given[each.key], names)
+        elif each.needed:
+            mistakes.add((each.key,), "is missing.")
+    return found
+
+
+def check_keys(given: Mapping[Any, Any], known: Iterable[str], mistakes: Mistakes) -> None:
+    """Note the keys that are none."""
+    for key in given:
+        if key not in known:
+            mistakes.add((str(key),), "is not a key of it.")
+
+
+def made_of(found: Mapping[str, Any], arguments: Iterable[Argument]) -> dict[str, Any]:
+    """Return arguments as their class takes them, once all of them are sound."""
+    return {each.name: each.kind.make(found[each.name]) for each in arguments if each.name in found}
+
+
+def written_table(member: Any, design: Design, arguments: Iterable[Argument], owner: str = "") -> dict[str, Any]:
+    """Return the arguments of a member by their keys; those of a value within it come last."""
+    found: dict[str, Any] = {}
+    inner: dict[str, Any] = {}
+    for each in arguments:
+        written = each.written(member, design, owner)
+        if isinstance(each.kind, Within):
+            inner |= written or {}
+        elif written is not None:
+            found[each.key] = written
+    return found | inner
+
+
+@dataclass(frozen=True, eq=False)
+class Within(Kind):
+    """The kind of an argument that is a value of a class: the arguments of that class stand among those of the member."""
+
+    arguments: tuple[Argument, ...] = ()
+
     @classmethod
-    def _tabled(cls, given: Any) -> Any:
-        return cls.tabled(given)
+    def of(cls, part: type[Any]) -> Within:
+        """Return the kind of a value of a class."""
+        arguments = arguments_of(part)
 
-    @classmethod
-    def tabled(cls, given: Any) -> Any:
-        """Return what is given as a table of fields."""
-        if "bare" in cls.model_fields:
-            return {"bare": given}
+        def write(value: Any, design: Design, name: str) -> dict[str, Any]:
+            if not isinstance(value, part):
+                what = f"its {name.rpartition('.')[2]} is a Python function" if callable(value) else repr(value)
+                raise DefinitionError(f"{what}, which a file cannot hold; write {part.__name__}(...), whose numbers may follow dimensions.")
+            return written_table(value, design, arguments)
+
+        return cls(lambda given, names: given, write, make=lambda found: part(**made_of(found, arguments)), arguments=arguments)
+
+
+def list_of(part: type[Any]) -> Kind:
+    """Return the kind of a list of values of a class: a table with the arguments of that class for each."""
+    arguments = arguments_of(part)
+
+    def read_one(given: Any, names: Names) -> dict[str, Any]:
         if not isinstance(given, Mapping):
-            raise DefinitionError(f"{shortened(given)} is not a table {{ key = value }} with the keys {', '.join(cls.own_keys())}.")
-        return given
+            raise DefinitionError("is not a table { key = value }.")
+        mistakes = Mistakes()
+        found = read_table(given, names, arguments, mistakes)
+        check_keys(given, [each.key for each in arguments], mistakes)
+        mistakes.check()
+        return found
 
-    @classmethod
-    def own_keys(cls) -> list[str]:
-        """Return the keys that an entry may have."""
-        return [field.alias or name for name, field in cls.model_fields.items() if name != "labels"]
+    def read(given: Any, names: Names) -> list[dict[str, Any]]:
+        if not isinstance(given, (list, tuple)):
+            raise DefinitionError("is not a list [...].")
+        if len(given) > VALUES:
+            raise DefinitionError(f"{len(given)} are too many; at most {VALUES} items are read.")
+        return each_of(enumerate(given), lambda place, each: read_one(each, names))
 
-    @abstractmethod
-    def member(self) -> Member:
-        """Return the member that this entry says; DefinitionError for what cannot be."""
-
-    @classmethod
-    @abstractmethod
-    def written(cls, member: Any, design: Design) -> Any:
-        """Return a member as what a file holds: numbers, texts, lists, tables of them."""
-
-    @classmethod
-    def checked(cls, name: str, member: Member, title: str) -> None:
-        """Raise DefinitionError for what is wrong with a member by itself, whatever the others are."""
-        table = Table(title)
-        for variable, default, kind, unit in member.variables():
-            table.add(variable, default, kind, f"{name} = {member}", unit)
-        member.enter(table)
+    return Kind(
+        read,
+        lambda value, design, name: [written_table(each, design, arguments) for each in value],
+        make=lambda tables: [part(**made_of(table, arguments)) for table in tables],
+    )
 
 
-class Worded(Entry):
-    """An entry that is told apart by its class's name, under which stands what it is built from: `{ Dyad = ["A", "O"], ... }`.
+# -- an entry ----------------------------------------------------------------------------------------------
 
-    A subclass says the field `parents`, with that name as its alias, and one for each keyword of its class.
-    What a file leaves out is left to the class.
+
+def worded(cls: type[Any]) -> bool:
+    """Return whether the members of a class share their section with those of others, told apart by a word."""
+    return issubclass(cls, (Point, ForceElement))
+
+
+class Entry:
+    """How the members of a class stand in a file: the table of their section, and the `word` that tells them apart there, if any.
+
+    `path` is the import path of a class without a word; `keys` are those that differ from the names of the arguments, `make`
+    makes the member where it is not the class itself.
     """
 
-    parents: Any
+    family = False
+    """Whether members of subclasses are written in the same way."""
 
-    def __init_subclass__(cls, **options: Any) -> None:
-        super().__init_subclass__(**options)
-        if "describes" in vars(cls):
-            cls.word = cls.describes.__name__
+    def __init__(
+        self,
+        describes: type[Any],
+        section: str,
+        word: str = "",
+        *,
+        path: str = "",
+        keys: Mapping[str, str] | None = None,
+        make: Callable[..., Member] | None = None,
+    ) -> None:
+        self.describes, self.section, self.word, self.path, self.make = describes, section, word, path, make or describes
+        given = [replace(each, key=(keys or {}).get(each.name, each.name)) for each in arguments_of(describes)]
+        self.built_from = tuple(each for each in given if each.kind.refers and each.needed)
+        first = ("near", "at", "side") if issubclass(describes, Step) else ()
+        others = [each for each in given if each not in self.built_from]
+        self.arguments = tuple(sorted(others, key=lambda each: first.index(each.name) if each.name in first else len(first)))
+        kinds = {each.kind: each.name for each in parameters_of(describes)}
+        self.has_labels, self.spread = Parameter.VAR_KEYWORD in kinds, kinds.get(Parameter.VAR_POSITIONAL, "")
 
-    def given(self) -> dict[str, Any]:
-        """Return the keywords that the file gives."""
-        return {name: getattr(self, name) for name in type(self).model_fields if name in self.model_fields_set - {"parents", "labels"}}
+    @property
+    def keys(self) -> list[str]:
+        """The keys that it may have, labels apart."""
+        above = [self.word] if self.word else [PATH] * bool(self.path) + [each.key for each in self.built_from]
+        inner = [part.key for each in self.arguments if isinstance(each.kind, Within) for part in each.kind.arguments]
+        return [*above, *(each.key for each in self.arguments if not isinstance(each.kind, Within)), *inner]
 
-    def member(self) -> Member:
-        parents = self.parents if isinstance(self.parents, tuple) else (self.parents,)
-        made: Member = self.describes(*parents, **self.given())
-        return made
+    @property
+    def example(self) -> str:
+        """An entry as it may be written."""
+        needed = "".join(f", {each.key} = ..." for each in self.arguments if each.needed and not isinstance(each.kind, Within))
+        return f"`{self.word.lower()} = {{ {self.word} = {self._parents()}{needed} }}`"
 
+    def _kind_words(self) -> list[str]:
+        return [next(word for word, kind in KINDS.items() if kind is each.kind) for each in self.built_from]
 
-class Labelled(Entry):
-    """An entry with labels: every key that is not its own is a length or an angle of its points."""
+    def _parents(self) -> str:
+        """Return what a member could be built from, as it is written."""
+        words = self._kind_words()
+        names = [[*EXAMPLES.get(word, ()), *"PQRSTUVW"][words[:place].count(word)] for place, word in enumerate(words)]
+        listed = ", ".join(f'"{each}"' for each in names)
+        return listed if len(names) == 1 else f"[{listed}]"
 
-    labels: dict[str, Value] = {}
+    # -- reading ---------------------------------------------------------------------------------------
 
-    @classmethod
-    def tabled(cls, given: Any) -> Any:
-        table = super().tabled(given)
-        own = cls.own_keys()
-        labels = {key: value for key, value in table.items() if key not in own}
+    def read(self, given: Any, names: Names) -> Member:
+        """Return the member that an entry says; DefinitionError, with all mistakes by their keys, for what cannot be."""
+        if not isinstance(given, Mapping):
+            raise DefinitionError(f"{shortened(given)} is not a table {{ key = value }} with the keys {', '.join(self.keys)}.")
+        mistakes = Mistakes()
+        labels = self._labels(given)
+        parents: Iterable[Any] = ()
+        if self.word:
+            with mistakes.at(self.word):
+                parents = self._read_parents(given[self.word], names)
+        else:
+            under_keys = read_table(given, names, self.built_from, mistakes)
+            parents = under_keys.pop(self.spread, under_keys.values())
+        for label in labels:
+            with mistakes.at(label):
+                labels[label] = value_of(given[label], names)
+        found = read_table(given, names, self.arguments, mistakes)
+        check_keys(given, [*self.keys, *labels], mistakes)
+        mistakes.check()
+        options = made_of(found, self.arguments) | labels
+        if not self.path:
+            return self.make(*parents, **options)
+        with told(f"{self.describes.__name__}(...)"):
+            return self.make(*parents, **options)
+
+    def _labels(self, given: Mapping[Any, Any]) -> dict[str, Any]:
+        """Return the keys that are lengths and angles of points; DefinitionError for one that cannot be."""
+        labels = [key for key in given if key not in self.keys] if self.has_labels else []
         if len(labels) > LABELS:
             raise DefinitionError(f"{len(labels)} labels are too many; up to {LABELS} are read.")
+        taken = {"self", *(each.name for each in parameters_of(self.describes))}
         for key in labels:
-            is_label = isinstance(key, str) and key.isidentifier() and len(key) <= 3 * NAME_LENGTH
-            if not is_label or key in ("self", *signature(cls.describes).parameters):
+            if not (isinstance(key, str) and key.isidentifier() and len(key) <= 3 * NAME_LENGTH) or key in taken:
                 raise DefinitionError(f"{shortened(key)} is not a label; write the points' names joined, such as AB or BOC.")
-        return {key: value for key, value in table.items() if key in own} | {"labels": labels}
+        return dict.fromkeys(labels)
 
-    @classmethod
-    def written_labels(cls, labels: Mapping[str, Any], design: Design) -> dict[str, Any]:
-        """Return labels with the values they have in a design; DefinitionError for one that a file would read as something else."""
+    def _read_parents(self, given: Any, names: Names) -> tuple[Any, ...]:
+        """Return what a member is built from: one thing, or a list of them."""
+        if len(self.built_from) == 1:
+            return (self.built_from[0].kind.read(given, names),)
+        if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != len(self.built_from):
+            words = self._kind_words()
+            what = f"two {words[0]}s" if words in (["point"] * 2, ["guide"] * 2) else " and ".join(f"a {word}" for word in words)
+            raise DefinitionError(f"{shortened(given)} is not {what}, such as {self._parents()}.")
+        return tuple(argument.kind.read(each, names) for argument, each in zip(self.built_from, given, strict=True))
+
+    # -- writing ---------------------------------------------------------------------------------------
+
+    def write(self, member: Any, design: Design) -> Any:
+        """Return a member as what a file holds: numbers, texts, lists, tables of them; DefinitionError for what it cannot."""
+        values = member.parents if isinstance(member, Step) else [kept(member, each.name) for each in self.built_from]
+        parents = [each.kind.write(value, design, "") for each, value in zip(self.built_from, values, strict=True)]
+        if self.word:
+            found: dict[str, Any] = {self.word: parents[0] if len(parents) == 1 else parents}
+        else:
+            found = ({PATH: self.path} if self.path else {}) | dict(zip((each.key for each in self.built_from), parents, strict=True))
+        labels = member.labels if self.has_labels else {}
         for label in labels:
-            if label in cls.own_keys():
+            if label in self.keys:
                 raise DefinitionError(f"the label {label} is a word of the file; give one of its points another name.")
-        return {label: design.label(label, value) for label, value in labels.items()}
+        found |= {label: design.label(label, value) for label, value in labels.items()}
+        return found | written_table(member, design, self.arguments, member.name)

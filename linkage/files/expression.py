@@ -11,17 +11,125 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
+import numpy as np
+
 from ..errors import DefinitionError, unknown
-from ..quantities import Member, Number, Quantity
-from ..steps import Arrow
-from ..units import UNITS
-from .functions import CALLS, Call, number
-from .limits import NESTING, OPERATIONS
+from ..quantities import Function, Length, Member, Number, Quantity, angle, distance, x, y
+from ..quantities.quantity import FUNCTIONS
+from ..steps import Arrow, CosineAngle, Turn, Vector
+from ..units import UNITS, parse
 from .names import Names
-from .tokens import GRAMMAR, Token, tokens
+
+EXPRESSION_LENGTH = 1_000
+OPERATIONS = 100
+NESTING = 40
+GRAMMAR = "an expression is made of numbers with units, names, + - * / **, brackets and functions such as angle(P, Q)"
+
+# -- words -------------------------------------------------------------------------------------------------
+
+_UNIT = "|".join(re.escape(name) for name in sorted(UNITS, key=len, reverse=True))
+_TOKEN = re.compile(
+    rf"\s*(?:(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?(?:[ \t]*(?P<unit>{_UNIT})(?!\w))?)"
+    r"|(?P<name>[^\W\d]\w*)|(?P<sign>\*\*|[-+*/(),=])|(?P<end>\Z))"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """A word of an expression: its kind (`number`, `name`, `sign`, `end`), its text, and a number's value [SI] and unit."""
+
+    kind: str
+    text: str
+    value: float = 0.0
+    unit: str = ""
+
+
+def tokens(text: str) -> list[Token]:
+    """Return an expression's words, the last one of kind `end`; DefinitionError for what is none."""
+    if len(text) > EXPRESSION_LENGTH:
+        raise DefinitionError(f"the expression has {len(text)} characters; up to {EXPRESSION_LENGTH} are read. Give a part of it a name.")
+    found: list[Token] = []
+    place = 0
+    while not found or found[-1].kind != "end":
+        match = _TOKEN.match(text, place)
+        if match is None:
+            raise DefinitionError(f"{text!r} cannot be read from {text[place:].strip()[:12]!r} on; {GRAMMAR}.")
+        kind = str(match.lastgroup)
+        word = match.group(kind)
+        found.append(Token(kind, word, parse(word), match.group("unit") or "") if kind == "number" else Token(kind, word))
+        place = match.end()
+    if len(found) > 6 * OPERATIONS:
+        raise DefinitionError(f"the expression has {len(found)} words; up to {6 * OPERATIONS} are read. Give a part of it a name.")
+    return found
+
+
+def one_unit(text: str) -> str:
+    """Return the unit of a text that is one number with a unit, its sign apart; "" for any other. DefinitionError for no expression."""
+    values = [word for word in tokens(text) if word.kind in ("number", "name")]
+    return values[0].unit if len(values) == 1 else ""
+
+
+# -- what an expression may call, and nothing else ----------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Call:
+    """A function of the class form: the kinds of its arguments, and what it makes of them."""
+
+    kinds: tuple[str, ...]
+    make: Callable[..., Member]
+    keywords: tuple[str, ...] = ()
+
+    @property
+    def makes_vector(self) -> bool:
+        """Whether it makes a vector, not a quantity."""
+        return self.make in (Vector, Turn)
+
+
+def applied(function: str) -> Callable[..., Quantity]:
+    """Return NumPy's function of quantities; of numbers alone it is a number, as it is in a class."""
+
+    def make(*arguments: Quantity) -> Quantity:
+        values = [each.number for each in arguments if isinstance(each, Number)]
+        if len(values) < len(arguments):
+            return Function(function, *arguments)
+        with np.errstate(all="ignore"):
+            return number(float(FUNCTIONS[function](*values)), f"{function}({', '.join(map(repr, values))})")
+
+    return make
+
+
+def number(value: Any, text: str) -> Number:
+    """Return a number; DefinitionError where a calculation has no finite one."""
+    if not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise DefinitionError(f"{text} has no finite value.")
+    return Number(float(value))
+
+
+def absolute(argument: Arrow | str | Quantity) -> Quantity:
+    """Return the length of a vector or of the one with that name, the absolute value of a quantity."""
+    return applied("absolute")(argument) if isinstance(argument, Quantity) else Length(argument)
+
+
+PAIR = ("point", "point")
+ONE, TWO = ("quantity",), ("quantity", "quantity")
+
+CALLS: Mapping[str, Call] = MappingProxyType(
+    {"angle": Call(PAIR, angle), "distance": Call(PAIR, distance), "x": Call(("point",), x), "y": Call(("point",), y)}
+    | {"CosineAngle": Call(("quantity",) * 3, CosineAngle), "abs": Call(("any",), absolute), "absolute": Call(("any",), absolute)}
+    | {"Vector": Call(PAIR, Vector), "Turn": Call(("vector", "quantity"), Turn, ("length",))}
+    | {name: Call(ONE, applied(name)) for name in ("sqrt", "sin", "cos", "tan", "exp", "log")}
+    | {name: Call(TWO, applied(name)) for name in ("arctan2", "minimum", "maximum")}
+    | {"atan2": Call(TWO, applied("arctan2")), "min": Call(TWO, applied("minimum")), "max": Call(TWO, applied("maximum"))}
+)
+
+# -- reading -----------------------------------------------------------------------------------------------
 
 CONSTANTS = {"pi": math.pi} | {name: factor for name, (factor, _) in UNITS.items()}
 BINARY: dict[str, Callable[[Any, Any], Any]] = {

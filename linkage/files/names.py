@@ -9,7 +9,8 @@ from unicodedata import normalize
 
 from ..errors import DefinitionError, unknown
 from ..quantities import Member, Quantity, Ref
-from .limits import NAME_LENGTH
+
+NAME_LENGTH = 60
 
 
 @dataclass(frozen=True)

@@ -3,48 +3,57 @@
 from __future__ import annotations
 
 import os
-import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from copy import copy
 from typing import Any
 
 import numpy as np
-from pydantic import BaseModel
 
-from ..errors import AssemblyError, DefinitionError, FileError
+from ..errors import AssemblyError, DefinitionError, FileError, about
 from ..mechanism import Mechanism
+from ..plan import Table
 from ..quantities import Member
-from .entry import Entry
-from .faults import Faults, Key
-from .limits import LINKS, MEMBERS, SKETCHED
+from ..steps import Point
 from .names import Names, member_name, shortened
 from .registry import registry
-from .source import source
+from .source import Faults, source
 
 HEAD = ("name", "doc", "order")
+MEMBERS = 400
+SKETCHED = 100  # members that stand in a sketch: assembling them takes time by the cube
+LINKS = 200
 
 
-def load(path_or_text: str | os.PathLike[str]) -> type[Mechanism]:
+def load(path_or_text: str | os.PathLike[str], trust: Collection[str] = ()) -> type[Mechanism]:
     """Return the class of mechanism that a TOML or JSON file says; a text is read as such where it has several lines or begins with `{`.
 
+    A file is data and runs nothing: a class of steps or loads that it names by an import path, `kind = "mypackage.cams:CamFollower"`,
+    must be imported already, or its package stand in `trust`, as in `load(path, trust=["mypackage"])`: then it is imported.
     Raises FileError with every mistake, its key and, in TOML, its line; AssemblyError for a mechanism that cannot be assembled.
     """
     found = source(path_or_text)
-    return built(found.data, Faults(found.name, found.line_of))
+    return built(found.data, Faults(source=found.name, line_of=found.line_of), trusted(trust))
 
 
-def from_dict(data: Mapping[str, Any]) -> type[Mechanism]:
-    """Return the class of mechanism that tables say, as `load` has them from a file. Errors are those of `load`."""
-    return built(data, Faults("the tables", lambda key: 0))
+def from_dict(data: Mapping[str, Any], trust: Collection[str] = ()) -> type[Mechanism]:
+    """Return the class of mechanism that tables say, as `load` has them from a file. `trust` and errors are those of `load`."""
+    return built(data, Faults(source="the tables"), trusted(trust))
 
 
-def built(data: Any, faults: Faults) -> type[Mechanism]:
+def trusted(given: Any) -> tuple[str, ...]:
+    """Return the packages that may be imported; DefinitionError for what is no list of names."""
+    if isinstance(given, str) or not isinstance(given, Collection) or not all(isinstance(each, str) and each for each in given):
+        raise DefinitionError(f'trust={shortened(given)} is no list of packages; write trust=["mypackage"].')
+    return tuple(given)
+
+
+def built(data: Any, faults: Faults, trust: Collection[str]) -> type[Mechanism]:
     """Return the class that the tables say."""
     sections = sections_of(data, faults)
     title, doc = head(data, faults)
     names = names_of(sections, faults)
     order = ordered(data, names, faults)
-    members = members_of(order, sections, names, title, faults)
+    members = members_of(order, sections, names, title, faults, trust)
     faults.check()
     return made(title, doc, members, names, faults)
 
@@ -119,25 +128,28 @@ def ordered(data: Mapping[str, Any], names: Names, faults: Faults) -> list[str]:
 
 
 def members_of(
-    order: list[str], sections: Mapping[str, Mapping[str, Any]], names: Names, title: str, faults: Faults
+    order: list[str], sections: Mapping[str, Mapping[str, Any]], names: Names, title: str, faults: Faults, trust: Collection[str]
 ) -> dict[str, Member]:
     """Return the members by name, in an order, each sound by itself; the mistakes of the others are noted."""
     for name in order:
         section = names.sections[name]
         given = sections[section][name]
         with faults.at(section, name), np.errstate(all="ignore"):
-            names.built[name] = member_of(registry().reading(section, given), name, given, names, title)
+            member = registry().reading(section, given, trust).read(given, names)
+            member.__set_name__(Mechanism, name)
+            check_alone(name, member, title)
+            names.built[name] = member
     return names.built
 
 
-def member_of(kind: type[Entry], name: str, given: Any, names: Names, title: str) -> Member:
-    """Return one member, with its name, checked by itself."""
-    entry: BaseModel = kind.model_validate(given, context=names)
-    assert isinstance(entry, Entry)
-    member = entry.member()
-    member.__set_name__(Mechanism, name)
-    kind.checked(name, member, title)
-    return member
+def check_alone(name: str, member: Member, title: str) -> None:
+    """Raise DefinitionError for what is wrong with a member by itself, whatever the others are."""
+    table = Table(title)
+    for variable, default, kind, unit in member.variables():
+        table.add(variable, default, kind, f"{name} = {member}", unit)
+    member.enter(table)
+    if isinstance(member, Point):
+        member.bind(name, table)
 
 
 # -- the class ---------------------------------------------------------------------------------------------
@@ -149,10 +161,11 @@ def made(title: str, doc: str | None, members: Mapping[str, Member], names: Name
         with np.errstate(all="ignore"):
             machine: type[Mechanism] = type(title, (Mechanism,), {"__module__": __name__, "__doc__": doc, **members})
             for name in machine.plan.named():
-                machine.plan.nodes(name)
+                with about(name):
+                    machine.plan.nodes(name)
         return machine
     except DefinitionError as error:
-        faults.add(key_of(str(error), names), str(error))
+        faults.add((names.sections[error.member], error.member) if error.member in names.sections else (), str(error))
         raise FileError(faults.text()) from error
     except AssemblyError as error:
         faults.add((names.sections[error.point], error.point) if error.point in names.sections else (), str(error))
@@ -163,9 +176,3 @@ def made(title: str, doc: str | None, members: Mapping[str, Member], names: Name
         raise FileError(f"{faults.source}: expressions hang on each other in too long a chain; shorten it.") from None
     except ArithmeticError as error:
         raise FileError(f"{faults.source}: a value overflows or is divided by zero ({error}); look for extreme numbers.") from error
-
-
-def key_of(message: str, names: Names) -> Key:
-    """Return the key of the member that a message is about: `B = ...`, else the first name in it; empty where it names none."""
-    words = [*re.findall(r"(\w+) = ", message), *re.findall(r"\w+", message)]
-    return next(((names.sections[word], word) for word in words if word in names.sections), ())

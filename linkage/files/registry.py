@@ -1,91 +1,200 @@
-"""Which kinds of member a file may hold. A package adds its own by entry points of the group `hydrolinkage.files`."""
+"""Which classes of members a file may hold, and in which section. A package adds its own by entry points of `hydrolinkage.files`.
+
+A class that nobody has registered is named by its import path, `kind = "mypackage.cams:CamFollower"`. A file is data: such a class is
+looked up among what is imported already; only a package that the reader trusts by name is imported for it.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import sys
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from importlib import import_module
 from importlib.metadata import entry_points
-from typing import Any
+from math import isfinite
+from types import ModuleType
+from typing import Any, TypeAlias
 
+from .. import loads, steps
 from ..errors import DefinitionError, unknown
-from ..quantities import Member
-from .entry import Entry
-from .loads import (
-    ActuatorEntry,
-    CaseEntry,
-    DamperEntry,
-    ForceEntry,
-    GuideFrictionEntry,
-    LinkMassEntry,
-    MomentEntry,
-    PinFrictionEntry,
-    SpringEntry,
-    SupportEntry,
-    WeightEntry,
-)
-from .names import shortened
-from .parts import GroupEntry, GuideEntry, LinkEntry, SlideEntry
-from .points import (
-    CrankEntry,
-    DyadEntry,
-    GroundEntry,
-    GuideCrossEntry,
-    OffsetEntry,
-    OnGuideEntry,
-    OnLinkEntry,
-    PinEntry,
-    PinSlotDyadEntry,
-    SliderDyadEntry,
-    YokeDyadEntry,
-)
-from .scalars import DimensionEntry, DrawnEntry, OutputEntry, StrokeEntry, VectorEntry
+from ..motion import stroke_unit
+from ..quantities import Dimension, Member, Quantity, Stroke, ref
+from ..quantities.quantity import plain
+from ..units import UNITS, parse
+from .design import Design, in_degrees
+from .entry import PATH, Entry, worded
+from .expression import one_unit
+from .names import Names, shortened
+from .validators import arrow_of, coordinates_of, number_of, points_of, stroke_ends, strokes_of, value_of
 
 GROUP = "hydrolinkage.files"
 SHIPPED = {"hydraulics": "hydrolinkage"}
 """Sections that packages beside this one bring, each with what to install for it."""
 
-OWN: tuple[type[Entry], ...] = (
-    StrokeEntry, DimensionEntry, DrawnEntry, GroundEntry, GuideEntry,
-    DyadEntry, OnLinkEntry, CrankEntry, OffsetEntry, SliderDyadEntry, PinSlotDyadEntry, GuideCrossEntry, YokeDyadEntry, OnGuideEntry,
-    VectorEntry, LinkEntry, PinEntry, SlideEntry, GroupEntry, OutputEntry,
-    WeightEntry, ForceEntry, MomentEntry, LinkMassEntry, SpringEntry, DamperEntry, ActuatorEntry, SupportEntry,
-    PinFrictionEntry, GuideFrictionEntry, CaseEntry,
+EXAMPLES = {
+    "points": '`B = { Dyad = ["A", "O"], AB = "L0 + S", OB = 0.30, side = "RIGHT" }`',
+    "loads": '`load = { Weight = "G", mass = 1200 }`',
+}
+LINK_POINTS = 26
+LONGER = 4  # characters that a dimension may be longer in its unit than in SI
+
+
+# -- entries that are no tables ----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Bare:
+    """How the members of a class stand in a file without keys, such as `A = [0.2, 0.55]`; the only class of its section."""
+
+    describes: type[Any]
+    section: str
+    read: Callable[[Any, Names], Member]
+    write: Callable[[Any, Design], Any]
+    family: bool = False
+    word: str = ""
+    example: str = ""
+
+
+def stroke_written(member: Stroke, design: Design) -> list[float | str]:
+    """Return a stroke's ends, those of an angle in degrees."""
+    turns = stroke_unit(design.plan, member.name) == "rad"
+    return [in_degrees(end) if turns else end for end in (member.start, member.end)]
+
+
+def dimension_of(given: Any, names: Names) -> Dimension:
+    """Return a dimension with the unit it is shown in: a number [SI], `500 mm`, or { value = 0.5, unit = "mm" }."""
+    if isinstance(given, Mapping):
+        if not {"value"} <= set(given) <= {"value", "unit"} or not isinstance(given.get("unit", ""), str):
+            raise DefinitionError(f'{shortened(dict(given))}: a dimension is a number, "500 mm", or {{ value = 0.5, unit = "mm" }}.')
+        return Dimension(number_of(given["value"], names), given.get("unit", ""))
+    return Dimension(number_of(given, names), one_unit(given) if isinstance(given, str) else "")
+
+
+def dimension_written(member: Dimension, design: Design) -> Any:
+    """Return a dimension in its unit where that is exact and short."""
+    value = design.set.get(member.name, member.default)
+    design.written.add(member.name)
+    if not member.unit:
+        return value
+    shown = value / UNITS[member.unit][0]
+    texts = [f"{shown:.12g}", *([repr(shown)] if len(repr(shown)) <= len(repr(value)) + LONGER else [])]
+    found = (f"{text} {member.unit}" for text in texts if isfinite(shown) and parse(f"{text} {member.unit}") == value)
+    return next(found, {"value": value, "unit": member.unit})
+
+
+def output_of(given: Any, names: Names) -> Quantity:
+    """Return the quantity that an expression says; of a name alone one that follows it."""
+    found = value_of(given, names)
+    return ref(found.name) if found.name else found
+
+
+def output_written(member: Any, design: Design) -> float | str:
+    """Return an output as its own rule, whatever its name."""
+    return member.number if member.is_constant else design.own(member)
+
+
+def vector_of(given: Any, names: Names) -> steps.Arrow:
+    """Return the vector that a text says; DefinitionError for the name of one."""
+    found = arrow_of(given, names)
+    if isinstance(found, str):
+        raise DefinitionError(f"{found} is a vector already; use that name.")
+    return found
+
+
+def drawn_written(member: steps.Drawn, design: Design) -> dict[str, Any]:
+    """Return the strokes at which a sketch holds, angles in degrees."""
+    turning = [name for name in design.plan.strokes if stroke_unit(design.plan, name) == "rad"]
+    return {name: in_degrees(plain(value)) if name in turning else plain(value) for name, value in member.strokes.items()}
+
+
+def ground_written(member: steps.Ground, design: Design) -> list[float | str]:
+    """Return the coordinates of a fixed point."""
+    return [design.variable(name, value) for name, value in member.coordinates()]
+
+
+def group_written(member: steps.Group, design: Design) -> str:
+    """Return the names of a group's pins in one text."""
+    return " ".join(member.pins)
+
+
+def link_of(*points: str, **labels: Any) -> steps.Link:
+    """Return a link; DefinitionError for one of one point, or of more than any has."""
+    if len(points) > LINK_POINTS:
+        raise DefinitionError(f"a link of {len(points)} points; up to {LINK_POINTS} are read.")
+    if len(points) < 2:
+        raise DefinitionError(f"a link joins at least two points, not {' '.join(points)} alone.")
+    return steps.Link(*points, **labels)
+
+
+AnEntry: TypeAlias = Entry | Bare
+
+POINTS = (
+    steps.Dyad, steps.OnLink, steps.Crank, steps.Offset, steps.SliderDyad, steps.PinSlotDyad, steps.GuideCross, steps.YokeDyad,
+    steps.OnGuide,
 )  # fmt: skip
+LOADS = (
+    loads.Weight, loads.Force, loads.Moment, loads.LinkMass, loads.Spring, loads.Damper, loads.Actuator, loads.Support,
+    loads.PinFriction, loads.GuideFriction,
+)  # fmt: skip
+OWN: tuple[AnEntry, ...] = (
+    Bare(Stroke, "strokes", lambda given, names: Stroke(*stroke_ends(given, names)), stroke_written),
+    Bare(Dimension, "dimensions", dimension_of, dimension_written),
+    Bare(steps.Drawn, "drawn", lambda given, names: steps.Drawn(strokes_of(given, names)), drawn_written),
+    Bare(steps.Ground, "ground", lambda given, names: steps.Ground(*coordinates_of(given, names)), ground_written),
+    Entry(steps.Guide, "guides", keys={"P": "from", "Q": "to"}),
+    *(Entry(step, "points", step.__name__) for step in POINTS),
+    Bare(steps.Arrow, "vectors", vector_of, lambda member, design: design.own(member), family=True),
+    Entry(steps.Link, "links", make=link_of),
+    Entry(steps.Pin, "pins"),
+    Entry(steps.Slide, "slides"),
+    Bare(steps.Group, "groups", lambda given, names: steps.Group(" ".join(points_of(given, names))), group_written),
+    Bare(Quantity, "outputs", output_of, output_written, family=True),
+    *(Entry(load, "loads", load.__name__) for load in LOADS),
+    Entry(loads.LoadCase, "cases"),
+)
+
+
+# -- all that there are ------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
 class Registry:
-    """The kinds of entry, by section and word for reading, by class for writing."""
+    """The entries there are, by section and word for reading, by class for writing."""
 
-    entries: tuple[type[Entry], ...]
+    entries: tuple[AnEntry, ...]
 
     @cached_property
-    def sections(self) -> Mapping[str, Mapping[str, type[Entry]]]:
+    def sections(self) -> Mapping[str, Mapping[str, AnEntry]]:
         """The sections in their usual order, each with its entries by word."""
-        found: dict[str, dict[str, type[Entry]]] = {}
+        found: dict[str, dict[str, AnEntry]] = {}
         for entry in self.entries:
             words = found.setdefault(entry.section, {})
             if entry.word in words or (words and "" in {entry.word, *words}):
-                raise DefinitionError(f"[{entry.section}] {entry.word}: {entry.__name__} takes a word that is taken.")
+                raise DefinitionError(f"[{entry.section}] {entry.word}: {entry.describes.__name__} takes a word that is taken.")
             words[entry.word] = entry
         return found
 
     def kind(self, section: str) -> str:
         """Return what the members of a section are: `point`, `quantity`, ..."""
-        return next(iter(self.sections[section].values())).describes.kind
+        found: str = next(iter(self.sections[section].values())).describes.kind
+        return found
 
-    def reading(self, section: str, given: Any) -> type[Entry]:
-        """Return the kind of an entry of a section; DefinitionError where its word is missing, unknown or not the only one."""
+    def reading(self, section: str, given: Any, trust: Collection[str] = ()) -> AnEntry:
+        """Return how an entry of a section is read; DefinitionError where its word is missing, unknown or not the only one."""
         words = self.sections[section]
         if "" in words:
             return words[""]
         found = [word for word in words if isinstance(given, Mapping) and word in given]
-        if len(found) == 1:
-            return words[found[0]]
+        if isinstance(given, Mapping) and PATH in given and (not found or ":" in str(given[PATH])):  # beside a word it may be a label
+            found.append(PATH)
         if len(found) > 1:
             raise DefinitionError(f"it is {' and '.join(found)} at once; say one of them.")
-        example = next(iter(words.values())).__doc__
+        if found == [PATH]:
+            return Entry(class_of(given[PATH], section, trust), section, path=given[PATH])
+        if found:
+            return words[found[0]]
+        example = EXAMPLES.get(section) or next(iter(words.values())).example
         key = next((key for key in given if isinstance(key, str)), "") if isinstance(given, Mapping) else ""
         what = unknown("Kind", shortened(key, quote=False), words) if key else f"{shortened(given)} is no entry of [{section}]."
         raise DefinitionError(f"{what} Write it like {example}.{self.elsewhere(given)}{self.absent()}")
@@ -104,25 +213,65 @@ class Registry:
             if section not in self.sections
         )
 
-    def writing(self, member: Member) -> type[Entry]:
-        """Return the kind of entry that a member is written as; DefinitionError where a file cannot hold it."""
+    def writing(self, member: Member) -> AnEntry:
+        """Return how a member is written; DefinitionError where a file cannot hold it."""
+        cls = type(member)
         by_class = {entry.describes: entry for entry in self.entries}
-        found = next((by_class[base] for base in type(member).__mro__ if base in by_class), None)
-        if found is None or not (found.family or found.describes is type(member)):
-            raise DefinitionError(f"{member.name} = {member}: a file cannot hold a {type(member).__name__}.{self.absent()}")
-        return found
+        found = next((by_class[base] for base in cls.__mro__ if base in by_class), None)
+        if found is not None and (found.family or found.describes is cls):
+            return found
+        path, why = f"{cls.__module__}:{cls.__qualname__}", ""
+        if worded(cls) and cls.file_section in self.sections:
+            if imported(path) is cls:
+                return Entry(cls, cls.file_section, path=path)
+            why = f" A file names such a class by its import path, but {path} leads to none: define it in a module, outside functions."
+        raise DefinitionError(f"{member.name} = {member}: a file cannot hold a {cls.__name__}.{why}{self.absent()}")
 
 
 @lru_cache(maxsize=1)
 def registry() -> Registry:
-    """Return the kinds of this package and of those that are installed beside it."""
-    return Registry((*OWN, *extensions()))
+    """Return the entries of this package and of those that are installed beside it."""
+    return Registry((*OWN, *(Entry(cls, cls.file_section, cls.__name__ if worded(cls) else "") for cls in extensions())))
 
 
-def extensions() -> Iterable[type[Entry]]:
-    """Yield the entries that other packages bring; DefinitionError, with its name, for one that cannot be loaded."""
+def extensions() -> Iterable[type[Member]]:
+    """Yield the classes that other packages bring; DefinitionError, with its name, for one that cannot be loaded."""
     for point in sorted(entry_points(group=GROUP), key=lambda point: point.name):
         try:
             yield point.load()
         except (ImportError, AttributeError) as error:
             raise DefinitionError(f"the entry {point.name} ({point.value}) of a file cannot be loaded: {error}.") from error
+
+
+# -- classes that are named by their import path -----------------------------------------------------------
+
+
+def class_of(path: Any, section: str, trust: Collection[str]) -> type[Member]:
+    """Return the class that an import path names; DefinitionError unless it is imported already or its package is trusted."""
+    module, colon, name = path.partition(":") if isinstance(path, str) else ("", "", "")
+    if not colon or not all(part.isidentifier() for part in (*module.split("."), *name.split("."))):
+        raise DefinitionError(f'{shortened(path)} is no import path of a class; write "package.module:Class".')
+    if module not in sys.modules and any(module == each or module.startswith(f"{each}.") for each in trust):
+        try:
+            import_module(module)
+        except Exception as error:
+            raise DefinitionError(f"{module} cannot be imported: {type(error).__name__}: {error}.") from error
+    if module not in sys.modules:
+        package = module.partition(".")[0]
+        words = f"{path} is not imported, and a file runs no code unasked; import {module} first"
+        raise DefinitionError(f'{words}, or say load(..., trust=["{package}"]) if you trust that package.')
+    found = imported(path)
+    if not isinstance(found, type) or not issubclass(found, Member) or not worded(found) or found.file_section != section:
+        raise DefinitionError(f"{path} is no class of members that stand in [{section}].")
+    if any(getattr(getattr(found, name), "__isabstractmethod__", False) for name in dir(found)):
+        raise DefinitionError(f"{path} is abstract; name a class that can be made.")
+    return found
+
+
+def imported(path: str) -> Any:
+    """Return what an import path names among what is imported already, without running anything; None where there is none."""
+    module, _, name = path.partition(":")
+    found: Any = sys.modules.get(module)
+    for part in name.split("."):
+        found = vars(found).get(part) if isinstance(found, (ModuleType, type)) else None
+    return found

@@ -1,4 +1,4 @@
-"""From a file or a text to plain tables: TOML by the standard library, JSON without its loopholes."""
+"""From a file or a text to plain tables, TOML by the standard library, JSON without its loopholes; and what is wrong with them."""
 
 from __future__ import annotations
 
@@ -7,18 +7,22 @@ import os
 import re
 import tomllib
 from collections import Counter
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from ..disk import read
-from ..errors import FileError
-from .limits import FILE_BYTES, TOML_LINE
-from .lines import line_of, lines
-from .names import shortened
+from ..errors import DefinitionError, FileError
+from .names import NAME_LENGTH, shortened
+
+Key = tuple[str, ...]
 
 TEXT = "the text"
+FILE_BYTES = 1_000_000
+TOML_LINE = 5_000  # characters: a dotted key as long as a file takes the parser's memory by its square
+FAULTS_SHOWN = 20
 
 
 @dataclass(frozen=True)
@@ -27,11 +31,15 @@ class Source:
 
     name: str
     data: Any
-    places: Mapping[tuple[str, ...], int]
+    places: Mapping[Key, int]
 
-    def line_of(self, key: tuple[str, ...]) -> int:
-        """Return the line of a key, 0 where it is not known."""
-        return line_of(self.places, key)
+    def line_of(self, key: Key) -> int:
+        """Return the line of a key, else the first one inside it, else that of the nearest table around it; 0 where none is known."""
+        if key in self.places:
+            return self.places[key]
+        inside = [line for path, line in self.places.items() if key and path[: len(key)] == key]
+        around = (self.places[key[:end]] for end in range(len(key), 0, -1) if key[:end] in self.places)
+        return min(inside, default=next(around, 0))
 
 
 def source(path_or_text: str | os.PathLike[str]) -> Source:
@@ -106,3 +114,102 @@ def unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         [(key, _)] = Counter(key for key, _ in pairs).most_common(1)
         raise ValueError(f"the key {shortened(key)} stands twice")
     return table
+
+
+# -- the lines of a TOML file on which its keys stand ------------------------------------------------------
+
+_PART = r"""[A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*'"""
+_PATH = re.compile(rf"\s*(\[)?\s*((?:{_PART})(?:\s*\.\s*(?:{_PART}))*)\s*(?:=|\])")
+_SPLIT = re.compile(_PART)
+_LONG = re.compile(r'"""|' + r"'''")
+
+
+def lines(text: str) -> Mapping[Key, int]:
+    """Return the line, counted from 1, of every table and key that stands at the start of one."""
+    found: dict[Key, int] = {}
+    table: Key = ()
+    for number, line in outside(text):
+        match = _PATH.match(line)
+        if match is None:
+            continue
+        path = tuple(part.strip("\"'") for part in _SPLIT.findall(match.group(2)))
+        if match.group(1):
+            table = path
+        found.setdefault(table if match.group(1) else (*table, *path), number)
+    return found
+
+
+def outside(text: str) -> Iterator[tuple[int, str]]:
+    """Yield the lines, with their numbers, that do not start inside a text of several lines."""
+    inside = ""
+    for number, line in enumerate(text.splitlines(), 1):
+        if not inside:
+            yield number, line
+        for mark in _LONG.findall(line):
+            inside = "" if inside == mark else inside or mark
+
+
+# -- what is wrong -----------------------------------------------------------------------------------------
+
+
+class SeveralError(DefinitionError):
+    """Several mistakes in one part of a file, each with its key inside that part."""
+
+    def __init__(self, found: list[tuple[Key, str]]) -> None:
+        super().__init__(" ".join(message for _, message in found))
+        self.found = found
+
+
+@dataclass
+class Mistakes:
+    """The mistakes of a part of a file that were found so far, each with its key inside it."""
+
+    found: list[tuple[Key, str]] = field(default_factory=list)
+
+    def add(self, key: Key, message: str) -> None:
+        """Note a mistake."""
+        self.found.append((key, message))
+
+    @contextmanager
+    def at(self, *key: str) -> Iterator[None]:
+        """Note what goes wrong inside under a key, and go on behind."""
+        try:
+            yield
+        except SeveralError as error:
+            self.found += [((*key, *where), message) for where, message in error.found]
+        except DefinitionError as error:
+            self.add(key, str(error))
+
+    def check(self) -> None:
+        """Raise SeveralError where there are mistakes."""
+        if self.found:
+            raise SeveralError(self.found)
+
+
+@dataclass
+class Faults(Mistakes):
+    """The mistakes of a whole file. `source` is its name, `line_of` tells the line of a key, 0 where it is not known."""
+
+    source: str = TEXT
+    line_of: Callable[[Key], int] = lambda key: 0
+
+    def check(self) -> None:
+        """Raise FileError where there are mistakes."""
+        if self.found:
+            raise FileError(self.text())
+
+    def text(self) -> str:
+        """Return all mistakes, one a line."""
+        lines = [self.line(key, message) for key, message in sorted(self.found, key=lambda fault: self.line_of(fault[0]))]
+        if len(lines) == 1:
+            return f"{self.source}: {lines[0]}"
+        rest = len(lines) - FAULTS_SHOWN
+        more = [f"and {rest} more"] if rest > 0 else []
+        return "\n  ".join([f"{self.source}: {len(lines)} mistakes:", *lines[:FAULTS_SHOWN], *more])
+
+    def line(self, key: Key, message: str) -> str:
+        """Return one mistake with its place."""
+        line = self.line_of(key)
+        parts = [part if len(part) <= NAME_LENGTH and (part.isidentifier() or part.isdecimal()) else shortened(part) for part in key]
+        places = [*([f"line {line}"] if line else []), *([".".join(parts)] if parts else [])]
+        return f"{', '.join(places)}: {message}" if places else message

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+import json
 import os
+import re
+from collections.abc import Iterator, Mapping
 from inspect import cleandoc
 from pathlib import Path
+from textwrap import fill
 from typing import Any
 
 from ..disk import replacing_text
 from ..errors import DefinitionError, FileError
 from ..mechanism import Mechanism, declared, require_mechanism
 from .design import Design, measured, members_of
-from .json_text import json_text
 from .names import Names, shortened
 from .registry import registry
-from .toml_text import toml_text
 
 Machine = type[Mechanism] | Mechanism
+WIDTH = 120
 
 
 def to_dict(machine: Machine) -> dict[str, Any]:
@@ -32,7 +35,7 @@ def to_dict(machine: Machine) -> dict[str, Any]:
     design = Design(machine, Names(sections, {name: registry().kind(section) for name, section in sections.items()}))
     tables: dict[str, dict[str, Any]] = {section: {} for section in dict.fromkeys(sections.values())}
     for name, member in members.items():
-        tables[sections[name]][name] = written(name, entries[name].written, member, design)
+        tables[sections[name]][name] = written(name, entries[name].write, member, design)
     if design.set:
         for name, labels in measured(design, members).items():
             tables[sections[name]][name] |= labels
@@ -91,3 +94,74 @@ def save(machine: Machine, path: str | os.PathLike[str]) -> None:
     text = writers[place.suffix](machine)
     with replacing_text(place) as stream:
         stream.write(text)
+
+
+# -- JSON: a line for each member --------------------------------------------------------------------------
+
+
+def json_text(data: Mapping[str, Any]) -> str:
+    """Return the text of a file's tables."""
+    return "{\n" + ",\n".join(f"  {json_inline(name)}: {json_section(value)}" for name, value in data.items()) + "\n}\n"
+
+
+def json_section(value: Any) -> str:
+    """Return a section with a line for each member; any other value in one line."""
+    if not isinstance(value, Mapping):
+        return json_inline(value)
+    return "{\n" + ",\n".join(f"    {json_inline(name)}: {json_inline(each)}" for name, each in value.items()) + "\n  }"
+
+
+def json_inline(value: Any) -> str:
+    """Return a value in one line."""
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+
+
+# -- TOML: a line for each member where it fits, a table of its own where it does not -----------------------
+
+
+def toml_text(data: Mapping[str, Any]) -> str:
+    """Return the text of a file's tables: plain values first, then a table for each section."""
+    head = [f"{toml_key(name)} = {long_text(value)}" for name, value in data.items() if not isinstance(value, Mapping)]
+    sections = ["\n".join(toml_section(name, table)) for name, table in data.items() if isinstance(table, Mapping)]
+    return "\n\n".join(["\n".join(head), *sections]) + "\n"
+
+
+def toml_section(name: str, table: Mapping[str, Any]) -> Iterator[str]:
+    """Yield a section's lines."""
+    lines = [f"{toml_key(each)} = {toml_inline(value)}" for each, value in table.items()]
+    if all(len(line) <= WIDTH or not isinstance(value, Mapping) for line, value in zip(lines, table.values(), strict=True)):
+        yield f"[{toml_key(name)}]"
+        yield from lines
+        return
+    for place, (each, value) in enumerate(table.items()):
+        yield from ["", f"[{toml_key(name)}.{toml_key(each)}]"][place == 0 :]
+        yield from (f"{toml_key(part)} = {toml_inline(inner)}" for part, inner in value.items())
+
+
+def toml_key(name: str) -> str:
+    """Return a key, in quotes where its letters are not all plain."""
+    return name if re.fullmatch(r"[A-Za-z0-9_-]+", name) else toml_inline(name)
+
+
+def toml_inline(value: Any) -> str:
+    """Return a value in one line."""
+    if isinstance(value, Mapping):
+        return f"{{ {', '.join(f'{toml_key(name)} = {toml_inline(each)}' for name, each in value.items())} }}"
+    if isinstance(value, list):
+        return f"[{', '.join(map(toml_inline, value))}]"
+    if isinstance(value, (str, bool)):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    return repr(value)
+
+
+def long_text(value: Any) -> str:
+    """Return a value of the head; a text of several lines as such, a list of names filled into lines."""
+    if isinstance(value, list):
+        names = " ".join(f"{toml_inline(each)}," for each in value)
+        return "[\n" + fill(names, WIDTH, initial_indent="    ", subsequent_indent="    ") + "\n]"
+    if not isinstance(value, str) or "\n" not in value:
+        return toml_inline(value)
+    escaped = value.replace("\\", "\\\\").replace('"""', '""\\"')
+    if escaped.endswith('"'):
+        escaped = escaped[:-1] + '\\"'
+    return f'"""\n{escaped}"""'

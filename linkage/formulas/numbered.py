@@ -33,7 +33,7 @@ def equations(
 ) -> Equations:
     """Return a mechanism's equations, numbered from `start`, in the vector method's primitives; see `linkage.equations`."""
     design = machine() if isinstance(machine, type) and issubclass(machine, Mechanism) else machine
-    check_arguments(design, start, at)
+    check_given(design, start, at)
     listing = Listing(design.plan)
     listing.write(declared(type(design)))
     lines = list(listing.lines)
@@ -43,7 +43,7 @@ def equations(
     return Equations(design, lines, listing, start, {} if numbers and at is None else at if numbers or at else None)
 
 
-def check_arguments(design: Any, start: Any, at: Any) -> None:
+def check_given(design: Any, start: Any, at: Any) -> None:
     """Raise DefinitionError for what is no mechanism, no number to begin with, or no pose."""
     require_mechanism(design)
     if not is_whole(start):
@@ -183,7 +183,7 @@ class Equations(Sequence[Equation]):
         """Return the plain symbols of everything given, with their values [SI]."""
         pose, names = self._pose(at), self._listing.names
         motion = self.machine.at(**pose)
-        if motion.design_shape:
+        if motion._design_shape:
             raise DefinitionError(f"{self.machine.plan.title}: its equations take one design, each dimension a single number.")
         given = {names.quantity(name): value for name, value in {**self.machine.dimensions, **pose}.items()}
         for point in (*self.machine.plan.ground, *self._listing.unknowns):

@@ -86,9 +86,11 @@ class Text(StrPrinter):  # type: ignore[misc]
         return text if under == 1 else f"{text}/{self.parenthesize(under, PRECEDENCE['Pow'])}"
 
     def _print_call(self, expr: Any) -> str:
-        return f"{type(expr).__name__}({', '.join(map(self._print, expr.args))})"
+        """Return a word of the method, or a function of SymPy's in small letters, with its arguments."""
+        name = type(expr).__name__
+        return f"{name if name in ('TurnV', 'TurnVL', 'Tcos') else name.lower()}({', '.join(map(self._print, expr.args))})"
 
-    _print_TurnV = _print_TurnVL = _print_Tcos = _print_call
+    _print_TurnV = _print_TurnVL = _print_Tcos = _print_Dot = _print_Cross = _print_Min = _print_Max = _print_call
 
     def _print_Norm(self, expr: Any) -> str:
         text = self._print(expr.args[0])
@@ -100,23 +102,11 @@ class Text(StrPrinter):  # type: ignore[misc]
         text = self._print(expr.args[0])
         return f"angle{text}" if text.startswith("(") else f"angle({text})"
 
-    def _print_Dot(self, expr: Any) -> str:
-        return f"dot({', '.join(map(self._print, expr.args))})"
-
-    def _print_Cross(self, expr: Any) -> str:
-        return f"cross({', '.join(map(self._print, expr.args))})"
-
     def _print_Deg(self, expr: Any) -> str:
         return f"{self._print(expr.args[0])} deg"
 
     def _print_ImmutableDenseMatrix(self, expr: Any) -> str:
         return f"({', '.join(map(self._print, expr))})"
-
-    def _print_Min(self, expr: Any) -> str:
-        return f"min({', '.join(map(self._print, expr.args))})"
-
-    def _print_Max(self, expr: Any) -> str:
-        return f"max({', '.join(map(self._print, expr.args))})"
 
     def _print_Abs(self, expr: Any) -> str:
         return f"|{self._print(expr.args[0])}|"

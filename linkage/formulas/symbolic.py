@@ -89,7 +89,7 @@ def used_as_lengths(plan: Plan) -> list[Quantity]:
     found = list(plan.table.lengths.values())
     for member in plan.members.values():
         for part in (member, *unnamed(member)):
-            found += part.lengths()
+            found += [each for each in part.lengths() if isinstance(each, Quantity)]
     return found
 
 

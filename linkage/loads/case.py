@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import pi
+from types import MappingProxyType
 from typing import Any, ClassVar, final
 
 from ..errors import DefinitionError, cited, unknown
@@ -30,6 +31,9 @@ class LoadCase(Member):
     """
 
     kind: ClassVar[str] = "load case"
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType(
+        {"scale": "load factors", "only": "load list", "slope": "angle", "gravity": "gravity"}
+    )
     title: str = ""
     scale: Mapping[str, float] = field(default_factory=dict)
     only: Sequence[Reference] | None = None

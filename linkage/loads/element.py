@@ -117,6 +117,7 @@ class ForceElement(Jointed):
     """
 
     kind: ClassVar[str] = "load"
+    file_section: ClassVar[str] = "loads"
     places: ClassVar[tuple[str, ...]] = ("point",)
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({})
     not_negative: ClassVar[frozenset[str]] = frozenset()

@@ -57,6 +57,7 @@ class GuideFriction(ForceElement):
     coefficient: Any
     guide: Reference = ""
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"coefficient": ""})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"guide": "guide"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"coefficient"})
 
     def __post_init__(self) -> None:

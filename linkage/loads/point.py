@@ -34,6 +34,7 @@ class Weight(ForceElement):
     mass: Any
     gravity: tuple[float, float] = DOWN
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"mass": "kg"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"gravity": "gravity"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"mass"})
 
     def __post_init__(self) -> None:
@@ -102,6 +103,7 @@ class Force(Pair):
     point: Reference
     vector: Any
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"x": "N", "y": "N"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"vector": "force vector"})
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "vector", two(unmasked(self.vector), "Force"))  # parts of its own: one of them may be set
@@ -134,6 +136,7 @@ class Support(ForceElement):
     direction: Any
     force: Any = 0.0
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"force": "N"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"direction": "pair"})
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -175,6 +178,7 @@ class OnBody(ForceElement):
     """An element on a body that is named by a link or by its points."""
 
     places: ClassVar[tuple[str, ...]] = ()
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"link": "body"})
     link: Body
 
     def named(self) -> tuple[Reference, ...]:
@@ -256,6 +260,7 @@ class LinkMass(OnBody):
     at: Any = None
     gravity: tuple[float, float] = DOWN
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"mass": "kg"})
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"at": "pair", "gravity": "gravity"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"mass"})
 
     def __post_init__(self) -> None:

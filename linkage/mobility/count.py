@@ -220,7 +220,7 @@ def check(plan: Plan) -> None:
         raise DefinitionError(
             f"{plan.title}: the mobility is {found.rank}, the strokes are {found.strokes} ({', '.join(plan.strokes) or 'none'}). "
             f"Gruebler count {found.gruebler} of the bodies {bodies}. {remedy(found)}",
-            member=found.locking[0] if found.locking else "",
+            member=next(iter(plan.strokes), ""),
         )
     check_lengths(plan)
     check_slides(plan)

@@ -1,10 +1,11 @@
 """Where everything is over the stroke: positions, ratios, angles, distances."""
 
-from .evaluation import PoseFunction, evaluate, function_of, source_of
+from .evaluation import PoseFunction, evaluate, evaluate_grid, source_of
 from .extremes import Extremum, Span, below_zero, greatest, lowest, reached
 from .grid import Grid
-from .limits import stroke_unit
-from .motion import Motion, Target, paired, require_motion
+from .limits import stroke_display_unit, stroke_unit
+from .motion import Motion, Target, each_at_its_stroke, out_of_reach, require_motion
+from .peaks import highest, last_holding
 from .requests import BoundRequest, Ratio, Request, RequestLike, Value, condition, ratio
-from .strokes import as_given, at_values, check_any, rates_of, sweep_values
+from .strokes import at_values, check_any, float_array, rates_of, sweep_values
 from .table import Column, Tabled, columns_of

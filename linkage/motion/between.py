@@ -11,7 +11,7 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, told, unwarned
 from ..program import FloatArray
-from .grid import Beside, in_order
+from .grid import JoinedTo, joined_in_order
 from .motion import Motion, require_motion
 from .peaks import SAMPLES, Index, Mask, samples
 from .strokes import check_any
@@ -123,7 +123,7 @@ class Between:
         self.route = Route.of(motion.strokes)
         self.leg, self.t = leg, t = samples(self.route.counts)
         self.first = Motion(
-            motion.plan, motion.designs, self.route.strokes(leg, t), "nan", joining=in_order, tangent=self.route.tangent(leg)
+            motion.plan, motion.designs, self.route.strokes(leg, t), "nan", joining=joined_in_order, tangent=self.route.tangent(leg)
         )
         self.seen = sense * values_of(f, self.first)
         self.front = self.seen.shape[: self.seen.ndim - len(self.first.shape)]
@@ -146,18 +146,14 @@ class Between:
         near = np.take_along_axis(self._reached, places, axis=-1)
 
         def shaped(values: Any) -> Any:
-            return values.reshape(*first.design_shape, t.shape[-1])
+            return values.reshape(*first._design_shape, t.shape[-1])
 
         strokes = {name: shaped(value) for name, value in self.route.strokes(leg, t).items()}
         motion = Motion(
-            first.plan, first.designs, strokes, "nan", own=True, joining=Beside(first.grid, shaped(near)),
+            first.plan, first.designs, strokes, "nan", per_design=True, joining=JoinedTo(first._grid, shaped(near)),
             tangent=tangent and {name: shaped(value) for name, value in tangent.items()},
         )  # fmt: skip
         return motion, self.sense * values_of(self.f, motion)
-
-    def strokes(self, leg: Index, t: FloatArray) -> Mapping[str, FloatArray]:
-        """Return the strokes [SI] at places, shape as these."""
-        return self.route.strokes(leg, t)
 
 
 def nearest_reached(reached: Mask) -> Index:

@@ -9,18 +9,17 @@ the request's own program tells what rounding leaves of it (`Rounding`).
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from ..errors import SingularError, SingularWarning
+from ..errors import SingularError, SingularWarning, warn
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Iterated, Node, scatter
-from ..quantities import Member
 from ..steps import Point
+from .grid import MotionLike
 from .limits import Mask, called, opening, where_words
 
 WARN = 1e4
@@ -178,12 +177,9 @@ def conditions(plan: Plan, reading: ArrayReading, names: set[str]) -> dict[str, 
 
 def loops(plan: Plan, reading: ArrayReading) -> dict[str, Any]:
     """Return the sines of the loops that move; a triangle rigid in itself is none."""
-    return {name: sine for name, sine in reading.sines.items() if plan.moves(member := plan.members[name]) and closes(member)}
-
-
-def closes(member: Member) -> bool:
-    """Return whether a member closes a loop."""
-    return member.closes if isinstance(member, Point) else True
+    members = {name: plan.members[name] for name in reading.sines}
+    closing = [name for name, member in members.items() if not isinstance(member, Point) or member.closes]
+    return {name: reading.sines[name] for name in closing if plan.moves(members[name])}
 
 
 def condition(sine: FloatArray) -> FloatArray:
@@ -194,7 +190,7 @@ def condition(sine: FloatArray) -> FloatArray:
         return worst
 
 
-def refusal(found: Judged, mask: Mask, strokes: Mapping[str, Any], what: str, motion: Any) -> SingularError:
+def refusal(found: Judged, mask: Mask, strokes: Mapping[str, Any], what: str, motion: MotionLike) -> SingularError:
     """Return the error for a result asked at singular poses; `found` is of these alone, `mask` in the motion's shape."""
     plan = found.plan
     near = found.culprit()
@@ -212,13 +208,13 @@ def refusal(found: Judged, mask: Mask, strokes: Mapping[str, Any], what: str, mo
         else:
             why += f", and rounding leaves an error of about {float(np.max(found.error)):.0e} of it"
     return SingularError(
-        f"{what} {be(what)} refused {where_words(plan, mask, strokes)}: {why}. The positions hold; shorten the stroke, or ask with "
+        f"{what} {is_or_are(what)} refused {where_words(plan, mask, strokes)}: {why}. The positions hold; shorten the stroke, or ask with "
         f'unreachable="nan" for the other poses.',
         point=name, mask=mask, motion=motion,
     )  # fmt: skip
 
 
-def lost(found: Judged, mask: Mask, strokes: Mapping[str, Any]) -> SingularError:
+def lost_places(found: Judged, mask: Mask, strokes: Mapping[str, Any]) -> SingularError:
     """Return the error for poses of which rounding leaves nothing; `found` is of these alone, `mask` in the motion's shape."""
     plan = found.plan
     near = found.culprit()
@@ -231,31 +227,26 @@ def lost(found: Judged, mask: Mask, strokes: Mapping[str, Any]) -> SingularError
     )  # fmt: skip
 
 
-def be(what: str) -> str:
+def is_or_are(what: str) -> str:
     """Return "is" or "are" for what opens a sentence: `The joint forces`, `The ratio of BS`."""
     return "are" if what.split(" of ")[0].endswith("s") else "is"
 
 
-def crosses(motion: Any, name: str) -> bool:
+def crosses(motion: MotionLike, name: str) -> bool:
     """Return whether a loop in line can be assembled on both sides of the pose, so that two branches cross there."""
-    if len(motion.strokes) != 1 or motion.design_shape or name not in motion.loop_sines:
+    if len(motion.strokes) != 1 or motion._design_shape or name not in motion._loop_sines:
         return False
     ((stroke, values),) = motion.strokes.items()
-    place = int(np.argmin(np.nan_to_num(np.abs(np.broadcast_to(motion.loop_sines[name], motion.shape)))))
+    place = int(np.argmin(np.nan_to_num(np.abs(np.broadcast_to(motion._loop_sines[name], motion.shape)))))
     step = 1e-4 * abs(motion.plan.strokes[stroke].end - motion.plan.strokes[stroke].start)
     return bool(motion.moved({stroke: np.ravel(values)[place] + np.array([-step, step])}).reached.all())
 
 
-def warn(found: Judged, what: str, level: int = 4, be: str = "is") -> None:
+def warn_near(found: Judged, what: str, be: str = "is") -> None:
     """Warn of poses next to a singular one, with the estimate of what is lost; `found` is of these alone."""
     near = found.culprit()
     plan, name, estimate = found.plan, near.member, float(np.max(found.error))
     how = str(near) if near.condition is None else f"{be} near a dead point ({near})"
     who = f"{called(plan, name) if name else 'it'} {how}" if how else ""
-    warnings.warn(
-        SingularWarning(
-            f"{what}: {who or 'its parts nearly cancel'}; expect a relative error of about {estimate:.0e}.",
-            estimate=estimate,
-        ),
-        stacklevel=level,
-    )
+    text = f"{what}: {who or 'its parts nearly cancel'}; expect a relative error of about {estimate:.0e}."
+    warn(SingularWarning(text, estimate=estimate))

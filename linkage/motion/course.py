@@ -8,7 +8,7 @@ else divided by eight, down to 1e-9 of the way.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -18,7 +18,8 @@ import numpy as np
 from ..plan import Loop, Plan
 from ..program import FloatArray, Kernel, Level, Way
 from .grid import Grid
-from .limits import as_read, number, stroke_unit
+from .limits import stroke_number, stroke_text, stroke_unit
+from .peaks import Mask, last_holding
 
 GRID = 128
 """Intervals of the grid; an angle has so many for each turn of it."""
@@ -57,9 +58,10 @@ class Interruption:
 
     def __str__(self) -> str:
         if self.is_gap:
-            return f"{self.step} out of reach from {self.stroke} = {number(self.low, self.unit)} to {as_read(self.high, self.unit)}"
+            span = f"{stroke_number(self.low, self.unit)} to {stroke_text(self.high, self.unit)}"
+            return f"{self.step} out of reach from {self.stroke} = {span}"
         what = {"guides": "parallel guides", "meeting": "no direction"}.get(self.kind, "a change point")
-        return f"{what} of {self.step} at {self.stroke} = {as_read(self.low, self.unit)}"
+        return f"{what} of {self.step} at {self.stroke} = {stroke_text(self.low, self.unit)}"
 
 
 @dataclass(frozen=True)
@@ -91,16 +93,7 @@ class Course:
     def __init__(self, plan: Plan, designs: Mapping[str, Any], name: str, held: Mapping[str, float]) -> None:
         self.plan, self.designs, self.name, self.held = plan, designs, name, held
         self.clearances = plan.made("clearances", Clearances.of)
-
-    @property
-    def unit(self) -> str:
-        """The stroke's unit."""
-        return stroke_unit(self.plan, self.name)
-
-    @property
-    def loops(self) -> tuple[Loop, ...]:
-        """The loops that are watched."""
-        return self.clearances.loops
+        self.loops, self.unit = self.clearances.loops, stroke_unit(plan, name)
 
     def inputs(self, x: FloatArray) -> dict[str, Any]:
         """Return the inputs of the program at values of the stroke."""
@@ -184,21 +177,15 @@ class Course:
         return found
 
     def _border(self, row: int, x: FloatArray, place: int, side: int, noise: float) -> float:
-        """Return the end of a stretch that is out of reach, on one side of a value in it, by bisection."""
-        inside, outside = float(x[place]), float(x[min(max(place + side, 0), len(x) - 1)])
-        while abs(outside - inside) > 4e-16 * max(abs(inside), abs(outside)):
-            at = inside + (outside - inside) * INNER
-            under = self.seen(at)[row] < -noise
-            count = PARTS - 1 if under.all() else int(np.argmin(under))
-            points = [inside, *at.tolist(), outside]
-            if (points[count], points[count + 1]) == (inside, outside):
-                break
-            inside, outside = points[count], points[count + 1]
-        return outside
+        """Return the end of a stretch that is out of reach, on one side of a value in it."""
+        def is_under(at: FloatArray) -> Mask:
+            return np.asarray(self.seen(at)[row] < -noise)
+
+        return float(last_holding(is_under, x[place], x[min(max(place + side, 0), len(x) - 1)])[1])
 
 
 def divided(
-    look: Any, x: FloatArray, seen: FloatArray, bends: FloatArray, noise: FloatArray, wanted: Any
+    look: Callable[[FloatArray], FloatArray], x: FloatArray, seen: FloatArray, bends: FloatArray, noise: FloatArray, rows: Mask
 ) -> tuple[FloatArray, FloatArray]:
     """Return all values looked at, in order, and what was seen there, shape (loops, n): intervals divided where a loop may reach zero."""
     wide = np.pad(np.where(np.isfinite(bends), bends, 0.0), ((0, 0), (2, 2)), mode="edge")
@@ -208,7 +195,7 @@ def divided(
     least = DEPTH * float(x[-1] - x[0])
     while left.size:
         lower = np.minimum(first, last)
-        low = (lower <= BENDS * bend + noise) & (np.maximum(first, last) >= -noise) & wanted[:, None]
+        low = (lower <= BENDS * bend + noise) & (np.maximum(first, last) >= -noise) & rows[:, None]
         pick = np.flatnonzero(low.any(axis=0) & (right - left > least))[:MOST]
         if not pick.size:
             break

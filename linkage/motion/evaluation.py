@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from math import isfinite
 from typing import Any, TypeAlias, final
 
@@ -17,20 +18,64 @@ from ..quantities import real
 from . import conditions
 from . import limits as reach
 from .conditions import Judged
-from .grid import Angles, Grid, angles_of, to_rounding
+from .grid import Angles, Grid, angles_of, to_rounding, varies
 from .limits import Mask
 from .motion import Motion
-from .requests import BoundRequest, RequestLike, all_bound, astray, examined
-from .strokes import known_strokes
+from .requests import BoundRequest, RequestLike, all_bound, examined, identities_of, other_law_error
+from .strokes import at_values, float_array, known_strokes
 
 PIECE = 1 << 18
 """Poses that are looked at again at a time."""
 
 
-def evaluate(grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: Way, unreachable: str) -> list[FloatArray]:
+def evaluate(
+    plan: Plan,
+    designs: Mapping[str, Any],
+    strokes: Mapping[str, Any],
+    requests: Sequence[RequestLike],
+    out: FloatArray | None,
+    way: Way,
+    unreachable: str,
+) -> list[FloatArray]:
+    """Return the values of requests of designs at strokes; see Mechanism.evaluate."""
+    if out is None and way == QUICKEST and unreachable in ("raise", "nan"):
+        found = at_one_pose(plan, designs, strokes, requests)
+        if found is not None:
+            return found
+    return evaluate_grid(Grid(plan, designs, at_values(strokes, plan, float_array)), requests, out, way, unreachable)
+
+
+def evaluate_grid(grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: Way, unreachable: str) -> list[FloatArray]:
     """Return the values of requests over a grid; see Mechanism.evaluate."""
     one_word("unreachable", unreachable, ("raise", "nan"))
     return Evaluation(grid, all_bound(grid.plan, requests), way, unreachable).run(out)
+
+
+def at_one_pose(
+    plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], requests: Sequence[RequestLike]
+) -> list[FloatArray] | None:
+    """Return the values of requests at one pose within the declared strokes; None where it has to be looked at closely, or are several.
+
+    The program of requests that are known from before is found by what they are; nothing is bound or traced again.
+    """
+    if len(strokes) != len(plan.strokes) or plan.solved:
+        return None
+    values = []
+    for name, stroke in plan.strokes.items():
+        value = strokes.get(name)
+        if type(value) is not float or not (stroke.start <= value <= stroke.end or stroke.end <= value <= stroke.start):
+            return None
+        values.append(value)
+    identities = identities_of(plan, requests)
+    if identities is None:
+        return None
+    program = plan.made(("one pose", identities), lambda _: PoseProgram.of(plan, all_bound(plan, requests)))
+    pose = program.of_design(designs)
+    found = None if pose is None else pose(values)
+    if found is None:
+        return None
+    array = np.array(found)
+    return [array[first : first + rows] if rows > 1 else array[first] for first, rows in program.rows]
 
 
 @dataclass(frozen=True)
@@ -65,7 +110,7 @@ class Evaluation:
     def run(self, out: FloatArray | None) -> list[FloatArray]:
         """Return one array a request, in the usual shapes; rows of `out` where it is given."""
         grid, rows = self.grid, sum(each.rows for each in self.requests)
-        result = self.kernel(grid.flat, self._place(rows, out), self.way, grid.size)
+        result = self.kernel(grid.flat, self._target(rows, out), self.way, grid.size)
         if not np.all(result.guards > 0.0) or (self.may_fail and not np.isfinite(result.values).all()):
             self._settle(result.values)
         found = grid.full(result.values)
@@ -83,7 +128,7 @@ class Evaluation:
     def _make(self, plan: Plan) -> tuple[Kernel, list[Angles | None]]:
         nodes = [each.nodes(plan) for each in self.requests]
         kernel = Kernel([node for each in nodes for node in each], [*self._assumed(plan), *self._guards(plan)])
-        return kernel, [angles_of(plan, each) if request.turns else None for request, each in zip(self.requests, nodes, strict=True)]
+        return kernel, [angles_of(plan, own) if each.follows_angles else None for each, own in zip(self.requests, nodes, strict=True)]
 
     def _guards(self, plan: Plan) -> list[Node]:
         """Return the guards of what the requests are built from."""
@@ -101,7 +146,7 @@ class Evaluation:
         near = [plan.trace.nearness(each.names(plan)) - each.regular for each in self.requests]
         return len(assumed), Kernel([*assumed, *self._guards(plan), *near])
 
-    def _place(self, rows: int, out: FloatArray | None) -> FloatArray | None:
+    def _target(self, rows: int, out: FloatArray | None) -> FloatArray | None:
         """Return where the caller wants the results, shape (rows, designs, poses)."""
         grid = self.grid
         if out is None:
@@ -125,18 +170,19 @@ class Evaluation:
         assumed, kernel = plan.made(("guards", tuple(each.key for each in self.requests)), self._watch)
         worst: dict[int, Judged] = {}
         for band, part in pieces(*self.grid.size):
-            inputs = {name: cut(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
+            inputs = {name: part_of_input(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
             block = place[:, band, part]
             least = np.broadcast_to(kernel(inputs, way=self.way).values, (len(kernel.plan.outputs), *block.shape[1:]))
             with np.errstate(invalid="ignore"):
                 above = least > 0.0
                 bad = ~np.all(above[: len(above) - len(self.requests)], axis=0) | ~np.isfinite(block).all(axis=0)
             if bad.any():
-                paired = {name: spread(value, name in plan.table.entries, bad) for name, value in inputs.items()}
+                at_bad = {name: input_at(value, name in plan.table.entries, bad) for name, value in inputs.items()}
                 flagged = above[:, bad]
-                self._put_right(block, bad, paired, worst, ~flagged[:assumed].all(axis=0), ~flagged[len(above) - len(self.requests) :])
+                near = ~flagged[len(above) - len(self.requests) :]
+                self._put_right(block, bad, at_bad, worst, ~flagged[:assumed].all(axis=0), near)
         for k, found in worst.items():
-            conditions.warn(found, f"{plan.title}: {self.requests[k]}", 5, "comes")
+            conditions.warn_near(found, f"{plan.title}: {self.requests[k]}", "comes")
 
     def _put_right(
         self, block: FloatArray, bad: Mask, inputs: dict[str, Any], worst: dict[int, Judged], broken: Any, near: Any
@@ -202,7 +248,7 @@ class Evaluation:
             each.refuse(motion)
         for each in self.requests:
             if each.notes(grid.plan).assumed:
-                raise astray(grid.plan, each)
+                raise other_law_error(grid.plan, each)
         names = ", ".join(map(str, self.requests))
         text = f'{grid.plan.title}: {names} has no value at some of these poses. Leave them out, or ask with unreachable="nan".'
         raise SingularError(text, motion=motion)
@@ -230,14 +276,14 @@ def pieces(m: int, n: int, most: int = PIECE) -> Iterator[tuple[slice, slice]]:
             yield slice(top, min(top + height, m)), slice(left, min(left + width, n))
 
 
-def cut(value: Any, band: slice, part: slice, of_design: bool) -> Any:
+def part_of_input(value: Any, band: slice, part: slice, of_design: bool) -> Any:
     """Return the part of a flat input that belongs to a part of the grid."""
     if np.ndim(value) == 2:
         return value[band if value.shape[0] > 1 else slice(None), part]
     return value if np.ndim(value) == 0 or np.size(value) == 1 else value[band] if of_design else value[part]
 
 
-def spread(value: Any, of_design: bool, mask: Mask) -> Any:
+def input_at(value: Any, of_design: bool, mask: Mask) -> Any:
     """Return a flat input at the poses of a mask."""
     shaped = np.asarray(value, float)
     if shaped.ndim == 1 and of_design:
@@ -245,9 +291,60 @@ def spread(value: Any, of_design: bool, mask: Mask) -> Any:
     return np.broadcast_to(shaped, mask.shape)[mask]
 
 
-# Values and ratios of one design, pose by pose, as a plain function of floats: for root finders and other loops.
+# Values and ratios of one design, pose by pose, in floats: for root finders and other loops.
 
-Poses: TypeAlias = Callable[..., tuple[float, ...]]
+Pose: TypeAlias = Callable[[Sequence[float]], tuple[float, ...] | None]
+"""All components at the strokes of one pose, one after the other; None where it has to be looked at closely."""
+
+
+@final
+class PoseProgram:
+    """Some requests in floats: `of_design(designs)` is a function of the strokes, the design worked out."""
+
+    def __init__(self, strokes: Sequence[str], kernel: Kernel, rows: Sequence[int], may_fail: bool) -> None:
+        self._kernel, self._may_fail = kernel, may_fail
+        self.rows = tuple(zip(accumulate(rows, initial=0), rows))  # noqa: B905 - one more than there are: the end
+        self._count = len(strokes)
+        self._order = [list(strokes).index(node.value) for node in kernel.plan.pose_inputs]
+        self._latest: tuple[Mapping[str, Any] | None, Pose | None] = None, None
+
+    @classmethod
+    def of(cls, plan: Plan, requests: tuple[BoundRequest, ...]) -> PoseProgram:
+        """Return the program of requests that are bound to a plan."""
+        start = {name: np.asarray(stroke.start, float) for name, stroke in plan.strokes.items()}
+        evaluation = Evaluation(Grid(plan, plan.defaults, start), requests, QUICKEST)
+        return cls([*plan.strokes], evaluation.kernel, [each.rows for each in requests], evaluation.may_fail)
+
+    def of_design(self, designs: Mapping[str, Any]) -> Pose | None:
+        """Return the function of one design, that of the latest kept; None of several designs."""
+        known, pose = self._latest
+        if known is not designs:
+            if any(map(varies, designs.values())):
+                return None
+            pose = self._pose(designs)
+            self._latest = designs, pose
+        return pose
+
+    def _pose(self, designs: Mapping[str, Any]) -> Pose:
+        floats, count, order, may_fail, many = self._kernel.floats, len(self._kernel.plan.outputs), self._order, self._may_fail, self._count
+        passed = floats.design([float(designs[node.value]) for node in self._kernel.plan.design_inputs])
+        pose, is_ordered = floats.quick["pose"], order == list(range(many))
+
+        def at(strokes: Sequence[float]) -> tuple[float, ...] | None:
+            if len(strokes) != many:
+                return None
+            try:
+                found: tuple[float, ...] = pose(*passed, *(strokes if is_ordered else [strokes[place] for place in order]))
+                if not isfinite(sum(strokes)):  # those that the requests do not follow included
+                    return None
+            except (*NO_VALUE, TypeError):
+                return None
+            for guard in found[count:]:
+                if not guard > 0.0:
+                    return None
+            return None if may_fail and not all(map(isfinite, found)) else found[:count]
+
+        return at
 
 
 @final
@@ -255,40 +352,33 @@ class PoseFunction:
     """Requests of one design as a function of the strokes, in floats; it can be sent to other processes."""
 
     def __init__(self, plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike]) -> None:
-        listed = tuple(requests) if isinstance(requests, Iterator) else requests
-        self._made_of = plan, dict(designs), listed
-        self._at = function_of(plan, designs, listed)
+        if any(np.ndim(value) for value in designs.values()):
+            raise DefinitionError(f"{plan.title}: a function of floats is of one design; use evaluate for several.")
+        self._plan, self._designs = plan, dict(designs)
+        self._requests = tuple(requests) if isinstance(requests, Iterator) else requests
+        self._bound = all_bound(plan, self._requests)
+        self._pose = None if plan.solved else PoseProgram.of(plan, self._bound).of_design(self._designs)
 
     def __call__(self, *strokes: float, **named: float) -> tuple[float, ...]:
         """Return all components one after the other at strokes [SI], in their order or by name."""
-        return self._at(*strokes, **named)
+        found = None if named or self._pose is None else self._pose(strokes)
+        return self._closely(strokes, named) if found is None else found
+
+    def _closely(self, strokes: Sequence[float], named: Mapping[str, float]) -> tuple[float, ...]:
+        """Return the same where a guard or a failing operation tells, or the strokes are given in another way."""
+        plan, names = self._plan, list(self._plan.strokes)
+        known_strokes(named, {name: plan.strokes[name] for name in names[len(strokes) :]}, plan.title)
+        values = [*strokes, *(named[name] for name in names[len(strokes) :])]
+        if len(values) != len(names):
+            raise DefinitionError(f"{plan.title}: one value for each stroke is expected: {', '.join(names)}.")
+        grid = Grid(plan, self._designs, {name: single(value, name, plan.title) for name, value in zip(names, values, strict=True)})
+        return tuple(float(part) for found in Evaluation(grid, self._bound, QUICKEST).run(None) for part in np.ravel(found))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return PoseFunction, self._made_of
+        return PoseFunction, (self._plan, self._designs, self._requests)
 
 
-def function_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[RequestLike]) -> Poses:
-    """Return requests as a function of the strokes; see Mechanism.function."""
-    if any(np.ndim(value) for value in designs.values()):
-        raise DefinitionError(f"{plan.title}: a function of floats is of one design; use evaluate for several.")
-    asked = all_bound(plan, requests)
-
-    def bulk(strokes: Sequence[float]) -> Evaluation:
-        if len(strokes) != len(plan.strokes):
-            raise DefinitionError(f"{plan.title}: one value for each stroke is expected: {', '.join(plan.strokes)}.")
-        values = {name: lone(value, name, plan.title) for name, value in zip(plan.strokes, strokes, strict=True)}
-        return Evaluation(Grid(plan, designs, values), asked, QUICKEST)
-
-    def careful(*strokes: float, **named: float) -> tuple[float, ...]:
-        return tuple(float(part) for values in bulk((*strokes, *rest(plan, len(strokes), named))).run(None) for part in np.ravel(values))
-
-    if plan.solved:
-        return careful
-    first = bulk([stroke.start for stroke in plan.strokes.values()])
-    return quick(plan, designs, first.kernel, careful, first.may_fail)
-
-
-def lone(value: Any, name: str, title: str) -> FloatArray:
+def single(value: Any, name: str, title: str) -> FloatArray:
     """Return a stroke's one value, shape (); DefinitionError for several, and for what is no finite number."""
     try:
         found = real(value)
@@ -297,41 +387,6 @@ def lone(value: Any, name: str, title: str) -> FloatArray:
     if found.size != 1 or not np.isfinite(found).all():
         raise DefinitionError(f"{title}: the stroke {name}={value!r:.60}: one finite number is expected; evaluate takes arrays.")
     return found.reshape(())
-
-
-def rest(plan: Plan, count: int, named: Mapping[str, float]) -> list[float]:
-    """Return the strokes given by name, which follow so many given in order."""
-    known_strokes(named, dict(list(plan.strokes.items())[count:]), plan.title)
-    return [named[name] for name in list(plan.strokes)[count:]]
-
-
-def quick(plan: Plan, designs: Mapping[str, Any], kernel: Kernel, careful: Poses, watched: bool) -> Poses:
-    """Return the pose part with its design worked out; a pose where a guard or a failing operation tells is taken carefully."""
-    floats, count = kernel.floats, len(kernel.plan.outputs)
-    passed = floats.design([float(designs[node.value]) for node in kernel.plan.design_inputs])
-    pose = floats.quick["pose"]
-    places = [list(plan.strokes).index(node.value) for node in kernel.plan.pose_inputs]
-    many = len(plan.strokes)
-    together = places == list(range(many))
-
-    def at(*strokes: float, **named: float) -> tuple[float, ...]:
-        if named or len(strokes) != many:
-            return careful(*strokes, **named)
-        try:
-            found: tuple[float, ...] = pose(*passed, *(strokes if together else [strokes[place] for place in places]))
-            finite = isfinite(sum(strokes))  # those that the requests do not follow included
-        except (*NO_VALUE, TypeError):
-            return careful(*strokes)
-        if not finite:
-            return careful(*strokes)
-        for guard in found[count:]:
-            if not guard > 0.0:
-                return careful(*strokes)
-        if watched and not all(map(isfinite, found)):
-            return careful(*strokes)
-        return found[:count]
-
-    return at
 
 
 # Values and ratios as the text of a function in C or JavaScript: for a controller, or a page of one's own.
@@ -363,14 +418,14 @@ def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request
         raise DefinitionError(f"name={name!r} has a meaning in {language} already; give the function another name, such as poses.")
     if any(np.ndim(value) for value in designs.values()):
         raise DefinitionError(f"{plan.title}: source() states one design; its dimensions are arguments of the text, which serves all.")
-    asked = all_bound(plan, requests)
-    key = ("source", tuple(each.key for each in asked))
-    nodes = plan.made(key, lambda twin: [node for each in asked for node in held(twin, each)])
+    bound = all_bound(plan, requests)
+    key = ("source", tuple(each.key for each in bound))
+    nodes = plan.made(key, lambda twin: [node for each in bound for node in true_nodes(twin, each)])
     closed_form(plan, nodes)
     return WRITERS[language](nodes, name, {name: float(value) for name, value in designs.items()})
 
 
-def held(plan: Plan, what: BoundRequest) -> list[Node]:
+def true_nodes(plan: Plan, what: BoundRequest) -> list[Node]:
     """Return a request's nodes, NaN where what they are true under does not hold: the text can look nothing up."""
     nodes = list(what.nodes(plan))
     for truth in what.notes(plan).assumed:

@@ -17,10 +17,81 @@ import numpy as np
 from ..errors import DefinitionError
 from ..program import FloatArray
 from .between import Between, Function, require_function, values_of
-from .grid import Beside, in_order
-from .limits import place_read, stroke_unit
+from .grid import JoinedTo, joined_in_order
+from .limits import place_text, stroke_unit
 from .motion import Motion
-from .peaks import CLOSE, Index, Mask, bisected, highest, is_pole, level, peaks, zoomed
+from .peaks import CLOSE, Index, Mask, bisected, highest, is_pole, missing_lowest, peaks, zoomed
+
+
+@dataclass(frozen=True, eq=False)
+class Extremum:
+    """The greatest or the lowest value of a quantity, and where: floats, or arrays over what was asked for and the designs.
+
+    `value` is NaN where there is none at any pose, and infinite where it is `unbounded`: where it grows beyond bounds up to a pose at
+    which it is refused. `strokes` say where [m or rad, which `units` say].
+    """
+
+    value: Any
+    strokes: Mapping[str, Any]
+    unbounded: Any
+    units: Mapping[str, str]
+
+    @property
+    def where(self) -> str:
+        """Where it stands, in words: `at S = 0.1234 m`, `at S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges."""
+        return "at " + ", ".join(f"{name} = {place_text(value, self.units[name])}" for name, value in self.strokes.items())
+
+    def __str__(self) -> str:
+        if np.ndim(self.value):
+            return f"{np.nanmin(self.value):.6g} to {np.nanmax(self.value):.6g} {self.where}"
+        if np.isnan(self.value):
+            return "no value at any pose"
+        return f"{'without bounds' if self.unbounded else f'{self.value:.6g}'} {self.where}"
+
+
+def greatest(motion: Motion, f: Function) -> Extremum:
+    """Return the greatest value of f over all that a motion covers, and where: one a design, and of each of several quantities.
+
+    `f(motion)` is asked again, of motions with the same designs at strokes in between: shape (...) as the motion's, or (k, ...) for k
+    quantities at once, NaN where it has no value. It may have kinks, jumps and gaps. The value is right to 1e-6 of its range, the place
+    to 1e-4 of the stroke, for every bump from 1/2000 of the range wide, and the same from however many poses. Where it jumps the larger
+    side counts; where it grows beyond bounds up to a pose that is refused or out of reach it is infinite, and told as `unbounded`.
+    Poses out of reach are passed over, whatever the motion was asked for with.
+    """
+    return extremum(motion, f, 1.0)
+
+
+def lowest(motion: Motion, f: Function) -> Extremum:
+    """Return the lowest value of f over all that a motion covers, and where; as `greatest`."""
+    return extremum(motion, f, -1.0)
+
+
+def extremum(motion: Motion, f: Function, sense: float) -> Extremum:
+    """Return the greatest (sense 1.0) or the lowest (-1.0) value of f over all that a motion covers."""
+    require_function(motion, f)
+    if not motion.strokes:
+        raise DefinitionError(f"{motion.plan.title} has no stroke, so there is nothing between its poses.")
+    units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
+    if len(motion._stroke_shape) > 1 and len(moving(motion)) > 1:
+        box = Box(motion, f, sense)
+        top, shape = highest_in(box), (*box.front, *motion._design_shape)
+        strokes = {name: given(value, shape) for name, value in box.strokes(top.unit).items()}
+        return Extremum(given(sense * top.value, shape), strokes, given(top.unbounded, shape), units)
+    between = Between(motion, f, sense)
+    found, shape = highest(between.look, between.route.counts), (*between.front, *motion._design_shape)
+    strokes = {name: given(value, shape) for name, value in between.route.strokes(found.leg, found.t).items()}
+    return Extremum(given(sense * found.value, shape), strokes, given(found.unbounded, shape), units)
+
+
+def given(values: Any, shape: tuple[int, ...]) -> Any:
+    """Return values (K, D) in the shape asked for; a single one as a plain number."""
+    return values.reshape(shape) if shape else values.item()
+
+
+def moving(motion: Motion) -> tuple[str, ...]:
+    """Return the strokes that a motion moves."""
+    return tuple(name for name, value in motion.strokes.items() if np.ptp(value) > 0.0)
+
 
 # Where on the way of a motion something is below zero, looked for between its poses, whatever their number.
 
@@ -37,10 +108,10 @@ class Span:
         moving = [name for name in self.start if self.start[name] != self.end[name]]
         if len(moving) == 1:
             (name,) = moving
-            others = ", ".join(f"{each} = {place_read(value, self.units[each])}" for each, value in self.start.items() if each != name)
-            return f"from {name} = {place_read((self.start[name], self.end[name]), self.units[name])}{f' ({others})' if others else ''}"
+            others = ", ".join(f"{each} = {place_text(value, self.units[each])}" for each, value in self.start.items() if each != name)
+            return f"from {name} = {place_text((self.start[name], self.end[name]), self.units[name])}{f' ({others})' if others else ''}"
         start, end = (
-            ", ".join(f"{name} = {place_read(value, self.units[name])}" for name, value in at.items()) for at in (self.start, self.end)
+            ", ".join(f"{name} = {place_text(value, self.units[name])}" for name, value in at.items()) for at in (self.start, self.end)
         )
         return f"from {start} to {end}" if moving else f"at {start}"
 
@@ -52,7 +123,7 @@ def below_zero(motion: Motion, f: Function) -> tuple[Span, ...]:
     dips below zero between two of 4097 samples like an extreme is, see `peaks`.
     """
     require_function(motion, f)
-    if motion.design_shape or len(motion.stroke_shape) > 1:
+    if motion._design_shape or len(motion._stroke_shape) > 1:
         raise DefinitionError(f"{motion.plan.title}: ranges are told for one design along one stroke or one path; this is {motion.shape}.")
     between = Between(motion, f)
     if between.front:
@@ -90,7 +161,7 @@ def dips(between: Between, sense: float, among: Mask) -> list[tuple[Index, Float
         return -sense * seen, reached
 
     values = -sense * between.seen.reshape(1, 1, -1)
-    tops = peaks(level(values), between.leg, between.t, between.route.counts, among)
+    tops = peaks(missing_lowest(values), between.leg, between.t, between.route.counts, among)
     found = []
     while tops.value.size:
         crossed = tops.value > 0.0
@@ -152,7 +223,7 @@ class Box:
         self.k = len(self.names)
         self.side = SIDES.get(self.k, 3)
         grid = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, self.side)] * self.k, indexing="ij"), axis=-1)
-        self.first = Motion(motion.plan, motion.designs, self.strokes(grid), "nan", joining=in_order)
+        self.first = Motion(motion.plan, motion.designs, self.strokes(grid), "nan", joining=joined_in_order)
         self.seen = sense * values_of(f, self.first)
         self.front = self.seen.shape[: self.seen.ndim - len(self.first.shape)]
         self._reached = self.first.reached.reshape(-1, self.side**self.k)
@@ -165,10 +236,10 @@ class Box:
 
     def look(self, unit: FloatArray) -> tuple[FloatArray, Mask]:
         """Return the values (K, D, c, n) at places (D, c, n, k), each design at its own, and which poses (D, c, n) are reached."""
-        shape = (*self.first.design_shape, *unit.shape[1:-1])
+        shape = (*self.first._design_shape, *unit.shape[1:-1])
         strokes = {name: value.reshape(shape) for name, value in self.strokes(unit).items()}
         near = self._near(unit).reshape(shape)
-        motion = Motion(self.first.plan, self.first.designs, strokes, "nan", own=True, joining=Beside(self.first.grid, near))
+        motion = Motion(self.first.plan, self.first.designs, strokes, "nan", per_design=True, joining=JoinedTo(self.first._grid, near))
         seen = self.sense * values_of(self.f, motion)
         return seen.reshape(-1, *unit.shape[:-1]), motion.reached.reshape(unit.shape[:-1])
 
@@ -186,31 +257,26 @@ class Box:
         return near
 
 
-def moving(motion: Motion) -> tuple[str, ...]:
-    """Return the strokes that a motion moves."""
-    return tuple(name for name, value in motion.strokes.items() if np.ptp(value) > 0.0)
-
-
 @np.errstate(all="ignore")
 def highest_in(box: Box) -> HighestInBox:
     """Return the highest values in a box."""
     D = box._reached.shape[0]
     seen = box.seen.reshape(-1, D, box.side**box.k)
-    unit, value = starts(level(seen), box)
+    unit, value = starts(missing_lowest(seen), box)
     half, last, sequence = np.full(value.shape, 1.0 / (box.side - 1)), np.zeros(unit.shape), Sequence(box.k)
     for _ in range(ROUNDS):
         if half.max() <= NARROW:
             break
         steps = np.concatenate([half[..., None, None] * sequence.around(), last[..., None, :] * AGAIN], axis=-2)
         at = np.clip(unit[..., None, :] + steps, 0.0, 1.0)
-        found, _ = own(box, at)
-        place = np.argmax(level(found), axis=-1)[..., None]
-        top = np.take_along_axis(level(found), place, axis=-1)[..., 0]
+        found, _ = of_each(box, at)
+        place = np.argmax(missing_lowest(found), axis=-1)[..., None]
+        top = np.take_along_axis(missing_lowest(found), place, axis=-1)[..., 0]
         better = top > value
         new = np.where(better[..., None], np.take_along_axis(at, place[..., None], axis=-2)[..., 0, :], unit)
         last = np.where(better[..., None], new - unit, 0.5 * last)
         unit, value, half = new, np.where(better, top, value), np.where(better, half, 0.5 * half)
-    return chosen(unit, value, grows(box, unit, value), np.asarray(np.isnan(seen).all(axis=-1)))
+    return best_of_starts(unit, value, grows(box, unit, value), np.asarray(np.isnan(seen).all(axis=-1)))
 
 
 class Sequence:
@@ -245,12 +311,12 @@ def starts(values: FloatArray, box: Box) -> tuple[FloatArray, FloatArray]:
     return unit, np.take_along_axis(values, place, axis=-1)
 
 
-def own(box: Box, unit: FloatArray) -> tuple[FloatArray, Mask]:
+def of_each(box: Box, unit: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the values of K functions at places of their own (K, D, c, n, k), and whether these are reached, shape (K, D, c, n)."""
     K, D, c, n, k = unit.shape
     values, reached = box.look(np.moveaxis(unit, 0, 1).reshape(D, K * c, n, k))
-    of_each = values.reshape(K, D, K, c, n)[np.arange(K), :, np.arange(K)]
-    return of_each, np.moveaxis(reached.reshape(D, K, c, n), 1, 0)
+    values_of_each = values.reshape(K, D, K, c, n)[np.arange(K), :, np.arange(K)]
+    return values_of_each, np.moveaxis(reached.reshape(D, K, c, n), 1, 0)
 
 
 def grows(box: Box, unit: FloatArray, value: FloatArray) -> Mask:
@@ -259,81 +325,16 @@ def grows(box: Box, unit: FloatArray, value: FloatArray) -> Mask:
     ways = np.array([-1.0, 1.0])[:, None, None] * far[:, None] * np.eye(box.k)[:, None, None, :]  # (k, 2, n, k)
     at = unit[..., None, None, None, :] + ways
     on = ((at >= 0.0) & (at <= 1.0)).all(axis=-1)
-    seen, reached = own(box, np.clip(at, 0.0, 1.0).reshape(*value.shape, -1, box.k))
+    seen, reached = of_each(box, np.clip(at, 0.0, 1.0).reshape(*value.shape, -1, box.k))
     seen, reached = np.where(on, seen.reshape(on.shape), np.nan), reached.reshape(on.shape) & on
     poles = is_pole(np.broadcast_to(value[..., None], on.shape[:-2]), seen, reached, far, BORDER, SEEN)
     return np.asarray(np.isposinf(value) | poles.any(axis=(-2, -1)))
 
 
-def chosen(unit: FloatArray, value: FloatArray, unbounded: Mask, missing: Mask) -> HighestInBox:
+def best_of_starts(unit: FloatArray, value: FloatArray, unbounded: Mask, missing: Mask) -> HighestInBox:
     """Return the best place of every function and design; one without bounds goes first."""
     any_unbounded = np.asarray(unbounded.any(axis=-1))
     place = np.argmax(np.where(any_unbounded[..., None] & ~unbounded, -np.inf, value), axis=-1)[..., None]
     best = np.where(any_unbounded, np.inf, np.take_along_axis(value, place, axis=-1)[..., 0])
     where = np.take_along_axis(unit, place[..., None], axis=-2)[..., 0, :]
     return HighestInBox(np.where(missing, np.nan, best), where, any_unbounded)
-
-
-@dataclass(frozen=True, eq=False)
-class Extremum:
-    """The greatest or the lowest value of a quantity, and where: floats, or arrays over what was asked for and the designs.
-
-    `value` is NaN where there is none at any pose, and infinite where it is `unbounded`: where it grows beyond bounds up to a pose at
-    which it is refused. `strokes` say where [m or rad, which `units` say].
-    """
-
-    value: Any
-    strokes: Mapping[str, Any]
-    unbounded: Any
-    units: Mapping[str, str]
-
-    @property
-    def where(self) -> str:
-        """Where it stands, in words: `at S = 0.1234 m`, `at S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges."""
-        return "at " + ", ".join(f"{name} = {place_read(value, self.units[name])}" for name, value in self.strokes.items())
-
-    def __str__(self) -> str:
-        if np.ndim(self.value):
-            return f"{np.nanmin(self.value):.6g} to {np.nanmax(self.value):.6g} {self.where}"
-        if np.isnan(self.value):
-            return "no value at any pose"
-        return f"{'without bounds' if self.unbounded else f'{self.value:.6g}'} {self.where}"
-
-
-def greatest(motion: Motion, f: Function) -> Extremum:
-    """Return the greatest value of f over all that a motion covers, and where: one a design, and of each of several quantities.
-
-    `f(motion)` is asked again, of motions with the same designs at strokes in between: shape (...) as the motion's, or (k, ...) for k
-    quantities at once, NaN where it has no value. It may have kinks, jumps and gaps. The value is right to 1e-6 of its range, the place
-    to 1e-4 of the stroke, for every bump from 1/2000 of the range wide, and the same from however many poses. Where it jumps the larger
-    side counts; where it grows beyond bounds up to a pose that is refused or out of reach it is infinite, and told as `unbounded`.
-    Poses out of reach are passed over, whatever the motion was asked for with.
-    """
-    return extremum(motion, f, 1.0)
-
-
-def lowest(motion: Motion, f: Function) -> Extremum:
-    """Return the lowest value of f over all that a motion covers, and where; as `greatest`."""
-    return extremum(motion, f, -1.0)
-
-
-def extremum(motion: Motion, f: Function, sense: float) -> Extremum:
-    """Return the greatest (sense 1.0) or the lowest (-1.0) value of f over all that a motion covers."""
-    require_function(motion, f)
-    if not motion.strokes:
-        raise DefinitionError(f"{motion.plan.title} has no stroke, so there is nothing between its poses.")
-    units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
-    if len(motion.stroke_shape) > 1 and len(moving(motion)) > 1:
-        box = Box(motion, f, sense)
-        top, shape = highest_in(box), (*box.front, *motion.design_shape)
-        strokes = {name: given(value, shape) for name, value in box.strokes(top.unit).items()}
-        return Extremum(given(sense * top.value, shape), strokes, given(top.unbounded, shape), units)
-    between = Between(motion, f, sense)
-    found, shape = highest(between.look, between.route.counts), (*between.front, *motion.design_shape)
-    strokes = {name: given(value, shape) for name, value in between.route.strokes(found.leg, found.t).items()}
-    return Extremum(given(sense * found.value, shape), strokes, given(found.unbounded, shape), units)
-
-
-def given(values: Any, shape: tuple[int, ...]) -> Any:
-    """Return values (K, D) in the shape asked for; a single one as a plain number."""
-    return values.reshape(shape) if shape else values.item()

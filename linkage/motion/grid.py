@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import prod
-from typing import Any, TypeAlias
+from typing import Any, Protocol, Self, TypeAlias
 
 import numpy as np
 
@@ -15,51 +15,14 @@ from ..errors import DefinitionError
 from ..frozen import FrozenDict, read_only
 from ..plan import ArrayReading, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node, Way, ancestors, interpret
+from ..quantities import Member, Quantity
 from .limits import Mask
-
-# Angles made continuous along the stroke.
-
-def unwrapped(angle: FloatArray, strokes: list[FloatArray]) -> FloatArray:
-    """Return an angle [rad] without jumps of 2 pi along its last axes, one an independent stroke array axis.
-
-    Poses are joined in the order of the stroke, whatever the order they stand in; NaN is passed over.
-    """
-    axes = strokes[0].ndim if strokes else 0
-    result = np.array(angle, float)
-    for axis in range(axes):
-        result = _along(result, axis - axes, strokes)
-    return result
-
-
-def _along(angle: FloatArray, axis: int, strokes: list[FloatArray]) -> FloatArray:
-    moved = np.moveaxis(angle, axis, -1)
-    if moved.shape[-1] < 2:
-        return angle
-    order = slice(None)
-    if len(strokes) == 1 and strokes[0].ndim == 1:
-        sort = np.argsort(strokes[0], kind="stable")
-        moved = moved[..., sort]
-        order = np.argsort(sort, kind="stable")  # type: ignore[assignment]
-    return np.moveaxis(_joined(moved)[..., order], -1, axis)
-
-
-def _joined(angle: FloatArray) -> FloatArray:
-    """Return the angle continued from each finite value to the next."""
-    finite = np.isfinite(angle)
-    places = np.where(finite, np.arange(angle.shape[-1]), 0)
-    filled = np.take_along_axis(angle, np.maximum.accumulate(places, axis=-1), axis=-1)
-    filled = np.where(np.isfinite(filled), filled, np.take_along_axis(angle, np.argmax(finite, axis=-1)[..., None], axis=-1))
-    steps = np.diff(filled, axis=-1)
-    turns = np.cumsum(np.round(np.where(np.isfinite(steps), steps, 0.0) / (2 * np.pi)), axis=-1)
-    result = np.array(angle)
-    result[..., 1:] -= 2 * np.pi * turns
-    return result
 
 
 class Grid:
     """Designs times strokes. Arrays are component-first, designs before strokes.
 
-    `strokes` are arrays of one shape; with `own` this begins with that of the designs, each of which then has strokes of its own.
+    `strokes` are arrays of one shape; with `per_design` this begins with that of the designs, each of which then has strokes of its own.
     `joining` says how angles are made continuous.
     """
 
@@ -69,10 +32,10 @@ class Grid:
         designs: Mapping[str, Any],
         strokes: Mapping[str, FloatArray],
         *,
-        own: bool = False,
+        per_design: bool = False,
         joining: Joining | None = None,
     ) -> None:
-        self.plan, self.own = plan, own
+        self.plan, self.per_design = plan, per_design
         self.designs: FrozenDict[str, Any] = FrozenDict(designs)
         self.strokes: FrozenDict[str, FloatArray] = FrozenDict({name: read_only(value) for name, value in strokes.items()})
         arrays = [np.shape(value) for value in self.designs.values() if varies(value)]
@@ -82,9 +45,9 @@ class Grid:
             shapes = ", ".join(map(str, arrays))
             raise DefinitionError(f"{plan.title}: the shapes of the design arrays do not fit each other: {shapes}.") from None
         shape = next((value.shape for value in self.strokes.values()), ())
-        self.stroke_shape: tuple[int, ...] = shape[len(self.design_shape) if own else 0 :]
+        self.stroke_shape: tuple[int, ...] = shape[len(self.design_shape) if per_design else 0 :]
         self.shape = (*self.design_shape, *self.stroke_shape)
-        self.is_special, self._joining = own or joining is not None, joining or by_stroke
+        self.is_special, self._joining = per_design or joining is not None, joining or joined_by_stroke
         self._angles: dict[Kernel, FloatArray] = {}
 
     @cached_property
@@ -95,7 +58,7 @@ class Grid:
     @cached_property
     def flat_strokes(self) -> dict[str, FloatArray]:
         """The strokes as a kernel takes them: (n,), or (m, n) where each design has its own."""
-        return {name: value.reshape(self.size) if self.own else value.ravel() for name, value in self.strokes.items()}
+        return {name: value.reshape(self.size) if self.per_design else value.ravel() for name, value in self.strokes.items()}
 
     @cached_property
     def flat_designs(self) -> dict[str, Any]:
@@ -115,7 +78,7 @@ class Grid:
             return NONE_SOLVED
         groups = NONE_SOLVED
         if self.plan.groups:
-            groups = self._each() if self.own else solve_groups(self.plan, self.flat_designs, self.flat_strokes)
+            groups = self._each() if self.per_design else solve_groups(self.plan, self.flat_designs, self.flat_strokes)
         return with_angles(groups, self.plan, self.flat_designs, self.flat_strokes)
 
     def _each(self) -> Solved:
@@ -170,27 +133,64 @@ class Grid:
         return self._angles[kernel]
 
 
+def varies(value: Any) -> bool:
+    """Return whether a dimension differs from design to design."""
+    return type(value) is not float and np.ndim(value) > 0
+
+
+class MotionLike(Protocol):
+    """What limits, conditions and requests ask of a motion, which itself is made with them; see `Motion`."""
+
+    @property
+    def plan(self) -> Plan: ...
+    @property
+    def _grid(self) -> Grid: ...
+    @property
+    def shape(self) -> tuple[int, ...]: ...
+    @property
+    def _design_shape(self) -> tuple[int, ...]: ...
+    @property
+    def designs(self) -> Mapping[str, Any]: ...
+    @property
+    def strokes(self) -> Mapping[str, FloatArray]: ...
+    @property
+    def reached(self) -> Mask: ...
+    @property
+    def _reading(self) -> ArrayReading: ...
+    @property
+    def _joints(self) -> tuple[str, ...]: ...
+    @property
+    def _loop_sines(self) -> Mapping[str, Any]: ...
+    def __getitem__(self, name: str) -> FloatArray: ...
+    def moved(self, strokes: Mapping[str, Any]) -> Self: ...
+    def value(self, quantity: Quantity) -> FloatArray: ...
+    def transmission_angle(self, point: str) -> FloatArray: ...
+    def ratio(self, target: str | Member, *, wrt: str | None = None, order: int = 1) -> FloatArray: ...
+
+
+# How angles are made continuous over a grid.
+
 Joining: TypeAlias = Callable[[Grid, FloatArray, Kernel], FloatArray]
 """How angles (k, ...) [rad] that a kernel gives on a grid are made continuous."""
 
 
-def by_stroke(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
+def joined_by_stroke(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
     """Return angles without jumps along the strokes, whatever the order of the poses."""
     return np.array([unwrapped(angle, [value for value in grid.strokes.values() if value.ndim]) for angle in angles])
 
 
-def in_order(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
+def joined_in_order(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
     """Return angles without jumps in the order of the poses."""
     return np.array([unwrapped(angle, [np.empty(grid.stroke_shape)] * 2) for angle in angles])  # two: one would be sorted by its values
 
 
-def as_they_are(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
+def not_joined(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
     """Return angles within 180 deg of zero."""
     return angles
 
 
 @dataclass(frozen=True, eq=False)
-class Beside:
+class JoinedTo:
     """Angles within 180 deg of those of poses that are known: of `like`, by their number `near`, an array that fits the grid's poses.
 
     The poses that are known belong to the same designs, or to a single one.
@@ -211,9 +211,37 @@ class Beside:
         return found
 
 
-def varies(value: Any) -> bool:
-    """Return whether a dimension differs from design to design."""
-    return type(value) is not float and np.ndim(value) > 0
+def unwrapped(angle: FloatArray, strokes: list[FloatArray]) -> FloatArray:
+    """Return an angle [rad] without jumps of 2 pi along its last axes, one an independent stroke array axis.
+
+    Poses are joined in the order of the stroke, whatever the order they stand in; NaN is passed over.
+    """
+    axes = strokes[0].ndim if strokes else 0
+    result = np.array(angle, float)
+    for axis in range(axes):
+        result = _along(result, axis - axes, strokes)
+    return result
+
+
+def _along(angle: FloatArray, axis: int, strokes: list[FloatArray]) -> FloatArray:
+    moved = np.moveaxis(angle, axis, -1)
+    if moved.shape[-1] < 2:
+        return angle
+    order = np.argsort(strokes[0], kind="stable") if len(strokes) == 1 and strokes[0].ndim == 1 else np.arange(moved.shape[-1])
+    return np.moveaxis(_joined(moved[..., order])[..., np.argsort(order, kind="stable")], -1, axis)
+
+
+def _joined(angle: FloatArray) -> FloatArray:
+    """Return the angle continued from each finite value to the next."""
+    finite = np.isfinite(angle)
+    places = np.where(finite, np.arange(angle.shape[-1]), 0)
+    filled = np.take_along_axis(angle, np.maximum.accumulate(places, axis=-1), axis=-1)
+    filled = np.where(np.isfinite(filled), filled, np.take_along_axis(angle, np.argmax(finite, axis=-1)[..., None], axis=-1))
+    steps = np.diff(filled, axis=-1)
+    turns = np.cumsum(np.round(np.where(np.isfinite(steps), steps, 0.0) / (2 * np.pi)), axis=-1)
+    result = np.array(angle)
+    result[..., 1:] -= 2 * np.pi * turns
+    return result
 
 
 # What follows from directions: nodes worked out again where an angle is continued past half a turn along the stroke.

@@ -18,37 +18,66 @@ from ..plan import missing_words as missing_words
 from ..plan import negative as negative
 from ..plan import opening as opening
 from ..program import FloatArray
-from ..units import deg
+from ..units import UNITS, deg, display_unit, factor
+from .peaks import last_holding
 
 SAMPLES = 1441
-
-READ_IN = {"m": (1.0, "m"), "rad": (deg, "deg")}
-"""The unit of a stroke -> the one it is read in: its factor and its name."""
-
-Scan = Callable[[FloatArray], "Scanned"]
-"""A look at some stroke values: which are reached, and what fails."""
-
-
-def number(value: float, unit: str, digits: int = 9) -> str:
-    """Return a value of a stroke [m or rad] as it is read, without its unit; angles in degrees."""
-    return f"{value / READ_IN[unit][0]:.{digits}g}"
-
-
-def as_read(value: float, unit: str, digits: int = 9) -> str:
-    """Return a value of a stroke [m or rad] as it is read: `0.25 m`, `90 deg`."""
-    return f"{number(value, unit, digits)} {READ_IN[unit][1]}"
 
 
 @refuses_changes
 @dataclass(frozen=True)
-class Scanned:
-    """What was seen at some stroke values: the mask of those reached."""
+class StrokeLimits:
+    """The limits along one stroke, the others held. Values in m or rad, as the stroke; printed, angles are in degrees."""
 
-    reached: Any
-    failing: Callable[[int], str]
-    """The step that fails at one of the values."""
-    stops: tuple[float, ...] = ()
-    """Ends that are known already: those of groups, found on the way."""
+    stroke: str
+    unit: str
+    start: float
+    end: float
+    intervals: tuple[Interval, ...]
+    change_points: tuple[tuple[float, str], ...]
+    transmission: tuple[Extreme, ...] = ()
+    held: tuple[Held, ...] = ()
+    open_turn: Open | None = None
+    cylinder_dead_points: tuple[tuple[float, str], ...] = ()
+    """Where the length of a cylinder that hangs beside the drive stands still, so that its thrust moves nothing: (stroke, cylinder)."""
+
+    @property
+    def dead_points(self) -> tuple[tuple[float, str], ...]:
+        """Where a loop's two links come into line and the motion ends: (stroke, step)."""
+        ends = [(value, stop) for each in self.intervals for value, stop in ((each.low, each.low_stop), (each.high, each.high_stop))]
+        return tuple((value, stop) for value, stop in ends if stop)
+
+    def __str__(self) -> str:
+        held = f", with {', '.join(map(str, self.held))} held" if self.held else ""
+        lines = [f"{self.stroke}: declared {stroke_number(self.start, self.unit, 6)} to {stroke_text(self.end, self.unit, 6)}{held}"]
+        for each in self.intervals:
+            lines += self._reach(each)
+        lines += [f"  change point at {stroke_text(value, self.unit)}: the branches of {step} cross" for value, step in self.change_points]
+        lines += [
+            f"  dead point of {name} at {self.stroke} = {stroke_text(value, self.unit)}: its length stands still"
+            for value, name in self.cylinder_dead_points
+        ]
+        lines += [
+            f"  least transmission angle at {each.joint}: {each.angle / deg:.4g} deg at {stroke_text(each.stroke, self.unit, 6)}"
+            for each in self.transmission
+        ]
+        return "\n".join([*lines, *([f"  {self.open_turn}"] if self.open_turn else [])])
+
+    def _reach(self, interval: Interval) -> list[str]:
+        """Return the lines of an interval."""
+        ends = (interval.low, interval.low_stop), (interval.high, interval.high_stop)
+        if not (interval.low_stop or interval.high_stop):
+            return [f"  reachable all the way from {stroke_number(interval.low, self.unit)} to {stroke_text(interval.high, self.unit)}"]
+        low, high = (stroke_number(value, self.unit) + ("" if stop else " (looked no farther)") for value, stop in ends)
+        stops = [f"    {stroke_number(value, self.unit)}: dead point of {stop}" for value, stop in ends if stop]
+        return [f"  reachable from {low} to {high} {display_unit(UNITS[self.unit][1])}", *stops]
+
+
+class Limits(FrozenDict[str, StrokeLimits]):
+    """The limits of every stroke by name; printed as sentences."""
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self.values()))
 
 
 @refuses_changes
@@ -85,7 +114,7 @@ class Held:
     unit: str
 
     def __str__(self) -> str:
-        return f"{self.stroke} = {as_read(self.value, self.unit, 6)}"
+        return f"{self.stroke} = {stroke_text(self.value, self.unit, 6)}"
 
 
 @refuses_changes
@@ -101,60 +130,22 @@ class Open:
         return f"after one turn the pins {' '.join(self.pins)} do not stand where they began; {end}"
 
 
+# The search for the ends of what is reached.
+
+Scan = Callable[[FloatArray], "Scanned"]
+"""A look at some stroke values: which are reached, and what fails."""
+
+
 @refuses_changes
 @dataclass(frozen=True)
-class StrokeLimits:
-    """The limits along one stroke, the others held. Values in m or rad, as the stroke; printed, angles are in degrees."""
+class Scanned:
+    """What was seen at some stroke values: the mask of those reached."""
 
-    stroke: str
-    unit: str
-    start: float
-    end: float
-    intervals: tuple[Interval, ...]
-    change_points: tuple[tuple[float, str], ...]
-    transmission: tuple[Extreme, ...] = ()
-    held: tuple[Held, ...] = ()
-    open_turn: Open | None = None
-    cylinder_dead_points: tuple[tuple[float, str], ...] = ()
-    """Where the length of a cylinder that hangs beside the drive stands still, so that its thrust moves nothing: (stroke, cylinder)."""
-
-    @property
-    def dead_points(self) -> tuple[tuple[float, str], ...]:
-        """Where a loop's two links come into line and the motion ends: (stroke, step)."""
-        ends = [(value, stop) for each in self.intervals for value, stop in ((each.low, each.low_stop), (each.high, each.high_stop))]
-        return tuple((value, stop) for value, stop in ends if stop)
-
-    def __str__(self) -> str:
-        held = f", with {', '.join(map(str, self.held))} held" if self.held else ""
-        lines = [f"{self.stroke}: declared {number(self.start, self.unit, 6)} to {as_read(self.end, self.unit, 6)}{held}"]
-        for each in self.intervals:
-            lines += self._reach(each)
-        lines += [f"  change point at {as_read(value, self.unit)}: the branches of {step} cross" for value, step in self.change_points]
-        lines += [
-            f"  dead point of {name} at {self.stroke} = {as_read(value, self.unit)}: its length stands still"
-            for value, name in self.cylinder_dead_points
-        ]
-        lines += [
-            f"  least transmission angle at {each.joint}: {each.angle / deg:.4g} deg at {as_read(each.stroke, self.unit, 6)}"
-            for each in self.transmission
-        ]
-        return "\n".join([*lines, *([f"  {self.open_turn}"] if self.open_turn else [])])
-
-    def _reach(self, interval: Interval) -> list[str]:
-        """Return the lines of an interval."""
-        ends = (interval.low, interval.low_stop), (interval.high, interval.high_stop)
-        if not (interval.low_stop or interval.high_stop):
-            return [f"  reachable all the way from {number(interval.low, self.unit)} to {as_read(interval.high, self.unit)}"]
-        low, high = (number(value, self.unit) + ("" if stop else " (looked no farther)") for value, stop in ends)
-        stops = [f"    {number(value, self.unit)}: dead point of {stop}" for value, stop in ends if stop]
-        return [f"  reachable from {low} to {high} {READ_IN[self.unit][1]}", *stops]
-
-
-class Limits(FrozenDict[str, StrokeLimits]):
-    """The limits of every stroke by name; printed as sentences."""
-
-    def __str__(self) -> str:
-        return "\n".join(map(str, self.values()))
+    reached: Mask
+    failing: Callable[[int], str]
+    """The step that fails at one of the values."""
+    stops: tuple[float, ...] = ()
+    """Ends that are known already: those of groups, found on the way."""
 
 
 def search(scan: Scan, low: float, high: float, gaps: Sequence[float] = ()) -> list[Interval]:
@@ -167,32 +158,27 @@ def search(scan: Scan, low: float, high: float, gaps: Sequence[float] = ()) -> l
     return intervals(scan, at[order], reached[order])
 
 
-def intervals(scan: Scan, at: FloatArray, reached: Any) -> list[Interval]:
+def intervals(scan: Scan, at: FloatArray, reached: Mask) -> list[Interval]:
     """Return the reachable ranges among samples, their ends found by bisection."""
     found: list[Interval] = []
     edges = np.flatnonzero(np.diff(np.concatenate([[False], reached, [False]]).astype(int)))
     for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
-        low, low_stop = (at[first], "") if first == 0 else bisected(scan, at[first], at[first - 1])
-        high, high_stop = (at[last], "") if last == len(at) - 1 else bisected(scan, at[last], at[last + 1])
+        low, low_stop = (at[first], "") if first == 0 else end_of_reach(scan, at[first], at[first - 1])
+        high, high_stop = (at[last], "") if last == len(at) - 1 else end_of_reach(scan, at[last], at[last + 1])
         found.append(Interval(float(low), float(high), low_stop, high_stop))
     return found
 
 
-def bisected(scan: Scan, inside: float, outside: float) -> tuple[float, str]:
+def end_of_reach(scan: Scan, inside: float, outside: float) -> tuple[float, str]:
     """Return the last stroke reached between one inside and one outside, and the step that fails beyond it."""
-    for _ in range(8):
-        at = np.linspace(inside, outside, 65)
-        seen = scan(at)
-        place = int(np.argmin(seen.reached))
-        known = [stop for stop in seen.stops if min(inside, outside) <= stop <= max(inside, outside)]
-        if known:
-            return known[0], seen.failing(place)
-        if seen.reached[place]:
-            return inside, ""
-        inside, outside = float(at[max(place - 1, 0)]), float(at[place])
-        if abs(outside - inside) <= 4e-16 * max(abs(inside), abs(outside)):
-            break
-    return inside, seen.failing(place)
+    seen = scan(np.linspace(inside, outside, 65))
+    known = [stop for stop in seen.stops if min(inside, outside) <= stop <= max(inside, outside)]
+    if known:
+        return known[0], seen.failing(int(np.argmin(seen.reached)))
+    if np.all(seen.reached):
+        return inside, ""
+    last, beyond = last_holding(lambda at: np.array(scan(at).reached), inside, outside, parts=64)
+    return float(last), scan(np.array([beyond])).failing(0)
 
 
 # Where a mechanism cannot be assembled, in words: the strokes, and what is missing there.
@@ -223,31 +209,48 @@ def where_words(plan: Plan, mask: Mask, strokes: Mapping[str, Any]) -> str:
     if mask.ndim > poses:
         designs = mask.reshape(*mask.shape[: mask.ndim - poses], -1)
         return f"at {count} of {total} poses, in {int(designs.any(axis=-1).sum())} of {designs[..., 0].size} designs"
-    spans = [f"{name} = {span(value[mask], stroke_unit(plan, name))}" for name, value in strokes.items()]
+    spans = [f"{name} = {si_span(value[mask], stroke_unit(plan, name))}" for name, value in strokes.items()]
     if total == 1:
         return f"at {', '.join(spans)}" if spans else "anywhere"
     return f"at {count} of {total} strokes, {'from ' if count > 1 else 'at '}{', '.join(spans)}"
 
 
-def span(values: Any, unit: str) -> str:
+def si_span(values: Any, unit: str) -> str:
     """Return the range of some stroke values as text."""
     low, high = float(np.min(values)), float(np.max(values))
     return f"{low:.4f} {unit}" if low == high else f"{low:.4f} to {high:.4f} {unit}"
 
 
-def span_read(values: Any, unit: str) -> str:
+# Strokes as they are read.
+
+def span_text(values: Any, unit: str) -> str:
     """Return the range of some stroke values as it is read: `0 to 0.25 m`, `90 deg`."""
     if not np.size(values):
         return "nothing"
     low, high = float(np.min(values)), float(np.max(values))
-    return as_read(low, unit, 6) if low == high else f"{number(low, unit, 6)} to {as_read(high, unit, 6)}"
+    return stroke_text(low, unit, 6) if low == high else f"{stroke_number(low, unit, 6)} to {stroke_text(high, unit, 6)}"
 
 
-def place_read(value: Any, unit: str) -> str:
+def place_text(value: Any, unit: str) -> str:
     """Return a stroke [m or rad], or the range of several, as a place of it is read: `0.1234 m`, `25.00 deg`, `0.1000 to 0.2000 m`."""
-    digits, (factor, name) = 2 if unit == "rad" else 4, READ_IN[unit]
-    ends = dict.fromkeys(f"{float(each) / factor + 0.0:.{digits}f}" for each in (np.min(value), np.max(value)))
-    return f"{' to '.join(ends)} {name}"
+    digits, shown = 2 if unit == "rad" else 4, display_unit(UNITS[unit][1])
+    ends = dict.fromkeys(f"{float(each) / factor(shown) + 0.0:.{digits}f}" for each in (np.min(value), np.max(value)))
+    return f"{' to '.join(ends)} {shown}"
+
+
+def stroke_text(value: float, unit: str, digits: int = 9) -> str:
+    """Return a value of a stroke [m or rad] as it is read: `0.25 m`, `90 deg`."""
+    return f"{stroke_number(value, unit, digits)} {display_unit(UNITS[unit][1])}"
+
+
+def stroke_number(value: float, unit: str, digits: int = 9) -> str:
+    """Return a value of a stroke [m or rad] as it is read, without its unit; angles in degrees."""
+    return f"{value / factor(display_unit(UNITS[unit][1])):.{digits}g}"
+
+
+def stroke_display_unit(plan: Plan, name: str, length: str = "m") -> str:
+    """Return the unit that a stroke is shown in: deg where it is an angle, else that of a length."""
+    return display_unit(UNITS[stroke_unit(plan, name)][1], length)
 
 
 def stroke_unit(plan: Plan, name: str) -> str:

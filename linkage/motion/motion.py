@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeAlias
 
 import numpy as np
 
 from ..assembly import parted
-from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, cited, one_word, unwarned
+from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, cited, one_word, unwarned, warn
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Kernel
 from ..quantities import Angle, Distance, Member, Quantity, needs
@@ -20,11 +19,24 @@ from . import conditions, scan
 from . import differences as numeric
 from . import limits as reach
 from .conditions import Judged
-from .gradient import gradient_of
-from .grid import Beside, Grid, Joining, angles_of, as_they_are, in_order, to_rounding
+from .grid import Grid, JoinedTo, Joining, angles_of, joined_in_order, not_joined, to_rounding
 from .limits import Mask
-from .requests import BoundRequest, Everywhere, RequestLike, Value, examined, near_of, stroke_of, watched
-from .strokes import method_of, named, order_of, rates_of
+from .requests import (
+    BoundRequest,
+    Places,
+    RequestLike,
+    Slope,
+    Value,
+    bound,
+    dimensions_of,
+    examined,
+    near_singular,
+    other_law_error,
+    slopes_of,
+    stroke_of,
+    watched,
+)
+from .strokes import checked_name, method_of, order_of, rates_of
 
 Target: TypeAlias = str | Member
 
@@ -33,8 +45,8 @@ class Motion:
     """The poses of a mechanism: all positions, worked out at once; ratios and outputs when asked.
 
     Arrays are component-first, designs before strokes: a position has the shape (2, *designs, *strokes).
-    Raises AssemblyError where a pose cannot be assembled, unless `unreachable="nan"`. With `own` the arrays of strokes begin with the
-    shape of the designs, each of which has strokes of its own; `joining` says how angles are made continuous, `tangent` how several
+    Raises AssemblyError where a pose cannot be assembled, unless `unreachable="nan"`. With `per_design` the arrays of strokes begin with
+    the shape of the designs, each of which has strokes of its own; `joining` says how angles are made continuous, `tangent` how several
     strokes go on along a path.
     """
 
@@ -45,7 +57,7 @@ class Motion:
         strokes: Mapping[str, FloatArray],
         unreachable: str = "raise",
         *,
-        own: bool = False,
+        per_design: bool = False,
         joining: Joining | None = None,
         tangent: Mapping[str, FloatArray] | None = None,
     ) -> None:
@@ -55,91 +67,51 @@ class Motion:
         ):  # fmt: skip
             raise DefinitionError("Motion(...) is made by a design: machine.sweep(...) or machine.at(...).")
         one_word("unreachable", unreachable, ("raise", "nan"))
-        self.grid = Grid(plan, designs, strokes, own=own, joining=joining)
+        self._grid = Grid(plan, designs, strokes, per_design=per_design, joining=joining)
         self.plan, self.unreachable = plan, unreachable
-        self.shape, self.design_shape = self.grid.shape, self.grid.design_shape
+        self.shape, self._design_shape = self._grid.shape, self._grid.design_shape
         self._tangent = tangent
-        self._values: dict[Any, FloatArray] = {}
-        self._watched: dict[Any, bool] = {}
+        self._values: dict[Hashable, FloatArray] = {}
+        self._watched: dict[Hashable, bool] = {}
         self.reached: Mask = np.ones(self.shape, bool)
-        result = plan.kernel(plan.moving, guarded=True)(self.grid.flat)
-        self._places = self.grid.full(result.values)
-        self.is_near_singular = not np.all(result.guards > 0.0)
-        if self.is_near_singular or plan.may_overflow:
+        result = plan.kernel(plan.moving, guarded=True)(self._grid.flat)
+        self._places = self._grid.full(result.values)
+        self._is_near_singular = not np.all(result.guards > 0.0)
+        if self._is_near_singular or plan.may_overflow:
             self._settle_unreached()
-        if self.is_near_singular:
+        if self._is_near_singular:
             self._settle_lost()
         self._places.flags.writeable = self.reached.flags.writeable = False
         if unreachable == "raise" and scan.is_watched(self):
-            scan.refuse_crossing(self)
+            scan.refuse_interrupted(self)
         if unreachable == "raise" and plan.followed and len(self.strokes) > 1:
             self._refuse_parted()
 
     @property
     def designs(self) -> dict[str, Any]:
         """The design variables by name [SI]."""
-        return self.grid.designs
+        return self._grid.designs
 
     @property
     def strokes(self) -> dict[str, FloatArray]:
         """The strokes by name [m or rad], arrays of one shape."""
-        return self.grid.strokes
+        return self._grid.strokes
 
     @property
     def inputs(self) -> dict[str, Any]:
         """Design variables and strokes by name, shaped to broadcast against results."""
-        return self.grid.inputs
-
-    def array(self, values: Any) -> FloatArray:
-        """Return numbers as arrays of floats."""
-        return np.asarray(values, float)
+        return self._grid.inputs
 
     @property
-    def stroke_shape(self) -> tuple[int, ...]:
+    def _stroke_shape(self) -> tuple[int, ...]:
         """The shape of the poses of each design."""
-        return self.grid.stroke_shape
+        return self._grid.stroke_shape
 
     def __repr__(self) -> str:
-        spans = [f"{name} = {reach.span_read(values, reach.stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
+        spans = [f"{name} = {reach.span_text(values, reach.stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
         poses = f"{', '.join(spans) or 'no stroke'}; shape {self.shape}"
         reached = "all reached" if self.reached.all() else f"{int(self.reached.sum())} of {self.reached.size} reached"
-        return f"<Motion of {self.plan.title}: {poses}, {reached}{scan.between_words(self)}>"
-
-    @cached_property
-    def interruptions(self) -> tuple[scan.Interruption, ...] | None:
-        """What interrupts the way between the least and the greatest stroke, in order: stretches out of reach and change points.
-
-        Empty where nothing does; it then leads from every pose to every other. None where it is not looked for: of batches and
-        of several strokes. Asked with unreachable="raise", a motion that is interrupted is refused.
-        """
-        if self.grid.size[1] < 2:
-            return ()
-        if not scan.is_watched(self):
-            return None
-        return scan.interruptions(self) if self.unreachable == "nan" else ()
-
-    def _refuse_parted(self) -> None:
-        """Raise SingularError where an angle that is followed from the sketch changes by a turn from one pose to the next."""
-        m, shape = self.grid.size[0], self.stroke_shape
-        solved = self.grid.solved.inputs
-        references = {name: np.broadcast_to(solved[name], self.grid.size).reshape(m, *shape) for name in self.plan.followed}
-        designs = {name: np.broadcast_to(value, self.design_shape) if np.ndim(value) else value for name, value in self.designs.items()}
-        name = parted(self.plan, designs, self.strokes, references)
-        if name:
-            raise SingularError(
-                f"{self.plan.title}: {name}, whose whole turns count here, is followed from the sketch, and the straight ways to two "
-                "neighbours of these poses pass a pose where its ends meet on either side, so that a turn lies between them. Stay on one "
-                "side of it, take a whole multiple of the angle, or drive it by a Stroke.",
-                mask=np.ones(self.shape, bool), motion=self,
-            )  # fmt: skip
-
-    if not TYPE_CHECKING:  # a name that is not there shall be found before it runs
-
-        def __getattr__(self, name: str) -> Any:
-            """Raise AttributeError, with what may have been meant: a point, a vector or an output goes by `motion["G"]`."""
-            is_member = "plan" in vars(self) and name in self.plan.members
-            remedy = f'what the class calls {name} is motion["{name}"]' if is_member else "a point or an output goes by motion[name]"
-            raise AttributeError(f"A motion has no attribute {name!r}; {remedy}.", name=name, obj=self)
+        return f"<Motion of {self.plan.title}: {poses}, {reached}{scan.between_words(self.interruptions)}>"
 
     def __contains__(self, name: object) -> bool:
         """Whether a name is that of a point, a vector or a quantity: what `motion[name]` gives."""
@@ -150,90 +122,15 @@ class Motion:
         text = f"{self.plan.title}: a motion is not gone through pose by pose"
         raise DefinitionError(f'{text}; its poses are the last axis of what it gives, such as motion["G"].')
 
-    def refusal(self) -> AssemblyError:
-        """Return the error for the poses that are not reached: out of reach, or behind a change point."""
-        if self.crossed.any():
-            return scan.group_crossing(self, self.crossed)
-        return reach.refusal(self.plan, self.grid.read_at(~self.reached), ~self.reached, self.strokes, scan.stop_words(self))
+    if not TYPE_CHECKING:  # a name that is not there shall be found before it runs
 
-    def limits(self) -> scan.Limits:
-        """Return, for every stroke, how far it can go and what stops it; printed as sentences.
+        def __getattr__(self, name: str) -> Any:
+            """Raise AttributeError, with what may have been meant: a point, a vector or an output goes by `motion["G"]`."""
+            is_member = "plan" in vars(self) and name in self.plan.members
+            remedy = f'what the class calls {name} is motion["{name}"]' if is_member else "a point or an output goes by motion[name]"
+            raise AttributeError(f"A motion has no attribute {name!r}; {remedy}.", name=name, obj=self)
 
-        Reachable intervals, dead points and the steps that stop there, change points, least transmission angles.
-        One design at a time; other strokes are held at this motion's first values.
-        """
-        return scan.limits(self)
-
-    # -- reach -----------------------------------------------------------------------------------------
-
-    def _settle_unreached(self) -> None:
-        """Place the poses at a dead point, to rounding; refuse or mask those out of reach."""
-        failed: Mask = np.asarray(~np.isfinite(self._places).all(axis=0)) if len(self._places) else np.ones(self.shape, bool)
-        with np.errstate(all="ignore"):
-            failed |= reach.negative(self.plan, ArrayReading(self.plan.members, self.plan.table.lengths, self.inputs), self.shape)
-        if not failed.any():
-            return
-        reading = self.grid.read_at(failed)
-        lost = np.zeros(int(failed.sum()), bool)
-        for _, mask in reach.failures(self.plan, reading, lost.shape):
-            lost |= mask
-        self._places = np.array(self._places)
-        for index, name in enumerate(self.plan.moving):
-            place = reading.at(name)
-            for axis, part in enumerate((place.x, place.y)):
-                self._places[2 * index + axis, ...][failed] = np.where(lost, np.nan, part)
-        self.reached[failed] = ~lost
-        if self.unreachable == "raise" and lost.any():
-            raise self.refusal()
-
-    def _settle_lost(self) -> None:
-        """Refuse or mask the poses of which rounding leaves nothing, as where two points that another hangs from come together."""
-        words = f"The places of {self.plan.title}"
-        lost = self._refused_near(Everywhere(self.plan.moving), words, lambda found, mask: conditions.lost(found, mask, self.strokes), 7)
-        if lost.any():
-            self._places = np.where(lost, np.nan, self._places)
-            self.reached &= ~lost
-
-    # -- looked at again ---------------------------------------------------------------------------------
-
-    @property
-    def group_stops(self) -> tuple[float, ...]:
-        """The strokes at which a group's pins could not be followed farther from the sketch."""
-        return self.grid.solved.stops
-
-    @property
-    def crossed(self) -> Mask:
-        """The poses that a group's pins reach only through a change point."""
-        return np.asarray(np.broadcast_to(self.grid.full(self.grid.solved.crossed[None].astype(float))[0] > 0.0, self.shape))
-
-    @cached_property
-    def reading(self) -> ArrayReading:
-        """The eager reading of all poses."""
-        with np.errstate(all="ignore"):
-            return self.plan.read(self.inputs)
-
-    @cached_property
-    def loop_sines(self) -> dict[str, Any]:
-        """The sine of the angle between the two links of every moving loop; zero at a dead point."""
-        return conditions.loops(self.plan, self.reading)
-
-    def moved(self, strokes: Mapping[str, Any]) -> Self:
-        """Return the same designs at other strokes [SI], each at its own where the arrays begin with the designs; NaN out of reach."""
-        given = strokes if isinstance(strokes, Mapping) else {}
-        if given.keys() != self.strokes.keys():
-            known = ", ".join(f"{name}=..." for name in self.strokes)
-            raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): a value for each stroke is expected, dict({known}).")
-        try:
-            arrays = np.broadcast_arrays(*(np.array(given[name], float) for name in self.strokes))
-        except (TypeError, ValueError, OverflowError):
-            said = "numbers or arrays that fit each other are expected"
-            raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): {said}.") from None
-        own = self.grid.own and arrays[0].shape[: len(self.design_shape)] == self.design_shape
-        joining = in_order if self.grid.is_special else None
-        with unwarned():
-            return type(self)(self.plan, self.designs, dict(zip(self.strokes, arrays, strict=True)), "nan", own=own, joining=joining)
-
-    # -- what is read off ---------------------------------------------------------------------------------
+    # -- what is read off --------------------------------------------------------------------------------
 
     def __getitem__(self, name: str) -> FloatArray:
         """Return a point's position or a vector, shape (2, ...) [m], or a quantity, shape (...) [SI]."""
@@ -246,42 +143,6 @@ class Motion:
             return self._evaluated(member, ())
         raise DefinitionError(f"{self.plan.title}: {name} = {member} has no value over the stroke; name a point, a vector or an output.")
 
-    def _place(self, name: str) -> FloatArray:
-        if name in self.plan.ground:
-            return self._evaluated(self.plan.members[name], ())
-        index = 2 * self.plan.moving.index(name)
-        return self._places[index : index + 2]
-
-    def value(self, quantity: Quantity) -> FloatArray:
-        """Return a quantity over all poses [SI]; angles without jumps along the stroke."""
-        member = self._member(quantity)
-        if not isinstance(member, Quantity):
-            raise DefinitionError(f'{self.plan.title}: {member.name} is no quantity; ask for motion["{member.name}"].')
-        words = str(member.name or member)
-        refused = self.refused(Value(member, ()), words)
-        return self.finite(np.where(self.reached & ~refused, self._evaluated(member, ()), np.nan), refused, words)
-
-    @cached_property
-    def _placed(self) -> ArrayReading:
-        """The eager reading whose points are where the motion has them."""
-        reading = ArrayReading(self.plan.members, self.plan.table.lengths, self.inputs)
-        for name in self.plan.moving:
-            reading.positions[name] = Vec(*self._place(name))
-        return reading
-
-    def finite(self, values: FloatArray, excused: Mask, what: str) -> FloatArray:
-        """Return values that are finite at every pose reached; NaN where they are not and NaN was asked for."""
-        finite = np.isfinite(values)
-        if finite.all():
-            return values
-        good: Mask = np.asarray(finite if finite.ndim == len(self.shape) else finite.all(axis=0))
-        missing = ~good & self.reached & ~excused
-        if missing.any() and self.unreachable == "raise":
-            where = reach.where_words(self.plan, missing, self.strokes)
-            text = f'{what} has no finite value {where}. Leave these poses out, or ask with unreachable="nan".'
-            raise SingularError(text, mask=missing, motion=self)
-        return np.where(good, values, np.nan)
-
     def x(self, point: Target) -> FloatArray:
         """Return a point's x coordinate [m]."""
         return np.asarray(self._point(point)[0])
@@ -289,12 +150,6 @@ class Motion:
     def y(self, point: Target) -> FloatArray:
         """Return a point's y coordinate [m]."""
         return np.asarray(self._point(point)[1])
-
-    def _point(self, name: Target) -> FloatArray:
-        return self._place(named("Point", name, self.plan.points, self.plan.title))
-
-    def _known(self, target: Target) -> Member:
-        return self.plan.members[named("Name", target, self.plan.members, self.plan.title)]
 
     def angle(self, P: Target, Q: Target) -> FloatArray:
         """Return the direction of P -> Q [rad], without jumps along the stroke."""
@@ -315,30 +170,29 @@ class Motion:
         force on the way from link to link that moves the second one. DefinitionError for a point that is no such joint.
         Sources: H. Alt, Werkstattstechnik 26 (1932); S. S. Balli, S. Chand, Mech. Mach. Theory 37 (2002) 175-195.
         """
-        name = named("Point", point, self.plan.points, self.plan.title)
+        name = checked_name("Point", point, self.plan.points, self.plan.title)
         directions = self._meeting(name)
         if not directions:
-            raise reach.no_joint(self.plan, name, self.joints)
+            raise reach.no_joint(self.plan, name, self._joints)
         u, w = directions
         with np.errstate(all="ignore"):
             angle = np.arctan2(np.abs(u.cross(w)), u.dot(w))
         return np.where(self.reached, np.broadcast_to(angle, self.shape), np.nan)
 
-    @cached_property
-    def joints(self) -> tuple[str, ...]:
-        """The points that have a transmission angle: the joints of dyads."""
-        return tuple(name for name in self.plan.points if self._meeting(name))
+    def value(self, quantity: Quantity) -> FloatArray:
+        """Return a quantity over all poses [SI]; angles without jumps along the stroke."""
+        member = self._member(quantity)
+        if not isinstance(member, Quantity):
+            raise DefinitionError(f'{self.plan.title}: {member.name} is no quantity; ask for motion["{member.name}"].')
+        words = str(member.name or member)
+        refused = self._refused(Value(member, ()), words)
+        return self._finite(np.where(self.reached & ~refused, self._evaluated(member, ()), np.nan), refused, words)
 
-    def _meeting(self, name: str) -> tuple[Vec, ...]:
-        with np.errstate(all="ignore"):
-            return self.plan.points[name].meeting(self._placed)
-
-    def _member(self, target: Target) -> Member:
-        if not isinstance(target, Quantity) or target.name:
-            return self._known(target)
-        for name in needs(target):
-            named("Name", name, self.plan.members, self.plan.title)
-        return target
+    def sketched(self, quantity: Quantity) -> FloatArray:
+        """Return what a quantity is at the sketch pose of each design [SI], shaped to broadcast against results."""
+        strokes = {name: np.asarray(value) for name, value in self.plan.sketch_strokes.items()}
+        found = Motion(self.plan, self.designs, strokes, "nan").value(quantity)
+        return found.reshape((*self._design_shape, *(1,) * len(self._stroke_shape)))
 
     @property
     def tangent(self) -> Mapping[str, FloatArray] | None:
@@ -346,22 +200,16 @@ class Motion:
 
         Half the way from the pose before to the pose after [SI]: its signs and ratios mean something, its length does not.
         """
-        if self.grid.is_special:
+        if self._grid.is_special:
             return self._tangent
-        if len(self.strokes) < 2 or len(self.stroke_shape) != 1 or self.stroke_shape[0] < 2:
+        if len(self.strokes) < 2 or len(self._stroke_shape) != 1 or self._stroke_shape[0] < 2:
             return None
-        if self.stroke_shape[0] == 2:
+        if self._stroke_shape[0] == 2:
             return {name: np.gradient(value) for name, value in self.strokes.items()}
         # of second order at the ends too; a stroke that is held stays exactly so
         return {name: np.gradient(value, edge_order=2) * float(np.ptp(value) > 0.0) for name, value in self.strokes.items()}
 
-    def sketched(self, quantity: Quantity) -> FloatArray:
-        """Return what a quantity is at the sketch pose of each design [SI], shaped to broadcast against results."""
-        strokes = {name: np.asarray(value) for name, value in self.plan.sketch_strokes.items()}
-        found = Motion(self.plan, self.designs, strokes, "nan").value(quantity)
-        return found.reshape((*self.design_shape, *(1,) * len(self.stroke_shape)))
-
-    # -- ratios ----------------------------------------------------------------------------------------
+    # -- ratios, velocities, gradients -------------------------------------------------------------------
 
     def ratio(
         self, target: Target, *, wrt: str | None = None, order: int = 1, method: str = "exact", step: float | None = None
@@ -375,11 +223,164 @@ class Motion:
         stroke = stroke_of(self.plan, wrt)
         order, method = order_of(order), method_of(method, step)
         member = self._member(target)
-        refused = self.refused(Value(member, (stroke,) * order), f"The ratio of {member.name or member}")
+        refused = self._refused(Value(member, (stroke,) * order), f"The ratio of {member.name or member}")
         step = None if step is None else float(step)
         found = self._evaluated(member, (stroke,) * order) if method == "exact" else self._numeric(member, stroke, order, step)
         found = np.where(refused, np.nan, found) if refused.any() else found
-        return self.finite(found, refused, f"The ratio of {member.name or member} by {stroke}")
+        return self._finite(found, refused, f"The ratio of {member.name or member} by {stroke}")
+
+    def velocity(self, target: Target, rates: Mapping[str, Any]) -> FloatArray:
+        """Return the velocity of a point [m/s], shape (2, ...), or the rate of an output, from stroke rates [1/s]."""
+        given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title)
+        return sum((self.ratio(target, wrt=name) * rate for name, rate in given.items()), self._still(target))
+
+    def acceleration(self, target: Target, rates: Mapping[str, Any], accelerations: Mapping[str, Any] | None = None) -> FloatArray:
+        """Return the acceleration of a point [m/s2], shape (2, ...), from stroke rates and accelerations."""
+        given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title)
+        driven = rates_of("accelerations", {} if accelerations is None else accelerations, self.strokes, self.shape, self.plan.title)
+        member = self._member(target)
+        along = [tuple(sorted((first, second))) for first in given for second in given]
+        masks = [self._refused(Value(member, each), f"The acceleration of {member.name or member}") for each in dict.fromkeys(along)]
+        refused = np.any(masks, axis=0)
+        total = sum((self.ratio(target, wrt=name) * value for name, value in driven.items()), self._still(target))
+        for first, u in given.items():
+            for second, v in given.items():
+                total = total + self._evaluated(member, tuple(sorted((first, second)))) * u * v
+        return np.where(refused, np.nan, total)
+
+    def gradient(self, of: RequestLike, wrt: Sequence[str]) -> FloatArray:
+        """Return the exact derivatives of a position, an output, a ratio or a force by dimensions, all in one reverse pass.
+
+        `gradient("tilt", wrt=["OB", "CD", "M.x"])` has the shape (3, ...), that of a point (3, 2, ...); `gradient(ratio("G"), ...)` is
+        how the transfer ratio follows the dimensions, `gradient(thrust(), wrt=["OB", "load.mass"])` how the drive's force does.
+        Raises SingularError at a dead point, DefinitionError for the law of a load that cannot be traced.
+        """
+        plan = self.plan
+        what, dimensions = bound(plan, of), dimensions_of(plan, wrt)
+        names, title = tuple(name for name, _ in dimensions), f"The gradient of {what}"
+        refused = self._refused(Slope(what, names), title)
+        good = self.reached & ~refused
+        slopes = plan.made(("gradient", what.key, names), lambda plan: slopes_of(plan, what, names))
+        rest = what.rows * len(names)
+        values, assumed, switches = np.split(self._grid.full(slopes.kernel(self._grid.flat).values), [rest, rest + slopes.assumed])
+        self._check_laws(what, good, assumed, zip(slopes.touched, switches, strict=True))
+        continued = slopes.angles.continued(self._grid, self.reached)
+        signs = np.tile([float(sign) for _, sign in dimensions], what.rows).reshape(-1, *(1,) * len(self.shape))
+        found = values if continued is None else continued
+        if not (good.all() and np.all(signs > 0.0) and found.flags.writeable):
+            found = np.where(good, found * signs, np.nan)
+        rows = self._finite(found, refused, title)
+        return np.stack(np.split(rows, what.rows), axis=1) if what.rows > 1 else rows
+
+    # -- how far it goes, and other strokes --------------------------------------------------------------
+
+    def limits(self) -> scan.Limits:
+        """Return, for every stroke, how far it can go and what stops it; printed as sentences.
+
+        Reachable intervals, dead points and the steps that stop there, change points, least transmission angles.
+        One design at a time; other strokes are held at this motion's first values.
+        """
+        return scan.limits(self)
+
+    @cached_property
+    def interruptions(self) -> tuple[scan.Interruption, ...] | None:
+        """What interrupts the way between the least and the greatest stroke, in order: stretches out of reach and change points.
+
+        Empty where nothing does; it then leads from every pose to every other. None where it is not looked for: of batches and
+        of several strokes. Asked with unreachable="raise", a motion that is interrupted is refused.
+        """
+        if self._grid.size[1] < 2:
+            return ()
+        if not scan.is_watched(self):
+            return None
+        return scan.interruptions(self) if self.unreachable == "nan" else ()
+
+    def moved(self, strokes: Mapping[str, Any]) -> Self:
+        """Return the same designs at other strokes [SI], each at its own where the arrays begin with the designs; NaN out of reach."""
+        given = strokes if isinstance(strokes, Mapping) else {}
+        if given.keys() != self.strokes.keys():
+            known = ", ".join(f"{name}=..." for name in self.strokes)
+            raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): a value for each stroke is expected, dict({known}).")
+        try:
+            arrays = np.broadcast_arrays(*(np.array(given[name], float) for name in self.strokes))
+        except (TypeError, ValueError, OverflowError):
+            said = "numbers or arrays that fit each other are expected"
+            raise DefinitionError(f"{self.plan.title}: moved({cited(strokes)}): {said}.") from None
+        own = self._grid.per_design and arrays[0].shape[: len(self._design_shape)] == self._design_shape
+        joining = joined_in_order if self._grid.is_special else None
+        with unwarned():
+            return type(self)(self.plan, self.designs, dict(zip(self.strokes, arrays, strict=True)), "nan", per_design=own, joining=joining)
+
+    # -- reach -------------------------------------------------------------------------------------------
+
+    def _settle_unreached(self) -> None:
+        """Place the poses at a dead point, to rounding; refuse or mask those out of reach."""
+        failed: Mask = np.asarray(~np.isfinite(self._places).all(axis=0)) if len(self._places) else np.ones(self.shape, bool)
+        with np.errstate(all="ignore"):
+            failed |= reach.negative(self.plan, ArrayReading(self.plan.members, self.plan.table.lengths, self.inputs), self.shape)
+        if not failed.any():
+            return
+        reading = self._grid.read_at(failed)
+        lost = np.zeros(int(failed.sum()), bool)
+        for _, mask in reach.failures(self.plan, reading, lost.shape):
+            lost |= mask
+        self._places = np.array(self._places)
+        for index, name in enumerate(self.plan.moving):
+            place = reading.at(name)
+            for axis, part in enumerate((place.x, place.y)):
+                self._places[2 * index + axis, ...][failed] = np.where(lost, np.nan, part)
+        self.reached[failed] = ~lost
+        if self.unreachable == "raise" and lost.any():
+            raise out_of_reach(self)
+
+    def _settle_lost(self) -> None:
+        """Refuse or mask the poses of which rounding leaves nothing, as where two points that another hangs from come together."""
+        words = f"The places of {self.plan.title}"
+        lost = self._refused_near(Places(self.plan.moving), words, lambda found, mask: conditions.lost_places(found, mask, self.strokes))
+        if lost.any():
+            self._places = np.where(lost, np.nan, self._places)
+            self.reached &= ~lost
+
+    def _refuse_parted(self) -> None:
+        """Raise SingularError where an angle that is followed from the sketch changes by a turn from one pose to the next."""
+        m, shape = self._grid.size[0], self._stroke_shape
+        solved = self._grid.solved.inputs
+        references = {name: np.broadcast_to(solved[name], self._grid.size).reshape(m, *shape) for name in self.plan.followed}
+        designs = {name: np.broadcast_to(value, self._design_shape) if np.ndim(value) else value for name, value in self.designs.items()}
+        name = parted(self.plan, designs, self.strokes, references)
+        if name:
+            raise SingularError(
+                f"{self.plan.title}: {name}, whose whole turns count here, is followed from the sketch, and the straight ways to two "
+                "neighbours of these poses pass a pose where its ends meet on either side, so that a turn lies between them. Stay on one "
+                "side of it, take a whole multiple of the angle, or drive it by a Stroke.",
+                mask=np.ones(self.shape, bool), motion=self,
+            )  # fmt: skip
+
+    @property
+    def _crossed(self) -> Mask:
+        """The poses that a group's pins reach only through a change point."""
+        return np.asarray(np.broadcast_to(self._grid.full(self._grid.solved.crossed[None].astype(float))[0] > 0.0, self.shape))
+
+    # -- values through the program ----------------------------------------------------------------------
+
+    def _place(self, name: str) -> FloatArray:
+        if name in self.plan.ground:
+            return self._evaluated(self.plan.members[name], ())
+        index = 2 * self.plan.moving.index(name)
+        return self._places[index : index + 2]
+
+    def _point(self, name: Target) -> FloatArray:
+        return self._place(checked_name("Point", name, self.plan.points, self.plan.title))
+
+    def _known(self, target: Target) -> Member:
+        return self.plan.members[checked_name("Name", target, self.plan.members, self.plan.title)]
+
+    def _member(self, target: Target) -> Member:
+        if not isinstance(target, Quantity) or target.name:
+            return self._known(target)
+        for name in needs(target):
+            checked_name("Name", name, self.plan.members, self.plan.title)
+        return target
 
     def _evaluated(self, member: Member, along: tuple[str, ...]) -> FloatArray:
         """Return a value or a derivative through the program; the first derivatives of all points come in one pass, kept."""
@@ -394,12 +395,12 @@ class Motion:
                 kernel = self.plan.kernel(targets, along)
             else:
                 kernel = self.plan.made(("watched", what.key), lambda twin: Kernel(what.nodes(twin), watched(twin, what)))
-            result = kernel(self.grid.flat, size=self.grid.size)
-            found = self.grid.full(result.values)
+            result = kernel(self._grid.flat, size=self._grid.size)
+            found = self._grid.full(result.values)
             self._watched[what.key] = not np.all(result.guards > 0.0)
-            if self.is_near_singular and not along:
+            if self._is_near_singular and not along:
                 at_end = self.reached & ~np.isfinite(found).all(axis=0)
-                found = to_rounding(found, at_end, kernel.plan.outputs, self.grid.inputs_at(at_end)) if at_end.any() else found
+                found = to_rounding(found, at_end, kernel.plan.outputs, self._grid.inputs_at(at_end)) if at_end.any() else found
             continued = self._continued(what) if isinstance(member, Quantity) else None
             self._values[key] = found if continued is None else continued
             self._values[key].flags.writeable = False
@@ -413,7 +414,7 @@ class Motion:
 
     def _continued(self, what: Value) -> FloatArray | None:
         """Return what holds angles, which are continued along the stroke; None where they need not be."""
-        return self.plan.made(("angles", what.key), lambda plan: angles_of(plan, what.nodes(plan))).continued(self.grid, self.reached)
+        return self.plan.made(("angles", what.key), lambda plan: angles_of(plan, what.nodes(plan))).continued(self._grid, self.reached)
 
     def _numeric(self, member: Member, stroke: str, order: int, step: float | None) -> FloatArray:
         def values(offsets: FloatArray) -> FloatArray:
@@ -435,30 +436,62 @@ class Motion:
         if lost > numeric.WARN[order]:
             other = "the exact one is not" if step is None else "without a step it is chosen at every pose"
             text = f"{what} is off by up to about {lost:.0e} of its greatest value; {other}."
-            warnings.warn(SingularWarning(text, estimate=lost), stacklevel=3)
+            warn(SingularWarning(text, estimate=lost))
         return np.where(useless, np.nan, found)
 
-    def refused(self, what: BoundRequest, words: str) -> Mask:
+    def _still(self, target: Target) -> FloatArray:
+        """Return zeros in the shape of a ratio, NaN where the pose is not reached."""
+        parts = (2,) if isinstance(self._member(target), (Point, Arrow)) else ()
+        return np.where(self.reached, np.zeros((*parts, *self.shape)), np.nan)
+
+    def _finite(self, values: FloatArray, excused: Mask, what: str) -> FloatArray:
+        """Return values that are finite at every pose reached; NaN where they are not and NaN was asked for."""
+        finite = np.isfinite(values)
+        if finite.all():
+            return values
+        good: Mask = np.asarray(finite if finite.ndim == len(self.shape) else finite.all(axis=0))
+        missing = ~good & self.reached & ~excused
+        if missing.any() and self.unreachable == "raise":
+            where = reach.where_words(self.plan, missing, self.strokes)
+            text = f'{what} has no finite value {where}. Leave these poses out, or ask with unreachable="nan".'
+            raise SingularError(text, mask=missing, motion=self)
+        return np.where(good, values, np.nan)
+
+    def _check_laws(self, what: BoundRequest, good: Mask, assumed: FloatArray, switches: Iterable[tuple[str, FloatArray]]) -> None:
+        """Raise the error of poses where a law is another than the one traced, or changes to another with a dimension."""
+        if np.any(good & ~np.all(assumed > 0.0, axis=0)):
+            what.refuse(self)
+            raise other_law_error(self.plan, what)
+        for words, values in switches:
+            if np.any(good & (values > 0.0)):
+                raise DefinitionError(
+                    f"{self.plan.title}: {what} has no derivative by {words} that it equals here, and is another law next to it. "
+                    "Leave that dimension out of wrt=, or set it beside that number."
+                )
+
+    # -- near singular poses -----------------------------------------------------------------------------
+
+    def _refused(self, what: BoundRequest, words: str) -> Mask:
         """Return the mask of poses where a result is refused; raise or warn as asked. `words` begin a sentence about it."""
         if not self._is_near(what):
             return np.zeros(self.shape, bool)
-        return self._refused_near(what, words, lambda found, mask: conditions.refusal(found, mask, self.strokes, words, self), 5)
+        return self._refused_near(what, words, lambda found, mask: conditions.refusal(found, mask, self.strokes, words, self))
 
-    def _refused_near(self, what: BoundRequest, words: str, error: Callable[[Judged, Mask], SingularError], level: int) -> Mask:
+    def _refused_near(self, what: BoundRequest, words: str, error: Callable[[Judged, Mask], SingularError]) -> Mask:
         """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked.
 
-        `error` makes what is raised of how the refused poses are judged and of their mask; `level` is that of the warning's caller.
+        `error` makes what is raised of how the refused poses are judged and of their mask.
         """
         refused, doubtful = np.zeros(self.shape, bool), np.zeros(self.shape, bool)
-        near = near_of(self.grid, what) & self.reached
+        near = near_singular(self._grid, what) & self.reached
         if not near.any():
             return refused
-        found = examined(self.plan, what, self.grid.inputs_at(near), self.grid.read_at(near))
+        found = examined(self.plan, what, self._grid.inputs_at(near), self._grid.read_at(near))
         refused[near], doubtful[near] = found.refused, found.doubtful
         if refused.any() and self.unreachable == "raise":
             raise error(found.at(found.refused), refused)
         if doubtful.any():
-            conditions.warn(found.at(found.doubtful), f"{words} {reach.where_words(self.plan, doubtful, self.strokes)}", level)
+            conditions.warn_near(found.at(found.doubtful), f"{words} {reach.where_words(self.plan, doubtful, self.strokes)}")
         return refused
 
     def _is_near(self, what: BoundRequest) -> bool:
@@ -466,45 +499,46 @@ class Motion:
         if isinstance(what, Value) and not isinstance(what.member, Point):
             self._evaluated(what.member, what.along)
             return self._watched[what.key]
-        return self.is_near_singular
+        return self._is_near_singular
 
-    def gradient(self, of: RequestLike, wrt: Sequence[str]) -> FloatArray:
-        """Return the exact derivatives of a position, an output, a ratio or a force by dimensions, all in one reverse pass.
+    # -- read on arrays ----------------------------------------------------------------------------------
 
-        `gradient("tilt", wrt=["OB", "CD", "M.x"])` has the shape (3, ...), that of a point (3, 2, ...); `gradient(ratio("G"), ...)` is
-        how the transfer ratio follows the dimensions, `gradient(thrust(), wrt=["OB", "load.mass"])` how the drive's force does.
-        Raises SingularError at a dead point, DefinitionError for the law of a load that cannot be traced.
-        """
-        return gradient_of(self, of, wrt)
+    @cached_property
+    def _reading(self) -> ArrayReading:
+        """The eager reading of all poses."""
+        with np.errstate(all="ignore"):
+            return self.plan.read(self.inputs)
 
-    # -- velocity --------------------------------------------------------------------------------------
+    @cached_property
+    def _placed(self) -> ArrayReading:
+        """The eager reading whose points are where the motion has them."""
+        reading = ArrayReading(self.plan.members, self.plan.table.lengths, self.inputs)
+        for name in self.plan.moving:
+            reading.positions[name] = Vec(*self._place(name))
+        return reading
 
-    def velocity(self, target: Target, rates: Mapping[str, Any]) -> FloatArray:
-        """Return the velocity of a point [m/s], shape (2, ...), or the rate of an output, from stroke rates [1/s]."""
-        given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title)
-        return sum((self.ratio(target, wrt=name) * rate for name, rate in given.items()), self._still(target))
+    @cached_property
+    def _loop_sines(self) -> dict[str, Any]:
+        """The sine of the angle between the two links of every moving loop; zero at a dead point."""
+        return conditions.loops(self.plan, self._reading)
 
-    def acceleration(self, target: Target, rates: Mapping[str, Any], accelerations: Mapping[str, Any] | None = None) -> FloatArray:
-        """Return the acceleration of a point [m/s2], shape (2, ...), from stroke rates and accelerations."""
-        given = rates_of("rates", rates, self.strokes, self.shape, self.plan.title)
-        driven = rates_of("accelerations", {} if accelerations is None else accelerations, self.strokes, self.shape, self.plan.title)
-        member = self._member(target)
-        along = [tuple(sorted((first, second))) for first in given for second in given]
-        masks = [self.refused(Value(member, each), f"The acceleration of {member.name or member}") for each in dict.fromkeys(along)]
-        refused = np.any(masks, axis=0)
-        total = sum((self.ratio(target, wrt=name) * value for name, value in driven.items()), self._still(target))
-        for first, u in given.items():
-            for second, v in given.items():
-                total = total + self._evaluated(member, tuple(sorted((first, second)))) * u * v
-        return np.where(refused, np.nan, total)
+    @cached_property
+    def _joints(self) -> tuple[str, ...]:
+        """The points that have a transmission angle: the joints of dyads."""
+        return tuple(name for name in self.plan.points if self._meeting(name))
 
-    def _still(self, target: Target) -> FloatArray:
-        """Return zeros in the shape of a ratio, NaN where the pose is not reached."""
-        parts = (2,) if isinstance(self._member(target), (Point, Arrow)) else ()
-        return np.where(self.reached, np.zeros((*parts, *self.shape)), np.nan)
+    def _meeting(self, name: str) -> tuple[Vec, ...]:
+        with np.errstate(all="ignore"):
+            return self.plan.points[name].meeting(self._placed)
+
+    def _array(self, values: Any) -> FloatArray:
+        """Return numbers as arrays of floats."""
+        return np.asarray(values, float)
 
 
-def paired(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], like: Motion | None = None, at: Any = slice(None)) -> Motion:
+def each_at_its_stroke(
+    plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], like: Motion | None = None, at: Any = slice(None)
+) -> Motion:
     """Return the poses of m designs, each at a stroke of its own; a position has the shape (2, m), what is out of reach is NaN.
 
     `designs` and `strokes` are floats or arrays (m,) [SI]. There is no stroke along which angles could be followed: they lie
@@ -513,11 +547,20 @@ def paired(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, Any], l
     size = np.broadcast_shapes((1,), *(np.shape(value) for value in (*designs.values(), *strokes.values())))
     of_each = {name: np.broadcast_to(np.asarray(value, float), size) for name, value in designs.items()}
     at_each = {name: np.broadcast_to(np.asarray(value, float), size) for name, value in strokes.items()}
-    joining = as_they_are if like is None else Beside(like.grid, at)
-    return Motion(plan, of_each, at_each, "nan", own=True, joining=joining)
+    joining = not_joined if like is None else JoinedTo(like._grid, at)
+    return Motion(plan, of_each, at_each, "nan", per_design=True, joining=joining)
 
 
-def require_motion(given: Any) -> None:
-    """Raise DefinitionError for what is no motion."""
+def out_of_reach(motion: Motion) -> AssemblyError:
+    """Return the error for the poses of a motion that are not reached: out of reach, or behind a change point."""
+    if motion._crossed.any():
+        return scan.group_change_point_error(motion, motion._crossed)
+    missing = ~motion.reached
+    return reach.refusal(motion.plan, motion._grid.read_at(missing), missing, motion.strokes, scan.stop_words(motion))
+
+
+def require_motion(given: object) -> Motion:
+    """Return the motion that was given; DefinitionError for anything else."""
     if not isinstance(given, Motion):
         raise DefinitionError(f"{given!r:.60} is no motion; give machine.sweep(...) or machine.at(...).")
+    return given

@@ -89,36 +89,36 @@ def highest(look: Look, counts: Sequence[int]) -> Highest:
     """Return the highest values along legs, cut into so many intervals at first."""
     leg, t = samples(counts)
     seen, _ = look(leg, t)
-    values = level(seen)
+    values = missing_lowest(seen)
     tops = zoomed(look, peaks(values, leg, t, counts))
     edges = borders(look, np.isnan(seen), values, leg, t)
-    tops = tops if edges is None else tops.joined(towards(look, edges))
+    tops = tops if edges is None else tops.joined(steps_to_borders(look, edges))
     rounds = 1
     while tops.half.max() > CLOSE:
         tops = zoomed(look, tops.best(MANY if rounds < PATIENCE else LAST))
         rounds += 1
     ends = tops if edges is None else tops.joined(edges)
-    return chosen(ends, grows(look, ends), np.asarray(np.isnan(seen).all(axis=-1)))
+    return best_of_rows(ends, grows(look, ends), np.asarray(np.isnan(seen).all(axis=-1)))
 
 
-def level(values: FloatArray) -> FloatArray:
+def missing_lowest(values: FloatArray) -> FloatArray:
     """Return values in which what is missing lies below all others."""
     return np.where(np.isnan(values), -np.inf, np.maximum(values, LOWEST))
 
 
-def own(look: Look, leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
+def of_each(look: Look, leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the values of K functions at places of their own (K, D, c, n), and whether these are reached, same shape."""
     K, D = t.shape[:2]
     leg = np.broadcast_to(leg[..., None], t.shape)
     values, reached = look(np.moveaxis(leg, 0, 1).reshape(D, -1), np.moveaxis(t, 0, 1).reshape(D, -1))
-    of_each = values.reshape(K, D, K, *t.shape[2:])[np.arange(K), :, np.arange(K)]
-    return of_each, np.moveaxis(reached.reshape(D, K, *t.shape[2:]), 1, 0)
+    values_of_each = values.reshape(K, D, K, *t.shape[2:])[np.arange(K), :, np.arange(K)]
+    return values_of_each, np.moveaxis(reached.reshape(D, K, *t.shape[2:]), 1, 0)
 
 
 # -- the samples ---------------------------------------------------------------------------------------------
 
 
-def beside(values: FloatArray, by: int, missing: float) -> FloatArray:
+def shifted(values: FloatArray, by: int, missing: float) -> FloatArray:
     """Return the values of the samples so many places on, `missing` beyond the ends."""
     found = np.full(values.shape, missing)
     into, out = (slice(None, -by), slice(by, None)) if by > 0 else (slice(-by, None), slice(None, by))
@@ -129,9 +129,9 @@ def beside(values: FloatArray, by: int, missing: float) -> FloatArray:
 def are_peaks(values: FloatArray, leg: Index) -> Mask:
     """Return which samples (K, D, n) are as high as their neighbours, the first one of a level part. A corner stands twice among them."""
     starts, ends = np.diff(leg, prepend=-1) > 0, np.diff(leg, append=leg[-1] + 1) > 0
-    before, after = (beside(values, by, -np.inf) for by in (-1, 1))
-    before = np.where(starts, np.maximum(before, beside(values, -2, -np.inf)), before)
-    after = np.where(ends, np.maximum(after, beside(values, 2, -np.inf)), after)
+    before, after = (shifted(values, by, -np.inf) for by in (-1, 1))
+    before = np.where(starts, np.maximum(before, shifted(values, -2, -np.inf)), before)
+    after = np.where(ends, np.maximum(after, shifted(values, 2, -np.inf)), after)
     return np.asarray(((values > before) | (starts & (values == before))) & (values >= after))
 
 
@@ -140,7 +140,7 @@ def peaks(values: FloatArray, leg: Index, t: FloatArray, counts: Sequence[int], 
     finite = np.where(values > LOWEST, values, np.nan)
     rise = np.zeros(values.shape)
     for by in (-2, -1, 1, 2):
-        rise = np.fmax(rise, finite - beside(finite, by, np.nan))
+        rise = np.fmax(rise, finite - shifted(finite, by, np.nan))
     size = np.nanmax(np.abs(finite), axis=-1, initial=0.0, keepdims=True)
     span = np.nanmax(finite, axis=-1, initial=-np.inf, keepdims=True) - np.nanmin(finite, axis=-1, initial=np.inf, keepdims=True)
     hopeful = are_peaks(values, leg) & (rise > NOISE * span + ROUNDED * size)
@@ -160,17 +160,17 @@ def zoomed(look: Look, tops: Tops) -> Tops:
     places = FINE if tops.t.shape[-1] <= FEW else COARSE
     low, high = np.maximum(tops.t - tops.half, 0.0)[..., None], np.minimum(tops.t + tops.half, 1.0)[..., None]
     t = low + (high - low) * np.linspace(0.0, 1.0, places)
-    seen, _ = own(look, tops.leg, t)
-    return settled(tops, t, seen, np.broadcast_to(tops.half[..., None] * 2.0 / (places - 1), t.shape))
+    seen, _ = of_each(look, tops.leg, t)
+    return best_seen(tops, t, seen, np.broadcast_to(tops.half[..., None] * 2.0 / (places - 1), t.shape))
 
 
-def settled(tops: Tops, t: FloatArray, seen: FloatArray, half: FloatArray) -> Tops:
+def best_seen(tops: Tops, t: FloatArray, seen: FloatArray, half: FloatArray) -> Tops:
     """Return the best of the places (K, D, c, n) seen, or what was known where that is better.
 
     What may hide next to it is twice its rise above the places beside it; anything where it has risen more than was thought possible,
     as values do that grow beyond bounds.
     """
-    values = level(seen)
+    values = missing_lowest(seen)
     place = np.argmax(values, axis=-1)[..., None]
     value = np.take_along_axis(values, place, axis=-1)[..., 0]
     better = value > tops.value
@@ -201,27 +201,42 @@ def borders(look: Look, missing: Mask, values: FloatArray, leg: Index, t: FloatA
     ahead = np.take_along_axis(missing[..., :-1], place, axis=-1)  # the value stands after the border
     inside, outside = (np.where(is_border, place + (ahead if side else ~ahead), 0) for side in (True, False))
     found = bisected(look, leg[inside], t[inside], t[outside])
-    value = level(own(look, leg[inside], found[..., None])[0][..., 0])
+    value = missing_lowest(of_each(look, leg[inside], found[..., None])[0][..., 0])
     return Tops(leg[inside], found, value, t[inside] - found, np.full(value.shape, np.inf))
 
 
 def bisected(look: Look, leg: Index, inside: FloatArray, outside: FloatArray) -> FloatArray:
     """Return the last places (K, D, c) with a value between those that have one and those that have none."""
-    while np.max(np.abs(outside - inside)) > CLOSE:
-        t = inside[..., None] + (outside - inside)[..., None] * np.linspace(0.0, 1.0, FINE)
-        missing = np.isnan(own(look, leg, t)[0])
-        missing[..., -1] = True
-        last = np.maximum(np.argmax(missing, axis=-1)[..., None], 1)
-        inside, outside = (np.take_along_axis(t, last - back, axis=-1)[..., 0] for back in (1, 0))
-    return inside
+    return last_holding(lambda t: ~np.isnan(of_each(look, leg, t)[0]), inside, outside, CLOSE)[0]
 
 
-def towards(look: Look, edges: Tops) -> Tops:
+def last_holding(
+    holds: Callable[[FloatArray], Mask], inside: npt.ArrayLike, outside: npt.ArrayLike, close: float = 0.0, parts: int = FINE - 1
+) -> tuple[FloatArray, FloatArray]:
+    """Return the last places (...) at which something holds, and the next ones, at which it does not, at most `close` apart.
+
+    It holds `inside` and not `outside`; `holds` is asked of the places (..., n) that cut what lies between into so many parts, again and
+    again, by itself to the last digit.
+    """
+    inside, outside = np.array(inside, float), np.array(outside, float)
+    while np.max(np.abs(outside - inside)) > close:
+        t = inside[..., None] + (outside - inside)[..., None] * np.linspace(0.0, 1.0, parts + 1)
+        fails = ~holds(t)
+        fails[..., -1] = True
+        first = np.maximum(np.argmax(fails, axis=-1)[..., None], 1)
+        ends = [np.asarray(np.take_along_axis(t, first - back, axis=-1)[..., 0]) for back in (1, 0)]
+        if np.array_equal(ends, [inside, outside]):
+            break
+        inside, outside = ends
+    return inside, outside
+
+
+def steps_to_borders(look: Look, edges: Tops) -> Tops:
     """Return the best of the places that halve the way towards each border, with the bracket about it."""
     shares = np.append(0.5 ** np.arange(36), 0.0)
     t = edges.t[..., None] + edges.half[..., None] * shares
     half = np.abs(edges.half)[..., None] * np.append(shares[:-1], shares[-2])
-    return settled(edges, t, own(look, edges.leg, t)[0], half)
+    return best_seen(edges, t, of_each(look, edges.leg, t)[0], half)
 
 
 # -- without bounds ------------------------------------------------------------------------------------------
@@ -233,7 +248,7 @@ def grows(look: Look, tops: Tops) -> Mask:
     t = tops.t[..., None, None] + np.array([-1.0, 1.0])[:, None] * far
     on = (t >= 0.0) & (t <= 1.0)
     K, D, c = tops.t.shape
-    seen, reached = own(look, tops.leg, np.clip(t, 0.0, 1.0).reshape(K, D, c, -1))
+    seen, reached = of_each(look, tops.leg, np.clip(t, 0.0, 1.0).reshape(K, D, c, -1))
     seen, reached = np.where(on, seen.reshape(t.shape), np.nan), reached.reshape(t.shape) & on
     return np.asarray(np.isposinf(tops.value) | is_pole(tops.value, seen, reached, far).any(axis=-1))
 
@@ -247,7 +262,7 @@ def is_pole(value: FloatArray, seen: FloatArray, reached: Mask, far: FloatArray,
     condition: below 1e-5, or about half the width of what is refused.
     """
     gains = np.diff(seen, axis=-1)
-    most = np.argmax(level(gains), axis=-1)[..., None]
+    most = np.argmax(missing_lowest(gains), axis=-1)[..., None]
     before = np.stack([np.take_along_axis(gains, np.maximum(most - by, 0), axis=-1)[..., 0] for by in range(7)])
     start = np.take_along_axis(seen, np.maximum(most - 6, 0), axis=-1)[..., 0]
     steady = (before > 0.0).all(axis=0) & (before[0] > 2.5 * before[6]) & (before[2] > before[6]) & (most[..., 0] >= 6)
@@ -260,7 +275,7 @@ def is_pole(value: FloatArray, seen: FloatArray, reached: Mask, far: FloatArray,
     return np.asarray(steady & much & ((x0 <= near) | (refused & ((x0 <= REFUSED) | ((x0 <= 2.0 * width) & (x0 >= width / 8.0))))))
 
 
-def chosen(tops: Tops, unbounded: Mask, missing: Mask) -> Highest:
+def best_of_rows(tops: Tops, unbounded: Mask, missing: Mask) -> Highest:
     """Return the best place of every row; one without bounds goes first."""
     any_unbounded = np.asarray(unbounded.any(axis=-1))
     score = np.where(any_unbounded[..., None] & ~unbounded, -np.inf, tops.value)

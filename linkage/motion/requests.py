@@ -7,27 +7,36 @@ where it has no value, and the error that rounding leaves of it. Kernels, functi
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Hashable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
 from ..errors import DefinitionError, cited
 from ..plan import NEAR, REGULAR, ArrayReading, Plan
-from ..program import FloatArray, Kernel, Node, Notes
+from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
 from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Judged, Left, Rounding, judged
-from .grid import Grid
+from .grid import Angles, Grid, MotionLike, angles_of
 from .limits import Mask
-from .strokes import named, order_of
+from .strokes import checked_name, order_of
 
-if TYPE_CHECKING:
-    from .motion import Motion
 
-SMALL = 1e-9
-"""A result of no known size [SI] that is smaller counts as so large where its relative error is told."""
+class Request(ABC):
+    """Something to ask of a mechanism that is no member of it: a ratio, a thrust, a pin force."""
+
+    def identity(self, plan: Plan) -> Hashable:
+        """Return what tells it from others of the same plan as long as what it holds lives; None where what it holds may change."""
+        return None
+
+    @abstractmethod
+    def bound(self, plan: Plan) -> BoundRequest:
+        """Return the request bound to a plan; DefinitionError where there is no such thing."""
+
+
+RequestLike: TypeAlias = str | Member | Request
 
 
 class BoundRequest(ABC):
@@ -35,7 +44,7 @@ class BoundRequest(ABC):
 
     @property
     @abstractmethod
-    def key(self) -> Any:
+    def key(self) -> Hashable:
         """What tells this request from others of the same plan."""
 
     @abstractmethod
@@ -50,7 +59,7 @@ class BoundRequest(ABC):
     def __str__(self) -> str:
         """Return what it is, in words: `the ratio of G by S`."""
 
-    def refuse(self, motion: Motion) -> None:  # noqa: B027
+    def refuse(self, motion: MotionLike) -> None:  # noqa: B027
         """Raise the error of a motion's poses where it has no value; nothing where it has one at all of them, or another refuses it."""
 
     def notes(self, plan: Plan) -> Notes:
@@ -67,7 +76,7 @@ class BoundRequest(ABC):
         """How often it is differentiated."""
         return 0
 
-    def steep(self, plan: Plan) -> set[str]:
+    def differentiated(self, plan: Plan) -> set[str]:
         """Return the members at whose singular poses it is refused: those it is differentiated through."""
         return self.names(plan) if self.order else set()
 
@@ -76,7 +85,7 @@ class BoundRequest(ABC):
         """Whether results that are not nodes go through it, so that what its loops lose counts even where it happens to be exact itself."""
         return False
 
-    def note(self, reading: ArrayReading) -> None:  # noqa: B027
+    def read_own(self, reading: ArrayReading) -> None:  # noqa: B027
         """Work out in an eager reading what is its own, so that its directions are noted; of most there is nothing."""
 
     @property
@@ -94,57 +103,71 @@ class BoundRequest(ABC):
         return False
 
     @property
-    def turns(self) -> bool:
+    def follows_angles(self) -> bool:
         """Whether it follows angles, which are continued along the stroke."""
         return False
 
 
-class Request(ABC):
-    """Something to ask of a mechanism that is no member of it: a ratio, a thrust, a pin force."""
-
-    @abstractmethod
-    def bound(self, plan: Plan) -> BoundRequest:
-        """Return the request bound to a plan; DefinitionError where there is no such thing."""
+def bound(plan: Plan, request: RequestLike) -> BoundRequest:
+    """Return a request bound to a plan; DefinitionError where there is nothing of that name, or no saying by which stroke."""
+    return (request if isinstance(request, Request) else Ratio(request, order=0)).bound(plan)
 
 
-def watched(plan: Plan, what: BoundRequest) -> list[Node]:
-    """Return the nodes that are above zero where a request is far from every singular pose."""
-    what.nodes(plan)  # directions of its own are noted then
-    return plan.trace.watched(what.names(plan), what.regular)
+def all_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[BoundRequest, ...]:
+    """Return a list of requests bound to a plan; DefinitionError for a lone one, whose letters would be taken for names."""
+    if isinstance(requests, (str, Member, Request)):
+        raise DefinitionError(f"{plan.title}: {requests!r}: a list of what is asked for is expected, [{requests!r}].")
+    if not isinstance(requests, Iterable) or isinstance(requests, (Mapping, Set, np.ndarray)):
+        raise DefinitionError(f'{plan.title}: {cited(requests)}: a list of what is asked for is expected, such as ["G"].')
+    return tuple(bound(plan, request) for request in requests)
 
 
-def near_of(grid: Grid, what: BoundRequest) -> Mask:
-    """Return the mask of poses at which a request has to be looked at closely."""
-    watch = grid.plan.made(("watch", what.key), lambda twin: Kernel(watched(twin, what)))
-    if not watch.plan.outputs:
-        return np.zeros(grid.shape, bool)
-    with np.errstate(invalid="ignore"):
-        return np.asarray(~np.all(grid.full(watch(grid.flat).values) > 0.0, axis=0))
+def identity_of(plan: Plan, request: RequestLike) -> Hashable:
+    """Return what tells something asked for from others; None for a quantity that only itself is, and for what may change."""
+    if type(request) is str:
+        return request
+    if isinstance(request, Request):
+        identity = request.identity(plan)
+        try:
+            hash(identity)
+        except TypeError:  # what was given is anything as yet, and refused where it is bound
+            return None
+        return identity
+    identity = request.identity if isinstance(request, Quantity) else request.name if isinstance(request, Member) else None
+    return None if identity is request else identity or None
 
 
-def examined(plan: Plan, what: BoundRequest, inputs: Mapping[str, Any], reading: ArrayReading) -> Judged:
-    """Return how far poses are from singular ones for a request: inputs as floats or (n,), and the eager reading there."""
-    what.note(reading)
-    rounding = plan.made(("rounding", what.key), lambda twin: Rounding.of(twin, what.nodes(twin)))
-    error = what.error(plan, rounding.at(inputs))
-    found = judged(plan, reading, what.steep(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
-    return found.as_loops() if what.stands_for_others else found
+def identities_of(plan: Plan, requests: Sequence[RequestLike]) -> Hashable:
+    """Return what tells a list of requests from others; None where one of them has no identity, or it is no list."""
+    found = tuple([identity_of(plan, each) for each in requests]) if type(requests) in (list, tuple) else (None,)
+    return None if None in found else found
 
 
-def astray(plan: Plan, what: BoundRequest) -> DefinitionError:
-    """Return the error for poses where a law goes another way than the one that was traced."""
-    laws = ", ".join(dict.fromkeys(what.notes(plan).assumed.values()))
-    return DefinitionError(
-        f"{plan.title}: {what}: at some of these poses {f'the law of {laws}' if laws else 'a law'} goes another way than the one traced, "
-        "or has no finite value. Leave them out, choose by np.where in the law, or take finite differences of the forces."
-    )
+def stroke_of(plan: Plan, name: str | None, keyword: str = "wrt") -> str:
+    """Return the stroke that is meant; DefinitionError where there are several and none is named by the keyword."""
+    if name is None and len(plan.strokes) == 1:
+        return next(iter(plan.strokes))
+    if name is None:
+        raise DefinitionError(f"{plan.title} has {len(plan.strokes)} strokes: say {keyword}= one of {', '.join(plan.strokes)}.")
+    return checked_name("Stroke", name, plan.strokes, plan.title)
 
 
-WORST = 1e16
-"""The largest condition over 2 / 0.3 that is told."""
-MINOR = 1e-3
-"""Of the fastest point's ratio: what a slower one's error is compared with where both go into a force."""
+def dimensions_of(plan: Plan, names: Any) -> list[tuple[str, int]]:
+    """Return design variables by any of their spellings, with signs; DefinitionError for what is none of them."""
+    if isinstance(names, str):
+        raise DefinitionError(f'{plan.title}: wrt="{names}": a list of dimensions is expected, wrt=["{names}"].')
+    if not isinstance(names, Iterable) or isinstance(names, np.ndarray):
+        raise DefinitionError(f"{plan.title}: wrt={cited(names)}: a list of dimensions is expected.")
+    names = [checked_name("Dimension", name, (*plan.table.spellings, *plan.table.following, *plan.points), plan.title) for name in names]
+    for name in names:
+        if f"{name}.x" in plan.table.spellings or f"{name}.y" in plan.table.spellings:
+            raise DefinitionError(f'{plan.title}: wrt="{name}": a point has two coordinates; say "{name}.x" or "{name}.y".')
+        if name in plan.table.following and name not in plan.table.spellings:
+            raise DefinitionError(f"{plan.title}: {name} follows {plan.table.following[name]}; take the gradient by what it follows.")
+    return [plan.table.spellings[checked_name("Dimension", name, plan.table.spellings, plan.title)] for name in names]
 
+
+# Values, and ratios of any order.
 
 @final
 @dataclass(frozen=True)
@@ -155,15 +178,16 @@ class Ratio(Request):
     wrt: str | None = None
     order: int = 1
 
+    def identity(self, plan: Plan) -> Hashable:
+        target = identity_of(plan, self.target)
+        return None if target is None else ("ratio", target, self.wrt, self.order)
+
     def bound(self, plan: Plan) -> Value:
         along = (stroke_of(plan, self.wrt),) * self.order if self.order else ()
         if isinstance(self.target, Quantity) and not self.target.name:
             plan.reaches(self.target)  # raises for a name in it that there is not
             return Value(self.target, along)
-        return Value(plan.members[named("Name", self.target, plan.named(), plan.title)], along)
-
-
-RequestLike: TypeAlias = str | Member | Request
+        return Value(plan.members[checked_name("Name", self.target, plan.named(), plan.title)], along)
 
 
 def ratio(target: str | Member, wrt: str | None = None, order: int = 1) -> Ratio:
@@ -172,6 +196,10 @@ def ratio(target: str | Member, wrt: str | None = None, order: int = 1) -> Ratio
     `ratio("G")` is dG/dS, `ratio("G", order=2)` d2G/dS2; `wrt="S2"` where there are several strokes.
     """
     return Ratio(target, wrt, order_of(order))
+
+
+SMALL = 1e-9
+"""A result of no known size [SI] that is smaller counts as so large where its relative error is told."""
 
 
 @final
@@ -183,12 +211,12 @@ class Value(BoundRequest):
     along: tuple[str, ...]
 
     @property
-    def target(self) -> Any:
+    def target(self) -> str | Quantity:
         """The member by its name, or itself where it has none."""
-        return self.member.name or self.member
+        return self.member if isinstance(self.member, Quantity) and not self.member.name else self.member.name
 
     @property
-    def key(self) -> Any:
+    def key(self) -> Hashable:
         return self.member.identity if isinstance(self.member, Quantity) else self.target, self.along
 
     @property
@@ -205,14 +233,14 @@ class Value(BoundRequest):
     def names(self, plan: Plan) -> set[str]:
         return plan.reaches(self.target)
 
-    def refuse(self, motion: Motion) -> None:
+    def refuse(self, motion: MotionLike) -> None:
         if self.along:
             motion.ratio(self.target, wrt=self.along[0], order=self.order)
         elif isinstance(self.member, Quantity):
             motion.value(self.member)
 
     @property
-    def turns(self) -> bool:
+    def follows_angles(self) -> bool:
         return isinstance(self.member, Quantity)
 
     @property
@@ -223,13 +251,13 @@ class Value(BoundRequest):
     def regular(self) -> float:
         return NEAR**2 if self.along or isinstance(self.member, Quantity) else PLACES
 
-    def note(self, reading: ArrayReading) -> None:
+    def read_own(self, reading: ArrayReading) -> None:
         if isinstance(self.member, Quantity):
             with np.errstate(all="ignore"):
                 reading.value(self.member)
 
     def error(self, plan: Plan, left: Left) -> FloatArray:
-        scale = natural(self.member, left.size)
+        scale = natural_size(self.member, left.size)
         if scale is None:
             return left.over(SMALL)
         for name in self.along:
@@ -241,11 +269,16 @@ class Value(BoundRequest):
         return f"the ratio of {what} by {self.along[0]}" if self.along else what
 
 
-def natural(member: Any, size: FloatArray) -> Any:
+def natural_size(member: Member, size: FloatArray) -> FloatArray | None:
     """Return what a position, a length or an angle is compared with: the machine's size [m], or 1 rad; None for other quantities."""
-    if isinstance(member, (Point, Arrow)) or member.measures == "length":
-        return size
-    return np.ones_like(size) if member.measures == "angle" else None
+    measures = member.measures if isinstance(member, Quantity) else "length"
+    return size if measures == "length" else np.ones_like(size) if measures == "angle" else None
+
+
+# Conditions: how near poses are to singular ones.
+
+WORST = 1e16
+"""The largest condition over 2 / 0.3 that is told."""
 
 
 @final
@@ -255,11 +288,15 @@ class Condition(Request):
 
     target: str | Member | None = None
 
+    def identity(self, plan: Plan) -> Hashable:
+        target = None if self.target is None else identity_of(plan, self.target)
+        return None if target is None and self.target is not None else ("condition", target)
+
     def bound(self, plan: Plan) -> ConditionOf:
         if self.target is None:
-            return ConditionOf(frozenset(plan.members), plan.title)
-        value = bound(plan, self.target)
-        return ConditionOf(frozenset(value.names(plan)), str(value))
+            return ConditionOf(None, frozenset(set[str]().union(*map(plan.reaches, plan.points))), plan.title)
+        value = Ratio(self.target, order=0).bound(plan)
+        return ConditionOf(value, frozenset(value.names(plan)), str(value))
 
 
 def condition(target: str | Member | None = None) -> Condition:
@@ -267,7 +304,8 @@ def condition(target: str | Member | None = None) -> Condition:
 
     Next to a singular pose it is 2 over the sine of the loop in line, and the product of such where several follow one another or a
     direction is taken between points that come close: above 1e4 a ratio is off by some 0.3 eps cond^2, above 1e6 it is refused.
-    `condition("G")` is of what G is built from, `condition()` of the whole machine.
+    `condition("G")` is of what G is built from, `condition(angle("A", "P"))` of what the angle is built from and of its own direction,
+    `condition()` of all points of the machine. What else is asked beside it makes no difference.
     """
     return Condition(target)
 
@@ -275,21 +313,22 @@ def condition(target: str | Member | None = None) -> Condition:
 @final
 @dataclass(frozen=True)
 class ConditionOf(BoundRequest):
-    """The condition of some members, bound to a plan; never refused."""
+    """The condition of a value, or of all points where it is None, bound to a plan with the members behind it; never refused."""
 
+    value: Value | None
     members: frozenset[str]
     of: str
 
     @property
-    def key(self) -> Any:
-        return "condition", self.members
+    def key(self) -> Hashable:
+        return "condition", self.value and self.value.key
 
     @property
     def regular(self) -> float:
         return -1.0
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        near = plan.trace.nearness(self.members, exact=True)
+        near = plan.trace.alone(self.value and self.value.member).nearness(self.members, exact=True)
         return ((2.0 / REGULAR) / np.sqrt(near.graph.apply("maximum", near, WORST**-2)),)
 
     def names(self, plan: Plan) -> set[str]:
@@ -297,6 +336,12 @@ class ConditionOf(BoundRequest):
 
     def __str__(self) -> str:
         return f"the condition of {self.of}"
+
+
+# What forces go through, and what a motion works out first.
+
+MINOR = 1e-3
+"""Of the fastest point's ratio: what a slower one's error is compared with where both go into a force."""
 
 
 @final
@@ -307,7 +352,7 @@ class Ratios(BoundRequest):
     members: frozenset[str]
 
     @property
-    def key(self) -> Any:
+    def key(self) -> Hashable:
         return "ratios", self.members
 
     @property
@@ -343,13 +388,13 @@ class Ratios(BoundRequest):
 
 @final
 @dataclass(frozen=True)
-class Everywhere(BoundRequest):
+class Places(BoundRequest):
     """The places of some points together: what a motion works out first."""
 
     points: tuple[str, ...]
 
     @property
-    def key(self) -> Any:
+    def key(self) -> Hashable:
         return "places", self.points
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
@@ -367,39 +412,89 @@ class Everywhere(BoundRequest):
         return "the places"
 
 
-def bound(plan: Plan, request: RequestLike) -> BoundRequest:
-    """Return a request bound to a plan; DefinitionError where there is nothing of that name, or no saying by which stroke."""
-    return (request if isinstance(request, Request) else Ratio(request, order=0)).bound(plan)
+# Derivatives by dimensions: reverse mode through the program, all dimensions at once.
+
+@final
+@dataclass(frozen=True)
+class Slope(BoundRequest):
+    """The derivatives of a request by some dimensions, as a request that is looked at near singular poses."""
+
+    what: BoundRequest
+    by: tuple[str, ...]
+
+    @property
+    def key(self) -> Hashable:
+        return "slope", self.what.key, self.by
+
+    @property
+    def order(self) -> int:
+        return 1 + self.what.order
+
+    def nodes(self, plan: Plan) -> tuple[Node, ...]:
+        inputs = [plan.trace.inputs[name] for name in self.by]
+        return tuple(share for node in self.what.nodes(plan) for share in gradient(node, inputs))
+
+    def names(self, plan: Plan) -> set[str]:
+        return self.what.names(plan)
+
+    def __str__(self) -> str:
+        return f"the gradient of {self.what}"
 
 
-def all_bound(plan: Plan, requests: Sequence[RequestLike]) -> tuple[BoundRequest, ...]:
-    """Return a list of requests bound to a plan; DefinitionError for a lone one, whose letters would be taken for names."""
-    if isinstance(requests, (str, Member, Request)):
-        raise DefinitionError(f"{plan.title}: {requests!r}: a list of what is asked for is expected, [{requests!r}].")
-    if not isinstance(requests, Iterable) or isinstance(requests, (Mapping, Set, np.ndarray)):
-        raise DefinitionError(f'{plan.title}: {cited(requests)}: a list of what is asked for is expected, such as ["G"].')
-    return tuple(bound(plan, request) for request in requests)
+@dataclass(frozen=True, eq=False)
+class Slopes:
+    """The kernel of a request's derivatives by some dimensions, then of what it assumes, then of its switches by those dimensions."""
+
+    kernel: Kernel
+    angles: Angles
+    assumed: int
+    touched: tuple[str, ...]
 
 
-def stroke_of(plan: Plan, name: str | None) -> str:
-    """Return the stroke that is meant; DefinitionError where there are several and none is named."""
-    if name is None and len(plan.strokes) == 1:
-        return next(iter(plan.strokes))
-    if name is None:
-        raise DefinitionError(f"{plan.title} has {len(plan.strokes)} strokes: say wrt= one of {', '.join(plan.strokes)}.")
-    return named("Stroke", name, plan.strokes, plan.title)
+def slopes_of(plan: Plan, what: BoundRequest, names: Sequence[str]) -> Slopes:
+    """Return the derivatives of a request by dimensions, as a kernel."""
+    inputs = [plan.trace.inputs[name] for name in names]
+    shares, notes = Slope(what, tuple(names)).nodes(plan), what.notes(plan)
+    touched = [
+        (switch, f"{name}: the law of {owner} compares what follows {name} with a number")
+        for switch, owner in notes.switches.items()
+        for name, each in zip(names, inputs, strict=True)
+        if each in ancestors([switch])
+    ]
+    kernel = Kernel([*shares, *notes.assumed, *(switch for switch, _ in touched)])
+    return Slopes(kernel, angles_of(plan, shares), len(notes.assumed), tuple(words for _, words in touched))
 
 
-def dimensions_of(plan: Plan, names: Any) -> list[tuple[str, int]]:
-    """Return design variables by any of their spellings, with signs; DefinitionError for what is none of them."""
-    if isinstance(names, str):
-        raise DefinitionError(f'{plan.title}: wrt="{names}": a list of dimensions is expected, wrt=["{names}"].')
-    if not isinstance(names, Iterable) or isinstance(names, np.ndarray):
-        raise DefinitionError(f"{plan.title}: wrt={cited(names)}: a list of dimensions is expected.")
-    names = [named("Dimension", name, (*plan.table.spellings, *plan.table.following, *plan.points), plan.title) for name in names]
-    for name in names:
-        if f"{name}.x" in plan.table.spellings or f"{name}.y" in plan.table.spellings:
-            raise DefinitionError(f'{plan.title}: wrt="{name}": a point has two coordinates; say "{name}.x" or "{name}.y".')
-        if name in plan.table.following and name not in plan.table.spellings:
-            raise DefinitionError(f"{plan.title}: {name} follows {plan.table.following[name]}; take the gradient by what it follows.")
-    return [plan.table.spellings[named("Dimension", name, plan.table.spellings, plan.title)] for name in names]
+# Near singular poses.
+
+def watched(plan: Plan, what: BoundRequest) -> list[Node]:
+    """Return the nodes that are above zero where a request is far from every singular pose."""
+    what.nodes(plan)  # directions of its own are noted then
+    return plan.trace.watched(what.names(plan), what.regular)
+
+
+def near_singular(grid: Grid, what: BoundRequest) -> Mask:
+    """Return the mask of poses at which a request has to be looked at closely."""
+    watch = grid.plan.made(("watch", what.key), lambda twin: Kernel(watched(twin, what)))
+    if not watch.plan.outputs:
+        return np.zeros(grid.shape, bool)
+    with np.errstate(invalid="ignore"):
+        return np.asarray(~np.all(grid.full(watch(grid.flat).values) > 0.0, axis=0))
+
+
+def examined(plan: Plan, what: BoundRequest, inputs: Mapping[str, Any], reading: ArrayReading) -> Judged:
+    """Return how far poses are from singular ones for a request: inputs as floats or (n,), and the eager reading there."""
+    what.read_own(reading)
+    rounding = plan.made(("rounding", what.key), lambda twin: Rounding.of(twin, what.nodes(twin)))
+    error = what.error(plan, rounding.at(inputs))
+    found = judged(plan, reading, what.differentiated(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
+    return found.as_loops() if what.stands_for_others else found
+
+
+def other_law_error(plan: Plan, what: BoundRequest) -> DefinitionError:
+    """Return the error for poses where a law goes another way than the one that was traced."""
+    laws = ", ".join(dict.fromkeys(what.notes(plan).assumed.values()))
+    return DefinitionError(
+        f"{plan.title}: {what}: at some of these poses {f'the law of {laws}' if laws else 'a law'} goes another way than the one traced, "
+        "or has no finite value. Leave them out, choose by np.where in the law, or take finite differences of the forces."
+    )

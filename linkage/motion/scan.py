@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from ..steps import Point
 from ..units import deg
 from .course import Course
 from .course import Interruption as Interruption
+from .grid import MotionLike
 from .limits import (
     Extreme,
     Held,
@@ -35,8 +36,117 @@ from .limits import Limits as Limits
 from .peaks import SAMPLES, Index, Mask, bisected, highest, samples
 from .strokes import check_any
 
-if TYPE_CHECKING:
-    from .motion import Motion
+KEPT = 64
+"""The designs of a plan whose clear stretches are kept."""
+Moved = Callable[[Mapping[str, Any]], MotionLike]
+"""The motion at other strokes, unreachable poses as NaN."""
+
+
+def limits(motion: MotionLike) -> Limits:
+    """Return the limits along every stroke of one design; other strokes are held at the motion's first values."""
+    if motion._design_shape:
+        title, shape = motion.plan.title, motion._design_shape
+        raise DefinitionError(f"{title}: limits are worked out for one design at a time; this motion has {shape}.")
+    check_any(motion.strokes, motion.plan)
+    held = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
+    return Limits({name: stroke_limits(motion, name, held) for name in motion.strokes})
+
+
+def stroke_limits(motion: MotionLike, name: str, held: Mapping[str, float]) -> StrokeLimits:
+    """Return the limits along one stroke, looked for one span beyond its declared range, a crank over a full turn."""
+    stroke = motion.plan.strokes[name]
+    unit = stroke_unit(motion.plan, name)
+    start, end = min(stroke.start, stroke.end), max(stroke.start, stroke.end)
+    span = end - start
+    turn = max(0.0, np.pi - 0.5 * span)
+    low, high = (start - span, end + span) if unit == "m" else (start - turn, end + turn)
+    between = Course(motion.plan, motion._grid.flat, name, held).interruptions(low, high)
+    found = search(scanner(motion.moved, name, held), low, high, [each.deepest for each in between if each.is_gap])
+    crossings = tuple((each.deepest, called(motion.plan, each.step)) for each in between if not each.is_gap)
+    others = tuple(Held(each, value, stroke_unit(motion.plan, each)) for each, value in held.items() if each != name)
+    least = transmission(motion, name, held, found)
+    turns = open_turn(motion, name, held, found) if unit == "rad" else None
+    still = dead_points(motion, name, held, [(each.low, each.high) for each in found])
+    return StrokeLimits(name, unit, stroke.start, stroke.end, tuple(found), crossings, least, others, turns, tuple(still))
+
+
+def scanner(moved: Moved, name: str, held: Mapping[str, float]) -> Callable[[FloatArray], Scanned]:
+    """Return a look at values of one stroke."""
+
+    def scan(at: FloatArray) -> Scanned:
+        motion = moved({**held, name: at})
+        return Scanned(motion.reached, lambda place: failing(moved({**held, name: at[place : place + 1]})), motion._grid.solved.stops)
+
+    return scan
+
+
+def failing(motion: MotionLike) -> str:
+    """Return what cannot be placed first at a motion's pose, by its name."""
+    return next((called(motion.plan, name) for name, mask in failures(motion.plan, motion._reading, motion.shape) if mask.any()), "")
+
+
+# The least transmission angles along a stroke: of every dyad whose angle changes with it.
+
+UNCHANGED = 1e-9
+"""A transmission angle that changes by less [rad] does not follow the stroke."""
+
+
+def transmission(motion: MotionLike, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> tuple[Extreme, ...]:
+    """Return the least transmission angle of every dyad that moves with a stroke, over its declared and reachable part."""
+    ends = sorted((motion.plan.strokes[name].start, motion.plan.strokes[name].end))
+    parts = np.array([(max(each.low, ends[0]), min(each.high, ends[1])) for each in found if each.low < ends[1] and each.high > ends[0]])
+    if not parts.size:
+        return ()
+    low, high, long = parts[:, 0], parts[:, 1], np.ptp(parts, axis=1)
+    counts = [max(int(np.ceil(SAMPLES * each)), 2) for each in long / (ends[1] - ends[0])]
+
+    def stroke(leg: Index, t: FloatArray) -> FloatArray:
+        return np.where(t == 1.0, high[leg], low[leg] + long[leg] * t)
+
+    def look(leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
+        wide = motion.moved({**held, name: stroke(leg, t).ravel()})
+        return -np.array([[folded(wide, joint)] for joint in moving]), wide.reached[None]
+
+    wide = motion.moved({**held, name: stroke(*samples(counts))})
+    angles = {joint: wide.transmission_angle(joint) for joint in wide._joints}
+    moving = [joint for joint, angle in angles.items() if np.nanmax(angle) - np.nanmin(angle) > UNCHANGED]
+    if not moving:
+        return ()
+    least = highest(look, counts)
+    strokes = stroke(least.leg, least.t)
+    return tuple(Extreme(joint, -float(least.value[row, 0]), float(strokes[row, 0])) for row, joint in enumerate(moving))
+
+
+def folded(motion: MotionLike, joint: str) -> FloatArray:
+    """Return a joint's transmission angle folded to 0 ... pi/2 [rad]; NaN where it is not reached."""
+    angle = motion.transmission_angle(joint)
+    return np.minimum(angle, np.pi - angle)
+
+
+# How many turns a crank makes until the pins of a group stand where they began.
+#
+# A dyad returns with its parents, because its side holds. A group of class III has up to six poses for one pose of its
+# drive, and a full turn may lead from one to another. Source: T. R. Chase, J. A. Mirth, Circuits and branches of
+# single-degree-of-freedom planar linkages, J. Mech. Design 115 (1993) 223-230.
+
+TURN = 2.0 * np.pi
+MOST = 6
+CLOSED = 1e-6
+"""Pins that are so near to where they began, compared with the linkage, have returned."""
+
+
+def open_turn(motion: MotionLike, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> Open | None:
+    """Return the pins that do not return after one turn of a stroke [rad], and how many turns they take; None where all do."""
+    pins = [pin for group in motion.plan.groups.values() for pin in group.pins if name in motion.plan.reaches(pin)]
+    whole = next((each for each in found if each.high - each.low > TURN * (1.0 - 1e-9)), None)
+    if not pins or whole is None:
+        return None
+    turned = motion.moved({**held, name: whole.low + TURN * np.arange(MOST + 1)})
+    every = np.array([turned[point][:, 0] for point in motion.plan.points])
+    gaps = {pin: np.hypot(*(turned[pin] - turned[pin][:, :1])) / np.ptp(every, axis=0).max() for pin in pins}
+    away = tuple(pin for pin, gap in gaps.items() if gap[1] > CLOSED)
+    back = np.all([gaps[pin] <= CLOSED for pin in pins], axis=0)
+    return Open(away, int(np.argmax(back[1:])) + 1 if back[1:].any() else 0) if away else None
 
 
 # Where a cylinder's length stands still against a stroke: its dead points, at which its thrust moves nothing.
@@ -51,7 +161,9 @@ AGAIN = 1e-6
 """Poses whose points are so near to each other, compared with the linkage, are one, as after a full turn."""
 
 
-def dead_points(motion: Motion, stroke: str, held: Mapping[str, float], ranges: Sequence[tuple[float, float]]) -> list[tuple[float, str]]:
+def dead_points(
+    motion: MotionLike, stroke: str, held: Mapping[str, float], ranges: Sequence[tuple[float, float]]
+) -> list[tuple[float, str]]:
     """Return where along a stroke, in some ranges, lengths of elements that hold stand still: the stroke and the element's name.
 
     Those whose two points a stroke drives apart never do. The others are held.
@@ -75,7 +187,7 @@ def dead_points(motion: Motion, stroke: str, held: Mapping[str, float], ranges: 
     return sorted(found)
 
 
-def follows(motion: Motion, element: TwoPoint, stroke: str, held: Mapping[str, float], ranges: Sequence[tuple[float, float]]) -> bool:
+def follows(motion: MotionLike, element: TwoPoint, stroke: str, held: Mapping[str, float], ranges: Sequence[tuple[float, float]]) -> bool:
     """Return whether an element's length changes with a stroke beyond rounding, as that of one between two points of a body does not."""
     at = np.concatenate([np.linspace(low, high, LOOKS) for low, high in ranges])
     moved = motion.moved({**held, stroke: at})
@@ -85,7 +197,7 @@ def follows(motion: Motion, element: TwoPoint, stroke: str, held: Mapping[str, f
     return bool(np.any(rate > STILL * way))
 
 
-def first_times(motion: Motion, stroke: str, held: Mapping[str, float], at: FloatArray) -> Mask:
+def first_times(motion: MotionLike, stroke: str, held: Mapping[str, float], at: FloatArray) -> Mask:
     """Return which of some strokes (n,) give a pose that no one before gives."""
     if at.size < 2:
         return np.ones(at.shape, bool)
@@ -96,7 +208,7 @@ def first_times(motion: Motion, stroke: str, held: Mapping[str, float], at: Floa
     return np.asarray(~np.tril(apart <= AGAIN * size, -1).any(axis=1))
 
 
-def rate_of(motion: Motion, element: TwoPoint, stroke: str, held: Mapping[str, float]) -> Callable[[FloatArray], FloatArray]:
+def rate_of(motion: MotionLike, element: TwoPoint, stroke: str, held: Mapping[str, float]) -> Callable[[FloatArray], FloatArray]:
     """Return the ratio of an element's length by a stroke, as a function of that stroke (n,); NaN where it has none."""
     length = Distance(*element.ends)
 
@@ -137,142 +249,26 @@ def passes(rate: Callable[[FloatArray], FloatArray], root: float, near: float, s
     return bool(before > 0.0 > behind and abs(here) < 0.5 * min(before, -behind))
 
 
-# The least transmission angles along a stroke: of every dyad whose angle changes with it.
+# What lies between the poses of a sweep, and what is said of it.
 
-UNCHANGED = 1e-9
-"""A transmission angle that changes by less [rad] does not follow the stroke."""
-
-
-def transmission(motion: Motion, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> tuple[Extreme, ...]:
-    """Return the least transmission angle of every dyad that moves with a stroke, over its declared and reachable part."""
-    ends = sorted((motion.plan.strokes[name].start, motion.plan.strokes[name].end))
-    parts = np.array([(max(each.low, ends[0]), min(each.high, ends[1])) for each in found if each.low < ends[1] and each.high > ends[0]])
-    if not parts.size:
-        return ()
-    low, high, long = parts[:, 0], parts[:, 1], np.ptp(parts, axis=1)
-    counts = [max(int(np.ceil(SAMPLES * each)), 2) for each in long / (ends[1] - ends[0])]
-
-    def stroke(leg: Index, t: FloatArray) -> FloatArray:
-        return np.where(t == 1.0, high[leg], low[leg] + long[leg] * t)
-
-    def look(leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
-        wide = motion.moved({**held, name: stroke(leg, t).ravel()})
-        return -np.array([[folded(wide, joint)] for joint in moving]), wide.reached[None]
-
-    wide = motion.moved({**held, name: stroke(*samples(counts))})
-    moving = [joint for joint in wide.joints if changes(wide.transmission_angle(joint))]
-    if not moving:
-        return ()
-    least = highest(look, counts)
-    strokes = stroke(least.leg, least.t)
-    return tuple(Extreme(joint, -float(least.value[row, 0]), float(strokes[row, 0])) for row, joint in enumerate(moving))
-
-
-def changes(angle: FloatArray) -> bool:
-    """Return whether an angle [rad] changes along a motion."""
-    return bool(np.nanmax(angle) - np.nanmin(angle) > UNCHANGED)
-
-
-def folded(motion: Motion, joint: str) -> FloatArray:
-    """Return a joint's transmission angle folded to 0 ... pi/2 [rad]; NaN where it is not reached."""
-    angle = motion.transmission_angle(joint)
-    return np.minimum(angle, np.pi - angle)
-
-
-# How many turns a crank makes until the pins of a group stand where they began.
-#
-# A dyad returns with its parents, because its side holds. A group of class III has up to six poses for one pose of its
-# drive, and a full turn may lead from one to another. Source: T. R. Chase, J. A. Mirth, Circuits and branches of
-# single-degree-of-freedom planar linkages, J. Mech. Design 115 (1993) 223-230.
-
-TURN = 2.0 * np.pi
-MOST = 6
-CLOSED = 1e-6
-"""Pins that are so near to where they began, compared with the linkage, have returned."""
-
-
-def open_turn(motion: Motion, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> Open | None:
-    """Return the pins that do not return after one turn of a stroke [rad], and how many turns they take; None where all do."""
-    pins = [pin for group in motion.plan.groups.values() for pin in group.pins if name in motion.plan.reaches(pin)]
-    whole = next((each for each in found if each.high - each.low > TURN * (1.0 - 1e-9)), None)
-    if not pins or whole is None:
-        return None
-    turned = motion.moved({**held, name: whole.low + TURN * np.arange(MOST + 1)})
-    every = np.array([turned[point][:, 0] for point in motion.plan.points])
-    gaps = {pin: np.hypot(*(turned[pin] - turned[pin][:, :1])) / np.ptp(every, axis=0).max() for pin in pins}
-    away = tuple(pin for pin, gap in gaps.items() if gap[1] > CLOSED)
-    back = np.all([gaps[pin] <= CLOSED for pin in pins], axis=0)
-    return Open(away, int(np.argmax(back[1:])) + 1 if back[1:].any() else 0) if away else None
-
-
-KEPT = 64
-"""The designs of a plan whose clear stretches are kept."""
-
-Moved = Callable[[Mapping[str, Any]], "Motion"]
-"""The motion at other strokes, unreachable poses as NaN."""
-
-
-def limits(motion: Motion) -> Limits:
-    """Return the limits along every stroke of one design; other strokes are held at the motion's first values."""
-    if motion.design_shape:
-        title, shape = motion.plan.title, motion.design_shape
-        raise DefinitionError(f"{title}: limits are worked out for one design at a time; this motion has {shape}.")
-    check_any(motion.strokes, motion.plan)
-    held = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
-    return Limits({name: stroke_limits(motion, name, held) for name in motion.strokes})
-
-
-def stroke_limits(motion: Motion, name: str, held: Mapping[str, float]) -> StrokeLimits:
-    """Return the limits along one stroke, looked for one span beyond its declared range, a crank over a full turn."""
-    stroke = motion.plan.strokes[name]
-    unit = stroke_unit(motion.plan, name)
-    start, end = min(stroke.start, stroke.end), max(stroke.start, stroke.end)
-    span = end - start
-    turn = max(0.0, np.pi - 0.5 * span)
-    low, high = (start - span, end + span) if unit == "m" else (start - turn, end + turn)
-    between = Course(motion.plan, motion.grid.flat, name, held).interruptions(low, high)
-    found = search(scanner(motion.moved, name, held), low, high, [each.deepest for each in between if each.is_gap])
-    crossings = tuple((each.deepest, called(motion.plan, each.step)) for each in between if not each.is_gap)
-    others = tuple(Held(each, value, stroke_unit(motion.plan, each)) for each, value in held.items() if each != name)
-    least = transmission(motion, name, held, found)
-    turns = open_turn(motion, name, held, found) if unit == "rad" else None
-    still = dead_points(motion, name, held, [(each.low, each.high) for each in found])
-    return StrokeLimits(name, unit, stroke.start, stroke.end, tuple(found), crossings, least, others, turns, tuple(still))
-
-
-def scanner(moved: Moved, name: str, held: Mapping[str, float]) -> Callable[[FloatArray], Scanned]:
-    """Return a look at values of one stroke."""
-
-    def scan(at: FloatArray) -> Scanned:
-        motion = moved({**held, name: at})
-        return Scanned(motion.reached, lambda place: failing(moved({**held, name: at[place : place + 1]})), motion.group_stops)
-
-    return scan
-
-
-def failing(motion: Motion) -> str:
-    """Return what cannot be placed first at a motion's pose, by its name."""
-    return next((called(motion.plan, name) for name, mask in failures(motion.plan, motion.reading, motion.shape) if mask.any()), "")
-
-
-def is_watched(motion: Motion) -> bool:
+def is_watched(motion: MotionLike) -> bool:
     """Return whether it is looked at between the poses: of one design along one stroke, from two poses on."""
-    return len(motion.strokes) == 1 and not motion.design_shape and motion.shape != () and motion.reached.size > 1
+    return len(motion.strokes) == 1 and not motion._design_shape and motion.shape != () and motion.reached.size > 1
 
 
-def interruptions(motion: Motion) -> tuple[Interruption, ...]:
+def interruptions(motion: MotionLike) -> tuple[Interruption, ...]:
     """Return what interrupts the way of one design along its one stroke, between the least and the greatest of its poses.
 
     A stretch where nothing does is kept, of the last designs that were asked for, so that poses in it are not looked at again.
     """
     ((name, values),) = motion.strokes.items()
     low, high = float(values.min()), float(values.max())
-    clear: dict[Any, tuple[float, float]] = motion.plan.made("clear", lambda _: {})
+    clear: dict[tuple[float, ...], tuple[float, float]] = motion.plan.made("clear", lambda _: {})
     key = tuple(map(float, motion.designs.values()))
     known = clear.get(key)
     if known is not None and known[0] <= low and high <= known[1]:
         return ()
-    found = Course(motion.plan, motion.grid.flat, name, {}).interruptions(low, high)
+    found = Course(motion.plan, motion._grid.flat, name, {}).interruptions(low, high)
     if not found and (known is None or (low <= known[0] and known[1] <= high)):
         clear[key] = low, high
         for old in list(clear)[:-KEPT]:
@@ -280,30 +276,16 @@ def interruptions(motion: Motion) -> tuple[Interruption, ...]:
     return found
 
 
-def between_words(motion: Motion) -> str:
+def between_words(found: Sequence[Interruption] | None) -> str:
     """Return what is known of the way between the poses, in words: nothing where it is clear."""
-    found = motion.interruptions
     if found is None:
         return ", not looked at between the poses"
     return "".join(f", interrupted: {each}" for each in found)
 
 
-def group_crossing(motion: Motion, crossed: Any) -> SingularError:
-    """Return the error for poses that a group's pins reach only through a change point."""
-    numbers = np.unique(motion.grid.full(motion.grid.solved.crossed[None].astype(float))[0][crossed])
-    named = list(motion.plan.groups.items())
-    groups = ", ".join(f"{name} = {group}" for name, group in (named[int(number) - 1] for number in numbers))
-    where = where_words(motion.plan, crossed, motion.strokes)
-    return SingularError(
-        f"{motion.plan.title} passes a change point before the poses {where}: the branches of {groups} cross on the way from the sketch. "
-        'Stop before it, start from a sketch on the other side, or ask with unreachable="nan".',
-        point=named[int(numbers[0]) - 1][0], mask=crossed, motion=motion,
-    )  # fmt: skip
-
-
-def stop_words(motion: Motion) -> str:
+def stop_words(motion: MotionLike) -> str:
     """Return how far a sweep of one design goes, in words: `It goes from S = 0 to 0.408276 m.`"""
-    if len(motion.strokes) != 1 or motion.design_shape or not motion.reached.any() or motion.reached.ndim != 1:
+    if len(motion.strokes) != 1 or motion._design_shape or not motion.reached.any() or motion.reached.ndim != 1:
         return ""
     ((name, values),) = motion.strokes.items()
     order = np.argsort(values, kind="stable")
@@ -313,7 +295,7 @@ def stop_words(motion: Motion) -> str:
     return f" It goes {', and '.join(spans)}."
 
 
-def refuse_crossing(motion: Motion) -> None:
+def refuse_interrupted(motion: MotionLike) -> None:
     """Raise the error of what interrupts a sweep between its poses: a stretch out of reach, or a change point.
 
     A loop that a declared side keeps on one branch would turn back at a change point, which no machine does.
@@ -324,16 +306,16 @@ def refuse_crossing(motion: Motion) -> None:
     (values,) = motion.strokes.values()
     start = float(np.ravel(values)[0])
     first = min(found, key=lambda each: min(abs(each.low - start), abs(each.high - start)))
-    raise gap(motion, first, found) if first.is_gap else crossing(motion, first)
+    raise gap_error(motion, first, found) if first.is_gap else change_point_error(motion, first)
 
 
-def gap(motion: Motion, first: Interruption, found: Sequence[Interruption]) -> AssemblyError:
+def gap_error(motion: MotionLike, first: Interruption, found: Sequence[Interruption]) -> AssemblyError:
     """Return the error for a stretch between the poses of a sweep that cannot be assembled."""
     ((name, values),) = motion.strokes.items()
     plan, unit = motion.plan, stroke_unit(motion.plan, name)
     there = motion.moved({name: np.array([first.deepest])})
-    step = next((each for each, mask in failures(plan, there.reading, (1,)) if mask.any()), first.step)
-    words, shortfall = missing_words(plan, step, there.reading, np.ones(1, bool))
+    step = next((each for each, mask in failures(plan, there._reading, (1,)) if mask.any()), first.step)
+    words, shortfall = missing_words(plan, step, there._reading, np.ones(1, bool))
     far = np.asarray(values > first.low if np.ravel(values)[0] <= first.low else values < first.high)
     edges = [float(values.min()), *(edge for each in found if each.is_gap for edge in (each.low, each.high)), float(values.max())]
     spans = [f"from {name} = {low:.6g} to {high:.6g} {unit}" for low, high in zip(edges[::2], edges[1::2], strict=True)]
@@ -344,7 +326,7 @@ def gap(motion: Motion, first: Interruption, found: Sequence[Interruption]) -> A
     )  # fmt: skip
 
 
-def crossing(motion: Motion, found: Interruption) -> SingularError:
+def change_point_error(motion: MotionLike, found: Interruption) -> SingularError:
     """Return the error that names a change point, or where guides are parallel."""
     loop, name, value = found.step, found.stroke, found.deepest
     unit = stroke_unit(motion.plan, name)
@@ -364,4 +346,17 @@ def crossing(motion: Motion, found: Interruption) -> SingularError:
         f"{motion.plan.title} passes {what}: {why}. Stop the sweep before it, take the poses on each side "
         'in sweeps of their own, or ask with unreachable="nan".',
         point=loop, mask=np.asarray(motion.strokes[name] >= value), motion=motion,
+    )  # fmt: skip
+
+
+def group_change_point_error(motion: MotionLike, crossed: Mask) -> SingularError:
+    """Return the error for poses that a group's pins reach only through a change point."""
+    numbers = np.unique(motion._grid.full(motion._grid.solved.crossed[None].astype(float))[0][crossed])
+    named = list(motion.plan.groups.items())
+    groups = ", ".join(f"{name} = {group}" for name, group in (named[int(number) - 1] for number in numbers))
+    where = where_words(motion.plan, crossed, motion.strokes)
+    return SingularError(
+        f"{motion.plan.title} passes a change point before the poses {where}: the branches of {groups} cross on the way from the sketch. "
+        'Stop before it, start from a sketch on the other side, or ask with unreachable="nan".',
+        point=named[int(numbers[0]) - 1][0], mask=crossed, motion=motion,
     )  # fmt: skip

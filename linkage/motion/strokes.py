@@ -1,4 +1,4 @@
-"""Stroke values as they are asked for: counts, values, grids."""
+"""Stroke values as they are given for: counts, values, grids."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def is_round(value: float) -> bool:
     return abs(10.0 * value - round(10.0 * value)) < 1e-9 * abs(value)
 
 
-def as_given(value: Any) -> FloatArray:
+def float_array(value: Any) -> FloatArray:
     """Return an array of floats as it is, not copied; anything else as `real` does."""
     return value if type(value) is np.ndarray and value.dtype == np.float64 else real(value)
 
@@ -108,24 +108,24 @@ def sweep_values(count: int | None, given: Mapping[str, Any], plan: Plan) -> dic
     return dict(zip(strokes, np.broadcast_arrays(*full), strict=True))
 
 
-def _axis(name: str, asked: Any, plan: Plan) -> FloatArray:
+def _axis(name: str, given: Any, plan: Plan) -> FloatArray:
     stroke, title = plan.strokes[name], plan.title
-    if isinstance(asked, (int, np.integer)) and not isinstance(asked, bool):
-        if asked < 1:
-            raise DefinitionError(f"{title}: sweep({name}={asked}): a count of at least 1 is expected; for a value write {float(asked)}.")
+    if isinstance(given, (int, np.integer)) and not isinstance(given, bool):
+        if given < 1:
+            raise DefinitionError(f"{title}: sweep({name}={given}): a count of at least 1 is expected; for a value write {float(given)}.")
         try:
-            return np.linspace(stroke.start, stroke.end, int(asked))
+            return np.linspace(stroke.start, stroke.end, int(given))
         except (MemoryError, OverflowError, ValueError):
-            raise DefinitionError(f"{title}: sweep({name}={asked}): so many poses do not fit into memory; ask for fewer.") from None
-    if isinstance(asked, (float, np.floating)) and np.isfinite(asked):
-        check_unit(name, (float(asked),), plan)
-        return np.asarray(asked, float)
-    raise DefinitionError(f"{title}: sweep({name}={asked!r}): an int is a count, a float a value; for chosen values use at({name}=...).")
+            raise DefinitionError(f"{title}: sweep({name}={given}): so many poses do not fit into memory; ask for fewer.") from None
+    if isinstance(given, (float, np.floating)) and np.isfinite(given):
+        check_unit(name, (float(given),), plan)
+        return np.asarray(given, float)
+    raise DefinitionError(f"{title}: sweep({name}={given!r}): an int is a count, a float a value; for chosen values use at({name}=...).")
 
 
-# What a motion is asked for, checked: names, rates, orders and steps.
+# What a motion is given for, checked: names, rates, orders and steps.
 
-def named(kind: str, target: Any, known: Iterable[str], title: str) -> str:
+def checked_name(kind: str, target: Any, known: Iterable[str], title: str) -> str:
     """Return the name of a member or the name as given; raise DefinitionError where it is not a known one."""
     return known_name(kind, target.name if isinstance(target, Member) else target, known, where=title)
 
@@ -135,7 +135,7 @@ def rates_of(what: str, given: Any, strokes: Mapping[str, FloatArray], shape: tu
     if not isinstance(given, Mapping):
         example = f"{what}=dict({next(iter(strokes), 'S')}=0.05)"
         raise DefinitionError(f"{title}: {what}={given!r}: a value for each stroke is expected, such as {example}.")
-    return {named("Stroke", name, strokes, title): rate_of(f"{what}: {name}", value, shape, title) for name, value in given.items()}
+    return {checked_name("Stroke", name, strokes, title): rate_of(f"{what}: {name}", value, shape, title) for name, value in given.items()}
 
 
 def rate_of(what: str, value: Any, shape: tuple[int, ...], title: str) -> FloatArray:

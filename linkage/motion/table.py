@@ -12,8 +12,8 @@ from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
 from ..program import FloatArray
 from ..quantities import Dimension, Member, Quantity, Stroke
-from ..units import UNITS, unit_or_none
-from .limits import stroke_unit
+from ..units import display_unit, factor, unit_or_none
+from .limits import stroke_display_unit
 from .motion import Motion, require_motion
 
 # A column of results: a name, values over the poses, and the unit to show them in.
@@ -44,7 +44,7 @@ class Column:
     @property
     def shown(self) -> FloatArray:
         """The values in the column's unit."""
-        return np.asarray(self.values) / (UNITS[self.unit][0] if self.unit else 1.0)
+        return np.asarray(self.values) / factor(self.unit)
 
     @property
     def drawn(self) -> FloatArray:
@@ -67,17 +67,14 @@ def are_numbers(values: Any) -> bool:
         return False
 
 
-SHOWN = {"angle": "deg", "length": "m", "": ""}
-
-
 def columns_of(motion: Motion) -> list[Column]:
     """Return the strokes, the coordinates of the points that move, and the named outputs of a motion, a column each."""
     require_motion(motion)
     plan = motion.plan
-    table = [Column(name, value, "deg" if stroke_unit(plan, name) == "rad" else "m") for name, value in motion.strokes.items()]
+    table = [Column(name, value, stroke_display_unit(plan, name)) for name, value in motion.strokes.items()]
     table += [Column(f"{point}_{axis}", getattr(motion, axis)(point), "m") for point in plan.moving for axis in "xy"]
     outputs = {name: member for name, member in plan.of_kind(Quantity).items() if not isinstance(member, (Stroke, Dimension))}
-    return table + [Column(name, motion[name], SHOWN[member.measures]) for name, member in outputs.items()]
+    return table + [Column(name, motion[name], display_unit(member.measures)) for name, member in outputs.items()]
 
 
 # Members that have columns of their own in a machine's table of results.

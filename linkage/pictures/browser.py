@@ -20,7 +20,7 @@ from .free_space import label_free, props
 from .labels import offsets
 from .scene import Places, Scene
 from .shapes import Outline
-from .strokes import StrokeAxis, held_words, unreached_words
+from .strokes import StrokeAxis, others_in_words, unreached_words
 from .symbols import LONG, SLOT, THICK, WIDTH, half_width, hatched, support
 
 COLOURS = ("INK", "MUTED", "RULE", "GRID", "PAPER", "CURVE", "ACCENT", "BARREL", "ROD", "PISTON")
@@ -48,7 +48,7 @@ def page_html(
     data = {
         "title": motion.plan.heading,
         "turn": bool(is_turn),
-        "held": held_words(motion, moving),
+        "held": others_in_words(motion, moving),
         "remark": unreached_words(motion, moving),
         "reached": scene.reached,
         "scene": scenery(scene, paths),

@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
@@ -16,9 +15,9 @@ from ..errors import DefinitionError, cited, unknown
 from ..motion import Column, Motion, columns_of
 from ..program import FloatArray
 from ..quantities import is_number
-from ..units import UNITS
+from ..units import factor
 from . import style
-from .sheet import Picture, quiet
+from .sheet import panels, quiet
 from .strokes import StrokeAxis
 
 PANEL = (4.6, 3.0)
@@ -57,15 +56,11 @@ def columns_named(motion: Motion, columns: Sequence[Column | str]) -> list[Colum
     return [own[each] if isinstance(each, str) else each for each in columns]
 
 
-def panel_grid(count: int) -> tuple[Figure, list[Any]]:
+def panel_grid(count: int) -> tuple[Figure, list[Axes]]:
     """Return a figure and the axes of so many panels, as near to a square as they go."""
     across = min(ceil(sqrt(count)), 4)
     down = ceil(count / across)
-    size = max(PANEL[0] * across, 6.0), PANEL[1] * down + 0.6
-    figure = Picture(figsize=size, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
-    FigureCanvasAgg(figure)
-    figure.get_layout_engine().set(w_pad=0.12, h_pad=0.12)  # type: ignore[union-attr,call-arg]
-    return figure, [figure.add_subplot(down, across, index + 1) for index in range(count)]
+    return panels((max(PANEL[0] * across, 6.0), PANEL[1] * down + 0.6), across, down, count, w_pad=0.12, h_pad=0.12)
 
 
 # Limit lines: a value that a result may not pass, and on which side it fails.
@@ -79,7 +74,7 @@ class Limit(NamedTuple):
 
     def drawn(self, column: Column) -> float:
         """Return the value in the unit of a column."""
-        return self.value / (UNITS[column.unit][0] if column.unit else 1.0)
+        return self.value / factor(column.unit)
 
     def failing(self, values: FloatArray) -> FloatArray:
         """Return the mask of the values [SI] that fail."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory, gettempdir
-from typing import Any
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -34,7 +34,8 @@ GIF_DPI = 100
 MP4_DPI = 150
 PAGE_FINENESS = 3
 
-Progress = Callable[[int, int], None]
+Progress: TypeAlias = Callable[[int, int], None]
+"""What is called as the poses of an animation are done: with their number, and that of all."""
 
 
 def animate(
@@ -123,18 +124,13 @@ MOST = 9
 """Decimals that a value is shown with, at most."""
 
 
-def untyped(canvas: Any) -> Any:
-    """Return a canvas without its type: matplotlib declares none for these methods."""
-    return canvas
-
-
 class Stage:
     """A figure with a mechanism on the left and a live curve on the right; `frame` gives it at a pose."""
 
     def __init__(self, playback: Playback, paths: Sequence[str], bound: Sequence[Any] | Limit | None, dpi: int) -> None:
         self.playback, self.scene, self.along = playback, Scene(playback.motion), StrokeAxis.of(playback.motion)
         self.figure = Figure(figsize=(WIDTH, HEIGHT), dpi=dpi, facecolor=style.PAPER)
-        self.canvas = untyped(FigureCanvasAgg(self.figure))
+        self.canvas = cast(Any, FigureCanvasAgg(self.figure))  # matplotlib declares no types for its methods
         self.drawing = self._mechanism(paths)
         self.live = self._curve(bound)
         self.stroke = self.figure.text(SHEET[0] + SHEET[2], TITLE, "", fontsize=style.TITLE, color=style.INK, ha="right", va="center")

@@ -50,15 +50,17 @@ def offsets(
         pins = [np.array([at[name] for name in names]).reshape(-1, 2) * scale for at in poses]
         taken = [np.concatenate([points, np.repeat(each, 4, axis=0)]) for points, each in zip(taken, pins, strict=True)]
     far = max(gap, 0.9 * font) if len(poses) > 1 else np.inf
-    chosen: dict[str, FloatArray] = {}
-    for name in sorted(names, key=lambda each: -_crowd(each, poses, taken, scale, 3 * font)):
+    spots_of: dict[str, FloatArray] = {}
+    around = np.array([3 * font, 3 * font])
+    crowds = {name: sum(_count(points, at[name] * scale, around) for at, points in zip(poses, taken, strict=True)) for name in names}
+    for name in sorted(names, key=lambda each: -crowds[each]):
         half = 0.5 * font * np.array([0.68 * len(name) + 0.15, 0.95])
         anchors = [at[name] * scale for at in poses]
         spots = candidates(half, gap, far)
         costs = [_cost(spot, rank, half, anchors, taken) for rank, spot in enumerate(spots)]
-        chosen[name] = spots[int(np.argmin(costs))]
-        taken = [np.concatenate([points, _covered(anchor + chosen[name], half)]) for points, anchor in zip(taken, anchors, strict=True)]
-    return chosen
+        spots_of[name] = spots[int(np.argmin(costs))]
+        taken = [np.concatenate([points, _covered(anchor + spots_of[name], half)]) for points, anchor in zip(taken, anchors, strict=True)]
+    return spots_of
 
 
 def candidates(half: FloatArray, gap: float, far: float = np.inf) -> list[FloatArray]:
@@ -71,11 +73,6 @@ def _cost(spot: FloatArray, rank: int, half: FloatArray, anchors: Sequence[Float
     """Return how many taken points a label would cover, a pose, and a little for each place further down the list."""
     covered = [_count(points, anchor + spot, half + 1.0) for points, anchor in zip(taken, anchors, strict=True)]
     return sum(covered) / max(len(anchors), 1) + 0.02 * rank
-
-
-def _crowd(name: str, poses: Sequence[Places], taken: Sequence[FloatArray], scale: float, radius: float) -> float:
-    """Return how many taken points lie around a point."""
-    return sum(_count(points, at[name] * scale, np.array([radius, radius])) for at, points in zip(poses, taken, strict=True))
 
 
 def _count(points: FloatArray, centre: FloatArray, half: FloatArray) -> int:

@@ -22,7 +22,7 @@ from .drawing import Drawing, mechanism
 from .free_space import cloud
 from .scene import Bounds, Scene
 from .sheet import Picture, sheet
-from .strokes import held_words, is_turn, stroke_words, unreached_words
+from .strokes import is_turn, others_in_words, stroke_words, unreached_words
 from .style import FAINT, STRONG
 
 WIDTH = 9.0
@@ -160,7 +160,7 @@ def remark(figure: Figure, ax: Axes, text: str) -> None:
 def heading(figure: Figure, ax: Axes, shown: Motion, moving: str) -> None:
     """Write the title, and which pose is which."""
     scene = Scene(shown)
-    held = held_words(shown, moving)
+    held = others_in_words(shown, moving)
     title(figure, shown.plan.heading, f"at {held}" if held else "")
     values = [float(shown.strokes[moving].ravel()[pose]) for pose in scene.reached]
     looks = [FAINT] * (len(values) - 1) + [STRONG]

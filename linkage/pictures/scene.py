@@ -65,8 +65,8 @@ def guides(motion: Motion) -> Iterator[SlideTrack]:
         riders = tuple(dict.fromkeys(joint.point for joint in slide_joints(motion) if joint.track == (name,)))
         if riders:
             fixed = set(guide.points) <= set(plan.ground) and (guide.angle is None or not plan.moves(guide.angle))
-            line = motion.reading.line(guide)
-            origin, along = over_poses(motion, line.origin.x, line.origin.y), over_poses(motion, line.direction.x, line.direction.y)
+            line = motion._reading.line(guide)
+            origin, along = pose_rows(motion, line.origin.x, line.origin.y), pose_rows(motion, line.direction.x, line.direction.y)
             yield SlideTrack(name, origin, along, riders, fixed)
 
 
@@ -76,9 +76,9 @@ def slots(motion: Motion) -> Iterator[SlideTrack]:
     for name, step in motion.plan.points.items():
         for joint in step.joints():
             if joint.track and joint.line is not None and joint.track[0] not in guides:
-                line = joint.line(motion.reading)
-                along = over_poses(motion, line.direction.x, line.direction.y)
-                yield SlideTrack(f"{name}|slot", over_poses(motion, line.origin.x, line.origin.y), along, (joint.point,), False)
+                line = joint.line(motion._reading)
+                along = pose_rows(motion, line.direction.x, line.direction.y)
+                yield SlideTrack(f"{name}|slot", pose_rows(motion, line.origin.x, line.origin.y), along, (joint.point,), False)
 
 
 def slide_joints(motion: Motion) -> Iterator[Joint]:
@@ -86,7 +86,7 @@ def slide_joints(motion: Motion) -> Iterator[Joint]:
     return (joint for member in motion.plan.holding.values() for joint in member.joints() if joint.track)
 
 
-def over_poses(motion: Motion, x: object, y: object) -> FloatArray:
+def pose_rows(motion: Motion, x: object, y: object) -> FloatArray:
     """Return two components over all poses, shape (2, n)."""
     return np.array([np.broadcast_to(np.asarray(each, float), motion.shape).ravel() for each in (x, y)])
 
@@ -151,9 +151,9 @@ class Scene:
     def __post_init__(self) -> None:
         require_motion(self.motion)
         plan = self.motion.plan
-        if self.motion.design_shape:
+        if self.motion._design_shape:
             raise DefinitionError(
-                f"{plan.title}: this motion holds {np.prod(self.motion.design_shape)} designs and a picture shows one; "
+                f"{plan.title}: this motion holds {np.prod(self.motion._design_shape)} designs and a picture shows one; "
                 "draw them one at a time, each dimension a single number."
             )
         flat = {name: self.motion[name].reshape(2, -1) for name in plan.points}
@@ -168,7 +168,7 @@ class Scene:
 
     def index(self, pose: int | tuple[int, ...]) -> int:
         """Return the flat index of a pose; DefinitionError where there is none such."""
-        shape = self.motion.stroke_shape
+        shape = self.motion._stroke_shape
         try:
             return int(range(int(np.prod(shape, dtype=int)))[pose] if isinstance(pose, int) else np.ravel_multi_index(pose, shape))
         except (IndexError, ValueError):
@@ -253,7 +253,7 @@ class Scene:
     @cached_property
     def contours(self) -> tuple[Straight, ...]:
         """What steps draw of themselves, behind the bodies."""
-        found = [each for step in self.motion.plan.points.values() for each in step.outline(self.motion.reading)]
+        found = [each for step in self.motion.plan.points.values() for each in step.outline(self.motion._reading)]
         return tuple(Straight(each.P, each.Q, (turning_with(each),)) for each in found)
 
     def _lengths(self, hung: Hung) -> tuple[float, float]:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from matplotlib import rcParams
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator, ScalarFormatter
 
@@ -31,6 +32,20 @@ def sheet(ax: Axes, box: Bounds) -> None:
     quiet(ax)
     for side in ("top", "right"):
         ax.spines[side].set_visible(True)
+
+
+def panels(size: tuple[float, float], across: int, down: int = 1, count: int | None = None, **room: Any) -> tuple[Figure, list[Axes]]:
+    """Return an empty figure of a size [inch] and its axes, row by row: as many as there is room for, or the first so many.
+
+    `room` is matplotlib's for its constrained layout: w_pad, h_pad, rect.
+    """
+    figure = Picture(figsize=size, dpi=style.DPI, facecolor=style.PAPER)
+    figure.set_layout_engine("constrained", **room)
+    FigureCanvasAgg(figure)
+    axes = [figure.add_subplot(down, across, place + 1) for place in range(across * down if count is None else count)]
+    for ax in axes:
+        quiet(ax)
+    return figure, axes
 
 
 def millimetres(value: float, _: int | None = None) -> str:

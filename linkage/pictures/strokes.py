@@ -9,11 +9,11 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, known_name
 from ..mechanism import Mechanism
-from ..motion import Column, Motion, check_any, require_motion, stroke_unit
+from ..motion import Column, Motion, check_any, last_holding, require_motion, stroke_display_unit
 from ..plan import Plan
 from ..program import FloatArray
 from ..reports import NOTHING, At, Run, results, run_of
-from ..units import UNITS
+from ..units import factor
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,14 +34,14 @@ class StrokeAxis:
         require_motion(motion)
         check_any(motion.strokes, motion.plan)
         plan = motion.plan
-        if motion.design_shape or len(motion.stroke_shape) != 1:
+        if motion._design_shape or len(motion._stroke_shape) != 1:
             raise DefinitionError(
                 f"{plan.title}: curves over a stroke need one design and one row of poses, this motion has the shape {motion.shape}; "
                 f"sweep one stroke and give every other a value: {', '.join(plan.strokes)}."
             )
         name = max(motion.strokes, key=lambda name: float(np.ptp(motion.strokes[name])))
-        unit = shown_unit(plan, name)
-        return cls(name, unit, np.asarray(motion.strokes[name] / UNITS[unit][0]), held_words(motion, name))
+        unit = stroke_display_unit(plan, name, "mm")
+        return cls(name, unit, np.asarray(motion.strokes[name] / factor(unit)), others_in_words(motion, name))
 
     @property
     def is_turning(self) -> bool:
@@ -49,19 +49,14 @@ class StrokeAxis:
         return self.unit == "deg" and float(np.ptp(self.values)) >= 90.0
 
 
-def shown_unit(plan: Plan, name: str) -> str:
-    """Return the unit a stroke is shown in: mm, or deg where it turns something."""
-    return "deg" if stroke_unit(plan, name) == "rad" else "mm"
-
-
 def stroke_words(plan: Plan, name: str, value: float, *, fixed: bool = False) -> str:
     """Return a stroke's value [SI] as text: `S = 550 mm`, `phi = 90°`; fixed, with whole units."""
-    unit = shown_unit(plan, name)
-    text = f"{name} = {value / UNITS[unit][0]:{'.0f' if fixed else '.4g'}}".replace("-", "\N{MINUS SIGN}")
+    unit = stroke_display_unit(plan, name, "mm")
+    text = f"{name} = {value / factor(unit):{'.0f' if fixed else '.4g'}}".replace("-", "\N{MINUS SIGN}")
     return text + ("°" if unit == "deg" else f" {unit}")
 
 
-def held_words(motion: Motion, moving: str) -> str:
+def others_in_words(motion: Motion, moving: str) -> str:
     """Return the values of the strokes beside the one that moves, as text; empty where there is one stroke."""
     others = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items() if name != moving}
     return ", ".join(stroke_words(motion.plan, name, value) for name, value in others.items())
@@ -82,10 +77,8 @@ def unreached_words(motion: Motion, moving: str) -> str:
 
 def _last_reached(motion: Motion, moving: str, inside: float, outside: float) -> float:
     """Return the last value of a stroke in reach between one that is and one that is not [SI]."""
-    between = np.linspace(inside, outside, 501)
-    others = {name: np.full(between.size, np.ravel(value)[0]) for name, value in motion.strokes.items()}
-    near = Motion(motion.plan, motion.designs, others | {moving: between}, "nan").reached
-    return float(between[max(int(np.argmin(near)) - 1, 0)])
+    others = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
+    return float(last_holding(lambda at: np.array(motion.moved(others | {moving: at}).reached), inside, outside)[0])
 
 
 # What an animation plays: which poses of a stroke, in which order, smoothly there and back.
@@ -132,7 +125,7 @@ def playback(machine: Mechanism, count: int, column: str | None = None, *, at: A
 def is_turn(machine: Mechanism, run: Run) -> bool:
     """Return whether a run goes full turns, so that a crank ends where it began."""
     turns = abs(run.end - run.start) / (2 * np.pi)
-    return shown_unit(machine.plan, run.stroke) == "deg" and round(turns) >= 1 and abs(turns - round(turns)) < 1e-9
+    return stroke_display_unit(machine.plan, run.stroke, "mm") == "deg" and round(turns) >= 1 and abs(turns - round(turns)) < 1e-9
 
 
 def frame_count(count: Any) -> int:

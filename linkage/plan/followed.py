@@ -49,7 +49,8 @@ def followed_angles(plan: Members, trace: Trace, loads: Sequence[Quantity]) -> t
         raise DefinitionError(
             f"{plan.title}: {grouped[0]} is used in another way than by a whole multiple, its cosine or its sine, and the pins {pins} "
             "hang on it. Such an angle and pins that are found by iteration cannot both be followed from the sketch; use a whole multiple, "
-            "or drive the angle by a Stroke."
+            "or drive the angle by a Stroke.",
+            member=grouped[0],
         )
     return found
 

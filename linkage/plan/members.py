@@ -148,7 +148,9 @@ class Members:
         strokes = self.of_kind(Stroke)
         self.strokes: Mapping[str, Stroke] = FrozenDict({name: strokes[name] for name in members if name in strokes})
         self.members = FrozenDict(self.members)
-        self._check_kinds()
+        for name, member in self.members.items():
+            with about(name):
+                self._check_kinds(name, member)
 
     def _needs(self, name: str, member: Member) -> list[str]:
         """Return the names that a member needs; DefinitionError, with the place, where a part of it cannot be one."""
@@ -178,13 +180,8 @@ class Members:
         """The names of the fixed points."""
         return tuple(name for name, point in self.points.items() if point.is_fixed)
 
-    def _check_kinds(self) -> None:
+    def _check_kinds(self, name: str, member: Member) -> None:
         """Raise DefinitionError where a point, a vector or a quantity stands in the place of another kind."""
-        for name, member in self.members.items():
-            with about(name):
-                self._check_kind(name, member)
-
-    def _check_kind(self, name: str, member: Member) -> None:
         member.examine(self.members, self.title)
         for part in self.with_parts(name):
             for length in part.lengths():
@@ -321,10 +318,11 @@ class Members:
     def following(self) -> tuple[tuple[str, Quantity], ...]:
         """The lengths that follow other quantities, and so can become negative, each with the member that it places."""
         place = list(self.members).index
-        found = [(max(ends, key=place), length) for ends, length in self.table.lengths.items()]
+        found: list[tuple[str, Member]] = [(max(ends, key=place), length) for ends, length in self.table.lengths.items()]
         names = self.reaches(*self.points)
         found += [(name, length) for name in sorted(names, key=place) for part in self.with_parts(name) for length in part.lengths()]
-        return tuple((name, length) for name, length in found if not isinstance(length, (Variable, Number, Length, Distance)))
+        never = (Variable, Number, Length, Distance)
+        return tuple((name, length) for name, length in found if isinstance(length, Quantity) and not isinstance(length, never))
 
     def with_parts(self, name: str) -> tuple[Member, ...]:
         """Return a member and its parts that have no name of their own."""

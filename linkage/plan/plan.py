@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from functools import cached_property
-from typing import Any, TypeVar
+from typing import TypeVar, cast
 from uuid import uuid4
 from weakref import WeakValueDictionary
 
@@ -15,45 +15,15 @@ from ..errors import DefinitionError, unknown
 from ..program import Kernel, Level, Node
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
+from ..vectors import Scalar
 from .followed import followed_angles, has_angles, load_quantities, told_apart
 from .members import Members
 from .reading import ArrayReading, Reading
 from .trace import Trace
 
-# A plan sent to another process: its members go, what follows from them does not; what arrives twice is the same plan.
-
-KNOWN: WeakValueDictionary[str, Any] = WeakValueDictionary()
-"""The plans that came or went, by their keys."""
-LATEST: deque[Any] = deque(maxlen=8)
-"""Those that came last, kept with their kernels: a class that is sent by its text comes with every task anew."""
-
-
-def sent(key: str, plan: Any) -> tuple[Any, ...]:
-    """Return what pickle is to make a plan of."""
-    KNOWN[key] = plan
-    follows = {"_kernels"}.union(*(found_later(base) for base in type(plan).__mro__))
-    return arrived, (key, type(plan), {name: value for name, value in vars(plan).items() if name not in follows})
-
-
-def found_later(kind: type) -> set[str]:
-    """Return the attributes that a class works out when they are asked for."""
-    return {name for name, member in vars(kind).items() if isinstance(member, cached_property)}
-
-
-def arrived(key: str, kind: type, parts: Mapping[str, Any]) -> Any:
-    """Return the plan of a key: the one that is here already, or one of these parts."""
-    plan = KNOWN.get(key)
-    if plan is None:
-        plan = object.__new__(kind)
-        plan.__dict__.update(parts, _kernels={}, key=key)
-        plan = KNOWN.setdefault(key, plan)
-        LATEST.append(plan)
-    return plan
-
-
 Made = TypeVar("Made")
 
-KEPT = 512
+MOST_KERNELS = 512
 """The kernels of a plan that are kept: loads with numbers of their own make one for each number."""
 
 
@@ -62,22 +32,26 @@ class Plan(Members):
 
     def __init__(self, members: Mapping[str, Member], title: str) -> None:
         super().__init__(members, title)
-        self._kernels: dict[Any, Any] = {}
+        self._kernels: dict[Hashable, object] = {}
 
     @cached_property
     def key(self) -> str:
         """A name that no other plan has, in any process."""
         return uuid4().hex
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return sent(self.key, self)
+    def __reduce__(self) -> tuple[object, ...]:
+        """Return what pickle is to make a plan of: its members go, what follows from them does not."""
+        KNOWN[self.key] = self
+        found_later = {name for base in type(self).__mro__ for name, member in vars(base).items() if isinstance(member, cached_property)}
+        kept = {name: value for name, value in vars(self).items() if name not in found_later | {"_kernels"}}
+        return arrived, (self.key, type(self), kept)
 
     @cached_property
     def trace(self) -> Trace:
         """The program's nodes: every point placed."""
         trace = self._traced(self.solved)
         with np.errstate(all="ignore"):  # what is divided by zero in a constant is told as the place that has no value
-            self._asked(trace)
+            self._work_out(trace)
         for name, length in self.following:
             trace.watch_length(name, length)
         return trace
@@ -87,13 +61,13 @@ class Plan(Members):
         levels = dict.fromkeys((*self.strokes, *solved), Level.POSE) | dict.fromkeys(self.table.entries, Level.DESIGN)
         return Trace(self.members, self.table.lengths, levels)
 
-    def read(self, inputs: Mapping[str, Any]) -> ArrayReading:
+    def read(self, inputs: Mapping[str, Scalar]) -> ArrayReading:
         """Return the eager reading on arrays, every point placed."""
         reading = ArrayReading(self.members, self.table.lengths, inputs)
-        self._asked(reading)
+        self._work_out(reading)
         return reading
 
-    def _asked(self, reading: Reading) -> None:
+    def _work_out(self, reading: Reading) -> None:
         """Work out every point in a reading, and where angles are followed what loads follow."""
         for name in self.points:
             reading.at(name)
@@ -130,12 +104,12 @@ class Plan(Members):
 
         return self.made((targets, along, guarded), make)
 
-    def made(self, key: Any, make: Callable[[Plan], Made]) -> Made:
+    def made(self, key: Hashable, make: Callable[[Plan], Made]) -> Made:
         """Return a kernel, or what holds one, made once from a program of its own: it does not depend on what was asked for before."""
-        found: Made | None = self._kernels.get(key)
+        found = cast(Made | None, self._kernels.get(key))
         if found is None:
-            found = self._kernels[key] = make(self._twin())
-            for old in list(self._kernels)[:-KEPT]:
+            self._kernels[key] = found = make(self._twin())
+            for old in list(self._kernels)[:-MOST_KERNELS]:
                 self._kernels.pop(old, None)
         return found
 
@@ -187,3 +161,22 @@ class Plan(Members):
             return ()
         trace = self._traced(self.solved)
         return told_apart(trace, [trace.graph.node(trace.value(quantity))])
+
+
+KNOWN: WeakValueDictionary[str, Plan] = WeakValueDictionary()
+"""The plans that came from another process or went to one, by their keys: what arrives twice is the same plan. Of the whole process, as
+pickle calls `arrived` with nothing but what was sent.
+"""
+LATEST: deque[Plan] = deque(maxlen=8)
+"""Those that came last, kept with their kernels: a class that is sent by its text comes with every task anew."""
+
+
+def arrived(key: str, kind: type[Plan], parts: Mapping[str, object]) -> Plan:
+    """Return the plan of a key: the one that is here already, or one of these parts."""
+    plan = KNOWN.get(key)
+    if plan is None:
+        plan = object.__new__(kind)
+        plan.__dict__.update(parts, _kernels={}, key=key)
+        plan = KNOWN.setdefault(key, plan)
+        LATEST.append(plan)
+    return plan

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property, reduce
-from typing import Any
 
 import numpy as np
 
@@ -23,7 +22,7 @@ class Reading:
     def __init__(self, members: Mapping[str, Member], lengths: Mapping[frozenset[str], Quantity], inputs: Mapping[str, Scalar]) -> None:
         self.members, self.lengths, self.inputs = members, lengths, inputs
         self.positions: dict[str, Vec] = {}
-        self._values: dict[Any, Any] = {}
+        self._values: dict[tuple[str, str | int], tuple[Scalar, Member]] = {}
         self.placing: list[str] = []
         self.directions: dict[str, Vec] = {}
 
@@ -53,11 +52,12 @@ class Reading:
         """Return the position of a point that closes a loop; here it is known by its value."""
         return X
 
-    def _once(self, kind: str, reference: Reference, rule: str) -> Any:
+    def _once(self, kind: str, reference: Reference, rule: str) -> Scalar:
+        """Return what a member's rule gives, worked out when it is first asked for."""
         named = reference if isinstance(reference, str) else reference.name
         if named and named not in self.members:
             raise unknown("Name", named, self.members)
-        member: Any = self.members[named] if named else reference
+        member = reference if isinstance(reference, Member) and not named else self.members[named]
         if not hasattr(member, rule):
             raise DefinitionError(f"{named} = {member} stands where a {kind} is expected.")
         key = (kind, member.name or id(member))
@@ -178,9 +178,9 @@ class ArrayReading(Reading):
 
     def __init__(self, members: Mapping[str, Member], lengths: Mapping[frozenset[str], Quantity], inputs: Mapping[str, Scalar]) -> None:
         super().__init__(members, lengths, inputs)
-        self.sines: dict[str, Any] = {}
-        self.rounding: dict[str, Any] = {}
-        self.spans: dict[str, Any] = {}
+        self.sines: dict[str, Scalar] = {}
+        self.rounding: dict[str, Scalar] = {}
+        self.spans: dict[str, Scalar] = {}
         self.outside: dict[str, str] = {}
 
     def curve(self, curve: Tabulated, x: Scalar, order: int = 0) -> Scalar:

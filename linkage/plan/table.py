@@ -16,7 +16,7 @@ from ..quantities import Number, Operand, Quantity, Variable, quantity, real, sp
 from ..steps import Slot
 from ..steps.step import TURN
 from ..units import deg
-from ..vectors import FloatArray
+from ..vectors import Numbers
 
 Label: TypeAlias = frozenset[str] | tuple[str, frozenset[str]]
 """What a label measures: the two ends of a length, or the corner of an angle and its two sides' ends."""
@@ -88,12 +88,12 @@ class Table:
             return owner
         raise DefinitionError(f"{where}: {spelling}={spelled(given)} contradicts {first}={spelled(owner)}; a dimension has one value.")
 
-    def settings(self, given: Mapping[str, npt.ArrayLike]) -> dict[str, float | FloatArray]:
+    def settings(self, given: Mapping[str, npt.ArrayLike]) -> dict[str, Numbers]:
         """Return the design variables with some of them set: floats, or arrays for a batch of designs.
 
         Raises DefinitionError for an unknown name, one that follows others, or a value that cannot be.
         """
-        values: dict[str, float | FloatArray] = dict(self.defaults)
+        values: dict[str, Numbers] = dict(self.defaults)
         by: dict[str, str] = {}
         for name, value in given.items():
             for each, part in ((name, value),) if name in self.spellings else self._pairs(name, value):
@@ -134,7 +134,7 @@ RANGES: Mapping[str, tuple[float, float]] = {
 """The least and the greatest value that is in order [SI], by what a variable measures."""
 
 
-def signed(value: float | npt.ArrayLike, sign: int, entry: Entry) -> float | FloatArray:
+def signed(value: float | npt.ArrayLike, sign: int, entry: Entry) -> Numbers:
     """Return a setting under its owner's sign; raise DefinitionError for what is not a number."""
     if isinstance(value, float):
         return sign * float(value)
@@ -145,7 +145,7 @@ def signed(value: float | npt.ArrayLike, sign: int, entry: Entry) -> float | Flo
     return float(sign * array) if array.ndim == 0 else read_only(sign * array)
 
 
-def checked(entry: Entry, value: float | FloatArray) -> float | FloatArray:
+def checked(entry: Entry, value: Numbers) -> Numbers:
     """Return a value that the variable may take; raise DefinitionError for NaN, infinity and what is out of its range."""
     low, high = RANGES.get(entry.kind, (-LARGEST, LARGEST))
     if low <= value <= high if type(value) is float else np.all((np.asarray(value) >= low) & (np.asarray(value) <= high)):

@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..program import Graph, Level, Node, Tangent
 from ..quantities import Member, Quantity, Tabulated, Turning
-from ..steps import Point
+from ..steps import Arrow, Point
 from ..vectors import Scalar, Vec
 from .reading import ArrayReading, Reading
 
@@ -82,6 +82,17 @@ class Trace(Reading):
         view.placing = []
         view.positions, view.noted, view._values = dict(self.positions), dict(self.noted), dict(self._values)
         view.directions = dict(self.directions)
+        return view
+
+    def alone(self, member: Member | None) -> Trace:
+        """Return this trace with nothing read that has no name, and then a quantity or a vector read: what is measured is its own."""
+        view = self.view()
+        view.measures = dict.fromkeys(measure for measure in view.measures if measure.member)
+        view._values = {key: known for key, known in view._values.items() if isinstance(key[1], str)}
+        if isinstance(member, Quantity):
+            view.value(member)
+        elif isinstance(member, Arrow):
+            view.vector(member)
         return view
 
     def root(self, radicand: Scalar, scale: Scalar, size: Scalar, most: Scalar | None = None) -> Scalar:

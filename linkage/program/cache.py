@@ -45,7 +45,7 @@ def is_own(folder: Path) -> bool:
     return found.st_uid == os.getuid() and (is_hidden or not found.st_mode & 0o022)
 
 
-def is_used(folder: Path) -> bool:
+def is_trusted(folder: Path) -> bool:
     """Return whether compiled code is taken from a folder and kept in it; warn where it is not, for it may be another's."""
     if is_own(folder):
         return True
@@ -56,21 +56,21 @@ def is_used(folder: Path) -> bool:
 
 
 @dataclass
-class Kept:
+class CompiledFile:
     """The text of one program in its file, and what was compiled of it: beside the file, in folders that `take` is told."""
 
     file: Path
     folders: list[Path] = field(default_factory=list)
 
     @classmethod
-    def of(cls, text: str) -> Kept | None:
+    def of(cls, text: str) -> CompiledFile | None:
         """Return the file of a program, written if it is missing or altered; None where nothing can be kept, or is safe there."""
         try:
             file = file_of(text)
             with in_words(file.parent):
                 for folder in (file.parent, file.parent / "__pycache__"):
                     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-                    if not is_used(folder):
+                    if not is_trusted(folder):
                         return None
             if not (file.is_file() and read(file) == text.encode()):
                 with replacing(file) as stream:
@@ -81,7 +81,7 @@ class Kept:
 
     def take(self, folder: Path) -> bool:
         """Return whether what is compiled may come from a folder and go there; what lies there and is not sound is thrown away."""
-        if not is_used(folder):
+        if not is_trusted(folder):
             return False
         self.folders.append(folder)
         if self._sums(folder) != self._noted(folder):
@@ -121,7 +121,7 @@ def file_of(text: str) -> Path:
     return cache_folder() / f"linkage_kernel_{sha256(text.encode()).hexdigest()[:32]}.py"
 
 
-def is_kept(text: str) -> bool:
+def is_cached(text: str) -> bool:
     """Return whether a program has been compiled before on this machine, and what came of it may be used."""
     try:
         file = file_of(text)
@@ -130,9 +130,7 @@ def is_kept(text: str) -> bool:
         return False
 
 
-# Text made into functions: in memory, or in a file of the user's cache, where Numba can keep what it compiled.
-
-Make = Callable[[Callable[..., None], Kept | None], Callable[..., None]]
+Make = Callable[[Callable[..., None], CompiledFile | None], Callable[..., None]]
 """What compiles a function and keeps what came of it where it is told."""
 
 
@@ -144,15 +142,15 @@ def compiled(text: str, names: Mapping[str, Any], where: str = "<linkage program
 
 
 def compiled_in_file(text: str, name: str, make: Make) -> Callable[..., None]:
-    """Return a function of a text, compiled by `make(function, kept)`; what cannot be kept on disk, or not read, is made in memory."""
-    kept = Kept.of(text)
-    if kept is not None:
-        file = kept.file
+    """Return a function of a text, compiled by `make(function, file)`; what cannot be kept on disk, or not read, is made in memory."""
+    cached = CompiledFile.of(text)
+    if cached is not None:
+        file = cached.file
         module = sys.modules.setdefault(file.stem, ModuleType(file.stem))  # what is kept on disk looks its module up by name
         vars(module).update(compiled(text, {"__name__": file.stem, "__file__": str(file)}, str(file)))
         try:
-            return make(getattr(module, name), kept)
+            return make(getattr(module, name), cached)
         except Exception:  # whatever a cache does, the numbers do not depend on it; an error of the program's own comes again below
             with suppress(OSError):
-                kept.drop()
+                cached.drop()
     return make(compiled(text, {})[name], None)

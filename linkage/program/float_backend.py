@@ -3,36 +3,35 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from ..vectors import FloatArray, Numbers
 from .cache import compiled
 from .operations import FLOATS, NO_VALUE, QUICK
 from .schedule import Schedule
-from .text import GUARDED, PYTHON, function
+from .text import GUARDED, PYTHON, Dialect, function
 
 
-class Floats:
+class PlainFloats:
     """A program as two functions of floats: the design part and the pose part."""
 
     def __init__(self, plan: Schedule) -> None:
         self.plan = plan
 
     @cached_property
-    def quick(self) -> Mapping[str, Any]:
+    def quick(self) -> Mapping[str, Callable[..., tuple[float, ...]]]:
         """The functions that raise where a division or a root has no value."""
         return compiled(self._text(PYTHON), QUICK)
 
     @cached_property
-    def careful(self) -> Mapping[str, Any]:
+    def careful(self) -> Mapping[str, Callable[..., tuple[float, ...]]]:
         """The functions that return NaN and infinity there, as NumPy does."""
         return compiled(self._text(GUARDED), FLOATS)
 
-    def _text(self, dialect: Any) -> str:
+    def _text(self, dialect: Dialect) -> str:
         plan = self.plan
         text = function("design", plan.design_inputs, plan.design, plan.passed, dialect)
         return text + function("pose", [*plan.passed, *plan.pose_inputs], plan.pose, (*plan.outputs, *plan.guards), dialect)
@@ -40,17 +39,15 @@ class Floats:
     def design(self, values: Sequence[float]) -> tuple[float, ...]:
         """Return what the pose part needs of a design."""
         try:
-            found: tuple[float, ...] = self.quick["design"](*values)
+            return self.quick["design"](*values)
         except NO_VALUE:
-            found = self.careful["design"](*values)
-        return found
+            return self.careful["design"](*values)
 
     def poses(self, passed: Sequence[float], columns: Sequence[Sequence[float]], n: int) -> list[tuple[float, ...]]:
         """Return outputs and guards pose by pose."""
-        rows = list(zip(*columns, strict=True)) if columns else [()] * n
         quick = self.quick["pose"]
         found = []
-        for row in rows:
+        for row in zip(*columns, strict=True) if columns else [()] * n:
             try:
                 found.append(quick(*passed, *row))
             except NO_VALUE:
@@ -61,12 +58,12 @@ class Floats:
         """Return whether designs, not poses, are best contiguous in the result."""
         return False
 
-    def run(self, design: Sequence[Any], poses: Sequence[Any], values: npt.NDArray[np.float64], guards: npt.NDArray[np.float64]) -> None:
+    def run(self, design: Sequence[Numbers], poses: Sequence[Numbers], values: FloatArray, guards: FloatArray) -> None:
         """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
         count, m, n = values.shape
         designs = [listed(value, m) for value in design]
         for place in range(m):
-            here = [value[place % len(value)] if np.ndim(value) == 2 else value for value in poses]
+            here = [value[place % len(value)] if isinstance(value, np.ndarray) and value.ndim == 2 else value for value in poses]
             rows = self.poses(self.design([each[place] for each in designs]), [listed(value, n) for value in here], n)
             values[:, place] = np.array([row[:count] for row in rows], float).T.reshape(count, n)
             for k in range(len(guards)):
@@ -78,7 +75,7 @@ def least(values: Sequence[float]) -> float:
     return min(values) if all(value == value for value in values) else math.nan
 
 
-def listed(value: Any, count: int) -> list[float]:
+def listed(value: Numbers, count: int) -> list[float]:
     """Return a number or an array as so many floats."""
     if type(value) is float:
         return [value] * count

@@ -10,7 +10,7 @@ from .elimination import expanded
 from .loop import loop, numbered
 from .node import Node
 from .schedule import Schedule, schedule
-from .text import TEMPLATES, Dialect, Names
+from .text import TEMPLATES, Dialect, NodeNames
 
 NOTHING: Mapping[str, float] = MappingProxyType({})
 CHOICES = {
@@ -90,7 +90,7 @@ def javascript_text(outputs: Sequence[Node], name: str = "poses", design: Mappin
 
 def design_lines(plan: Schedule, dialect: Dialect) -> list[str]:
     """Return the design part, its results called as the loop calls them."""
-    names = Names(dialect, {node: f"d[{k}]" for k, node in enumerate(plan.design_inputs)})
+    names = NodeNames(dialect, {node: f"d[{k}]" for k, node in enumerate(plan.design_inputs)})
     lines = names.assign(plan.design, "w")
     return lines + [dialect.assignment.format(name, names.read(node)) for node, name in numbered("c", plan.passed).items()]
 

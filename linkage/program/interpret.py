@@ -6,11 +6,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from math import frexp
-from typing import Any
 
 import numpy as np
 
-from ..vectors import FloatArray
+from ..vectors import FloatArray, Numbers
 from .derivatives import jacobian
 from .linear import solve_arrays
 from .node import Closure, Node
@@ -19,13 +18,13 @@ from .schedule import ancestors
 
 
 def interpret(
-    outputs: Sequence[Node], inputs: Mapping[str, Any], known: Mapping[Node, Any] | None = None, *, clipped: bool = False
-) -> list[Any]:
+    outputs: Sequence[Node], inputs: Mapping[str, Numbers], known: Mapping[Node, Numbers] | None = None, *, clipped: bool = False
+) -> list[Numbers]:
     """Return the values of some nodes; every input is a float or an array, broadcast by NumPy. `known` holds values to start from.
 
     With `clipped` the root of a negative number is zero: for poses that are known to stand at a dead point to rounding.
     """
-    values: dict[Node, Any] = dict(known or {})
+    values: dict[Node, Numbers] = dict(known or {})
     with np.errstate(all="ignore"):
         for node in ancestors(outputs, known or {}):
             if node in values:
@@ -76,14 +75,14 @@ class Iterated:
         return cls(tuple([each.origin for each in closure.roots]), closure.residuals, rows)
 
 
-def scatter(outputs: Sequence[Node], inputs: Mapping[str, Any], iterated: Iterable[Iterated] = ()) -> tuple[FloatArray, FloatArray]:
+def scatter(outputs: Sequence[Node], inputs: Mapping[str, Numbers], iterated: Iterable[Iterated] = ()) -> tuple[FloatArray, FloatArray]:
     """Return the values of some nodes at poses (n,), and how far rounding scatters them: both of the shape (outputs, n).
 
     Inputs are floats or arrays (n,) and taken as exact; `iterated` says which of them are solutions, in the order of construction. NaN
     where there is no value.
     """
-    given: dict[str, Any] = {name: np.asarray(value, float) for name, value in inputs.items()}
-    n = max((value.size for value in given.values()), default=1)
+    given: dict[str, Numbers] = {name: np.asarray(value, float) for name, value in inputs.items()}
+    n = max(map(np.size, given.values()), default=1)
     for unknowns in iterated:
         given |= moved(unknowns, given, n)
     runs = shaken(outputs, given)
@@ -92,7 +91,7 @@ def scatter(outputs: Sequence[Node], inputs: Mapping[str, Any], iterated: Iterab
         return found[:, 0], np.abs(found[:, 1:] - found[:, :1]).max(axis=1)
 
 
-def moved(unknowns: Iterated, given: Mapping[str, Any], n: int) -> dict[str, Any]:
+def moved(unknowns: Iterated, given: Mapping[str, Numbers], n: int) -> dict[str, Numbers]:
     """Return unknowns, shape (runs, n), each run at the solution of its own rounded equations; the first as they are."""
     values = shaken((*unknowns.residuals, *unknowns.rows), given)
     entries = [np.broadcast_to(each, (RUNS + 1, n)) for each in (*values[len(unknowns.residuals) :], *values[: len(unknowns.residuals)])]
@@ -112,9 +111,9 @@ def noise() -> FloatArray:
     return found
 
 
-def shaken(outputs: Sequence[Node], given: Mapping[str, Any]) -> list[Any]:
+def shaken(outputs: Sequence[Node], given: Mapping[str, Numbers]) -> list[Numbers]:
     """Return the values of some nodes, shape (runs, n) or fewer axes where nothing is rounded."""
-    values: dict[Node, Any] = {}
+    values: dict[Node, Numbers] = {}
     changes = noise()
     with np.errstate(all="ignore"):
         for node in ancestors(outputs):

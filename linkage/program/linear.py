@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
+
+from ..vectors import FloatArray, Numbers
 
 #: Up to so many systems LAPACK, called once, is cheaper than one elimination in array steps.
 FEW = 64
@@ -16,7 +17,7 @@ def unknowns(count: int) -> int:
     return (math.isqrt(4 * count + 1) - 1) // 2
 
 
-def solve_arrays(*entries: Any) -> Any:
+def solve_arrays(*entries: Numbers) -> FloatArray:
     """Return the unknowns of many systems at once, shape (n, ...): n * n matrix entries by rows, then n right sides.
 
     One elimination for all, each pivot the row that is large in every system; where no row is, LAPACK pivots each.
@@ -31,11 +32,11 @@ def solve_arrays(*entries: Any) -> Any:
     return _pivoted_each(n, entries) if found is None else np.stack(found)
 
 
-def _eliminated(rows: list[list[Any]]) -> list[Any] | None:
+def _eliminated(rows: list[list[FloatArray]]) -> list[FloatArray] | None:
     """Return the unknowns by one elimination over all systems; None where no row is a safe pivot for all."""
     n = len(rows)
     left = list(rows)
-    order: list[list[Any]] = []
+    order: list[list[FloatArray]] = []
     for k in range(n):
         sizes = [np.abs(row[k]) for row in left]
         worth = [float(np.min(size / np.max(sizes, axis=0), initial=np.inf)) for size in sizes]
@@ -49,7 +50,7 @@ def _eliminated(rows: list[list[Any]]) -> list[Any] | None:
             factor = row[k] * inverse
             for j in range(k + 1, n + 1):
                 row[j] = row[j] - factor * pivot[j]
-    found: list[Any] = [None] * n
+    found: list[FloatArray] = list(order[0][:n])
     for k in reversed(range(n)):
         total = order[k][n]
         for j in range(k + 1, n):
@@ -58,7 +59,7 @@ def _eliminated(rows: list[list[Any]]) -> list[Any] | None:
     return found
 
 
-def _pivoted_each(n: int, entries: tuple[Any, ...]) -> Any:
+def _pivoted_each(n: int, entries: tuple[Numbers, ...]) -> FloatArray:
     """Return the unknowns with pivots of their own for each system; NaN where a matrix is singular or not finite."""
     stacked = np.stack(np.broadcast_arrays(*entries), axis=-1).astype(float)
     matrix, right = stacked[..., : n * n].reshape(*stacked.shape[:-1], n, n), stacked[..., n * n :, None]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from .node import Node
 from .schedule import Schedule
-from .text import TEMPLATES, Dialect, Names
+from .text import TEMPLATES, Dialect, NodeNames
 
 # What stands above every compiled loop: functions that a compiler can work out for many poses at once.
 
@@ -108,7 +108,7 @@ class Loop:
 def loop(plan: Schedule, dialect: Dialect) -> Loop:
     """Return the pose part in a language; constants are called c0, c1, ..., inputs i0, i1, ..."""
     given = numbered("c", plan.passed) | numbered("i", plan.pose_inputs)
-    names = Names(dialect, given)
+    names = NodeNames(dialect, given)
     lines = names.assign(plan.economical, "v")
     return Loop(tuple(lines), tuple(map(names.read, plan.outputs)), tuple(map(names.read, plan.guards)))
 
@@ -145,7 +145,7 @@ def along_poses(plan: Schedule) -> list[str]:
         *indented(2, *(f"o{k} = o[{k} * layer + row * line:{k} * layer + row * line + columns]" for k in range(len(plan.outputs)))),
         *indented(2, *(f"missed{k} = 0" for k in range(len(plan.guards))), "for b in range(columns):"),
         *indented(3, *(f"i{k} = x{k}[b]" for k in range(len(plan.pose_inputs))), *inside.lines),
-        *indented(3, *(f"o{k}[b] = {name}" for k, name in enumerate(inside.outputs)), *counted(inside)),
+        *indented(3, *(f"o{k}[b] = {name}" for k, name in enumerate(inside.outputs)), *guard_counts(inside)),
         *indented(2, *(f"bad[{k}] += missed{k}" for k in range(len(plan.guards)))),
     ]
 
@@ -160,7 +160,7 @@ def along_poses_in_parts(plan: Schedule) -> list[str]:
         *indented(3, *(f"x{k} = i[{k}, across, start:start + count]" for k in range(len(plan.pose_inputs)))),
         *indented(3, *(f"missed{k} = 0" for k in range(len(plan.guards))), "for b in range(count):"),
         *indented(4, *(f"i{k} = x{k}[b]" for k in range(len(plan.pose_inputs))), *inside.lines),
-        *indented(4, *(f"s[{k * width} + b] = {name}" for k, name in enumerate(inside.outputs)), *counted(inside)),
+        *indented(4, *(f"s[{k * width} + b] = {name}" for k, name in enumerate(inside.outputs)), *guard_counts(inside)),
         *indented(3, *(f"bad[{k}] += missed{k}" for k in range(len(plan.guards)))),
         *(line for k in range(len(plan.outputs)) for line in copied_out(3, k, k * width)),
     ]
@@ -177,7 +177,7 @@ def along_designs(plan: Schedule) -> list[str]:
         *indented(2, "for row in range(rows):", *(f"    i{k} = i[{k}, row, 0]" for k in range(len(plan.pose_inputs)))),
         *indented(3, *(f"missed{k} = 0" for k in range(len(plan.guards))), "for b in range(count):"),
         *indented(4, *(f"c{k} = s[{k * width} + b]" for k in range(count)), *inside.lines),
-        *indented(4, *(f"s[{(count + k) * width} + b] = {name}" for k, name in enumerate(inside.outputs)), *counted(inside)),
+        *indented(4, *(f"s[{(count + k) * width} + b] = {name}" for k, name in enumerate(inside.outputs)), *guard_counts(inside)),
         *indented(3, *(f"bad[{k}] += missed{k}" for k in range(len(plan.guards)))),
         *(line for k in range(len(plan.outputs)) for line in copied_out(3, k, (count + k) * width)),
     ]
@@ -194,7 +194,7 @@ def of_design(plan: Schedule) -> list[str]:
     return ["at = row if c.shape[1] > 1 else 0", *constants, "across = row if i.shape[1] > 1 else 0"]
 
 
-def counted(inside: Loop) -> list[str]:
+def guard_counts(inside: Loop) -> list[str]:
     """Return the lines that count the poses where a guard is not above zero."""
     return [f"missed{k} += 0 if {name} > 0.0 else 1" for k, name in enumerate(inside.guards)]
 

@@ -36,8 +36,9 @@ class Node:
 
     __slots__ = ("args", "closure", "graph", "level", "number", "op", "origin", "value")
 
-    def __init__(self, graph: Graph, op: str, args: tuple[Node, ...], value: Any, level: Level, number: int) -> None:
-        self.graph, self.op, self.args, self.value, self.level, self.number = graph, op, args, value, level, number
+    def __init__(self, graph: Graph, op: str, args: tuple[Node, ...], value: float | str | None, level: Level, number: int) -> None:
+        self.value: Any = value  # of an input its name, of a constant the number
+        self.graph, self.op, self.args, self.level, self.number = graph, op, args, level, number
         self.origin: Node = args[0].origin if op in ("root", "alias") else self
         self.closure: Closure | None = None
 

@@ -6,15 +6,15 @@ from collections.abc import Callable, Sequence
 from functools import cached_property
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from ..errors import LinkageError
-from ..vectors import FloatArray
-from .cache import Kept, compiled_in_file, is_kept
+from ..vectors import FloatArray, Numbers
+from .cache import CompiledFile, compiled_in_file, is_cached
 from .loop import numba_text
-from .numpy_backend import Arrays, is_number, is_table, numbers
+from .numpy_backend import NumpyBlocks, as_floats, is_table, varies
 from .schedule import Schedule
 
 #: NaN stays NaN: a pose out of reach is told by it.
@@ -26,17 +26,20 @@ COMPILE, LOAD = 2e10, 2e9
 """The operations from which compiling a loop pays, and from which loading one from disk does."""
 
 
+Counts: TypeAlias = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
+
+
 def is_there() -> bool:
     """Return whether Numba is installed."""
     return find_spec("numba") is not None
 
 
-class Fused:
+class NumbaLoop:
     """A program as a compiled loop; the design part is left to NumPy."""
 
-    def __init__(self, plan: Schedule, arrays: Arrays) -> None:
+    def __init__(self, plan: Schedule, arrays: NumpyBlocks) -> None:
         self.plan, self.arrays = plan, arrays
-        self._kept: tuple[tuple[float, ...], FloatArray] = (), np.empty((0, 1))
+        self._last: tuple[tuple[float, ...], FloatArray] = (), np.empty((0, 1))
         self._ready: dict[bool, Callable[..., None]] = {}
 
     @cached_property
@@ -49,7 +52,7 @@ class Fused:
         if turned in self._ready:
             return True
         work = float(spent + m * n) * max(len(self.plan.pose), 1)
-        return work >= LOAD and is_there() and (work >= COMPILE or is_kept(self._texts[turned]))
+        return work >= LOAD and is_there() and (work >= COMPILE or is_cached(self._texts[turned]))
 
     def _loop(self, turned: bool) -> Callable[..., None]:
         """Return the compiled loop over poses or, turned, over designs."""
@@ -61,17 +64,17 @@ class Fused:
             read = [types.Array(types.float64, axes, "C", readonly=True) for axes in (2, 3)]  # what a motion holds cannot be written
             arguments = (*read, types.float64[::1], *(types.int64[::1],) * 3)
 
-            def make(function: Callable[..., None], kept: Kept | None) -> Callable[..., None]:
+            def make(function: Callable[..., None], file: CompiledFile | None) -> Callable[..., None]:
                 def lazy(cache: bool) -> Any:
                     return njit(fastmath=FLAGS, error_model="numpy", nogil=True, cache=cache)(function)
 
-                done = lazy(kept is not None)
-                if kept is not None and not kept.take(Path(done.stats.cache_path)):
-                    done, kept = lazy(False), None
+                done = lazy(file is not None)
+                if file is not None and not file.take(Path(done.stats.cache_path)):
+                    done, file = lazy(False), None
                 done.compile(arguments)
                 done.disable_compile()
-                if kept is not None:
-                    kept.note()
+                if file is not None:
+                    file.note()
                 loop: Callable[..., None] = done
                 return loop
 
@@ -82,7 +85,7 @@ class Fused:
         """Return whether designs, not poses, are best contiguous in the result."""
         return n < SHORT < m
 
-    def run(self, design: Sequence[Any], poses: Sequence[Any], values: FloatArray, guards: FloatArray) -> None:
+    def run(self, design: Sequence[Numbers], poses: Sequence[Numbers], values: FloatArray, guards: FloatArray) -> None:
         """Fill values, shape (outputs, designs, poses); a guard that is not above zero at some pose becomes -1."""
         m, n = values.shape[1:]
         turned = self.turns(m, n) and not any(map(is_table, poses))
@@ -95,24 +98,24 @@ class Fused:
                 constants = np.array(np.broadcast_to(constants, (len(constants), part.stop - left)))
             for first in range(0, n, WIDE):
                 here = slice(first, min(first + WIDE, n))
-                inputs = cube([seen(value, part, here) for value in poses], here.stop - first)
+                inputs = input_cube([seen(value, part, here) for value in poses], here.stop - first)
                 if turned:
                     inputs = np.array(inputs.transpose(0, 2, 1))
                 self._part(loop, constants, inputs, target[:, here, part] if turned else target[:, part, here], bad)
         guards[bad[: len(guards)] > 0] = -1.0
 
-    def _constants(self, design: Sequence[Any], part: slice) -> FloatArray:
+    def _constants(self, design: Sequence[Numbers], part: slice) -> FloatArray:
         """Return the design part as one array, shape (count, designs or 1); that of the last single design is kept."""
-        key = numbers(design)
+        key = as_floats(design)
         if key is None:
-            return table(self.arrays.passed([value if is_number(value) else value[part] for value in design]), part)
-        kept, found = self._kept
-        if kept != key or not found.size:
-            found = table(self.arrays.passed(key), part)
-            self._kept = key, found
+            return constant_table(self.arrays.passed([value[part] if varies(value) else value for value in design]), part)
+        last, found = self._last
+        if last != key or not found.size:
+            found = constant_table(self.arrays.passed(key), part)
+            self._last = key, found
         return found
 
-    def _part(self, loop: Callable[..., None], constants: FloatArray, inputs: FloatArray, block: FloatArray, bad: Any) -> None:
+    def _part(self, loop: Callable[..., None], constants: FloatArray, inputs: FloatArray, block: FloatArray, bad: Counts) -> None:
         """Fill a block, shape (outputs, rows, columns)."""
         inside = block if block.strides[2] == block.itemsize else np.empty(block.shape)
         loop(constants, inputs, memory(inside), bad, np.array(inside.strides[:2]) // inside.itemsize, np.array(inside.shape[1:]))
@@ -120,11 +123,12 @@ class Fused:
             block[...] = inside
 
 
-def seen(value: Any, part: slice, here: slice) -> Any:
+def seen(value: Numbers, part: slice, here: slice) -> Numbers:
     """Return what some designs and poses see of an input of the poses."""
     if is_table(value):
-        return value[part if len(value) > 1 else slice(None), here if value.shape[1] > 1 else slice(None)]
-    return value if is_number(value) else value[here]
+        table: FloatArray = value[part if len(value) > 1 else slice(None), here if value.shape[1] > 1 else slice(None)]
+        return table
+    return value[here] if varies(value) else value
 
 
 def memory(block: FloatArray) -> FloatArray:
@@ -135,7 +139,7 @@ def memory(block: FloatArray) -> FloatArray:
     return np.lib.stride_tricks.as_strided(block, (last // block.itemsize + 1,), (block.itemsize,))
 
 
-def table(passed: Sequence[Any], part: slice) -> FloatArray:
+def constant_table(passed: Sequence[Numbers], part: slice) -> FloatArray:
     """Return the design part as one array, shape (count, designs or 1)."""
     size = 1 if all(np.ndim(value) == 0 for value in passed) else part.stop - part.start
     found = np.empty((len(passed), size))
@@ -144,7 +148,7 @@ def table(passed: Sequence[Any], part: slice) -> FloatArray:
     return found
 
 
-def cube(poses: Sequence[Any], n: int) -> FloatArray:
+def input_cube(poses: Sequence[Numbers], n: int) -> FloatArray:
     """Return the inputs of the poses as one array, shape (count, designs or 1, poses)."""
     rows = max((len(value) for value in poses if is_table(value)), default=1)
     if len(poses) == 1 and np.size(poses[0]) == rows * n:

@@ -6,22 +6,21 @@ Every reading of a program (NumPy blocks, floats, tangents, adjoints) is driven 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from ..vectors import pick
+from ..vectors import Numbers, Scalar, pick
 from .linear import solve_arrays, solve_floats
 
 
-def component(values: Any, place: Any) -> Any:
+def component(values: Sequence[Numbers], place: float) -> Numbers:
     """Return one unknown of a solved system."""
     return values[int(place)]
 
 
-def shares(result: Any, a: Any, b: Any) -> tuple[Any, Any]:
+def shares(result: Scalar, a: Scalar, b: Scalar) -> tuple[Scalar, Scalar]:
     """Return (1, 0) where a <= b, else (0, 1): which of two arguments a minimum or a choice follows."""
     return result.graph.pick(a, b, 1.0, 0.0), result.graph.pick(a, b, 0.0, 1.0)
 
@@ -33,9 +32,9 @@ class Operation:
     `partials(result, *arguments)` returns the derivative of the result by each argument, as nodes.
     """
 
-    array: Callable[..., Any]
+    array: Callable[..., Numbers]
     text: str
-    partials: Callable[..., tuple[Any, ...]]
+    partials: Callable[..., tuple[Scalar, ...]]
 
 
 OPERATIONS: dict[str, Operation] = {
@@ -99,7 +98,7 @@ def _power(a: float, b: float) -> float:
 
 
 #: The names a program's text uses, on plain floats: math raises where NumPy returns NaN, so roots and divisions are guarded.
-FLOATS: Mapping[str, Callable[..., Any]] = {
+FLOATS: Mapping[str, Callable[..., object]] = {
     "reciprocal": _reciprocal,
     "divide": _divide,
     "sqrt": _sqrt,
@@ -120,9 +119,12 @@ FLOATS: Mapping[str, Callable[..., Any]] = {
 }
 
 #: The same names for text that may raise where a division, a root or a function has no value.
-QUICK: Mapping[str, Callable[..., Any]] = {**FLOATS, **{name: getattr(math, name) for name in ("sqrt", "sin", "cos", "tan", "exp", "log")}}
+QUICK: Mapping[str, Callable[..., object]] = {
+    **FLOATS,
+    **{name: getattr(math, name) for name in ("sqrt", "sin", "cos", "tan", "exp", "log")},
+}
 #: What they raise.
 NO_VALUE = (ZeroDivisionError, ValueError, OverflowError)
 
 #: The same names on arrays.
-ARRAYS: Mapping[str, Callable[..., Any]] = {name: each.array for name, each in OPERATIONS.items()} | {"least": np.minimum.reduce}
+ARRAYS: Mapping[str, Callable[..., object]] = {name: each.array for name, each in OPERATIONS.items()} | {"least": np.minimum.reduce}

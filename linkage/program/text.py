@@ -26,7 +26,7 @@ PYTHON = Dialect(TEMPLATES)
 GUARDED = Dialect({**TEMPLATES, "divide": "divide({}, {})", "reciprocal": "reciprocal({})"})
 
 
-class Names:
+class NodeNames:
     """What the nodes are called in a text: by their place in it, so that equal programs have equal texts."""
 
     def __init__(self, dialect: Dialect, given: Mapping[Node, str] | None = None) -> None:
@@ -58,7 +58,7 @@ class Names:
 
 def function(title: str, arguments: Sequence[Node], nodes: Iterable[Node], results: Sequence[Node], dialect: Dialect = PYTHON) -> str:
     """Return the text of a Python function that computes some nodes from others."""
-    names = Names(dialect, {node: f"a{place}" for place, node in enumerate(arguments)})
+    names = NodeNames(dialect, {node: f"a{place}" for place, node in enumerate(arguments)})
     head = f"def {title}({', '.join(names.names.values())}):"
     lines = [head, *names.assign(nodes), f"return ({''.join(names.read(each) + ', ' for each in results)})"]
     return "\n    ".join(lines) + "\n"

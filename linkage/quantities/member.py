@@ -6,6 +6,7 @@ from collections.abc import Callable, Hashable, Iterator, Mapping
 from functools import lru_cache
 from inspect import Parameter, Signature, signature
 from math import inf
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias
 
 from ..errors import DefinitionError, cited
@@ -26,6 +27,16 @@ class Member:
     expects: ClassVar[tuple[tuple[str, str], ...]] = ()
     """Its attributes that refer to others, with the kind each must be."""
 
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({})
+    """What its arguments are where `expects` and annotations do not tell, for files. What a class says adds to what its bases say.
+
+    A word, such as `body`, `place`, `length` (see `linkage.files.validators`); a class, whose own arguments stand among those of the
+    member; such a class in a tuple, for a list of values; an object with `read(given, number)` and `write(value)`.
+    """
+
+    file_section: ClassVar[str] = ""
+    """The section of a file that it stands in, where its class is not known to `linkage.files`."""
+
     needs_name: ClassVar[bool] = False
     """Whether its value goes by its name, so that it cannot stand in an expression without one."""
 
@@ -33,7 +44,7 @@ class Member:
     _class: str = ""
     """The class that it was declared in, once that is complete: from then on it does not change."""
 
-    def __setattr__(self, name: str, value: Any) -> None:
+    def __setattr__(self, name: str, value: object) -> None:
         if self._class:
             raise self._unchanging(name)
         object.__setattr__(self, name, value)
@@ -60,7 +71,7 @@ class Member:
     def __copy__(self) -> Self:
         return self.renewed()
 
-    def __new__(cls, *given: Any, **options: Any) -> Self:
+    def __new__(cls, *given: object, **options: object) -> Self:
         if given or options:  # without any it may come from pickle
             check_arguments(cls, given, options)
         return super().__new__(cls)
@@ -86,7 +97,7 @@ class Member:
         """Return this member with the design variables among its numbers at other values [SI], by their name or label."""
         return self
 
-    def renewed(self, **changes: Any) -> Self:
+    def renewed(self, **changes: object) -> Self:
         """Return this member with attributes changed, under its own name."""
         changed = object.__new__(type(self))
         for name, value in {**vars(self), **changes}.items():
@@ -97,7 +108,7 @@ class Member:
     def enter(self, table: Any) -> None:
         """Enter the labels of this member in the mechanism's table of dimensions."""
 
-    def lengths(self) -> tuple[Any, ...]:
+    def lengths(self) -> tuple[Member, ...]:
         """Return the quantities that stand for lengths in this member, beside its labels: none may be negative."""
         return ()
 
@@ -105,10 +116,10 @@ class Member:
         """Return the quantities that stand for angles in this member: strokes and dimensions that they are sums of are in rad."""
         return ()
 
-    def examine(self, members: Any, title: str) -> None:
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
         """Raise DefinitionError for what only the whole class tells to be wrong: its members by name, its title."""
 
-    def sides(self, where: Any) -> tuple[tuple[str, Any], ...]:
+    def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
         """Return the triangle this member closes, as labelled lengths [m]; empty where it closes none."""
         return ()
 
@@ -137,7 +148,7 @@ def signature_of(kind: Hashable) -> tuple[Signature, int, float]:
     return taken, least, -1 if any(each.kind is Parameter.KEYWORD_ONLY for each in needed) else most
 
 
-def check_arguments(kind: type[Member], given: tuple[Any, ...], options: Mapping[str, Any]) -> None:
+def check_arguments(kind: type[Member], given: tuple[object, ...], options: Mapping[str, object]) -> None:
     """Raise DefinitionError for arguments that a kind of member does not take, or that are missing."""
     if kind.__init__ is object.__init__:
         raise DefinitionError(f"{kind.__name__} takes no arguments; give it an __init__, or make it a frozen dataclass.")

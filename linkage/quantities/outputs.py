@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -32,7 +32,7 @@ class Angle(Quantity):
         return "angle"
 
     @property
-    def identity(self) -> Any:
+    def identity(self) -> Hashable:
         return self.name or ("angle", name_of(self.P), name_of(self.Q))
 
     def parts(self) -> tuple[Reference, ...]:
@@ -66,7 +66,7 @@ class Distance(Quantity):
         return "length"
 
     @property
-    def identity(self) -> Any:
+    def identity(self) -> Hashable:
         return self.name or ("distance", name_of(self.P), name_of(self.Q))
 
     def parts(self) -> tuple[Reference, ...]:

@@ -8,25 +8,24 @@ from __future__ import annotations
 import math
 import operator
 from abc import abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass
 from typing import Any, NoReturn, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes, unmasked
 from ..units import deg
-from ..vectors import Scalar, Vec
+from ..vectors import FloatArray, Scalar, Vec
 from .member import Member, Reference, Turning, Where
 
 # The operators and functions that quantities know: what they compute, and how they are written.
 
-FUNCTIONS: dict[str, Callable[..., Any]] = {
+FUNCTIONS: dict[str, Callable[..., Scalar]] = {
     name: getattr(np, name) for name in ("sqrt", "sin", "cos", "tan", "arctan2", "exp", "log", "absolute", "minimum", "maximum")
 }
-OPERATORS: dict[str, Callable[[Any, Any], Any]] = {"*": operator.mul, "/": operator.truediv, "**": operator.pow}
+OPERATORS: dict[str, Callable[[Scalar, Scalar], Scalar]] = {"*": operator.mul, "/": operator.truediv, "**": operator.pow}
 UFUNCS = {"add": "+", "subtract": "-", "multiply": "*", "true_divide": "/", "divide": "/", "power": "**"}
 BINDS = {"*": (2, 2, 3), "/": (2, 2, 3), "**": (3, 4, 4)}
 """How strongly an operator binds, and how strongly its left and its right side must, to stand without brackets."""
@@ -38,7 +37,7 @@ EXACT = 2**53
 """Up to this every whole number is a float."""
 
 
-def is_number(value: Any) -> bool:
+def is_number(value: object) -> bool:
     """Return whether a value is one finite real number."""
     if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
         return False
@@ -48,7 +47,7 @@ def is_number(value: Any) -> bool:
         return False
 
 
-def is_whole(value: Any) -> bool:
+def is_whole(value: object) -> bool:
     """Return whether a value is one whole number, Python's or NumPy's."""
     return isinstance(value, (int, np.integer)) and not isinstance(value, bool)
 
@@ -60,7 +59,7 @@ def plain(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
-def real(value: Any) -> npt.NDArray[np.float64]:
+def real(value: Any) -> FloatArray:
     """Return a value as a new array of floats, NaN where it is masked; raise ValueError for anything but real numbers."""
     array = np.asarray(float(value) if is_whole(value) and is_number(value) else unmasked(value))
     if array.dtype.kind not in "fiu":
@@ -135,7 +134,7 @@ class Quantity(Member):
         return np.cos(value), np.sin(value)
 
     @property
-    def identity(self) -> Any:
+    def identity(self) -> Hashable:
         """What tells this quantity from others of the same mechanism: its name, else itself."""
         return self.name or self
 
@@ -179,7 +178,7 @@ class Quantity(Member):
     def __abs__(self) -> Quantity:
         return Function("absolute", self)
 
-    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Quantity:
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Operand, **options: object) -> Quantity:
         """Return what NumPy's numbers and functions make of quantities: np.sqrt(L), np.float64(2) * L."""
         name = ufunc.__name__
         if method != "__call__" or options:

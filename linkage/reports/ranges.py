@@ -12,7 +12,7 @@ import numpy as np
 from .. import motion as between
 from ..errors import DefinitionError, cited, unknown
 from ..mechanism import Mechanism
-from ..motion import Motion, require_motion
+from ..motion import Motion, out_of_reach, require_motion
 from ..program import FloatArray
 from ..quantities import is_number, real
 
@@ -33,9 +33,9 @@ def reached_span(motion: Motion) -> Range:
 
     Raises AssemblyError where none is.
     """
-    found = below_zero(motion, lambda each: -np.ones(each.shape))
+    found = ranges_below_zero(motion, lambda each: -np.ones(each.shape))
     if not found:
-        raise motion.refusal()
+        raise out_of_reach(motion)
     return found[0][0], found[-1][1]
 
 
@@ -45,7 +45,7 @@ def closely(motion: Motion, values: FloatArray | None = None) -> Motion:
     return motion.moved({name: np.linspace(*reached_span(motion), 513) if values is None else values})
 
 
-def below_zero(motion: Motion, spare: Spare) -> list[Range]:
+def ranges_below_zero(motion: Motion, spare: Spare) -> list[Range]:
     """Return the stroke ranges [SI] where `spare` of a motion, shape (poses,), is below zero; their ends are roots."""
     name = one_stroke(motion)
     return [(each.start[name], each.end[name]) for each in between.below_zero(motion, spare)]

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 GAP = "  "
-NOTHING = "-"  # stands for NaN: not reached, or not limited
+NO_VALUE = "-"  # stands for NaN: not reached, or not limited
 
 
 def flat(columns: Sequence[Column]) -> list[FloatArray]:
@@ -34,7 +34,7 @@ def flat(columns: Sequence[Column]) -> list[FloatArray]:
 
 def cells(column: Column, values: FloatArray) -> list[str]:
     """Return a column's numbers as text, with its number of decimals."""
-    return [NOTHING if np.isnan(value) else f"{value:z.{column.digits}f}" for value in values.tolist()]
+    return [NO_VALUE if np.isnan(value) else f"{value:z.{column.digits}f}" for value in values.tolist()]
 
 
 def checked_width(width: int | None) -> int | None:
@@ -44,7 +44,7 @@ def checked_width(width: int | None) -> int | None:
     return width
 
 
-def blocks(columns: Sequence[Column], texts: Sequence[Sequence[str]], width: int | None, edge: int) -> Iterator[list[int]]:
+def column_blocks(columns: Sequence[Column], texts: Sequence[Sequence[str]], width: int | None, edge: int) -> Iterator[list[int]]:
     """Yield the indices of the columns that stand beside each other in `width` characters; the first leads every block.
 
     `edge` is the space that a column takes beside its own text. Without a width all stand beside each other.
@@ -65,7 +65,7 @@ def text_table(columns: Sequence[Column], width: int | None = None) -> Iterator[
     With a `width` [characters] a table that is too wide is cut into blocks, the first column repeated in each.
     """
     texts = [cells(column, values) for column, values in zip(columns, flat(columns), strict=True)]
-    for number, block in enumerate(blocks(columns, texts, checked_width(width), len(GAP))):
+    for number, block in enumerate(column_blocks(columns, texts, checked_width(width), len(GAP))):
         if number:
             yield ""
         yield from _lines([columns[index].heading for index in block], [texts[index] for index in block])
@@ -90,7 +90,7 @@ def rich_tables(columns: Sequence[Column], width: int | None = None) -> Iterator
 
     texts = [cells(column, values) for column, values in zip(columns, flat(columns), strict=True)]
     room = checked_width(width)
-    for block in blocks(columns, texts, None if room is None else room + 1, PADDING):
+    for block in column_blocks(columns, texts, None if room is None else room + 1, PADDING):
         table = Table(box=SIMPLE_HEAD, header_style="bold", show_edge=False)
         for index in block:
             table.add_column(columns[index].heading, justify="right", no_wrap=True)

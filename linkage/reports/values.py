@@ -7,11 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..mechanism import Mechanism, require_mechanism
-from ..motion import stroke_unit
+from ..motion import stroke_display_unit
 from ..plan import Plan
-from ..units import UNITS, show
+from ..units import UNITS, display_unit, factor, show
 
-SHOWN_IN = {"length": "mm", "angle": "deg"}
 MEASURES = {"length": "length", "coordinate": "length", "angle": "angle"}
 
 STEPS = ("length", "angle")  # kinds of variables that a step's label makes
@@ -37,7 +36,7 @@ def design_rows(machine: Mechanism) -> Iterator[tuple[str, str, str]]:
     require_mechanism(machine)
     for name, value in machine.dimensions.items():
         entry = machine.plan.table.entries[name]
-        unit = entry.unit or SHOWN_IN.get(measure(machine.plan, name), "")
+        unit = entry.unit or display_unit(measure(machine.plan, name), "mm")
         low, high = show(float(np.min(value)), unit), show(float(np.max(value)), unit)
         yield name, low if low == high else f"{low} to {high}", entry.where if entry.kind in STEPS else ""
 
@@ -46,6 +45,5 @@ def stroke_rows(machine: Mechanism) -> Iterator[tuple[str, str]]:
     """Yield, for each stroke, its name and its range with unit."""
     require_mechanism(machine)
     for name, stroke in machine.strokes.items():
-        unit = SHOWN_IN["angle" if stroke_unit(machine.plan, name) == "rad" else "length"]
-        factor = UNITS[unit][0]
-        yield name, f"{stroke.start / factor:.6g} to {stroke.end / factor:.6g} {unit}"
+        unit = stroke_display_unit(machine.plan, name, "mm")
+        yield name, f"{stroke.start / factor(unit):.6g} to {stroke.end / factor(unit):.6g} {unit}"

@@ -13,6 +13,7 @@ from ..errors import DefinitionError, SingularError, cited, known_name, told, un
 from ..loads import Damper, ForceElement, Friction, Load, LoadCase, Rates, TwoPoint
 from ..loads import Poses as Moved
 from ..motion import Motion, rates_of, require_motion
+from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import name_of
@@ -55,15 +56,6 @@ def sense_of(direction: str) -> int:
     return SENSES[known_name("Direction", direction, SENSES)]
 
 
-def drive_of(plan: Plan, drive: str | None) -> str:
-    """Return the stroke that is meant: the only one, where none is named."""
-    if drive is None and len(plan.strokes) == 1:
-        return next(iter(plan.strokes))
-    if drive is None:
-        raise DefinitionError(f"{plan.title} has {len(plan.strokes)} strokes: say drive= one of {', '.join(plan.strokes)}.")
-    return known_name("Stroke", drive, plan.strokes, where=plan.title)
-
-
 def movement_of(motion: Motion, direction: str, rates: Mapping[str, Any] | None, drive: str | None) -> Movement:
     """Return how the strokes move in a direction or at given rates; `drive` names the one that moves where several could.
 
@@ -82,7 +74,7 @@ def movement_of(motion: Motion, direction: str, rates: Mapping[str, Any] | None,
     tangent = path_tangent(motion)
     if tangent:
         return Movement(direction, {name: sense * rate for name, rate in tangent.items()}, True)
-    return Movement(direction, {drive_of(motion.plan, drive): float(sense)}, True)
+    return Movement(direction, {stroke_of(motion.plan, drive, "drive"): float(sense)}, True)
 
 
 def path_tangent(motion: Motion) -> dict[str, FloatArray]:

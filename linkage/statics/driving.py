@@ -10,9 +10,10 @@ import numpy as np
 from ..errors import DefinitionError, known_name
 from ..loads import Support
 from ..motion import Motion, require_motion
+from ..motion.requests import stroke_of
 from ..program import FloatArray
 from ..quantities import is_number, name_of, real
-from .acting import Case, Loaded, Loads, drive_of, gathered, movement_of
+from .acting import Case, Loaded, Loads, gathered, movement_of
 from .forces import equilibrium, locked_words
 from .joints import Wrench
 from .levers import quotient
@@ -41,7 +42,7 @@ def driving_force(
     it drives. Raises SingularError at a dead point and where friction locks the mechanism.
     """
     require_motion(motion)
-    stroke = drive_of(motion.plan, drive)
+    stroke = stroke_of(motion.plan, drive, "drive")
     movement = movement_of(motion, direction, rates, stroke)
     loaded = gathered(motion, loads, case, movement)
     names = {name for point in loaded.points for name in motion.plan.reaches(point)}
@@ -86,7 +87,7 @@ def reaction(
     """
     require_motion(motion)
     name, held = support_of(motion, support)
-    stroke = drive_of(motion.plan, drive)
+    stroke = stroke_of(motion.plan, drive, "drive")
     loaded = gathered(motion, loads, case, movement_of(motion, direction, rates, stroke), without=name)
     poses = Poses(motion, f"The reaction of {name}")
     known = poses.flat(known_force(motion, drive_force))

@@ -146,7 +146,7 @@ class System:
         """Return an unknown of a contact, signed; a couple in Nm."""
         factor = sign * (self.scale if letter == "c" else 1.0)
         row = self.poses.zeros(self.width)
-        row[:, self.first[contact] + contact.holds.index(letter)] = self.poses.motion.array(factor)
+        row[:, self.first[contact] + contact.holds.index(letter)] = self.poses.motion._array(factor)
         return Form(row, self.poses.zeros(len(self.rubs)), self.poses.zeros())
 
     def thrust(self, strut: Strut) -> Form:

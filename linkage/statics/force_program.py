@@ -18,8 +18,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..motion import Motion
-from ..motion.evaluation import cut as cut_out
-from ..motion.evaluation import pieces
+from ..motion.evaluation import part_of_input, pieces
 from ..motion.limits import Mask
 from ..plan import Plan
 from ..program import FloatArray, Kernel, Level, Node, Tangent
@@ -87,7 +86,7 @@ def by_program(poses: Poses, loaded: Loaded, loads: Loads, case: Case) -> Equili
 def rate_inputs(motion: Motion, movement: Movement) -> dict[str, Any]:
     """Return the rates of the strokes as a kernel takes them, of all designs and poses."""
     rates = {name: np.broadcast_to(np.asarray(rate, float), motion.shape) for name, rate in movement.rates.items()}
-    return {rate_name(name): rate.reshape(motion.grid.size) for name, rate in rates.items()}
+    return {rate_name(name): rate.reshape(motion._grid.size) for name, rate in rates.items()}
 
 
 def program_of(
@@ -107,12 +106,12 @@ def made(plan: Plan, loads: Loads, case: Case, movement: Movement, rubbed: tuple
     """Return the program traced on a plan of its own."""
     law = Law.on(plan, loads, case, movement)
     structure, motion = Structure(plan, law.loaded.elements, law.loaded.pushing), law.motion
-    friction = [motion.reading.graph.input(friction_name(place), Level.POSE) for place in range(len(rubbed))]
+    friction = [motion._reading.graph.input(friction_name(place), Level.POSE) for place in range(len(rubbed))]
     length = held(plan, law.loaded)
     contacts = [structure.contacts[index] for index in rubbed]
     columns = tuple(unit_friction(contact, law.poses) for contact in contacts)
     system = System(structure, law.poses, law.loaded.acting, columns, length)
-    q = motion.array([friction])
+    q = motion._array([friction])
     u = eliminated_system(system, motion, friction)
     rubbing = [Rub(column, np.zeros(1), np.zeros(1), np.zeros(1)) for column in columns]
     solved = Solved(system, u, q, np.zeros(1, bool), rubbing)
@@ -153,7 +152,7 @@ def rubbing_kernels(
     system: System, u: Any, contacts: Sequence[Contact], friction: Sequence[Node], law: Law, guards: list[Node]
 ) -> Rubbing:
     """Return the kernels of the forces that press the rubbing joints."""
-    graph = law.motion.reading.graph
+    graph = law.motion._reading.graph
     tangents = [Tangent(graph, {each: 1.0}) for each in friction]
     levers = [graph.input(lever_name(place), Level.POSE) for place in range(len(friction))]
     forces: list[Node] = []
@@ -175,7 +174,7 @@ def run(program: ForceProgram, structure: Structure, poses: Poses, loaded: Loade
     """Return the forces by the kernels; None where an assumption of a law fails or a pose that should has no value."""
     motion, n = poses.motion, poses.count
     assert isinstance(motion, Motion)
-    inputs, size = motion.grid.flat | rate_inputs(motion, loaded.movement), motion.grid.size
+    inputs, size = motion._grid.flat | rate_inputs(motion, loaded.movement), motion._grid.size
     q, locked = np.zeros((0, n)), np.zeros(n, bool)
     if program.rubbing is not None:
         try:
@@ -213,9 +212,9 @@ def frictions(
     rows = Rows(tuple(structure.contacts[index].presses for index in program.rubbed))
     lever, coefficient = (np.stack([getattr(rub, what) for rub in rubbing]) for what in ("lever", "coefficient"))
     q, locked = np.zeros((len(rubbing), poses.count)), np.zeros(poses.count, bool)
-    places = poses.full(np.arange(poses.count, dtype=float)).reshape(motion.grid.size)
-    for band, part in pieces(*motion.grid.size, PIECE):
-        inputs = {name: cut_out(value, band, part, name in poses.plan.table.entries) for name, value in given.items()}
+    places = poses.full(np.arange(poses.count, dtype=float)).reshape(motion._grid.size)
+    for band, part in pieces(*motion._grid.size, PIECE):
+        inputs = {name: part_of_input(value, band, part, name in poses.plan.table.entries) for name, value in given.items()}
         here = places[band, part]
         good = np.isfinite(here)
         at = here[good].astype(int)

@@ -11,8 +11,9 @@ import numpy as np
 from ..errors import SingularError
 from ..motion import Motion
 from ..motion.limits import where_words
+from ..motion.requests import stroke_of
 from ..program import FloatArray
-from .acting import Case, Loaded, Loads, drive_of, gathered, movement_of
+from .acting import Case, Loaded, Loads, gathered, movement_of
 from .force_program import by_program
 from .holding import holding_of
 from .joints import direction as line_direction
@@ -43,7 +44,7 @@ def pin_forces(
     """
     movement = movement_of(motion, direction, rates, drive)
     if drive is not None:
-        drive_of(motion.plan, drive)
+        stroke_of(motion.plan, drive, "drive")
     loaded = gathered(motion, loads, case, movement)
     found = equilibrium(held_poses(motion, loaded, "The joint forces"), loaded, loads, case, split)
     poses, structure = found.poses, found.structure

@@ -6,15 +6,14 @@ such poses are refused like any other singular one, by the condition of the leve
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import SingularError, SingularWarning
+from ..errors import SingularError, SingularWarning, warn
 from ..loads import TwoPoint
-from ..motion.conditions import REFUSE, WARN, be, condition
+from ..motion.conditions import REFUSE, WARN, condition, is_or_are
 from ..motion.limits import where_words
 from ..program import FloatArray
 from .equilibrium import areas
@@ -44,7 +43,7 @@ def refused_where(poses: Poses, values: FloatArray, cond: FloatArray, what: str,
             where = where_words(motion.plan, mask, motion.strokes)
             worst = float(np.max(np.nan_to_num(cond[lost], nan=np.inf)))
             size = "infinite" if np.isinf(worst) else f"{worst:.1e}"
-            text = f"{what} {be(what)} refused {where}: {reason} (condition {size}, refused above {REFUSE:.0e})."
+            text = f"{what} {is_or_are(what)} refused {where}: {reason} (condition {size}, refused above {REFUSE:.0e})."
             raise SingularError(text, mask=mask, motion=motion)
     near = (cond > WARN) & ~lost
     if near.any():
@@ -52,8 +51,8 @@ def refused_where(poses: Poses, values: FloatArray, cond: FloatArray, what: str,
         where = where_words(motion.plan, poses.full(near.astype(float)) == 1.0, motion.strokes)
         # one division by a difference that is lost: the error goes with the condition, not its square
         error = f"expect a relative error of about {np.finfo(float).eps * worst:.0e}"
-        text = f"{what} {be(what)} nearly refused {where}, for close by {reason} (condition {worst:.1e}); {error}."
-        warnings.warn(text, SingularWarning, stacklevel=5)
+        text = f"{what} {is_or_are(what)} nearly refused {where}, for close by {reason} (condition {worst:.1e}); {error}."
+        warn(SingularWarning(text))
     return np.where(lost, np.nan, values)
 
 

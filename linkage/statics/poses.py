@@ -32,7 +32,7 @@ class Posed(ForElements, Protocol):
     def reached(self) -> Any:
         """The mask of the poses that are reached."""
 
-    def refused(self, what: BoundRequest, words: str) -> Mask:
+    def _refused(self, what: BoundRequest, words: str) -> Mask:
         """Return the mask of poses where a result is refused; raise or warn as asked."""
 
     @property
@@ -40,13 +40,13 @@ class Posed(ForElements, Protocol):
         """What is done about other poses: "raise" or "nan"."""
 
     @property
-    def reading(self) -> Any:
+    def _reading(self) -> Any:
         """Every rule of the plan read at the poses."""
 
     def ratio(self, target: Any, *, wrt: str | None = None) -> FloatArray:
         """Return the derivative of a point or a quantity by a stroke."""
 
-    def array(self, values: Any) -> FloatArray:
+    def _array(self, values: Any) -> FloatArray:
         """Return numbers as the arrays it works with."""
 
 
@@ -74,7 +74,7 @@ class Poses:
         return left
 
     def _refused(self, what: str, names: set[str]) -> Mask:
-        return self.motion.refused(Ratios(frozenset(names)), what)
+        return self.motion._refused(Ratios(frozenset(names)), what)
 
     @property
     def is_whole(self) -> bool:
@@ -84,15 +84,15 @@ class Poses:
     @property
     def reading(self) -> Any:
         """Every rule read at the motion's poses."""
-        return self.motion.reading
+        return self.motion._reading
 
     def zeros(self, *shape: int) -> FloatArray:
         """Return zeros to write results into, shape (n, *shape)."""
-        return self.motion.array(np.zeros((self.count, *shape)))
+        return self.motion._array(np.zeros((self.count, *shape)))
 
     def flat(self, values: Any) -> FloatArray:
         """Return values over the motion, shape (..., *shape) or broadcast to it, as (..., n)."""
-        array = self.motion.array(values)
+        array = self.motion._array(values)
         lead = array.shape[: max(0, array.ndim - len(self.motion.shape))]
         whole = np.broadcast_to(array, (*lead, *self.motion.shape))
         return whole.reshape((*lead, self.count)) if self.is_whole else np.asarray(whole[..., self.good])

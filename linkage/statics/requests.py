@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import Any, final
+from typing import Any, TypeVar, final
+from weakref import ref
 
 import numpy as np
 
 from ..errors import DefinitionError, cited, known_name
-from ..motion import BoundRequest, Motion, Request
+from ..loads import ForceElement, LoadCase
+from ..motion import BoundRequest, Request, require_motion
+from ..motion.grid import MotionLike
+from ..motion.requests import identity_of, stroke_of
 from ..plan import Plan
 from ..program import Node, Notes
-from .acting import Case, Loads, drive_of
+from .acting import Case, Loads
 from .driving import driving_force
 from .equilibrium import System
 from .forces import pin_forces
@@ -22,6 +26,32 @@ from .result import met
 from .solution import Solved
 from .traced_loads import Law, eliminated_system, held
 from .work import by_work
+
+Bound = TypeVar("Bound", bound=BoundRequest)
+
+
+def loads_identity(loads: Loads, case: Case) -> Hashable:
+    """Return what tells loads in a load case from others, which it does not keep alive; None where one of them may change.
+
+    Members that were declared do not, nor do frozen dataclasses. What their laws compute with is taken not to change either.
+    """
+    listed = () if loads is None else loads if isinstance(loads, (list, tuple)) else (loads,)
+    parts = [each if each is None or isinstance(each, str) else ref(each) if is_fixed(each) else ... for each in (case, *listed)]
+    return None if ... in parts else (loads is None, *parts)
+
+
+def bound_once(plan: Plan, request: Request, bound: Callable[[Plan], Bound]) -> Bound:
+    """Return a request of the machine's own loads as `bound` binds it, kept with the plan."""
+    identity = identity_of(plan, request)
+    return bound(plan) if identity is None else plan.made(("bound", identity), lambda _: bound(plan))
+
+
+def is_fixed(thing: object) -> bool:
+    """Return whether loads or a load case cannot change: members of a class, and frozen dataclasses."""
+    if not isinstance(thing, (ForceElement, LoadCase)):
+        return False
+    settings = vars(type(thing)).get("__dataclass_params__")
+    return bool(thing._class) or (settings is not None and settings.frozen)
 
 
 @final
@@ -33,8 +63,15 @@ class DriveForce(Request):
     loads: Loads = None
     case: Case = None
 
+    def identity(self, plan: Plan) -> Hashable:
+        loads = loads_identity(self.loads, self.case)
+        return None if loads is None else ("drive force", self.drive, loads)
+
     def bound(self, plan: Plan) -> DriveForceOf:
-        drive = drive_of(plan, self.drive)
+        return bound_once(plan, self, self._bound) if self.loads is None else self._bound(plan)
+
+    def _bound(self, plan: Plan) -> DriveForceOf:
+        drive = stroke_of(plan, self.drive, "drive")
         law = Law.of(plan, self.loads, self.case)
         return DriveForceOf(self.loads, self.case, drive, law.key, frozenset(law.names), frozenset(law.carriers))
 
@@ -64,7 +101,7 @@ class ForceOf(BoundRequest):
         return True
 
     @property
-    def turns(self) -> bool:
+    def follows_angles(self) -> bool:
         return True
 
     def notes(self, plan: Plan) -> Notes:
@@ -86,7 +123,7 @@ class DriveForceOf(ForceOf):
     carriers: frozenset[str]
 
     @property
-    def key(self) -> Any:
+    def key(self) -> Hashable:
         return "drive force", self.drive, self.law
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
@@ -97,11 +134,11 @@ class DriveForceOf(ForceOf):
     def names(self, plan: Plan) -> set[str]:
         return set(self.read)
 
-    def steep(self, plan: Plan) -> set[str]:
+    def differentiated(self, plan: Plan) -> set[str]:
         return set(self.carriers)
 
-    def refuse(self, motion: Motion) -> None:
-        driving_force(motion, self.loads, self.drive, case=self.case)
+    def refuse(self, motion: MotionLike) -> None:
+        driving_force(require_motion(motion), self.loads, self.drive, case=self.case)
 
     def __str__(self) -> str:
         return f"the driving force of {self.drive}"
@@ -122,7 +159,14 @@ class PinForce(Request):
     loads: Loads = None
     case: Case = None
 
+    def identity(self, plan: Plan) -> Hashable:
+        loads = loads_identity(self.loads, self.case)
+        return None if loads is None else ("pin force", self.point, self.on, self.component, loads)
+
     def bound(self, plan: Plan) -> PinForceOf:
+        return bound_once(plan, self, self._bound) if self.loads is None else self._bound(plan)
+
+    def _bound(self, plan: Plan) -> PinForceOf:
         known_name("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
         law = Law.of(plan, self.loads, self.case)
         structure = Structure(plan, law.loaded.elements, law.loaded.pushing)
@@ -157,7 +201,7 @@ class PinForceOf(ForceOf):
     joint: str
 
     @property
-    def key(self) -> Any:
+    def key(self) -> Hashable:
         return "pin force", self.asked.point, self.asked.on, self.asked.component, self.law
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
@@ -173,8 +217,8 @@ class PinForceOf(ForceOf):
     def names(self, plan: Plan) -> set[str]:
         return set(plan.members)
 
-    def refuse(self, motion: Motion) -> None:
-        pin_forces(motion, self.loads, case=self.case)
+    def refuse(self, motion: MotionLike) -> None:
+        pin_forces(require_motion(motion), self.loads, case=self.case)
 
     def __str__(self) -> str:
         what = "the size" if self.asked.component == "size" else f"the {self.asked.component} component"

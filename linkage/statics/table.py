@@ -110,7 +110,7 @@ def at_poses(result: PinForces, joint: JointForce) -> PinLoad | None:
     if not np.isfinite(size).any():
         return None
     place = np.unravel_index(int(np.nanargmax(size)), size.shape)
-    designs = len(result.motion.design_shape)
+    designs = len(result.motion._design_shape)
     x, y = (float(joint.force[k][place]) for k in (0, 1))
     own = body_angle(result, joint, place)
     return PinLoad(

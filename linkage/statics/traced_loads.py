@@ -14,7 +14,7 @@ from ..errors import DefinitionError, unwarned
 from ..loads import Load, Push
 from ..motion import Motion
 from ..motion.requests import stroke_of
-from ..motion.strokes import named
+from ..motion.strokes import checked_name
 from ..plan import ArrayReading, Plan, Trace
 from ..program import FloatArray, Level, Node, Notes, Traced, eliminated, node_of
 from ..quantities import Angle, Distance, Quantity, Reference
@@ -39,11 +39,11 @@ class TracedMotion:
     unreachable = "raise"
 
     def __init__(self, plan: Plan, trace: Trace) -> None:
-        self.plan, self.reading = plan, trace
+        self.plan, self._reading = plan, trace
         self.notes = Notes()
         self.read: set[str] = set()
 
-    def refused(self, what: Any, words: str) -> Any:
+    def _refused(self, what: Any, words: str) -> Any:
         """Return that no pose is refused: what is made of the program here is looked at where it is asked for."""
         return np.zeros((), bool)
 
@@ -51,13 +51,13 @@ class TracedMotion:
 
     def number(self, value: Any) -> Any:
         """Return a number of the program as a traced one."""
-        return Traced(self.reading.graph.node(node_of(value)), self.notes)
+        return Traced(self._reading.graph.node(node_of(value)), self.notes)
 
     def input(self, name: str) -> Any:
         """Return an input of the program at the poses, besides those of the plan, as a traced number."""
-        return self.number(self.reading.graph.input(name, Level.POSE))
+        return self.number(self._reading.graph.input(name, Level.POSE))
 
-    def array(self, values: Any) -> FloatArray:
+    def _array(self, values: Any) -> FloatArray:
         """Return numbers of the program as an array of traced ones."""
         found = np.empty(np.shape(given := np.asarray(values, object)), object)
         for place in np.ndindex(found.shape):
@@ -66,14 +66,14 @@ class TracedMotion:
 
     def node(self, number: Any) -> Node:
         """Return the node of a number."""
-        return self.reading.graph.node(node_of(number))
+        return self._reading.graph.node(node_of(number))
 
     # -- what a motion tells ---------------------------------------------------------------------------------
 
     @cached_property
     def inputs(self) -> dict[str, Any]:
         """Design variables and strokes by name."""
-        return {name: self.number(node) for name, node in self.reading.inputs.items()}
+        return {name: self.number(node) for name, node in self._reading.inputs.items()}
 
     @property
     def strokes(self) -> Mapping[str, Any]:
@@ -85,15 +85,15 @@ class TracedMotion:
 
     def _nodes(self, target: str | Quantity) -> tuple[Any, ...]:
         """Return the nodes of a point, a vector or a quantity; the members behind it are noted."""
-        member = self.plan.members[named("Name", target, self.plan.named(), self.plan.title)] if isinstance(target, str) else target
+        member = self.plan.members[checked_name("Name", target, self.plan.named(), self.plan.title)] if isinstance(target, str) else target
         self.read |= self.plan.reaches(member.name or member)
         if isinstance(member, (Point, Arrow)):
-            place = self.reading.at(member) if isinstance(member, Point) else self.reading.vector(member)
+            place = self._reading.at(member) if isinstance(member, Point) else self._reading.vector(member)
             return place.x, place.y
-        return (self.reading.value(member),)
+        return (self._reading.value(member),)
 
     def _shaped(self, nodes: tuple[Any, ...]) -> Any:
-        return self.array(nodes) if len(nodes) == 2 else self.number(nodes[0])
+        return self._array(nodes) if len(nodes) == 2 else self.number(nodes[0])
 
     def value(self, quantity: Quantity) -> Any:
         """Return a quantity."""
@@ -125,7 +125,7 @@ class TracedMotion:
     def ratio(self, target: Any, *, wrt: str | None = None) -> Any:
         """Return the derivative of a point, a vector or a quantity by a stroke."""
         stroke = stroke_of(self.plan, wrt)
-        return self._shaped(tuple(self.reading.tangent(stroke).of(self.node(each)) for each in self._nodes(target)))
+        return self._shaped(tuple(self._reading.tangent(stroke).of(self.node(each)) for each in self._nodes(target)))
 
 
 ONE = RLock()
@@ -159,7 +159,7 @@ class Law:
         """What tells these loads from others: the program, and where which nodes act."""
         acting = ((each.load.point, each.load.on, *(self.motion.node(part).number for part in each.force)) for each in self.loaded.acting)
         pushing = ((each.name, each.ends, self.motion.node(each.thrust).number) for each in self.loaded.pushing)
-        return self.motion.reading.graph, *acting, *pushing, *self.notes.assumed, None, *self.notes.switches
+        return self.motion._reading.graph, *acting, *pushing, *self.notes.assumed, None, *self.notes.switches
 
     @property
     def notes(self) -> Notes:
@@ -232,7 +232,7 @@ def traced_force(motion: TracedMotion, load: Load) -> FloatArray:
             f"its force at {load.point} has the shape {force.shape}, where (2,) is expected; what varies over poses or designs "
             "comes from a point, a quantity or a parameter of a load declared in the class."
         )
-    return motion.array(force)
+    return motion._array(force)
 
 
 # The equations of equilibrium on the nodes of a program, eliminated symbolically.
@@ -248,7 +248,7 @@ def eliminated_system(system: System, motion: TracedMotion, friction: Sequence[N
     sides = [motion.node(row[0]) for row in right]
     for place, each in enumerate(friction):
         sides = [side + motion.node(row[1 + place]) * each for side, row in zip(sides, right, strict=True)]
-    return motion.array([eliminated([[motion.node(each) for each in row] for row in A], sides)])
+    return motion._array([eliminated([[motion.node(each) for each in row] for row in A], sides)])
 
 
 def held(plan: Plan, loaded: Loaded) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from types import MappingProxyType
 
 from ..errors import DefinitionError
 from ..quantities import (  # fmt: skip
@@ -37,6 +38,7 @@ class Guide(Jointed):
 
     kind = "guide"
     expects = (("P", "point"), ("Q", "point"))
+    argument_kinds = MappingProxyType({"P": "origin", "angle": "direction"})
 
     def __init__(self, P: Reference | tuple[float, float], Q: Reference | None = None, *, angle: Operand | None = None) -> None:
         if P is None or (Q is None) == (angle is None):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import combinations
+from types import MappingProxyType
 
 from ..errors import DefinitionError
 from ..quantities import Member, Operand, Reference, name_of, quantity
@@ -14,6 +15,7 @@ class Link(Member):
     """Points that move as one body: `Link(O, B, C)`, or `Link("O B C", OB=0.30, OC=0.36, BC=0.16)`."""
 
     kind = "link"
+    argument_kinds = MappingProxyType({"points": "points"})
 
     def __init__(self, *points: Reference, **labels: Operand) -> None:
         if len(points) == 1 and isinstance(points[0], str):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
 from typing import Any
 
 from ..errors import DefinitionError, cited
@@ -21,6 +22,7 @@ class Pin(Point):
     """
 
     closes = True
+    argument_kinds = MappingProxyType({"near": "place", "at": "place"})
 
     def __init__(self, *place: Any, near: Position | None = None, at: Position | None = None) -> None:
         if place:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from types import MappingProxyType
 
 import numpy as np
 
@@ -147,6 +148,7 @@ class Offset(Point):
     """The point P + vector [m]."""
 
     expects = (("P", "point"), ("by", "vector"))
+    argument_kinds = MappingProxyType({"vector": "vector"})
 
     def __init__(self, P: Reference, vector: Reference) -> None:
         self.P, self.by = P, vector

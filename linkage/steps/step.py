@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass
 from math import pi
+from types import MappingProxyType
 from typing import Any, ClassVar, Self, TypeAlias
 
 import numpy as np
@@ -76,6 +77,7 @@ class Point(Jointed):
     """Whether placing this point closes a loop, so that it can fail and become singular."""
 
     kind = "point"
+    file_section = "points"
 
     def bind(self, X: str, table: DimensionTable) -> Self:
         """Return this step with its name, its parents' names and its dimensions settled."""
@@ -156,6 +158,7 @@ class Step(Point):
 
     parents: tuple[Reference, ...]
     parent_letters: tuple[str, ...] = ("P", "Q")
+    argument_kinds = MappingProxyType({"side": "side", "near": "place", "at": "place"})
     from_drawing: str = ""
     """What `at=(x, y)` supplies: the `distances` from both parents, or one distance and the `angle`."""
     chooses: str = ""

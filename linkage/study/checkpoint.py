@@ -7,7 +7,7 @@ import json
 import os
 import re
 import sys
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from hashlib import blake2b
@@ -164,21 +164,13 @@ def plan_text(machine: Mechanism) -> str:
 def measure_text(measure: Any, has_version: bool = False) -> str:
     """Return the source text of a function, of those of its module that it names, and the values that they read from outside.
 
-    Raises DefinitionError for a lambda, and for a function whose source cannot be found, unless a version is said for it.
+    Plain data stand as they are, functions and classes of the module by their source; of anything else only the name is read. Raises
+    DefinitionError for a lambda, and for a function whose source cannot be found, unless a version is said for it.
     """
     home = getattr(getattr(measure, "func", measure), "__module__", None)  # of a partial that of its function
-    return SourceReader(home, has_version).text(measure)
+    seen: set[int] = set()
 
-
-class SourceReader:
-    """Reads values as text: plain data, functions and classes of the module `home`. Of anything else only the name is read."""
-
-    def __init__(self, home: str | None, has_version: bool) -> None:
-        self.home, self.has_version = home, has_version
-        self.seen: set[int] = set()
-
-    def text(self, value: Any) -> str:
-        """Return a value as text."""
+    def text(value: Any) -> str:
         match value:
             case None | int() | float() | complex() | str() | bytes():
                 return repr(value)
@@ -187,46 +179,37 @@ class SourceReader:
             case np.ndarray():
                 return f"{value.dtype} {value.shape} {digest(value.tobytes()) if value.dtype.kind != 'O' else ''}"
             case list() | tuple():
-                return self.listed(value)
+                return f"[{', '.join(map(text, value))}]"
             case set() | frozenset():
-                return f"{{{', '.join(sorted(map(self.text, value)))}}}"
+                return f"{{{', '.join(sorted(map(text, value)))}}}"
             case dict():
-                return self.listed(value.items())
+                return text([*value.items()])
             case Mechanism():
-                return f"{plan_text(value)} {self.text(dict(value.dimensions))}"
+                return f"{plan_text(value)} {text(dict(value.dimensions))}"
             case partial():
-                return self.listed((value.func, value.args, value.keywords))
+                return text([value.func, value.args, value.keywords])
             case MethodType():
-                return self.listed((value.__func__, value.__self__))
-            case FunctionType() | type():
-                return self.with_source(value)
-        kind = type(value)
-        if kind.__module__ != self.home or id(value) in self.seen:
-            return str(getattr(value, "__qualname__", getattr(value, "__name__", kind.__qualname__)))
-        self.seen.add(id(value))
-        return f"{self.text(kind)} {self.text(getattr(value, '__dict__', None))}"
-
-    def listed(self, values: Iterable[Any]) -> str:
-        """Return several values as text."""
-        return f"[{', '.join(map(self.text, values))}]"
-
-    def with_source(self, value: FunctionType | type) -> str:
-        """Return a function or a class with its source text and the values it reads from outside; only its name if it is of elsewhere."""
-        name = f"{value.__module__}.{value.__qualname__}"
-        if value.__module__ != self.home or id(value) in self.seen:
-            return name
-        self.seen.add(id(value))
-        source = source_of(value)
-        if source is None and isinstance(value, FunctionType) and not self.has_version:
+                return text([value.__func__, value.__self__])
+        is_named = isinstance(value, (FunctionType, type))
+        name = str(getattr(value, "__qualname__", getattr(value, "__name__", type(value).__qualname__)))
+        if (value if is_named else type(value)).__module__ != home or id(value) in seen:
+            return f"{value.__module__}.{name}" if is_named else name
+        seen.add(id(value))
+        if not is_named:  # an object of a class of the module
+            return f"{text(type(value))} {text(getattr(value, '__dict__', None))}"
+        source = source_text(value)
+        if source is None and isinstance(value, FunctionType) and not has_version:
             lacks = "is a lambda, without source text of its own" if value.__name__ == "<lambda>" else "has no source text that is found"
             raise DefinitionError(
-                f"measure: {name} {lacks}, so that a folder cannot tell it from another one; "
+                f"measure: {home}.{name} {lacks}, so that a folder cannot tell it from another one; "
                 "define it by `def` in a file, or say version=1 and count it up when you change it."
             )
-        return self.listed((name, source, outside_values(value, source or "")))
+        return text([f"{home}.{name}", source, outside_values(value, source or "")])
+
+    return text(measure)
 
 
-def source_of(value: FunctionType | type) -> str | None:
+def source_text(value: FunctionType | type) -> str | None:
     """Return the source text of a function or a class; None for a lambda, and where no file has it."""
     try:
         return None if value.__name__ == "<lambda>" else dedent(getsource(value)).strip()

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, told, unwarned
 from ..mechanism import Mechanism
-from ..motion import Motion, paired
+from ..motion import Motion, each_at_its_stroke
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import Quantity
@@ -50,7 +50,7 @@ def check_one_design(machine: Mechanism) -> None:
 def poses_of(machine: Mechanism, settings: Mapping[str, Any], base: Motion, place: Any) -> Motion:
     """Return the poses of some settings (m,) of a machine, each at one of the poses (n,) of it as it is set, by its place (m,)."""
     strokes = {name: value[place] for name, value in base.strokes.items()}
-    return paired(machine.plan, machine.replaced(**settings).dimensions, strokes, base, place)
+    return each_at_its_stroke(machine.plan, machine.replaced(**settings).dimensions, strokes, base, place)
 
 
 def function_value(quantity: Callable[[Motion], Any], motion: Motion) -> Any:

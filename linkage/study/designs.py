@@ -14,7 +14,7 @@ import numpy.typing as npt
 from ..errors import DefinitionError, StudyError, cited
 from ..frozen import unmasked
 from ..mechanism import Mechanism
-from ..program import pinned
+from ..program import fixed_backend
 
 Array: TypeAlias = npt.NDArray[Any]
 Rows: TypeAlias = dict[str, Any]
@@ -171,7 +171,7 @@ def measure_batch(task: Task, start: int, stop: int, rows: Rows, attempt: int) -
     `attempt` sets a second try apart from the first for executors that know a call by its arguments.
     """
     clock, processor = perf_counter(), thread_time()
-    with pinned(task.backend):
+    with fixed_backend(task.backend):
         whole = task.machine.replaced(**rows)
         found = [measure_piece(task, whole, start, first, min(first + task.piece, stop)) for first in range(start, stop, task.piece)]
     for first, each in zip(range(start, stop, task.piece), found, strict=True):

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, known_name
 from ..mechanism import Mechanism
+from ..motion import highest, last_holding
 from ..program import FloatArray
 from ..quantities import is_number
 from ..units import show, unit_or_none
@@ -17,7 +18,6 @@ from .box import range_of
 from .checks import QuantityLike, check_one_design, poses_of, quantity_values, title_of, unit_of
 
 SAMPLES = 1025
-ROUNDS = 12  # each looks 33 times closer
 TOUCH = 1e-9  # of the values' span: what comes as near as this to the target touches it
 
 Curve: TypeAlias = Callable[[FloatArray], FloatArray]
@@ -83,27 +83,9 @@ def ends_of_reach(curve: Curve, at: FloatArray) -> FloatArray:
     """Return the samples with the ends of every reachable range added."""
     known = np.isfinite(curve(at))
     edges = np.flatnonzero(known[1:] != known[:-1])
-    ends = [end_between(curve, *(at[[edge, edge + 1]] if known[edge] else at[[edge + 1, edge]])) for edge in edges]
+    pairs = [at[[edge, edge + 1] if known[edge] else [edge + 1, edge]] for edge in edges]
+    ends = [float(last_holding(lambda x: np.isfinite(curve(x)), inside, outside)[0]) for inside, outside in pairs]
     return np.sort(np.concatenate([at, ends]))
-
-
-def end_between(curve: Curve, inside: float, outside: float) -> float:
-    """Return the last value with a result, between one that has it and one that has not."""
-
-    def ends(near: FloatArray) -> tuple[int, int]:
-        lost = int(np.argmax(~np.isfinite(curve(near))))
-        return max(lost - 1, 0), lost
-
-    return narrowed(inside, outside, ends)[0]
-
-
-def narrowed(low: float, high: float, ends: Callable[[FloatArray], tuple[int, int]]) -> tuple[float, float]:
-    """Return an interval narrowed round by round to the samples (33,), by their places, that `ends` chooses."""
-    for _ in range(ROUNDS):
-        near = np.linspace(low, high, 33)
-        first, last = ends(near)
-        low, high = float(near[first]), float(near[last])
-    return low, high
 
 
 def sign_changes(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
@@ -114,15 +96,11 @@ def sign_changes(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
 
 
 def zero_between(curve: Curve, low: float, high: float) -> float:
-    """Return the zero between two values of opposite sign; NaN where the curve has a gap there."""
-
-    def ends(near: FloatArray) -> tuple[int, int]:
-        off = curve(near)
-        turn = int(np.argmax(np.sign(off) != np.sign(off[0])))
-        return (0, 0) if np.isnan(off).any() else (turn - 1, turn)
-
-    low, high = narrowed(low, high, ends)
-    return low if abs(curve(np.array([low]))[0]) < abs(curve(np.array([high]))[0]) else high
+    """Return the zero between two values of opposite sign; NaN where the curve ends before it."""
+    sign = np.sign(curve(np.array([low]))[0])
+    near = np.array(last_holding(lambda at: np.sign(curve(at)) == sign, low, high))
+    off = np.abs(curve(near))
+    return float(near[np.argmin(off)]) if np.isfinite(off).all() else float("nan")
 
 
 def touchings(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
@@ -137,12 +115,11 @@ def touchings(curve: Curve, at: FloatArray, off: FloatArray) -> list[float]:
 def nearest_between(curve: Curve, low: float, high: float) -> float:
     """Return where the curve is nearest to zero between two values."""
 
-    def ends(near: FloatArray) -> tuple[int, int]:
-        off = np.abs(curve(near))
-        place = int(np.argmin(np.where(np.isnan(off), np.inf, off)))
-        return max(place - 1, 0), min(place + 1, len(near) - 1)
+    def look(_: Any, t: FloatArray) -> tuple[FloatArray, Any]:
+        off = curve(low + (high - low) * t.ravel())
+        return -np.abs(off).reshape(1, 1, -1), np.isfinite(off)[None]
 
-    return 0.5 * sum(narrowed(low, high, ends))
+    return low + (high - low) * float(highest(look, [32]).t.item())
 
 
 def is_root(curve: Curve, root: float, off: FloatArray) -> bool:

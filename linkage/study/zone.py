@@ -14,7 +14,7 @@ import numpy.typing as npt
 from ..errors import DefinitionError, SingularWarning
 from ..frozen import refuses_changes
 from ..mechanism import Mechanism
-from ..motion import Motion, at_values
+from ..motion import Motion, at_values, out_of_reach
 from ..program import FloatArray
 from .box import Box, setting_words
 from .checks import QuantityLike, check_one_design, function_value, poses_of, quantity_values, title_of
@@ -94,7 +94,7 @@ def remarks(machine: Mechanism, quantity: QuantityLike, box: Box, strokes: Mappi
     lost = ~motion.reached
     said = []
     if lost.any():
-        said.append(f"{settings_counted(lost, motion, settings)} cannot be assembled and are left out of the zone. {motion.refusal()}")
+        said.append(f"{settings_counted(lost, motion, settings)} cannot be assembled and are left out of the zone. {out_of_reach(motion)}")
     empty = np.isnan(seen.T) & motion.reached
     if empty.any():
         said.append(f"{settings_counted(empty, motion, settings)} have no value of {title_of(quantity)} and are left out of the zone.")

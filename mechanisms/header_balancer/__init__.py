@@ -4,18 +4,38 @@ Source: Rekhlitski, Chuprynin, "Mathematical description of the balancing system
 harvester with a hydropneumatic accumulator" (2013). The paper prints no geometry: the dimensions are illustrative.
 """
 
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from .charge import HEADERS as HEADERS
 from .charge import WAYS as WAYS
 from .charge import Way as Way
 from .charge import charge_for as charge_for
 from .charge import largest_charge as largest_charge
 from .criteria import criteria as criteria
-from .figures import figure as figure
 from .following import over_following as over_following
 from .following import relief as relief
-from .headers import HEADERS as HEADERS
 from .machine import HeaderBalancer as HeaderBalancer
 from .machine import ImprovedBalancer as ImprovedBalancer
+from .measured import Deviation as Deviation
 from .measured import deviations as deviations
 from .measured import read_measured as read_measured
 from .settings import setting_table as setting_table
 from .settings import with_header as with_header
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FIGURES = ("2", "2a", "2b", "3", "3a", "3b", "4", "4a", "4b", "5", "5a", "5b", "6", "6a", "6b", "7")
+
+
+def figure(number: int | str, machine: HeaderBalancer | None = None, measured: Sequence[Deviation] = ()) -> Figure:
+    """Return a figure of the paper as a matplotlib figure: a half of it, "2a", or both side by side, 2.
+
+    It shows the header of the paper's figure, or the `machine` given. `measured` curves are laid over the reactions.
+    """
+    from .figures import figure
+
+    return figure(number, machine, measured)

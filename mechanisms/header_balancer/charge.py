@@ -1,9 +1,10 @@
-"""To what pressure the line is charged: for a wanted reaction, and at the most. Pressures gauge [Pa], one design at a time."""
+"""To what pressure the line is charged: as published, for a reaction, and at the most. Pressures gauge [Pa], one design at a time."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import final
 
 import numpy as np
@@ -12,12 +13,29 @@ from hydraulics import AccumulatorBlock, adiabatic, isothermal
 from hydraulics.gas import Gas
 from linkage import DefinitionError, Motion
 from linkage.errors import cited
-from linkage.motion import lowest
+from linkage.motion import last_holding, lowest
+from linkage.motion.limits import Mask
 from linkage.program import FloatArray
 from linkage.quantities import is_number
-from linkage.units import kgf_cm2, mm, show
+from linkage.units import deg, kgf_cm2, mm, show
 
-from .following import Balance, at_horizon, over_following
+from .following import HeaderState, at_horizon, over_following
+
+
+def _header(mass: float, charge: float, L_OR: float, BOR: float, OG2: float, BOG2: float) -> Mapping[str, float]:
+    return MappingProxyType(
+        {"m2": mass, "charge": charge * kgf_cm2, "L_OR": L_OR, "BOR": BOR * deg, "OG2": OG2, "BOG2": BOG2 * deg}
+    )  # fmt: skip
+
+
+HEADERS: Mapping[int, Mapping[str, float]] = MappingProxyType(
+    {
+        1: _header(2000.0, 94.0, 2.665521, 13.055247, 2.137161, 28.184398),  # both gas charges at work
+        2: _header(1000.0, 34.0, 2.040833, 5.290081, 1.436851, 18.840343),   # the 50 kgf/cm2 pair is off: a softer system
+        3: _header(1500.0, 50.0, 1.998124, 4.552408, 1.421442, 19.909792),   # a kink where the second pair joins
+    }
+)  # fmt: skip
+"""Mass and charge pressure as published; the geometry is illustrative, such that criterion 2 gives these pressures."""
 
 
 @final
@@ -50,7 +68,7 @@ def charge_for(motion: Motion, wanted: float) -> float:
     """
     if not is_number(wanted):
         raise DefinitionError(f"wanted={cited(wanted)}: one reaction of all shoes is expected, in N.")
-    balance = Balance(at_horizon(motion))
+    balance = HeaderState(at_horizon(motion))
     pressure = float(balance.cylinder.sized(balance.motion).pressure_for(balance.thrust_without_line(pressed=wanted))[0])
     if pressure < 0.0:
         alone, for_one = (float(balance.thrust_without_line(pressed=force)[0]) for force in (0.0, 1.0))
@@ -69,7 +87,7 @@ def largest_charge(motion: Motion, way: Way = SLOW) -> float:
 
 def charge_limits(motion: Motion, way: Way) -> FloatArray:
     """Return the charge pressure [Pa] at which the shoe just carries nothing at each pose, moving down, shape (n,)."""
-    balance = Balance(motion)
+    balance = HeaderState(motion)
     block, left = block_in(motion, way), balance.circuit.withdrawn(motion)
     allowed = balance.required_while("retracting")
     lowest = float(np.min(block.lowest_charge))
@@ -78,12 +96,17 @@ def charge_limits(motion: Motion, way: Way) -> FloatArray:
     slow = np.where(allowed < lowest, block.pressure_holding(np.maximum(left, 0.0)), block.pressure(held, -left))
     if way.exponent is None:
         return np.asarray(slow)
-    return bisected(lambda p: block.fast_pressure(p, left, way.exponent) - allowed, np.full_like(slow, lowest), 4.0 * slow)
+
+    def falls_short(charges: FloatArray) -> Mask:
+        return np.asarray((block.fast_pressure(charges.T, left, way.exponent) <= allowed).T)
+
+    last, beyond = last_holding(falls_short, np.full_like(slow, lowest), 4.0 * slow, close=1e-6)
+    return 0.5 * (last + beyond)
 
 
 def block_in(motion: Motion, way: Way) -> AccumulatorBlock:
     """Return the machine's accumulators under a way's gas law and atmosphere."""
-    block = Balance(motion).circuit.accumulators(motion)
+    block = HeaderState(motion).circuit.accumulators(motion)
     return replace(block, gas=way.gas, atmosphere=block.atmosphere if way.atmosphere is None else way.atmosphere)
 
 
@@ -96,14 +119,3 @@ def refuse_light(motion: Motion, allowed: FloatArray, left: FloatArray, lowest: 
             f"The header is too light for these accumulators: at h = {motion.strokes['h'][where] / mm:.1f} mm the shoe lifts off from "
             f"{allowed[where] / kgf_cm2:.2f} kgf/cm2 on, and the lowest gas charge is {lowest / kgf_cm2:.2f} kgf/cm2. Lower the gas charge."
         )
-
-
-def bisected(excess: Callable[[FloatArray], FloatArray], low: FloatArray, high: FloatArray) -> FloatArray:
-    """Return where an increasing function of a pressure [Pa] comes to zero at each pose, to 1e-6 Pa; `low` where it is positive there."""
-    while np.max(high - low) > 1e-6:
-        middle = 0.5 * (low + high)
-        above = excess(middle) > 0.0
-        low, high = np.where(above, low, middle), np.where(above, middle, high)
-        if np.all((middle == low) | (middle == high)) and np.max(high - low) < 1e-3:
-            break
-    return 0.5 * (low + high)

@@ -13,11 +13,10 @@ from linkage.cli.table import csv_argument, write_table
 from linkage.plan import Plan
 from linkage.units import kgf, parse, show
 
-from .charge import charge_for
+from . import FIGURES, figure
+from .charge import HEADERS, charge_for
 from .criteria import criteria
-from .figures import NUMBERS, figure
 from .following import kgf_cm2_text, over_following, reaction_columns
-from .headers import HEADERS
 from .machine import HeaderBalancer
 from .measured import Deviation, deviations, read_measured
 from .settings import setting_table, with_header
@@ -43,10 +42,10 @@ class Balance(Command):
         csv_argument(parser)
         parser.add_argument("--measured", metavar="FILE", help='compare with measured values: columns "R_y, mm", "F_R up, kgf"')
         picture_argument(parser, "the figure")
-        parser.add_argument("--figure", choices=NUMBERS, help="which figure of the paper, such as 2a, or 2 for both its halves")
+        parser.add_argument("--figure", choices=FIGURES, help="which figure of the paper, such as 2a, or 2 for both its halves")
 
     def run(self, options: Namespace) -> int:
-        machine = chosen(options)
+        machine = header_of(options)
         path = figure_path(options, type(machine), self.name)
         motion = machine.at(h=machine.strokes["h"].start)
         compared = deviations(motion, read_measured(options.measured)) if options.measured else []
@@ -54,7 +53,8 @@ class Balance(Command):
             print_settings(machine, options)
         if not options.table or options.header or options.pressure or options.reaction or compared:
             print_header(motion, options, compared)
-        draw(machine, options, path, compared)
+        if path is not None:
+            draw_figure(machine, options, path, compared)
         return 0
 
 
@@ -82,7 +82,7 @@ def print_header(motion: Motion, options: Namespace, compared: list[Deviation]) 
         print(verdict)
 
 
-def chosen(options: Namespace) -> HeaderBalancer:
+def header_of(options: Namespace) -> HeaderBalancer:
     """Return the machine that the options mean."""
     found = find_like(options.machine, HeaderBalancer, "balanced header")
     given = dict(HEADERS[options.header]) if options.header else {}
@@ -115,10 +115,9 @@ def value(text: str, kind: str, option: str) -> float:
     return number
 
 
-def draw(machine: HeaderBalancer, options: Namespace, path: Path | None, compared: list[Deviation]) -> None:
-    """Draw the figure that is wanted."""
-    if path is not None:
-        number = options.figure or ("7" if compared else REACTION.get(options.header, "4"))
-        as_shipped = type(machine) is HeaderBalancer and machine.dimensions in (HeaderBalancer().dimensions, with_header(1).dimensions)
-        figure(number, None if number[0] == "6" and as_shipped else machine, compared).savefig(path)
-        print(path)
+def draw_figure(machine: HeaderBalancer, options: Namespace, path: Path, compared: list[Deviation]) -> None:
+    """Draw the figure that the options mean; figure 6 of the machine as it is shipped shows the improved one."""
+    number = options.figure or ("7" if compared else REACTION.get(options.header, "4"))
+    as_shipped = type(machine) is HeaderBalancer and machine.dimensions in (HeaderBalancer().dimensions, with_header(1).dimensions)
+    figure(number, None if number[0] == "6" and as_shipped else machine, compared).savefig(path)
+    print(path)

@@ -11,9 +11,8 @@ from linkage.motion import below_zero
 from linkage.program import FloatArray
 from linkage.units import kgf, kgf_cm2, litre, mm
 
-from .charge import FAST, NORMAL, PAPER, SLOW, Way, largest_charge
-from .following import PLAIN, Balance, kgf_cm2_text, over_following, relief
-from .headers import HEADERS
+from .charge import FAST, HEADERS, NORMAL, PAPER, SLOW, Way, largest_charge
+from .following import PLAIN, HeaderState, kgf_cm2_text, over_following, relief
 
 ON_LIMIT = 0.02 * kgf_cm2
 """A setting this near to its limit is on it: the published ones are."""
@@ -28,12 +27,12 @@ LEAST_RESERVE = 0.1
 def criteria(motion: Motion) -> list[Verdict]:
     """Return the verdicts on the five criteria and on the relief valve, and the paper's conclusions; the motion says which design."""
     fine = over_following(motion)
-    balance = Balance(fine)
+    balance = HeaderState(fine)
     judged = [rises(balance), *hangs_up(fine), hysteresis(balance), matching(balance), reserve(balance), valve(motion)]
     return [*judged, vessels(balance), exchange(motion)]
 
 
-def rises(balance: Balance) -> Verdict:
+def rises(balance: HeaderState) -> Verdict:
     """Return criterion 1: the reaction rises when moving up and falls when moving down, over the whole range."""
     up, down = balance.up, balance.down
     says = f"moving up the reaction goes from {_kgf(up[0])} to {_kgf(up[-1])}, moving down from {_kgf(down[-1])} to {_kgf(down[0])} kgf"
@@ -67,7 +66,7 @@ def hang_up(motion: Motion, way: Way) -> Verdict:
     return Verdict(rule, False, f"{says}: the shoe lifts off moving down; lower the charge by {kgf_cm2_text(charge - limit)}.")
 
 
-def hysteresis(balance: Balance) -> Verdict:
+def hysteresis(balance: HeaderState) -> Verdict:
     """Return criterion 3: what the hysteresis is and who makes it; a plain bearing at O beside the machine's own."""
     whole, seals, pin = balance.hysteresis, balance.of_seals, balance.of_pin
     plain, rolling = balance.of_bearing(PLAIN), balance.of_bearing(0.0)
@@ -82,7 +81,7 @@ def hysteresis(balance: Balance) -> Verdict:
     return Verdict("3 hysteresis", ok, f"{says}{'' if ok else remedy}.")
 
 
-def matching(balance: Balance) -> Verdict:
+def matching(balance: HeaderState) -> Verdict:
     """Return criterion 4: from the lowest place to the highest the required pressure falls with the accumulators' (the arm H grows).
 
     What would match them: the arm with which this line keeps the reaction as it is at the horizon.
@@ -110,7 +109,7 @@ def matching(balance: Balance) -> Verdict:
     )  # fmt: skip
 
 
-def reserve(balance: Balance) -> Verdict:
+def reserve(balance: HeaderState) -> Verdict:
     """Return criterion 5: the required pressure as high as the pump permits with the least reserve."""
     motion = balance.motion
     worst, pump = relief(motion).pressure, float(motion.inputs["pump"])
@@ -123,7 +122,7 @@ def reserve(balance: Balance) -> Verdict:
     return Verdict("5 pressure level", ok, f"{says}{_smaller(balance, worst, pump) if ok else '; take a larger bore or a stronger pump'}.")
 
 
-def _smaller(balance: Balance, worst: float, pump: float) -> str:
+def _smaller(balance: HeaderState, worst: float, pump: float) -> str:
     """Return what a smaller standard bore would do for the seals' share, where the pump permits it."""
     size = balance.cylinder.sized(balance.motion)
     now = one_size(size)
@@ -145,7 +144,7 @@ def valve(motion: Motion) -> Verdict:
     return Verdict("relief valve", ok, f"{says} {kgf_cm2_text(float(motion.inputs['valve']), 1)}: {margin}.")
 
 
-def vessels(balance: Balance) -> Verdict:
+def vessels(balance: HeaderState) -> Verdict:
     """Return which accumulators are at work over which heights, which are off, and where a pair joins, in a slow movement."""
     motion = balance.motion
     block, charge = balance.circuit.accumulators(motion), float(np.max(balance.circuit.number(motion, "charge_pressure")))

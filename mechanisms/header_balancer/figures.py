@@ -9,75 +9,61 @@
 | 6 a, 6 b | 1 | the improved mechanism: reaction, given and needed pressure |
 | 7 | 1 | reaction calculated and measured |
 
-Matplotlib and the house's style are loaded when one is drawn.
+They load matplotlib, and are loaded when one is drawn.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from linkage import DefinitionError, Motion
 from linkage.motion import below_zero
+from linkage.pictures import style
+from linkage.pictures.sheet import panels
 from linkage.program import FloatArray
 from linkage.statics import reaction
 from linkage.units import kgf, kgf_cm2, litre, mm
 
-from .following import BEARING, PLAIN, SHOE, Balance, over_following, own_loads, rubbing
-from .headers import HEADERS
+from .charge import HEADERS
+from .following import BEARING, PLAIN, SHOE, HeaderState, dry_frictions, over_following, own_loads
 from .machine import HeaderBalancer, ImprovedBalancer
 from .measured import ALLOWED, Deviation
 from .settings import with_header
 
 SIZE, PAIR = (7.6, 5.0), (14.6, 5.2)
+COLOURS: Mapping[str, str] = MappingProxyType(
+    {"moving up": style.CURVE, "without friction": style.MUTED, "moving down": style.ACCENT}
+)
 WAYS: Mapping[str, str] = MappingProxyType({"moving up": "extending", "without friction": "frictionless", "moving down": "retracting"})
 CURVES: Mapping[str, str] = MappingProxyType({"F_R up": "moving up", "F_R down": "moving down"})
-SHOWN: Mapping[str, Callable[[], HeaderBalancer]] = MappingProxyType(
-    {
-        "2": lambda: with_header(1), "3": lambda: with_header(1), "4": lambda: with_header(2), "5": lambda: with_header(3),
-        "6": ImprovedBalancer, "7": lambda: with_header(1),
-    }
-)  # fmt: skip
 IMPROVED = ", improved mechanism"
-TITLES: Mapping[str, str] = MappingProxyType(
-    {
-        "2a": "Reaction of a shoe, hysteresis from the cylinders' seals only",
-        "2b": "What plain bearings at O add, as a force at a shoe",
-        "3a": "Pressure in the accumulators while following",
-        "3b": "Pressure needed to lift, over the whole stroke",
-        "4a": "Reaction of a shoe",
-        "4b": "Given and needed pressure",
-        "5a": "Reaction of a shoe",
-        "5b": "Given and needed pressure",
-        "6a": f"Reaction of a shoe{IMPROVED}",
-        "6b": f"Given and needed pressure{IMPROVED}",
-        "7": "Reaction of a shoe, calculated and measured",
-    }
-)
-NUMBERS = ("2", "2a", "2b", "3", "3a", "3b", "4", "4a", "4b", "5", "5a", "5b", "6", "6a", "6b", "7")
 
 
-def figure(number: int | str, machine: HeaderBalancer | None = None, measured: Sequence[Deviation] = ()) -> Any:
+def figure(number: int | str, machine: HeaderBalancer | None = None, measured: Sequence[Deviation] = ()) -> Figure:
     """Return a figure of the paper as a matplotlib figure: a half of it, "2a", or both side by side, 2.
 
     It shows the header of the paper's figure, or the `machine` given. `measured` curves are laid over the reactions.
     """
     key = str(number).replace(" ", "").lower()
-    if key not in NUMBERS:
-        raise DefinitionError(f"Figure {number} is unknown; there are {', '.join(NUMBERS)}.")
-    parts = [part for part in TITLES if part.startswith(key)]
-    shown = machine if machine is not None else SHOWN[key[0]]()
+    parts = {name: part for name, part in PARTS.items() if key and name.startswith(key)}
+    if not parts:
+        numbers = dict.fromkeys(each for name in PARTS for each in (name[0], name))
+        raise DefinitionError(f"Figure {number} is unknown; there are {', '.join(numbers)}.")
+    shown = machine if machine is not None else ImprovedBalancer() if key[0] == "6" else with_header({"4": 2, "5": 3}.get(key[0], 1))
     motion = over_following(shown.at(h=shown.strokes["h"].start))
     improved = "" if isinstance(shown, ImprovedBalancer) else IMPROVED
-    sheet, cells = _sheet({part: TITLES[part].removesuffix(improved) for part in parts}, _name(shown))
-    for part, ax in zip(parts, cells, strict=True):
-        DRAWN[part](ax, motion, measured)
+    sheet, cells = _sheet({name: part.title.removesuffix(improved) for name, part in parts.items()}, _name(shown))
+    for (name, part), ax in zip(parts.items(), cells, strict=True):
+        part.draw(ax, motion, measured)
         if key[0] == "6" and machine is None:
-            _as_it_stands(ax, part)
-        if part in REACTIONS:
+            _as_it_stands(ax, name)
+        if part.is_reaction:
             _hanging(ax)
         _finished(ax)
     return sheet
@@ -86,16 +72,15 @@ def figure(number: int | str, machine: HeaderBalancer | None = None, measured: S
 # -- reactions ---------------------------------------------------------------------------------------------
 
 
-def seals_alone(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+def seals_alone(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     """Draw figure 2 a: the reaction with no friction in any pin."""
-    reactions(ax, motion, measured, rubbing(motion))
+    reactions(ax, motion, measured, dry_frictions(motion))
 
 
-def reactions(ax: Any, motion: Motion, measured: Sequence[Deviation] = (), without: Sequence[str] = ()) -> None:
+def reactions(ax: Axes, motion: Motion, measured: Sequence[Deviation] = (), without: Sequence[str] = ()) -> None:
     """Draw the reaction of a shoe over its height: up, down, without friction; the paper's gas law thin beside; measured values dashed."""
-    from linkage.pictures import style
-
-    curves, printed, height = _reactions(motion, without), _reactions(_paper(motion), without), Balance(motion).height
+    paper = Motion(motion.plan, {**motion.designs, "atmosphere": 0.0}, motion.strokes, motion.unreachable)
+    curves, printed, height = _reactions(motion, without), _reactions(paper, without), HeaderState(motion).height
     _ways(ax, height, curves)
     if motion.inputs["atmosphere"]:
         apart = max(float(np.max(np.abs(values - printed[label]))) for label, values in curves.items())
@@ -106,51 +91,46 @@ def reactions(ax: Any, motion: Motion, measured: Sequence[Deviation] = (), witho
     _measured(ax, motion, measured)
 
 
-def compared(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+def with_measured(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     """Draw figure 7: calculated solid, with the band of the paper's 7 %, measured dashed."""
-    from linkage.pictures import style
-
-    height, curves, text = Balance(motion).height, _reactions(motion), f"{ALLOWED:g} % about the calculated ones"
+    height, curves, text = HeaderState(motion).height, _reactions(motion), f"{ALLOWED:g} % about the calculated ones"
     moving = {label: curves[label] for label in CURVES.values()}
     for label, values in moving.items():
         share = ALLOWED / 100.0 * np.abs(values)
-        ax.fill_between(height / mm, values - share, values + share, color=_colours()[label], alpha=0.14, linewidth=0, label=text)
+        ax.fill_between(height / mm, values - share, values + share, color=COLOURS[label], alpha=0.14, linewidth=0, label=text)
         text = "_"
     _ways(ax, height, moving)
     _measured(ax, motion, measured)
     if not measured:
-        where = {"xycoords": "axes fraction", "ha": "right"}
-        ax.annotate("no measured values given", (0.98, 0.10), **where, fontsize=style.SMALL, color=style.MUTED)
+        ax.annotate(
+            "no measured values given", (0.98, 0.10), xycoords="axes fraction", ha="right", fontsize=style.SMALL, color=style.MUTED
+        )  # fmt: skip
 
 
-def _ways(ax: Any, height: FloatArray, curves: Mapping[str, FloatArray]) -> None:
+def _ways(ax: Axes, height: FloatArray, curves: Mapping[str, FloatArray]) -> None:
     """Draw curves by the way of moving [kgf]."""
     for label, values in curves.items():
-        _curve(ax, height, values, _colours()[label], label)
+        _curve(ax, height, values, COLOURS[label], label)
     ax.set_ylabel("reaction of a shoe, kgf")
 
 
-def _measured(ax: Any, motion: Motion, measured: Sequence[Deviation]) -> None:
+def _measured(ax: Axes, motion: Motion, measured: Sequence[Deviation]) -> None:
     """Lay measured reactions over the calculated ones, with their largest deviation."""
-    from linkage.pictures import style
-
     for each in measured:
         if each.curve in CURVES:
             text = f"measured {CURVES[each.curve]}: up to {np.abs(each.percent).max():.1f} % apart"
             height, values = each.height / mm, each.measured / kgf / float(motion.inputs["shoes"])
-            look = {"color": _colours()[CURVES[each.curve]], "markersize": 5.5, "markeredgecolor": style.PAPER}
-            ax.plot(height, values, "--o", label=text, zorder=7.0, **look)
+            colour = COLOURS[CURVES[each.curve]]
+            ax.plot(height, values, "--o", label=text, zorder=7.0, color=colour, markersize=5.5, markeredgecolor=style.PAPER)
 
 
-def bearings(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+def bearings(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     """Draw figure 2 b: what plain bearings at O add to the reaction, up and down, as a force at a shoe."""
-    from linkage.pictures import style
-
-    balance, shoes = Balance(motion), float(motion.inputs["shoes"])
+    balance, shoes = HeaderState(motion), float(motion.inputs["shoes"])
     radius = float(motion.inputs[f"{BEARING}.radius"])
     for label in ("moving up", "moving down"):
         added = (balance.reaction(WAYS[label], PLAIN) - balance.reaction(WAYS[label], 0.0)) / kgf / shoes
-        _curve(ax, balance.height, added, _colours()[label], label)
+        _curve(ax, balance.height, added, COLOURS[label], label)
     ratio = balance.of_bearing(PLAIN) / balance.of_bearing(0.0)
     ax.axhline(0.0, color=style.MUTED, linewidth=0.8, zorder=2.0)
     says = f"r = {radius / mm:.0f} mm, mu = {PLAIN:g}: hysteresis x{ratio.min():.2f} to x{ratio.max():.2f} of rolling bearings'"
@@ -164,24 +144,20 @@ def bearings(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> Non
 # -- pressures ---------------------------------------------------------------------------------------------
 
 
-def given(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+def given_pressure(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     """Draw the pressure in the accumulators over the shoe's height, and the charges of the pairs about there."""
-    from linkage.pictures import style
-
-    balance = Balance(motion)
+    balance = HeaderState(motion)
     _curve(ax, balance.height, balance.pressure / kgf_cm2, style.CURVE, "in the accumulators")
     ax.set_ylabel("pressure, kgf/cm²")
     _charges(ax, balance)
 
 
-def needed(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+def needed_pressure(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     """Draw figure 3 b: the pressure at which the shoes carry nothing, up and down, from the shoe's lowest place to the stroke's end."""
-    from linkage.pictures import style
-
     lowest, end = motion.strokes["h"][0], motion.plan.strokes["h"].end
-    balance = Balance(motion.moved({"h": np.linspace(lowest, end, 101)}))
+    balance = HeaderState(motion.moved({"h": np.linspace(lowest, end, 101)}))
     for label in ("moving up", "moving down"):
-        _curve(ax, balance.height, balance.required_while(WAYS[label]) / kgf_cm2, _colours()[label], label)
+        _curve(ax, balance.height, balance.required_while(WAYS[label]) / kgf_cm2, COLOURS[label], label)
     follows = float(motion.inputs["follows"]) / mm
     ax.axvspan(-follows, follows, color=style.CURVE, alpha=0.08, linewidth=0, label="following range")
     for name, pressure in (("pump", motion.inputs["pump"]), ("relief valve", motion.inputs["valve"])):
@@ -189,40 +165,51 @@ def needed(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     ax.set_ylabel("pressure, kgf/cm²")
 
 
-def matched(ax: Any, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
+def both_pressures(ax: Axes, motion: Motion, measured: Sequence[Deviation] = ()) -> None:
     """Draw given and needed pressure over the shoe's height, the latter with friction as a band."""
-    from linkage.pictures import style
-
-    balance = Balance(motion)
+    balance = HeaderState(motion)
     up, down = (balance.required_while(way) / kgf_cm2 for way in ("extending", "retracting"))
     text = "with friction: up at the upper edge, down at the lower"
     ax.fill_between(balance.height / mm, down, up, color=style.ACCENT, alpha=0.12, linewidth=0, label=text)
     _curve(ax, balance.height, balance.required / kgf_cm2, style.ACCENT, "needed: the shoes carry nothing")
-    given(ax, motion)
+    given_pressure(ax, motion)
     ax.margins(y=0.14)  # room for the legend
 
 
-DRAWN: Mapping[str, Callable[[Any, Motion, Sequence[Deviation]], None]] = MappingProxyType(
+class FigurePart(NamedTuple):
+    """A half of a figure: its title, what draws it, and whether it shows reactions, which may fall below zero."""
+
+    title: str
+    draw: Callable[[Axes, Motion, Sequence[Deviation]], None]
+    is_reaction: bool = False
+
+
+PARTS: Mapping[str, FigurePart] = MappingProxyType(
     {
-        "2a": seals_alone, "2b": bearings, "3a": given, "3b": needed, "4a": reactions, "4b": matched, "5a": reactions, "5b": matched,
-        "6a": reactions, "6b": matched, "7": compared,
+        "2a": FigurePart("Reaction of a shoe, hysteresis from the cylinders' seals only", seals_alone, is_reaction=True),
+        "2b": FigurePart("What plain bearings at O add, as a force at a shoe", bearings),
+        "3a": FigurePart("Pressure in the accumulators while following", given_pressure),
+        "3b": FigurePart("Pressure needed to lift, over the whole stroke", needed_pressure),
+        "4a": FigurePart("Reaction of a shoe", reactions, is_reaction=True),
+        "4b": FigurePart("Given and needed pressure", both_pressures),
+        "5a": FigurePart("Reaction of a shoe", reactions, is_reaction=True),
+        "5b": FigurePart("Given and needed pressure", both_pressures),
+        "6a": FigurePart(f"Reaction of a shoe{IMPROVED}", reactions, is_reaction=True),
+        "6b": FigurePart(f"Given and needed pressure{IMPROVED}", both_pressures),
+        "7": FigurePart("Reaction of a shoe, calculated and measured", with_measured, is_reaction=True),
     }
-)  # fmt: skip
-
-REACTIONS = ("2a", "4a", "5a", "6a", "7")
+)
 
 
-def _as_it_stands(ax: Any, part: str) -> None:
+def _as_it_stands(ax: Axes, part: str) -> None:
     """Lay header 1 on the machine as it stands beside the improved one, thin."""
-    from linkage.pictures import style
-
     motion = over_following(with_header(1).at(h=0.0))
-    balance = Balance(motion)
+    balance = HeaderState(motion)
     if part == "6a":
         found = _reactions(motion)
         for label in ("moving up", "moving down"):
             text = f"as it stands, {label}"
-            ax.plot(balance.height / mm, found[label], color=_colours()[label], linewidth=1.1, linestyle=":", label=text, zorder=4.0)
+            ax.plot(balance.height / mm, found[label], color=COLOURS[label], linewidth=1.1, linestyle=":", label=text, zorder=4.0)
         low, high = ax.get_ylim()
         ax.set_ylim(low, high + 0.25 * (high - low))  # room for the legend
     else:
@@ -233,7 +220,7 @@ def _as_it_stands(ax: Any, part: str) -> None:
             ax.plot(balance.height / mm, values / kgf_cm2, color=colour, linewidth=1.1, linestyle=":", label=text, zorder=4.0)
 
 
-def _charges(ax: Any, balance: Balance) -> None:
+def _charges(ax: Axes, balance: HeaderState) -> None:
     """Mark the gas charges near the curves: below its own a pair is off; where it joins there is a kink."""
     motion = balance.motion
     shown = np.concatenate([np.asarray(line.get_ydata(), float) for line in ax.get_lines()])
@@ -243,15 +230,13 @@ def _charges(ax: Any, balance: Balance) -> None:
         if volume <= 0.0 or not low - 0.2 * (high - low) <= gas / kgf_cm2 <= high + 0.2 * (high - low):
             continue
         _level(ax, gas / kgf_cm2, f"gas charge of a pair ({volume / litre:.4g} l), {gas / kgf_cm2:.4g}: off below")
-        works = below_zero(motion, lambda at, gas=gas: gas - Balance(at).pressure)  # type: ignore[misc]
+        works = below_zero(motion, lambda at, gas=gas: gas - HeaderState(at).pressure)  # type: ignore[misc]
         if works and works[-1].end["h"] < motion.strokes["h"][-1]:
             height = float(motion.moved({"h": np.array([works[-1].end["h"]])}).y("R")[0]) / mm
             _kink(ax, height, gas / kgf_cm2)
 
 
-def _kink(ax: Any, height: float, pressure: float) -> None:
-    from linkage.pictures import style
-
+def _kink(ax: Axes, height: float, pressure: float) -> None:
     ax.plot(height, pressure, "o", color=style.CURVE, markersize=7, markeredgecolor=style.PAPER, zorder=8.0)
     ax.annotate(
         "the pair joins: a kink", (height, pressure), xytext=(-10, -22), textcoords="offset points", ha="right",
@@ -268,17 +253,6 @@ def _reactions(motion: Motion, without: Sequence[str] = ()) -> dict[str, FloatAr
     return {label: reaction(motion, loads, SHOE, direction=way) / kgf / shoes for label, way in WAYS.items()}
 
 
-def _paper(motion: Motion) -> Motion:
-    """Return the motion with the gas law on gauge pressures."""
-    return Motion(motion.plan, {**motion.designs, "atmosphere": 0.0}, motion.strokes, motion.unreachable)
-
-
-def _colours() -> dict[str, str]:
-    from linkage.pictures import style
-
-    return {"moving up": style.CURVE, "without friction": style.MUTED, "moving down": style.ACCENT}
-
-
 def _name(machine: HeaderBalancer) -> str:
     """Return the header's number where it is one of the published ones, with the charge."""
     own = ("m2", "L_OR", "BOR", "OG2", "BOG2")
@@ -287,17 +261,10 @@ def _name(machine: HeaderBalancer) -> str:
     return f"{what}, {machine['m2']:.0f} kg, charged to {machine['charge'] / kgf_cm2:.4g} kgf/cm²"
 
 
-def _sheet(titles: Mapping[str, str], name: str) -> tuple[Any, list[Any]]:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
-    from linkage.pictures import style
-    from linkage.pictures.sheet import Picture, quiet
-
-    sheet = Picture(figsize=SIZE if len(titles) == 1 else PAIR, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
-    FigureCanvasAgg(sheet)
-    cells = [sheet.add_subplot(1, len(titles), place + 1) for place in range(len(titles))]
+def _sheet(titles: Mapping[str, str], name: str) -> tuple[Figure, list[Axes]]:
+    """Return an empty figure with a titled part for each key, `2a` or `7`, that also names the header."""
+    sheet, cells = panels(SIZE if len(titles) == 1 else PAIR, len(titles))
     for (part, title), ax in zip(titles.items(), cells, strict=True):
-        quiet(ax)
         number = f"{part[0]} {part[1:]}".strip()
         ax.set_title(f"{number}   {title}", loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=26)
         ax.annotate(
@@ -308,14 +275,12 @@ def _sheet(titles: Mapping[str, str], name: str) -> tuple[Any, list[Any]]:
     return sheet, cells
 
 
-def _curve(ax: Any, height: FloatArray, values: FloatArray, colour: str, label: str) -> None:
+def _curve(ax: Axes, height: FloatArray, values: FloatArray, colour: str, label: str) -> None:
     ax.plot(height / mm, values, color=colour, linewidth=2.0, label=label, zorder=5.0)
 
 
-def _level(ax: Any, value: float, text: str) -> None:
+def _level(ax: Axes, value: float, text: str) -> None:
     """Draw a pressure that matters as a line across, with its name."""
-    from linkage.pictures import style
-
     ax.axhline(value, color=style.MUTED, linewidth=1.0, linestyle=(0, (4, 3)), zorder=2.0)
     ax.annotate(
         text, (1.0, value), xycoords=("axes fraction", "data"), xytext=(-4, 3), textcoords="offset points", ha="right", va="bottom",
@@ -323,10 +288,8 @@ def _level(ax: Any, value: float, text: str) -> None:
     )  # fmt: skip
 
 
-def _hanging(ax: Any) -> None:
+def _hanging(ax: Axes) -> None:
     """Shade where the shoe hangs: a reaction below zero."""
-    from linkage.pictures import style
-
     low, high = ax.get_ylim()
     low = min(low, -0.05 * high)
     ax.axhspan(low, 0.0, color=style.ACCENT, alpha=0.10, linewidth=0, zorder=1.0)
@@ -338,9 +301,8 @@ def _hanging(ax: Any) -> None:
     )  # fmt: skip
 
 
-def _finished(ax: Any) -> None:
-    from linkage.pictures import style
-
-    along = np.concatenate([np.asarray(line.get_xdata(), float) for line in ax.get_lines() if len(line.get_xdata()) > 2])
+def _finished(ax: Axes) -> None:
+    lines = [np.asarray(line.get_xdata(), float) for line in ax.get_lines()]
+    along = np.concatenate([each for each in lines if len(each) > 2])
     ax.set_xlim(float(along.min()), float(along.max()))
     ax.legend(loc="best", fontsize=style.SMALL, facecolor=style.PAPER, edgecolor="none", framealpha=0.85, labelcolor=style.INK)

@@ -47,7 +47,7 @@ def stroke_of(motion: Motion, height: float) -> float:
     require_header(motion)
     if not is_number(height):
         raise DefinitionError(f"height={cited(height)}: one number in m is expected, above the horizon.")
-    if motion.design_shape:
+    if motion._design_shape:
         raise DefinitionError("The following range is found for one design at a time; this motion has a batch of them.")
     given = motion.inputs
     with np.errstate(all="ignore"):
@@ -90,13 +90,13 @@ def own_loads(motion: Motion, *but: str) -> list[str]:
     return [name for name in motion.plan.of_kind(ForceElement) if name not in but]
 
 
-def rubbing(motion: Motion) -> list[str]:
+def dry_frictions(motion: Motion) -> list[str]:
     """Return the names of the loads that are dry friction of pins and guides."""
     return [name for name, each in motion.plan.of_kind(ForceElement).items() if each.frictions(motion)]
 
 
 @dataclass(frozen=True)
-class Balance:
+class HeaderState:
     """What a motion's poses have: arm, pressures, reactions; every array of the motion's shape, kept once found."""
 
     motion: Motion
@@ -187,7 +187,7 @@ class Balance:
     @cached_property
     def of_seals(self) -> FloatArray:
         """The share of the hysteresis that the cylinders' seals make alone, without friction in any pin [N]."""
-        return self.hysteresis_without(*rubbing(self.motion))
+        return self.hysteresis_without(*dry_frictions(self.motion))
 
     @cached_property
     def of_pin(self) -> FloatArray:
@@ -202,12 +202,12 @@ class Balance:
     @cached_property
     def others(self) -> list[str]:
         """The names of the friction that was added, beside that of the pin at O."""
-        return [name for name in rubbing(self.motion) if name != BEARING]
+        return [name for name in dry_frictions(self.motion) if name != BEARING]
 
 
 def reaction_columns(motion: Motion) -> list[Column]:
     """Return the table of a motion in the paper's units."""
-    balance, shoes = Balance(motion), motion.inputs["shoes"]
+    balance, shoes = HeaderState(motion), motion.inputs["shoes"]
     force = {"up": balance.up, "down": balance.down}
     return [
         Column("h", motion.strokes["h"], "mm", 1),
@@ -237,7 +237,7 @@ class Relief:
 def relief(motion: Motion) -> Relief:
     """Return how far the pressure stays below the relief valve from the horizon to the end of the stroke, one design."""
     lifted = motion.moved({"h": np.array([stroke_of(motion, 0.0), motion.plan.strokes["h"].end])})
-    most = greatest(lifted, lambda at: Balance(at).required_while("extending"))
+    most = greatest(lifted, lambda at: HeaderState(at).required_while("extending"))
     return Relief(float(most.value), float(most.strokes["h"]), float(motion.inputs["valve"]) - float(most.value))
 
 

@@ -95,7 +95,7 @@ class HeaderBalancer(Mechanism):
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return the paper's five criteria in words, over the following range of one design."""
-        if motion.design_shape:
+        if motion._design_shape:
             return ["The criteria are judged for one design at a time; this motion has a batch of them."]
         return [str(each) for each in criteria(motion)]
 

@@ -17,7 +17,7 @@ from linkage.errors import cited
 from linkage.program import FloatArray
 from linkage.units import UNITS, mm
 
-from .following import Balance, stroke_of
+from .following import HeaderState, stroke_of
 
 ALLOWED = 7.0
 """Largest deviation of the paper's own measurement [%]."""
@@ -119,6 +119,6 @@ def _each(motion: Motion, measured: Mapping[str, FloatArray]) -> Iterator[Deviat
         if values is None or not good.any():
             continue
         h = place[good] if "h" in measured else np.array([stroke_of(motion, float(height)) for height in place[good]])
-        balance = Balance(motion.moved({"h": h}))
+        balance = HeaderState(motion.moved({"h": h}))
         calculated = {"F_R up": balance.up, "F_R down": balance.down, "P": balance.pressure}[curve]
         yield Deviation(curve, balance.height, values[good], calculated)

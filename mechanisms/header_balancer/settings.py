@@ -11,9 +11,8 @@ from linkage import Column, DefinitionError
 from linkage.errors import cited
 from linkage.quantities import is_whole, real
 
-from .charge import SLOW, Way, charge_for, largest_charge
-from .following import Balance, over_following
-from .headers import HEADERS
+from .charge import HEADERS, SLOW, Way, charge_for, largest_charge
+from .following import HeaderState, over_following
 from .machine import HeaderBalancer
 
 
@@ -65,6 +64,6 @@ def _charge(motion: Any, force: float) -> float:
 def _least(machine: HeaderBalancer, charge: float) -> float:
     """Return the least reaction moving down [N] at a charge [Pa]; NaN where the block is rigid at it or the pump too weak."""
     try:
-        return float(np.min(Balance(over_following(machine.replaced(charge=charge).at(h=0.0))).down))
+        return float(np.min(HeaderState(over_following(machine.replaced(charge=charge).at(h=0.0))).down))
     except DefinitionError:
         return float("nan")

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
 
-from linkage import Column, DefinitionError, Motion
+from linkage import Column, DefinitionError, Motion, max_table, pin_forces
 from linkage.cli.command import Command, figure_path, machine_arguments, motion_arguments, picture_argument
 from linkage.cli.machines import find_like
 from linkage.cli.settings import design, motion_at
 from linkage.cli.table import csv_argument, write_table
+from linkage.statics import table_text
 
-from .categories import CATEGORIES
-from .figures import NAMES, figure
-from .machine import ThreePointHitch
-from .report import capacity_columns, pin_table
-from .weakest import pressure_words
+from . import FIGURES, figure
+from .machine import CATEGORIES, ThreePointHitch
+from .report import capacity_columns, pressure_words
 from .zones import capacity_zone, mast_words, tilt_zone, zone_columns
 
 LEGEND = """S stroke; F_y height of the hitch points; I = dG_y/dS; capacity at G at the full pressure;
@@ -37,21 +36,26 @@ class Capacity(Command):
         parser.add_argument("--pins", action="store_true", help="the largest force of every pin too, its direction and pose")
         csv_argument(parser)
         picture_argument(parser, "the figure")
-        parser.add_argument("--figure", choices=NAMES, help="which figure (default: capacity, with --zones zones)")
+        parser.add_argument("--figure", choices=FIGURES, help="which figure (default: capacity, with --zones zones)")
         motion_arguments(parser, 11)
 
     def run(self, options: Namespace) -> int:
-        machine = chosen(options)
+        machine = hitch_of(options)
         path = figure_path(options, type(machine), self.name)
         over = motion_at(machine, options.strokes, options.count)
         if options.category:
             print(f"{CATEGORIES[options.category]}.\n")
-        columns = zone_table(machine, over) if options.zones else hitch_table(machine, over)
+        if options.zones:
+            columns = zone_table(machine, over)
+        else:
+            eta = float(over.inputs["circuit.mechanical_efficiency"])
+            print(f"{pressure_words(over)}, eta {eta:.4g}. Pressures are gauge.\n{LEGEND}\n")
+            columns = capacity_columns(over)
         write_table(columns, over.reached.size, options.csv)
         if options.pins:
-            print(f"\n{pin_table(over)}")
+            print(f"\n{table_text(max_table([pin_forces(over)]))}")
         if options.vertical:
-            print("", *mast_settings(machine, over), sep="\n")
+            print("", *(f"S = {S:.4f} m: {mast_words(machine, float(S))}" for S in over.strokes["S"].ravel()), sep="\n")
         print()
         for sentence in machine.verdicts(over):
             print(sentence)
@@ -61,7 +65,7 @@ class Capacity(Command):
         return 0
 
 
-def chosen(options: Namespace) -> ThreePointHitch:
+def hitch_of(options: Namespace) -> ThreePointHitch:
     """Return the hitch that the options mean."""
     found = find_like(options.machine, ThreePointHitch, "three-point hitch", admissible={})
     if not found.admissible and (options.zones or options.figure == "zones"):
@@ -73,20 +77,9 @@ def chosen(options: Namespace) -> ThreePointHitch:
     return machine
 
 
-def hitch_table(machine: ThreePointHitch, over: Motion) -> list[Column]:
-    """Return the table of capacities, its columns told."""
-    print(f"{pressure_words(over)}, eta {float(over.inputs['circuit.mechanical_efficiency']):.4g}. Pressures are gauge.\n{LEGEND}\n")
-    return capacity_columns(over)
-
-
 def zone_table(machine: ThreePointHitch, over: Motion) -> list[Column]:
     """Return the table of the zones, what they leave out told."""
     capacity, tilt = capacity_zone(machine, S=over.strokes["S"]), tilt_zone(machine, S=over.strokes["S"])
     for remark in dict.fromkeys((*capacity.remarks, *tilt.remarks)):
         print(f"{remark}\n")
     return zone_columns(capacity, tilt)
-
-
-def mast_settings(machine: ThreePointHitch, over: Motion) -> list[str]:
-    """Return the upper link's length for a vertical mast at every stroke of a motion, in words."""
-    return [f"S = {S:.4f} m: {mast_words(machine, float(S))}" for S in over.strokes["S"].ravel()]

@@ -1,4 +1,4 @@
-"""The hitch's figures, one call each: `figure("zones")`. Matplotlib and the house's style are loaded when one is drawn.
+"""The hitch's figures, one call each: `figure("zones")`. They load matplotlib, and are loaded when one is drawn.
 
 "zones" is figure 2 of the paper, over the admissible settings; "capacity" the capacity curve with its weakest point and
 the tractor's limits; "lift" the hitch at the ends of its lift range.
@@ -6,41 +6,45 @@ the tractor's limits; "lift" the hitch at the ends of its lift range.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 from linkage import DefinitionError, Motion, draw
 from linkage.errors import unknown
+from linkage.pictures import style
+from linkage.pictures.sheet import panels
 from linkage.program import FloatArray
 from linkage.reports import closely
 from linkage.study import Zone
 from linkage.units import deg, g0, kN, mm
 
-from .capacity import at_hitch_points, behind, capacity
+from .capacity import at_hitch_points, behind, capacity, weakest
 from .machine import ThreePointHitch
 from .tractor import largest_mass, tipping_mass
-from .weakest import weakest
 from .zones import admissible, capacity_zone, tilt_zone
 
-NAMES = ("zones", "capacity", "lift")
 COUNT = 101
 
 
-def figure(name: str, hitch: ThreePointHitch | None = None) -> Any:
+def figure(name: str, hitch: ThreePointHitch | None = None) -> Figure:
     """Return a figure of a hitch, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch."""
     shown = hitch if hitch is not None else ThreePointHitch()
-    if name not in NAMES:
-        raise unknown("Figure", name, NAMES)
+    if name not in DRAWN:
+        raise unknown("Figure", name, DRAWN)
     if any(np.ndim(value) for value in shown.dimensions.values()):
         raise DefinitionError(f"{shown.plan.title}: a figure shows one design, this is a batch; choose one of them.")
-    return {"zones": zones, "capacity": curves, "lift": lift_range}[name](shown)
+    return DRAWN[name](shown)
 
 
 # -- figure 2 ----------------------------------------------------------------------------------------------
 
 
-def zones(hitch: ThreePointHitch) -> Any:
+def zones(hitch: ThreePointHitch) -> Figure:
     """Return the zones of capacity and tilt over the stroke, one band for each mounting hole, with the nominal curves."""
     sheet, (left, right) = _sheet(2, "Zones over all admissible settings")
     motion = hitch.at(S=np.linspace(hitch.strokes["S"].start, hitch.strokes["S"].end, COUNT), unreachable="nan")
@@ -55,14 +59,12 @@ def zones(hitch: ThreePointHitch) -> Any:
     _curve(right, motion.strokes["S"] / mm, motion["tilt"] / deg, "INK", f"set to {set_to} mm")
     _named(left, "Lifting capacity", "stroke S, mm", "capacity at G, kN")
     _named(right, "Tilt of the upright", "stroke S, mm", "tilt, deg; + leans towards the tractor")
-    sheet.text(0.012, 0.012, _settings_words(over), fontsize=8.5, color="#67737f", ha="left")
-    right.axhline(0.0, color="#67737f", linewidth=0.8, zorder=2.0)
+    sheet.text(0.012, 0.012, _settings_words(over), fontsize=style.SMALL, color=style.MUTED, ha="left")
+    right.axhline(0.0, color=style.MUTED, linewidth=0.8, zorder=2.0)
     return sheet
 
 
-def _band(ax: Any, zone: Zone, unit: float, place: int, text: str) -> None:
-    from linkage.pictures import style
-
+def _band(ax: Axes, zone: Zone, unit: float, place: int, text: str) -> None:
     colour = (style.CURVE, style.ACCENT, *style.BODIES)[place % 8]
     S = zone.strokes["S"] / mm
     ax.fill_between(S, zone.low / unit, zone.high / unit, color=colour, alpha=0.22, linewidth=0, zorder=3.0 + place, label=text)
@@ -79,7 +81,7 @@ def _settings_words(over: Any) -> str:
 # -- the capacity curve ------------------------------------------------------------------------------------
 
 
-def curves(hitch: ThreePointHitch) -> Any:
+def curves(hitch: ThreePointHitch) -> Figure:
     """Return the capacity over the stroke with its weakest point, the test curves, and the tractor's limits."""
     sheet, (ax,) = _sheet(1, "Lifting capacity")
     start, end = hitch.strokes["S"].start, hitch.strokes["S"].end
@@ -97,14 +99,12 @@ def curves(hitch: ThreePointHitch) -> Any:
     _named(ax, "", "stroke S, mm", "load that can be lifted, kN")
     ax.set_ylim(0.0, None)
     _heights(ax, motion)
-    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, fontsize=8.5, frameon=False, labelcolor="#24313f")
+    ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, fontsize=style.SMALL, frameon=False, labelcolor=style.INK)
     return sheet
 
 
-def _mark(ax: Any, motion: Motion) -> None:
+def _mark(ax: Axes, motion: Motion) -> None:
     """Mark the weakest point of the capacity curve."""
-    from linkage.pictures import style
-
     found = weakest(motion)
     if found is None:
         return
@@ -118,25 +118,24 @@ def _mark(ax: Any, motion: Motion) -> None:
     )  # fmt: skip
 
 
-def _heights(ax: Any, motion: Motion) -> None:
+def _heights(ax: Axes, motion: Motion) -> None:
     """Add an upper axis with the height of the hitch points where it follows the stroke."""
     height, S = motion.y("F") / mm, motion.strokes["S"] / mm
     if not np.all(np.diff(height) > 0.0):
         return
-    upper = ax.secondary_xaxis("top", functions=(lambda s: np.interp(s, S, height), lambda h: np.interp(h, height, S)))
+    there_and_back = (lambda s: np.interp(np.asarray(s), S, height), lambda h: np.interp(np.asarray(h), height, S))
+    upper = ax.secondary_xaxis("top", functions=there_and_back)
     upper.set_xticks(np.arange(np.ceil(height[0] / 100.0), np.floor(height[-1] / 100.0) + 1.0) * 100.0)
-    upper.set_xlabel("height of the hitch points F, mm", fontsize=10.0, color="#67737f")
-    upper.tick_params(colors="#67737f", labelsize=8.5, length=3)
-    upper.spines["top"].set_color("#c3cbd3")
+    upper.set_xlabel("height of the hitch points F, mm", fontsize=style.TEXT, color=style.MUTED)
+    upper.tick_params(colors=style.MUTED, labelsize=style.SMALL, length=3)
+    upper.spines["top"].set_color(style.RULE)
 
 
 # -- the lift range ----------------------------------------------------------------------------------------
 
 
-def lift_range(hitch: ThreePointHitch) -> Any:
+def lift_range(hitch: ThreePointHitch) -> Figure:
     """Return the hitch lowered (faint) and lifted, with the lift range of the hitch points."""
-    from linkage.pictures import style
-
     sheet = draw(hitch, path=["F", "G"])
     (ax,) = sheet.axes
     ends = hitch.at(S=[hitch.strokes["S"].start, hitch.strokes["S"].end])
@@ -154,37 +153,26 @@ def lift_range(hitch: ThreePointHitch) -> Any:
     return sheet
 
 
+DRAWN: Mapping[str, Callable[[ThreePointHitch], Figure]] = MappingProxyType({"zones": zones, "capacity": curves, "lift": lift_range})
+
+
 # -- the sheet ---------------------------------------------------------------------------------------------
 
 
-def _sheet(count: int, title: str) -> tuple[Any, list[Any]]:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-
-    from linkage.pictures import style
-    from linkage.pictures.sheet import Picture, quiet
-
-    size = (10.6, 5.2) if count == 2 else (8.4, 6.2)
-    sheet: Any = Picture(figsize=size, dpi=style.DPI, facecolor=style.PAPER, layout="constrained")
-    FigureCanvasAgg(sheet)
-    below = 0.05 if count == 2 else 0.01
-    sheet.get_layout_engine().set(rect=(0.005, below, 0.98, 0.985 - below), w_pad=0.08, h_pad=0.08)
+def _sheet(count: int, title: str) -> tuple[Figure, list[Axes]]:
+    """Return an empty figure with a title and so many axes."""
+    size, below = ((10.6, 5.2), 0.05) if count == 2 else ((8.4, 6.2), 0.01)
+    sheet, cells = panels(size, count, rect=(0.005, below, 0.98, 0.985 - below), w_pad=0.08, h_pad=0.08)
     sheet.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
-    cells = [sheet.add_subplot(1, count, place + 1) for place in range(count)]
-    for ax in cells:
-        quiet(ax)
     return sheet, cells
 
 
-def _curve(ax: Any, along: FloatArray, values: FloatArray, colour: str, text: str, line: str = "-", width: float = 2.0) -> None:
-    from linkage.pictures import style
-
+def _curve(ax: Axes, along: FloatArray, values: FloatArray, colour: str, text: str, line: str = "-", width: float = 2.0) -> None:
     ax.plot(along, values, color=getattr(style, colour), linewidth=width, linestyle=line, label=text, zorder=6.0)
     ax.set_xlim(float(along.min()), float(along.max()))
 
 
-def _named(ax: Any, title: str, along: str, value: str) -> None:
-    from linkage.pictures import style
-
+def _named(ax: Axes, title: str, along: str, value: str) -> None:
     if title:
         ax.set_title(title, loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
         ax.legend(loc="best", fontsize=style.SMALL, frameon=False, labelcolor=style.INK)

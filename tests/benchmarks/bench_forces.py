@@ -39,7 +39,7 @@ from linkage import (
     pin_force,
     pin_forces,
 )
-from linkage.program import FloatArray, pinned
+from linkage.program import FloatArray, fixed_backend
 from linkage.program.numba_backend import is_there
 from linkage.units import MPa, litre, minute
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -115,7 +115,7 @@ def requested(kind: str, backend: str, stroke: FloatArray) -> list[Case]:
         return hitch.evaluate([asked], S=stroke, backend=backend)[0]
 
     def slopes() -> Any:
-        with pinned(backend):
+        with fixed_backend(backend):
             return motion.gradient(asked, LENGTHS)
 
     return [

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from linkage.program import pinned
+from linkage.program import fixed_backend
 from linkage.study import Box, Survey, survey
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.benchmarks.bench_kernel import machine
@@ -63,7 +63,7 @@ def timed(over: dict[str, Any], executor: Any, here: bool, **options: Any) -> To
 def bare(over: dict[str, Any], piece: int = 2048) -> float:
     """Return what the same work takes in a plain loop, one mechanism of 2048 designs after the other [s]."""
     hitch, count, start = ThreePointHitch(), len(over["OB"]), time.process_time()
-    with pinned("numpy"):
+    with fixed_backend("numpy"):
         for first in range(0, count, piece):
             measure(hitch.replaced(**{name: value[first : first + piece] for name, value in over.items()}))
     return time.process_time() - start

@@ -17,12 +17,11 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, LinkageError, Mechanism, Stroke
 from linkage.program import Graph, Kernel, Level, Way, interpret, jacobian, solve_arrays
-from linkage.program.cache import Kept, compiled
+from linkage.program.cache import CompiledFile, compiled
 from linkage.program.elimination import expanded
 from linkage.program.foreign import c_text, javascript_text
-from linkage.program.kernel import halved
 from linkage.program.loop import numba_text
-from linkage.program.numpy_backend import aligned, cache_size
+from linkage.program.numpy_backend import aligned, cache_size, with_half_angles
 from linkage.program.schedule import ancestors, lowered, schedule
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.random_mechanisms import random_mechanism
@@ -46,7 +45,7 @@ def given(machine, poses, beyond=0.3, seed=3):
     random = np.random.default_rng(seed)
     ends = {name: (stroke.start, stroke.end - stroke.start) for name, stroke in machine.plan.strokes.items()}
     strokes = {name: start + span * random.uniform(-beyond, 1.0 + beyond, poses) for name, (start, span) in ends.items()}
-    return machine().at(unreachable="nan", **strokes).grid.flat
+    return machine().at(unreachable="nan", **strokes)._grid.flat
 
 
 def firm(machine, inputs):
@@ -81,7 +80,7 @@ def as_loop(kernel, inputs):
 
 def by_nodes(kernel, inputs):
     """Return a kernel's values node by node, shape (outputs, poses)."""
-    values = interpret(kernel._wanted[0], inputs)
+    values = interpret(kernel.outputs, inputs)
     shape = np.broadcast_shapes(*(np.shape(value) for value in values))[-1:]
     return np.array([np.broadcast_to(np.ravel(value), shape) for value in values])
 
@@ -152,7 +151,7 @@ def hitch_designs(m, n):
 def test_designs_and_poses_in_every_proportion(m, n):
     kernel, inputs = everything(ThreePointHitch), hitch_designs(m, n)
     tall = {name: value if name == "S" or np.ndim(value) == 0 else value[:, None] for name, value in inputs.items()}
-    wanted = np.array([np.broadcast_to(part, (m, n)) for part in interpret(kernel._wanted[0], tall)])
+    wanted = np.array([np.broadcast_to(part, (m, n)) for part in interpret(kernel.outputs, tall)])
     agree(kernel(inputs, way=Way("numpy")).values, wanted)
     agree(kernel(inputs, way=Way("numpy", threads=3)).values, wanted)
     out = np.full((24, m, n), 7.0)
@@ -192,7 +191,7 @@ def cache_folder(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("machine", [ThreePointHitch, SHIPPED[GROUPED[0]]])
-def test_the_compiled_loop_agrees_and_is_kept(machine, cache_folder):
+def test_the_compiled_loop_agrees_and_is_cached(machine, cache_folder):
     pytest.importorskip("numba")
     inputs = given(machine, 300)
     first, second = everything.__wrapped__(machine, guarded=True), everything.__wrapped__(machine, guarded=True)
@@ -207,13 +206,13 @@ def test_the_compiled_loop_agrees_and_is_kept(machine, cache_folder):
 
 
 def test_a_program_is_written_once_and_mended(cache_folder):
-    file = Kept.of("x = 1\n").file
+    file = CompiledFile.of("x = 1\n").file
     date = file.stat().st_mtime_ns
-    assert Kept.of("x = 1\n").file == file
+    assert CompiledFile.of("x = 1\n").file == file
     assert file.stat().st_mtime_ns == date
     for wrong in (b"x = 2\n", b"\xff\n", b""):
         file.write_bytes(wrong)
-        assert Kept.of("x = 1\n").file.read_text(encoding="utf-8") == "x = 1\n"
+        assert CompiledFile.of("x = 1\n").file.read_text(encoding="utf-8") == "x = 1\n"
     assert sorted(each.name for each in cache_folder.iterdir()) == ["__pycache__", file.name]
 
 
@@ -236,7 +235,7 @@ def test_an_unknown_way_is_refused(asked):
 @pytest.mark.parametrize("machine", [ThreePointHitch, SHIPPED[GROUPED[0]]])
 def test_the_text_in_c_agrees(machine, tmp_path):
     kernel, inputs = everything(machine), given(machine, 200)
-    (tmp_path / "k.c").write_text(c_text(kernel._wanted[0]), encoding="utf-8")
+    (tmp_path / "k.c").write_text(c_text(kernel.outputs), encoding="utf-8")
     flags = ["-O2", "-std=c99", "-Wall", "-Werror", "-Wno-unused-variable", "-shared", "-fPIC"]
     subprocess.run(["gcc", *flags, "-o", tmp_path / "k.so", tmp_path / "k.c", "-lm"], check=True)
     pointer = ctypes.POINTER(ctypes.c_double)
@@ -254,7 +253,7 @@ def test_sines_and_cosines_are_those_of_numpy(name):
     node = graph.apply(name, graph.input("a", Level.POSE))
     quarters = np.arange(-9, 10) * (math.pi / 2)
     a = np.concatenate([np.linspace(-50.0, 50.0, 4001), quarters, quarters + 1e-9, [0.0, 1e5, -1e5, np.nan, np.inf]])
-    (halfway,) = halved([node])
+    (halfway,) = with_half_angles([node])
     assert [each.op for each in ancestors([halfway])].count("tan") == 1
     whole = uncompiled(schedule([node])).__globals__[{"sin": "sine", "cos": "cosine"}[name]]
     with np.errstate(invalid="ignore"):
@@ -272,7 +271,7 @@ def test_the_text_in_javascript_agrees(machine):
     rows = np.array([np.ravel(inputs[node.value]) for node in plan.pose_inputs]).T.tolist()
     asked = json.dumps([[inputs[node.value] for node in plan.design_inputs], rows]).replace("NaN", "null")
     call = f"const [d, rows] = {asked}; console.log(JSON.stringify(rows.map(p => poses(d, p.map(v => v === null ? NaN : v)))))"
-    said = subprocess.run(["node", "-e", javascript_text(kernel._wanted[0]) + call], check=True, capture_output=True, text=True).stdout
+    said = subprocess.run(["node", "-e", javascript_text(kernel.outputs) + call], check=True, capture_output=True, text=True).stdout
     found = np.array([[np.nan if part is None else part for part in row] for row in json.loads(said)]).T
     agree(found, kernel(inputs, way=Way("numpy")).values[:, 0], firm(machine, inputs))
 

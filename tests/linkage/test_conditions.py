@@ -211,3 +211,48 @@ def test_an_angle_that_is_followed_and_a_loop_behind_it_are_looked_at_together()
     assert np.isfinite(motion["D"]).all()
     assert motion.interruptions == ()
     assert np.abs(np.diff(motion["C"])).max() < 0.1
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda lever, near: near.ratio("B"),
+        lambda lever, near: near.gradient("B", wrt=["OB"]),
+        lambda lever, near: near.gradient(ratio("B"), wrt=["OB"]),
+        lambda lever, near: near.velocity("B", rates=dict(S=1.0)),
+        lambda lever, near: near.acceleration("B", rates=dict(S=1.0)),
+        lambda lever, near: near.ratio(angle("O", "B")),
+        lambda lever, near: lever.evaluate([ratio("B")], S=0.7 + 1e-9),
+        lambda lever, near: lever.function([ratio("B")])(0.7 + 1e-9),
+        lambda lever, near: driving_force(near),
+        lambda lever, near: pin_forces(near),
+    ],
+)
+def test_a_warning_points_to_the_line_that_asked(ask):
+    lever = Lever()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", SingularWarning)
+        near = lever.at(S=0.7 + 1e-9)
+    with pytest.warns(SingularWarning) as found:
+        ask(lever, near)
+    assert {each.filename for each in found} == {__file__}
+
+
+class Rail(Mechanism):
+    """A point P on a rail that passes a fixed point A at S = 0.3."""
+
+    S, A, O = Stroke(0.0, 1.0), Ground(0.3, 0.0), Ground(0.0, 0.0)
+    rail = Guide((0.0, 0.0), angle=0.0)
+    P = OnGuide(rail, at=S)
+    seen = angle(A, P)
+
+
+@pytest.mark.parametrize("beside", [[], ["seen"], [ratio("seen")], [ratio(angle("A", "P"))], [angle("A", "P"), distance("A", "P")]])
+def test_a_condition_does_not_hang_on_what_is_asked_beside_it(beside):
+    """Of all points it is regular, for A is no part of P; a direction between the two has a condition of its own."""
+    asked = [condition(), condition("P"), condition("seen"), condition(angle("A", "P"))]
+    for order in (1, -1):
+        found = Rail().evaluate([*beside, *asked][::order], S=0.3 + 1e-6, unreachable="nan")[::order][len(beside) :]
+        assert_allclose(found[:2], 2.0 / 0.3)
+        assert_allclose(found[2:], 2.0 * 1.0 / 1e-6, rtol=0.7)
+        assert found[2] == pytest.approx(found[3], rel=1e-9)

@@ -7,12 +7,12 @@ from numpy.testing import assert_allclose
 
 from linkage import LEFT, AssemblyError, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, OnLink, Pin, Stroke, angle, deg
 from linkage.formulas import Equations, Tcos, TurnVL, equations, explicit
-from linkage.formulas.oracle import program_expressions
 from linkage.plan import ArrayReading
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.equation_machines import ALL, HITCHES, MowerInPrimitives, Outputs, Slider, check_values, poses
 from tests.linkage.random_mechanisms import random_mechanism
+from tests.linkage.sympy_program import program_expressions
 
 # -- SymPy -------------------------------------------------------------------------------------------------
 

@@ -4,9 +4,9 @@ import warnings
 
 import numpy as np
 import pytest
-from numpy.testing import assert_allclose, assert_array_equal
+from numpy.testing import assert_allclose, assert_array_equal, assert_equal
 
-from linkage import AssemblyError, DefinitionError, SingularError, angle, distance, ratio
+from linkage import AssemblyError, DefinitionError, LinkageError, SingularError, angle, distance, ratio
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.test_backends import GROUPED, MACHINES, SHIPPED
@@ -208,3 +208,43 @@ def test_a_function_takes_strokes_by_name_too():
         at(T=0.1)
     with pytest.raises(DefinitionError, match="'S' is unknown"):
         at(0.1, S=0.1)
+
+
+@MACHINES
+def test_one_pose_is_that_of_many(machine):
+    """The program of one pose, which is found by what is asked, tells what a row of poses tells, warnings and refusals included."""
+    point, made = machine.plan.moving[-1], machine()
+    asked = [point, *(ratio(point, wrt=name) for name in machine.plan.strokes), *machine.plan.named()[:3]]
+    for share in (0.0, 0.3, 0.77, 1.0):
+        strokes = {name: float(stroke.start + share * (stroke.end - stroke.start)) for name, stroke in machine.plan.strokes.items()}
+        told = []
+        for given in (strokes, strokes, {name: np.array(value) for name, value in strokes.items()}):
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                try:
+                    found = [np.asarray(each).tolist() for each in made.evaluate(asked, **given)]
+                except LinkageError as error:
+                    found = [str(error)]
+            told.append((found, [str(each.message) for each in caught]))
+        assert_equal(told[0], told[2])
+        assert_equal(told[1], told[2])
+
+
+def test_one_pose_refuses_in_the_words_of_many():
+    hitch = ThreePointHitch()
+    hitch.evaluate(["G", ratio("G")], S=0.1)
+    for asked, strokes in [
+        (["G"], {"S": 5.0}), (["G"], {"S": "a"}), (["G"], {"T": 0.1}), (["Q"], {"S": 0.1}), ([ratio("G", wrt="T")], {"S": 0.1}),
+        ([ratio("G", wrt=["S"])], {"S": 0.1}), ("G", {"S": 0.1}), ({"G"}, {"S": 0.1}), (["G"], {"S": float("nan")}),
+    ]:  # fmt: skip
+        with pytest.raises(LinkageError):
+            hitch.evaluate(asked, **strokes)
+    with pytest.raises(DefinitionError, match="unreachable"):
+        hitch.evaluate(["G"], S=0.1, unreachable="perhaps")
+
+
+def test_one_pose_follows_the_design():
+    one, other = ThreePointHitch(), ThreePointHitch(OB=0.31)
+    for hitch in (one, other, one, other):
+        assert_allclose(hitch.evaluate(["G"], S=0.1)[0], hitch.at(S=0.1)["G"], rtol=1e-15)
+    assert ThreePointHitch(OB=np.array([0.3, 0.31])).evaluate(["G"], S=0.1)[0].shape == (2, 2)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from linkage import LEFT, RIGHT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, Pin, Stroke, angle
-from linkage.motion import below_zero, evaluate, greatest, lowest, ratio, reached
+from linkage.motion import below_zero, evaluate_grid, greatest, lowest, ratio, reached
 from linkage.program import QUICKEST
 
 WIDTH = 1.0 / 2000.0
@@ -313,7 +313,7 @@ def test_several_quantities_at_once():
 
 def test_requests_are_asked_in_bulk():
     def in_bulk(motion):
-        return evaluate(motion.grid, [ratio("psi")], None, QUICKEST, "nan")[0]
+        return evaluate_grid(motion._grid, [ratio("psi")], None, QUICKEST, "nan")[0]
 
     for S in ([0.5, 0.75], [0.3, 0.9]):
         batch = Lift(OB=[0.19, 0.20, 0.21]).at(S=S, unreachable="nan")

@@ -5,12 +5,9 @@ from typing import ClassVar
 
 import numpy as np
 import pytest
-from pydantic import Field
 
 from linkage import DefinitionError, FileError, Mechanism, bar, driving_force, pin_forces, ref
-from linkage.files import ElementEntry, from_dict, left_out, load, registry, to_dict, to_json, to_toml
-from linkage.files.amounts import Amount
-from linkage.files.fields import PointName
+from linkage.files import from_dict, left_out, load, registry, to_dict, to_json, to_toml
 from linkage.loads import ForceElement, Load, LoadCase, Support, Weight
 from linkage.units import N, kgf, kN
 from tests.linkage.file_machines import Hitch, Loaded, changed
@@ -201,19 +198,10 @@ class Drag(ForceElement):
         return [Load("G", np.stack(np.broadcast_arrays(size, 0.0 * size)))]
 
 
-class DragEntry(ElementEntry):
-    """`wind = { Drag = "G", area = 1.5 }`"""
-
-    describes: ClassVar[type] = Drag
-    parents: PointName = Field(alias="Drag")
-    area: Amount
-    pressure: Amount = None
-
-
 @pytest.fixture
 def drags(monkeypatch):
     """Install a package that brings a kind of load."""
-    monkeypatch.setattr(registry, "extensions", lambda: [DragEntry])
+    monkeypatch.setattr(registry, "extensions", lambda: [Drag])
     registry.registry.cache_clear()
     yield
     registry.registry.cache_clear()
@@ -228,7 +216,7 @@ def test_package_brings_its_own_load(drags):
     assert np.array_equal(driving_force(load(text)().sweep(3)), driving_force(machine(**{"wind.area": 2.0}).sweep(3)))
 
 
-def test_without_that_package_its_kind_is_refused():
+def test_without_that_package_its_kind_is_named_by_its_import_path():
     machine = type("Windy", (Hitch,), {"wind": Drag("G", area=1.5)})
-    with pytest.raises(DefinitionError, match="a file cannot hold a Drag"):
-        to_toml(machine)
+    assert to_dict(machine)["loads"]["wind"] == {"kind": f"{__name__}:Drag", "point": "G", "area": 1.5, "pressure": "2 bar"}
+    assert np.array_equal(driving_force(load(to_toml(machine))().sweep(3)), driving_force(machine().sweep(3)))

@@ -106,7 +106,7 @@ class Four:
         at = start + np.linspace(0.0, 4.0 * pi, 401)
         plain = type("Drawn", (Mechanism,), members)()
         with np.errstate(invalid="ignore"):
-            good = np.abs(np.broadcast_to(plain.at(phi=at, unreachable="nan").loop_sines["C"], at.shape)) > 0.05
+            good = np.abs(np.broadcast_to(plain.at(phi=at, unreachable="nan")._loop_sines["C"], at.shape)) > 0.05
         first = int(np.argmax(good))
         last = first + int(np.argmin(np.append(good[first:], False))) - 1
         if last - first < 40:

@@ -21,7 +21,7 @@ from linkage import (
     pin_force,
 )
 from linkage.loads import couple
-from linkage.motion import paired
+from linkage.motion import each_at_its_stroke
 from mechanisms.classics.four_bar import DragLink
 from mechanisms.three_point_hitch import ThreePointHitch
 
@@ -75,7 +75,7 @@ def test_angles_go_on_past_half_a_turn():
 
 def test_angles_of_paired_poses_are_near_those_of_the_other_motion():
     base = Wound().at(phi=np.linspace(0.0, 12.0, 60))
-    near = paired(Wound.plan, Wound().dimensions, {"phi": base.strokes["phi"][[5, 40, 59]]}, base, np.array([5, 40, 59]))
+    near = each_at_its_stroke(Wound.plan, Wound().dimensions, {"phi": base.strokes["phi"][[5, 40, 59]]}, base, np.array([5, 40, 59]))
     (found,), (wanted,) = (motion.gradient(drive_force(), ["spring.stiffness"]) for motion in (near, base))
     assert_allclose(found, wanted[[5, 40, 59]], rtol=1e-12)
 

@@ -1,6 +1,9 @@
 """Thrusts and pin forces as requests: the numbers and refusals of driving_force and pin_forces, in every back end."""
 
+import gc
 import warnings
+import weakref
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -13,6 +16,7 @@ from linkage import (
     DefinitionError,
     Dyad,
     Force,
+    ForceElement,
     Ground,
     Link,
     LinkMass,
@@ -32,6 +36,7 @@ from linkage import (
     pin_forces,
     ratio,
 )
+from linkage.loads import Load
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.laws.test_statics_laws import RANDOM, SHIPPED, moved, of_each_structure, weights
 from tests.linkage.test_groups import Platform
@@ -216,3 +221,62 @@ def test_a_driven_cranks_pin_has_one_force_besides_the_drives_couple():
     forces = pin_forces(machine().at(phi=[0.5, 1.0]), loads)
     assert {each.kind for each in forces.at("O")} == {"pin", "crank"}
     assert_allclose(machine().evaluate([pin_force("O", component="x", loads=loads)], phi=[0.5, 1.0])[0], forces.force("O")[0], rtol=1e-12)
+
+
+CALLS = []
+
+
+@dataclass(frozen=True, eq=False)
+class Counted(ForceElement):
+    """A weight whose law is counted."""
+
+    point: str
+
+    def loads(self, motion):
+        CALLS.append(motion)
+        return [Load(self.point, np.stack([0.0 * motion.x(self.point), -100.0 + 0.0 * motion.y(self.point)]))]
+
+
+class Lever(Mechanism):
+    """A cylinder AB on a lever OB."""
+
+    S, A, O = Stroke(0.8, 1.2), Ground(0, 0), Ground(1.0, 0)
+    B = Dyad(A, O, AB=S, OB=0.3, side=LEFT)
+    load = Counted("B")
+
+
+class Foreign:
+    """Anything with loads, which may change at any time."""
+
+    size = 100.0
+
+    def loads(self, motion):
+        return [Load("B", np.stack([0.0 * motion.x("B"), -self.size + 0.0 * motion.y("B")]))]
+
+
+def test_loads_are_found_by_what_they_are_and_not_traced_again():
+    lever = Lever()
+    first = [lever.evaluate([drive_force(), pin_force("O", "frame")], S=0.9) for _ in range(3)]
+    count = len(CALLS)
+    again = [lever.evaluate([drive_force(), pin_force("O", "frame")], S=0.9) for _ in range(3)]
+    assert len(CALLS) == count and len({tuple(each) for each in (*first, *again)}) == 1
+    given = Weight("B", mass=10.0)
+    one, other = (lever.evaluate([drive_force(loads=[load])], S=0.9)[0] for load in (given, Weight("B", mass=20.0)))
+    assert_allclose(other, 2.0 * one, rtol=1e-14)
+
+
+def test_loads_that_may_change_are_traced_again():
+    lever, foreign = Lever(), Foreign()
+    before = lever.evaluate([drive_force(loads=foreign)], S=0.9)[0]
+    foreign.size = 200.0
+    assert_allclose(lever.evaluate([drive_force(loads=foreign)], S=0.9)[0], 2.0 * before, rtol=1e-14)
+
+
+def test_loads_that_were_given_are_not_kept_alive():
+    lever, load = Lever(), Weight("B", mass=10.0)
+    for _ in range(2):
+        lever.evaluate([drive_force(loads=[load])], S=0.9)
+    there = weakref.ref(load)
+    del load
+    gc.collect()
+    assert there() is None

@@ -98,9 +98,9 @@ def test_compiling_has_to_pay(kernel, monkeypatch):
     few = int(fused.LOAD / len(plan.pose)) + 1
 
     def is_worth(poses, *, kept, there=True, spent=0):
-        monkeypatch.setattr(fused, "is_kept", lambda text: kept)
+        monkeypatch.setattr(fused, "is_cached", lambda text: kept)
         monkeypatch.setattr(fused, "is_there", lambda: there)
-        return fused.Fused(plan, kernel.arrays).is_worth(1, poses, spent)
+        return fused.NumbaLoop(plan, kernel.arrays).is_worth(1, poses, spent)
 
     assert is_worth(least, kept=False) and not is_worth(least - 2, kept=False)
     assert is_worth(few, kept=True) and not is_worth(few - 2, kept=True)

@@ -50,7 +50,7 @@ def test_gradient_of_a_ratio_is_the_tangent_of_the_ratio(machine):
     for each, name in zip(found, names, strict=True):
         tangent = Tangent(plan.trace.graph, {plan.trace.inputs[name]: 1.0})
         for part, node in zip(each, nodes, strict=True):
-            (wanted,) = interpret([tangent.of(node)], motion.grid.flat)
+            (wanted,) = interpret([tangent.of(node)], motion._grid.flat)
             assert_allclose(part, np.broadcast_to(np.ravel(wanted), (3,)), rtol=1e-8, atol=1e-8 * (1.0 + np.abs(each).max()))
 
 
@@ -61,7 +61,7 @@ def test_gradients_of_random_mechanisms(seed):
     first = next(iter(plan.strokes))
     nodes = [node for name in plan.moving for node in plan.derived(plan.nodes(name), (first,))]
     inputs = [plan.trace.inputs[name] for name in plan.table.entries]
-    flat = machine().at(**{name: stroke.start + 0.3 * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()}).grid.flat
+    flat = machine().at(**{name: stroke.start + 0.3 * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()})._grid.flat
     tangents = [[Tangent(plan.trace.graph, {each: 1.0}).of(node) for node in nodes] for each in inputs]
     wanted = np.array([[np.ravel(value)[0] for value in interpret(row, flat)] for row in tangents])
     found = np.array([[np.ravel(value)[0] for value in interpret(gradient(node, inputs), flat)] for node in nodes]).T

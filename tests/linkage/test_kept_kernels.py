@@ -13,7 +13,7 @@ import pytest
 from numpy.testing import assert_array_equal
 
 from linkage.program import cache as kept
-from linkage.program.cache import Kept, cache_folder, compiled_in_file, is_kept, is_own
+from linkage.program.cache import CompiledFile, cache_folder, compiled_in_file, is_cached, is_own
 
 numba = pytest.importorskip("numba")
 posix = pytest.mark.skipif(sys.platform == "win32", reason="rights of POSIX")
@@ -59,7 +59,7 @@ def used(text=TEXT):
 def test_a_kernel_is_loaded_when_it_is_as_it_was_put_there(folder):
     assert used() == (1, 0)
     assert used() == (0, 1)
-    assert is_kept(TEXT) and not is_kept("def poses(x):\n    pass\n")
+    assert is_cached(TEXT) and not is_cached("def poses(x):\n    pass\n")
     (note,) = folder.rglob("*.sha256.json")
     assert {name.rpartition(".")[2] for name in json.loads(note.read_text())} == {"nbi", "nbc"}
 
@@ -107,7 +107,7 @@ def test_a_disk_that_keeps_nothing_changes_no_number(folder, monkeypatch):
     def full(self):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(Kept, "note", full)
+    monkeypatch.setattr(CompiledFile, "note", full)
     assert used() == (0, 0)
     assert not [*folder.rglob("*.nb?")]
 
@@ -123,7 +123,7 @@ def test_a_folder_that_others_can_write_is_not_used(folder, place, mode):
     for _ in range(2):
         with pytest.warns(UserWarning, match=r"compiled kernels are code, and others than you can write there; .* chmod 700"):
             assert used() == (0, 0)
-    assert is_kept(TEXT) is bool(place)
+    assert is_cached(TEXT) is bool(place)
     os.chmod(folder / place, 0o700)
     assert used() == (0, 1)
 
@@ -135,7 +135,7 @@ def test_a_folder_of_another_user_is_not_used(folder, monkeypatch):
     assert not is_own(folder)
     with pytest.warns(UserWarning, match="others than you can write there"):
         assert used() == (0, 0)
-    assert not is_kept(TEXT)
+    assert not is_cached(TEXT)
 
 
 @posix
@@ -169,7 +169,7 @@ def test_a_folder_that_cannot_be_there_is_done_without(tmp_path, monkeypatch):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             assert used() == (0, 0)
-            assert not is_kept(TEXT)
+            assert not is_cached(TEXT)
 
 
 def test_an_empty_name_is_no_name(monkeypatch):

@@ -12,10 +12,10 @@ from rich.console import Console
 
 from linkage import Column, Crank, DefinitionError, Dimension, Dyad, Ground, Mechanism, Stroke, deg, kgf, kgf_cm2
 from linkage.reports import (  # fmt: skip
-    below_zero,
     closely,
     design_rows,
     measure,
+    ranges_below_zero,
     reached_span,
     rich_tables,
     spans_in_words,
@@ -159,9 +159,9 @@ def test_unit_of_a_dimension_is_a_known_one():
 @given(st.floats(0.56, 0.67), st.floats(0.68, 0.79))
 def test_ends_of_a_range_are_roots(low, high):
     motion = Lift().sweep(3)
-    ((first, last),) = below_zero(motion, lambda each: (each.strokes["S"] - low) * (each.strokes["S"] - high))
+    ((first, last),) = ranges_below_zero(motion, lambda each: (each.strokes["S"] - low) * (each.strokes["S"] - high))
     assert (first, last) == pytest.approx((low, high), abs=1e-11)
-    above = below_zero(motion, lambda each: (each.strokes["S"] - low) * (high - each.strokes["S"]))
+    above = ranges_below_zero(motion, lambda each: (each.strokes["S"] - low) * (high - each.strokes["S"]))
     assert np.ravel(above) == pytest.approx([0.55, low, high, 0.80], abs=1e-11)
 
 
@@ -173,8 +173,8 @@ def test_range_ends_where_the_reach_does():
     for S in ([0.4, 0.6, 0.8], [0.4, 0.8]):
         motion = lift.at(S=S, unreachable="nan")
         assert reached_span(motion) == pytest.approx((AO - 0.175, 0.8), abs=1e-12)
-        assert below_zero(motion, lambda each: -np.ones(each.shape)) == [reached_span(motion)]
-    assert below_zero(motion, lambda each: np.ones(each.shape)) == []
+        assert ranges_below_zero(motion, lambda each: -np.ones(each.shape)) == [reached_span(motion)]
+    assert ranges_below_zero(motion, lambda each: np.ones(each.shape)) == []
 
 
 def test_closer_look_keeps_the_design():

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, Pin, Stroke, angle, deg
-from linkage.motion import paired
+from linkage.motion import each_at_its_stroke
 from linkage.study import Box, settings_for, zone
 from linkage.study.zone import extremes
 from mechanisms.classics.four_bar import FourBar
@@ -37,7 +37,7 @@ def test_paired_is_the_motion_of_each_design():
     over = sampled({**BOX, "MK": (0.5, 0.96)}, 60, 1)
     S = np.random.default_rng(2).uniform(0.0, 0.25, 60)
     hitch = ThreePointHitch(**over)
-    together = paired(hitch.plan, hitch.dimensions, {"S": S})
+    together = each_at_its_stroke(hitch.plan, hitch.dimensions, {"S": S})
     assert 0 < together.reached.sum() < 60
     for place in range(60):
         one = {name: tuple(part[place] for part in value) if isinstance(value, tuple) else value[place] for name, value in over.items()}
@@ -63,7 +63,7 @@ class Triad(Mechanism):
 def test_paired_finds_the_pins_of_groups():
     assert Triad.plan.groups
     lengths, phi = np.array([0.100, 0.101, 0.102]), np.array([0.0, 0.2, 0.5])
-    together = paired(Triad.plan, Triad(AB=lengths).dimensions, {"phi": phi})
+    together = each_at_its_stroke(Triad.plan, Triad(AB=lengths).dimensions, {"phi": phi})
     for place, (length, stroke) in enumerate(zip(lengths, phi, strict=True)):
         alone = Triad(AB=length).at(phi=stroke)
         assert_allclose(together["G"][:, place], alone["G"], rtol=1e-10)

@@ -12,8 +12,8 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import AssemblyError, DefinitionError, FileError, StudyError
-from linkage.program import pinned
-from linkage.program.numba_backend import Fused
+from linkage.program import fixed_backend
+from linkage.program.numba_backend import NumbaLoop
 from linkage.study import batching, survey
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.survey_measures import failing, far_points, group_designs, hitch_designs, logged, travel
@@ -101,7 +101,7 @@ def test_files_mapped_into_memory_will_do(tmp_path):
 
 
 def test_back_end_is_held_whatever_was_done_before(monkeypatch):
-    monkeypatch.setattr(Fused, "is_worth", lambda *_: True)
+    monkeypatch.setattr(NumbaLoop, "is_worth", lambda *_: True)
     hitch, over = hitch_designs(256)
     kernel = ThreePointHitch.plan.kernel(ThreePointHitch.plan.moving)
     chosen = []
@@ -114,7 +114,7 @@ def test_back_end_is_held_whatever_was_done_before(monkeypatch):
     survey(hitch, over, measure)
     assert chosen and all(each is kernel.arrays for each in chosen)
     assert kernel._backend(machine_way, 64, 21) is kernel.fused
-    with pinned("numpy"):
+    with fixed_backend("numpy"):
         elsewhere = []
         thread = threading.Thread(target=lambda: elsewhere.append(kernel._backend(machine_way, 64, 21)))
         thread.start()
@@ -138,7 +138,7 @@ def test_threads_that_trace_a_machine_at_the_same_time(designs, measure):
 
     def held(fresh, start):
         start.wait()
-        with pinned("numpy"):
+        with fixed_backend("numpy"):
             return measure(fresh)
 
     wanted, interval = held(machine.replaced(**over), threading.Barrier(1)), sys.getswitchinterval()

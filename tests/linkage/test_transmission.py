@@ -62,7 +62,7 @@ def test_every_dyad_with_a_sliding_pair():
         "X": np.full(25, 70 * deg),
         "D": between(A - C, post),
     }
-    assert motion.joints == tuple(name for name in Sliders.plan.points if name in expected)
+    assert motion._joints == tuple(name for name in Sliders.plan.points if name in expected)
     for name, angle in expected.items():
         assert_allclose(motion.transmission_angle(name), angle, atol=1e-12, err_msg=name)
 
@@ -70,13 +70,13 @@ def test_every_dyad_with_a_sliding_pair():
 @pytest.mark.parametrize("joint", ["B", "R", "X", "D"])
 def test_its_sine_is_that_of_the_loop(joint):
     motion = Sliders().sweep(25)
-    assert_allclose(np.sin(motion.transmission_angle(joint)), np.broadcast_to(np.abs(motion.loop_sines[joint]), 25), atol=1e-12)
+    assert_allclose(np.sin(motion.transmission_angle(joint)), np.broadcast_to(np.abs(motion._loop_sines[joint]), 25), atol=1e-12)
 
 
 def test_it_is_nan_where_the_pose_is_not_reached():
     motion = Sliders(OA=0.6).sweep(25, unreachable="nan")
     assert 0 < motion.reached.sum() < 25
-    for joint in motion.joints:
+    for joint in motion._joints:
         assert_allclose(np.isnan(motion.transmission_angle(joint)), ~motion.reached)
 
 

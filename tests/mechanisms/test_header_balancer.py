@@ -25,10 +25,9 @@ from mechanisms.header_balancer import (
     setting_table,
     with_header,
 )
-from mechanisms.header_balancer.charge import FAST, PAPER, SLOW
+from mechanisms.header_balancer.charge import FAST, HEADERS, PAPER, SLOW
 from mechanisms.header_balancer.criteria import criteria, hang_up, matching, rises
-from mechanisms.header_balancer.following import PLAIN, Balance, at_horizon, stroke_of
-from mechanisms.header_balancer.headers import HEADERS
+from mechanisms.header_balancer.following import PLAIN, HeaderState, at_horizon, stroke_of
 from tests.mechanisms.balancer_reference import REFERENCE
 
 PUBLISHED = {1: 94.0, 2: 34.0, 3: 50.0}
@@ -44,7 +43,7 @@ def over(number, count=9, **changes):
 @EACH
 def test_the_reference_results_come_out(number):
     reference, motion = REFERENCE[number], over(number, atmosphere=0.0)
-    balance = Balance(motion)
+    balance = HeaderState(motion)
     found = {
         "h": motion.strokes["h"], "R_y": balance.height, "arm_H": balance.arm,
         "block_pressure_kgf_cm2": balance.pressure / kgf_cm2, "required_pressure_kgf_cm2": balance.required / kgf_cm2,
@@ -79,7 +78,7 @@ def paper(motion, friction=0.0, bearing=0.0, sense=0):
 @pytest.mark.parametrize("atmosphere", [0.0, 101325.0])
 @pytest.mark.parametrize("bearing", [0.0, PLAIN])
 def test_the_statics_agree_with_the_papers_own_formulas(number, atmosphere, bearing):
-    balance = Balance(over(number, atmosphere=atmosphere))
+    balance = HeaderState(over(number, atmosphere=atmosphere))
     for direction, sense in (("extending", 1), ("retracting", -1), ("frictionless", 0)):
         assert_allclose(balance.reaction(direction, bearing), paper(balance.motion, 3 * kgf_cm2, bearing, sense), rtol=1e-9, atol=1e-8)
 
@@ -87,7 +86,7 @@ def test_the_statics_agree_with_the_papers_own_formulas(number, atmosphere, bear
 @EACH
 def test_the_arm_is_the_transfer_ratio(number):
     motion = over(number)
-    assert_allclose(Balance(motion).arm, 1.0 / motion.ratio(angle("O", "B")), rtol=1e-12)
+    assert_allclose(HeaderState(motion).arm, 1.0 / motion.ratio(angle("O", "B")), rtol=1e-12)
 
 
 @EACH
@@ -97,7 +96,7 @@ def test_work_and_equilibrium_agree_and_nothing_is_left_for_the_pump(number):
     thrust = driving_force(motion, loads)
     assert_allclose(pin_forces(motion, loads).drives["h"], thrust, rtol=1e-9, atol=1e-9 * np.abs(thrust).max())
     lever = motion.ratio("R")[1]
-    assert_allclose(thrust, Balance(motion).free * lever, rtol=1e-9, atol=1e-6)
+    assert_allclose(thrust, HeaderState(motion).free * lever, rtol=1e-9, atol=1e-6)
 
 
 @EACH
@@ -120,10 +119,10 @@ def test_the_largest_charge_without_hang_up(number, way, limits):
 def test_at_the_largest_charge_the_shoe_just_carries_nothing(number):
     machine = with_header(number)
     limit = largest_charge(machine.at(h=0.0))
-    balance = Balance(over_following(machine.replaced(charge=limit).at(h=0.0), 201))
+    balance = HeaderState(over_following(machine.replaced(charge=limit).at(h=0.0), 201))
     assert_allclose(balance.down.min(), 0.0, atol=1e-6 * np.abs(balance.down).max())
     fast = largest_charge(machine.at(h=0.0), FAST)
-    balance = Balance(over_following(machine.replaced(charge=fast, n=1.4).at(h=0.0), 201))
+    balance = HeaderState(over_following(machine.replaced(charge=fast, n=1.4).at(h=0.0), 201))
     assert_allclose(balance.down.min(), 0.0, atol=1e-6 * np.abs(balance.down).max())
 
 
@@ -132,7 +131,7 @@ def test_at_the_largest_charge_the_shoe_just_carries_nothing(number):
 def test_the_charge_for_a_wanted_reaction_gives_it(number, wanted):
     machine = with_header(number)
     charged = machine.replaced(charge=charge_for(machine.at(h=0.0), wanted * kgf))
-    assert_allclose(Balance(at_horizon(charged.at(h=0.0))).free / kgf, wanted, atol=1e-9)
+    assert_allclose(HeaderState(at_horizon(charged.at(h=0.0))).free / kgf, wanted, atol=1e-9)
 
 
 def test_more_reaction_than_the_weights_give_is_refused():
@@ -141,12 +140,12 @@ def test_more_reaction_than_the_weights_give_is_refused():
 
 
 def test_the_hysteresis_has_its_two_sources():
-    balance = Balance(over(1, **{"pin_O.coefficient": PLAIN}))
-    rolling = Balance(over(1))
+    balance = HeaderState(over(1, **{"pin_O.coefficient": PLAIN}))
+    rolling = HeaderState(over(1))
     assert_allclose(balance.of_seals, rolling.hysteresis, rtol=1e-12)
     ratio = balance.hysteresis / rolling.hysteresis
     assert_allclose([ratio.min(), ratio.max()], [1.43, 1.52], atol=0.005)
-    no_seals = Balance(over(1, seals=0.0, **{"pin_O.coefficient": PLAIN}))
+    no_seals = HeaderState(over(1, seals=0.0, **{"pin_O.coefficient": PLAIN}))
     assert_allclose(no_seals.of_seals, 0.0, atol=1e-9)
     assert no_seals.hysteresis.min() > 40 * kgf
 
@@ -169,7 +168,7 @@ class PlainPins(HeaderBalancer):
 
 def test_friction_at_the_pins_of_gas_fed_cylinders_acts_on_the_reaction():
     """Header 1, both shoes: +5.24 to +4.16 kgf moving up, -5.55 to -4.46 moving down, over +/-150 mm."""
-    plain, rubbing = Balance(over(1)), Balance(over_following(PlainPins(**HEADERS[1]).at(h=0.1), 9))
+    plain, rubbing = HeaderState(over(1)), HeaderState(over_following(PlainPins(**HEADERS[1]).at(h=0.1), 9))
     up, down = (rubbing.up - plain.up) / kgf, (rubbing.down - plain.down) / kgf
     assert_allclose([up[0], up[-1]], [5.24, 4.16], atol=0.005)
     assert_allclose([down[0], down[-1]], [-5.55, -4.46], atol=0.005)
@@ -180,7 +179,7 @@ def test_friction_at_the_pins_of_gas_fed_cylinders_acts_on_the_reaction():
 def test_friction_at_the_cylinders_pins_by_hand():
     """A link with friction at both ends pushes along the tangents of its friction circles: the arm of its force changes by them."""
     motion = over_following(PlainPins(**HEADERS[1]).at(h=0.1), 9)
-    given, balance = motion.inputs, Balance(motion)
+    given, balance = motion.inputs, HeaderState(motion)
     AB, OA, OR = motion["B"] - motion["A"], motion["A"] - motion["O"], motion["R"] - motion["O"]
     length, weight = np.hypot(*AB), g0 * sum(given[m] * (motion[G] - motion["O"])[0] for m, G in (("m1", "G1"), ("m2", "G2")))
     turn_rod = motion.ratio(angle("A", "B"))
@@ -201,9 +200,9 @@ def test_friction_at_the_cylinders_pins_by_hand():
 def test_added_friction_has_its_own_share_of_the_hysteresis():
     machine = PlainPins(**HEADERS[1])
     motion = over_following(machine.at(h=0.1), 9)
-    balance, columns = Balance(motion), {column.name: column.values for column in machine.columns(motion)}
+    balance, columns = HeaderState(motion), {column.name: column.values for column in machine.columns(motion)}
     assert balance.others == ["pin_A", "pin_B"]
-    assert_allclose(columns["of seals"], Balance(over(1)).hysteresis, rtol=1e-12)
+    assert_allclose(columns["of seals"], HeaderState(over(1)).hysteresis, rtol=1e-12)
     assert_allclose(columns["of pin O"], 0.0, atol=1e-6)
     assert_allclose(columns["of seals"] + columns["of pin O"] + columns["of other pins"], columns["hysteresis"], rtol=1e-12)
     (said,) = [each.sentence for each in criteria(motion) if each.rule == "3 hysteresis"]
@@ -241,12 +240,12 @@ def test_added_spring_takes_part():
         K = Ground(1.4, 2.5)
         helper = Spring(HeaderBalancer.G2, "K", stiffness=2000.0, free_length=0.4)
 
-    motion, plain = over_following(Sprung(**HEADERS[1]).at(h=0.1), 5), Balance(over(1, 5))
+    motion, plain = over_following(Sprung(**HEADERS[1]).at(h=0.1), 5), HeaderState(over(1, 5))
     arm = motion["K"] - motion["G2"]
     length = np.hypot(*arm)
     pull, r = arm / length * 2000.0 * (length - 0.4), motion["G2"] - motion["O"]
     lifted = (r[0] * pull[1] - r[1] * pull[0]) / (motion["R"] - motion["O"])[0]
-    assert_allclose(Balance(motion).free, plain.free - lifted, rtol=1e-9, atol=1e-6)
+    assert_allclose(HeaderState(motion).free, plain.free - lifted, rtol=1e-9, atol=1e-6)
 
 
 def test_the_equations_are_the_papers():
@@ -300,7 +299,7 @@ def test_where_a_pair_joins_is_said(charge):
     machine = with_header(3, charge=charge * kgf_cm2)
     found = said(3, "accumulators", charge=charge * kgf_cm2).sentence
     (height,) = map(float, re.findall(r"50 kgf/cm2 pair \(4 l\) is at work below R_y = ([-+0-9]+) mm and off above: where it joins", found))
-    balance = Balance(over_following(machine.at(h=0.1), 2001))
+    balance = HeaderState(over_following(machine.at(h=0.1), 2001))
     assert np.interp(height / 1000, balance.height, balance.pressure / kgf_cm2) == pytest.approx(50.0, abs=0.05)
 
 
@@ -320,7 +319,7 @@ def test_a_header_is_changed_by_the_pressure_alone():
 def test_the_arm_that_would_match_keeps_the_reaction():
     """The wanted arm by hand: (weights - shoe's share) / cylinder force, at the ends of the range."""
     motion = over(1, 101)
-    balance = Balance(motion)
+    balance = HeaderState(motion)
     constant = np.interp(0.0, balance.height, balance.free)
     weights = g0 * (1500 * (motion["G1"] - motion["O"])[0] + 2000 * (motion["G2"] - motion["O"])[0])
     force = balance.pressure * 0.25 * np.pi * (6.3 * cm) ** 2 * 2
@@ -334,7 +333,7 @@ def test_the_improved_mechanism_is_matched_and_has_less_hysteresis():
     verdicts = {each.rule: each for each in criteria(machine.at(h=0.1))}
     assert verdicts["4 matching"] and verdicts["1 reaction follows"] and verdicts["2 no hang-up, slow"]
     assert verdicts["5 pressure level"] and verdicts["relief valve"]
-    now, then = Balance(over_following(machine.at(h=0.1))), Balance(over(1, 101))
+    now, then = HeaderState(over_following(machine.at(h=0.1))), HeaderState(over(1, 101))
     assert now.hysteresis.max() < 0.8 * then.hysteresis.max()
     assert np.ptp(now.free) < 0.3 * np.ptp(then.free)
     assert 1.79 < (now.of_bearing() / now.of_bearing(0.0)).min() < 1.80  # "almost doubled", as the paper says of its own
@@ -362,22 +361,22 @@ def test_the_criteria_can_be_kept_and_broken():
 
 
 def test_an_arm_that_grows_makes_the_required_pressure_fall():
-    balance = Balance(over(2, A=(0.375, 0.40), L_min=0.27))
+    balance = HeaderState(over(2, A=(0.375, 0.40), L_min=0.27))
     assert np.all(np.diff(balance.arm) > 0.0)
     assert matching(balance)
-    assert not matching(Balance(over(2)))
+    assert not matching(HeaderState(over(2)))
 
 
 def test_a_reaction_that_turns_is_seen():
-    balance = Balance(over(2, 101, A=(0.375, 0.40), L_min=0.27, V_I=4000 * litre, V_II=4000 * litre))
+    balance = HeaderState(over(2, 101, A=(0.375, 0.40), L_min=0.27, V_I=4000 * litre, V_II=4000 * litre))
     assert np.any(np.diff(balance.up) < 0.0)
     assert not rises(balance)
-    assert rises(Balance(over(2, 101)))
+    assert rises(HeaderState(over(2, 101)))
 
 
 def test_the_relief_valve_is_judged_up_to_transport_height():
     machine = with_header(1)
-    found, end = relief(machine.at(h=0.0)), Balance(machine.at(h=[0.45]))
+    found, end = relief(machine.at(h=0.0)), HeaderState(machine.at(h=[0.45]))
     assert_allclose(found.pressure, end.required[0] + 3 * kgf_cm2, rtol=1e-12)
     assert found.at == 0.45
     assert_allclose(found.margin, 150 * kgf_cm2 - found.pressure)
@@ -396,9 +395,9 @@ def test_the_setting_table_has_each_header():
 
 def test_a_batch_of_charges_is_one_call():
     charges = np.array([30.0, 34.0, 40.0]) * kgf_cm2
-    batch = Balance(HeaderBalancer(charge=charges, n=1.4).sweep(5))
+    batch = HeaderState(HeaderBalancer(charge=charges, n=1.4).sweep(5))
     for row, charge in enumerate(charges):
-        alone = Balance(HeaderBalancer(charge=charge, n=1.4).sweep(5))
+        alone = HeaderState(HeaderBalancer(charge=charge, n=1.4).sweep(5))
         assert_allclose(batch.down[row], alone.down, rtol=1e-12)
     assert "batch" in HeaderBalancer(charge=charges).verdicts(batch.motion)[0]
 
@@ -435,9 +434,9 @@ def test_bad_input_is_refused_in_words(change, words):
 def test_header_2_needs_its_first_pair_of_accumulators_as_little_as_the_paper_says():
     """Its line stays below 50 kgf/cm2 over the following range: the pair charged to that is off, or not there at all."""
     with_both, alone = over(2, 21), over(2, 21, V_I=0.0, P_I=0.0)
-    assert Balance(with_both).pressure.max() < 50 * kgf_cm2
-    assert_allclose(Balance(alone).pressure, Balance(with_both).pressure, rtol=1e-13)
-    assert_allclose(Balance(alone).down, Balance(with_both).down, rtol=1e-10)
+    assert HeaderState(with_both).pressure.max() < 50 * kgf_cm2
+    assert_allclose(HeaderState(alone).pressure, HeaderState(with_both).pressure, rtol=1e-13)
+    assert_allclose(HeaderState(alone).down, HeaderState(with_both).down, rtol=1e-10)
     others = ("2 no hang-up, fast from the settled charge, n = 1.4", "accumulators", "change of header")  # there it is at work
     said = [[str(each) for each in criteria(motion) if each.rule not in others] for motion in (with_both, alone)]
     assert said[0] == said[1]
@@ -456,7 +455,7 @@ def test_unknown_header_lists_the_headers():
 
 def test_the_machine_turned_a_little_keeps_its_horizon():
     machine = HeaderBalancer(BOR=6 * deg)
-    assert_allclose(Balance(at_horizon(machine.at(h=0.0))).height, 0.0, atol=1e-12)
+    assert_allclose(HeaderState(at_horizon(machine.at(h=0.0))).height, 0.0, atol=1e-12)
 
 
 def test_the_setting_table_of_a_fast_movement_is_stricter():

@@ -9,9 +9,8 @@ from numpy.testing import assert_allclose
 from linkage import DefinitionError, FileError
 from linkage.cli import main
 from linkage.units import bar, kgf, kgf_cm2, mm
-from mechanisms.header_balancer import ImprovedBalancer, deviations, figure, over_following, read_measured, with_header
-from mechanisms.header_balancer.figures import NUMBERS
-from mechanisms.header_balancer.following import Balance
+from mechanisms.header_balancer import FIGURES, ImprovedBalancer, deviations, figure, over_following, read_measured, with_header
+from mechanisms.header_balancer.following import HeaderState
 
 
 def balance(*arguments):
@@ -25,14 +24,14 @@ def lines(shown):
     return {line.get_label(): line.get_xydata().T for line in ax.get_lines()}
 
 
-HALVES = [number for number in NUMBERS if len(number) == 2 or number == "7"]
+HALVES = [number for number in FIGURES if len(number) == 2 or number == "7"]
 
 
 @pytest.mark.parametrize("number", HALVES)
 def test_each_figure_shows_what_the_paper_shows_under_its_number(number):
     shown = lines(figure(number))
     machine = ImprovedBalancer() if number[0] == "6" else with_header({"4": 2, "5": 3}.get(number[0], 1))
-    found = Balance(over_following(machine.at(h=0.0)))
+    found = HeaderState(over_following(machine.at(h=0.0)))
     plain = [found.reaction(way, 0.15) - found.reaction(way, 0.0) for way in ("extending", "retracting")]
     expected = {
         "2a": {"moving up": found.up / 2, "without friction": found.free / 2, "moving down": found.down / 2},
@@ -43,7 +42,7 @@ def test_each_figure_shows_what_the_paper_shows_under_its_number(number):
     }  # fmt: skip
     expected |= {each: expected["2a"] for each in ("4a", "5a", "6a")} | {each: expected["4b"] for each in ("5b", "6b")}
     if number == "3b":
-        whole = Balance(found.motion.moved({"h": np.linspace(found.motion.strokes["h"][0], 0.45, 101)}))
+        whole = HeaderState(found.motion.moved({"h": np.linspace(found.motion.strokes["h"][0], 0.45, 101)}))
         found, expected["3b"] = whole, {"moving up": whole.required_while("extending"), "moving down": whole.required_while("retracting")}
     for label, values in expected[number].items():
         assert_allclose(shown[label][0], found.height / mm)
@@ -75,7 +74,7 @@ def test_the_kink_is_marked_where_the_pair_joins():
 
 
 def test_the_improved_mechanism_stands_beside_the_present_one():
-    shown, present = lines(figure("6a")), Balance(over_following(with_header(1).at(h=0.0)))
+    shown, present = lines(figure("6a")), HeaderState(over_following(with_header(1).at(h=0.0)))
     assert_allclose(shown["as it stands, moving up"][1], present.up / kgf / 2)
     assert "as it stands, moving up" not in lines(figure("6a", with_header(1)))
 
@@ -100,7 +99,7 @@ def written(path, rows, delimiter=","):
 
 def test_measured_values_are_compared_in_percent(tmp_path):
     motion = over_following(with_header(2).at(h=0.0), 5)
-    calculated = Balance(motion)
+    calculated = HeaderState(motion)
     rows = [["R_y, mm", "F_R up, kgf", "P [bar]", "remark"]]
     rows += [[*row, "x"] for row in zip(calculated.height / mm, 1.05 * calculated.up / kgf, 0.98 * calculated.pressure / bar, strict=True)]
     up, pressure = deviations(motion, read_measured(written(tmp_path / "m.csv", rows)))
@@ -113,7 +112,7 @@ def test_measured_values_are_compared_in_percent(tmp_path):
 def test_too_large_a_deviation_fails_and_is_drawn(tmp_path):
     machine = with_header(2)
     motion = over_following(machine.at(h=0.0), 3)
-    height, down = Balance(motion).height, Balance(motion).down
+    height, down = HeaderState(motion).height, HeaderState(motion).down
     rows = [f"{R / mm:.6f};{1.10 * F / kgf:.6f}".replace(".", ",") for R, F in zip(height, down, strict=True)]
     (tmp_path / "m.csv").write_text("\n".join(["R_y, mm;F_R down, kgf", *rows, "0;", ""]), encoding="utf-8")
     (found,) = deviations(motion, read_measured(tmp_path / "m.csv"))

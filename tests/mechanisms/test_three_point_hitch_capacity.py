@@ -30,7 +30,7 @@ from mechanisms.three_point_hitch import (
     vertical_mast,
     weakest,
 )
-from mechanisms.three_point_hitch.weakest import stages
+from mechanisms.three_point_hitch.capacity import stages
 from tests.mechanisms.hitch_reference import REFERENCE
 
 ALL = pytest.mark.parametrize("machine", [ThreePointHitch, HitchCategory2, HitchCategory1])

@@ -1,4 +1,4 @@
-"""The traced program read by SymPy: an independent source of exact derivatives, for short chains. Slow; for tests.
+"""The traced program read by SymPy: an independent source of exact derivatives, for short chains. Slow.
 
 It is not the engine: one closed form of a three-point hitch has millions of operations.
 """
@@ -10,9 +10,9 @@ from typing import Any
 
 import sympy
 
-from ..errors import DefinitionError
-from ..plan import Plan
-from ..program import Node
+from linkage import DefinitionError
+from linkage.plan import Plan
+from linkage.program import Node
 
 READINGS: dict[str, Callable[..., Any]] = {
     "add": lambda a, b: a + b,

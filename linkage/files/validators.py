@@ -1,0 +1,320 @@
+"""What may stand in the place of an argument: each kind of it, how it is read from a file and how it is written into one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ..errors import DefinitionError, unknown
+from ..quantities import Number, Quantity, is_number, label, name_of, quantity
+from ..steps import Arrow
+from ..units import UNITS, parse
+from ..vectors import Side
+from .design import Design, in_degrees, option
+from .expression import arrow, expression, one_unit
+from .names import Names, shortened
+from .source import Mistakes
+
+Read: TypeAlias = Callable[[Any, Names], Any]
+Write: TypeAlias = Callable[[Any, Design, str], Any]
+
+DEEPEST = 3
+"""How deep lists may stand in each other."""
+
+
+def file_value(value: Any, design: Design, name: str = "") -> Any:
+    """Return a value as a file holds it, by what it is: an expression, a name, a number, a word, lists and tables of them.
+
+    `name` is that of its design variable, where it is one. DefinitionError for what a file cannot hold.
+    """
+    if isinstance(value, Quantity):
+        return design.variable(name, value)
+    if isinstance(value, Arrow):
+        return design.arrow(value)
+    if isinstance(value, Mapping):
+        return {key: file_value(each, design) for key, each in value.items()}
+    if isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value):
+        return [file_value(each, design) for each in value]
+    if isinstance(value, Side):
+        return str(value)
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    return word_of(value) if isinstance(value, str) else option(value)
+
+
+@dataclass(frozen=True)
+class Kind:
+    """How an argument of one kind is read, by the names of the file, and written, by the design and the name of its variable.
+
+    DefinitionError for what is none. `refers` to other members: without a default such an argument says what a member is built
+    from. `make` is what becomes of the argument once the whole entry is sound.
+    """
+
+    read: Read
+    write: Write = file_value
+    refers: bool = False
+    make: Callable[[Any], Any] = lambda value: value
+
+
+# -- numbers and expressions -------------------------------------------------------------------------------
+
+
+def value_of(given: Any, names: Names) -> Quantity:
+    """Return a number [SI], a text such as `500 mm`, or an expression as a quantity."""
+    if isinstance(given, str):
+        return expression(given, names)
+    if not is_number(given):
+        raise DefinitionError(f"{shortened(given)} is neither a finite number nor an expression in quotes.")
+    return Number(float(given))
+
+
+def number_of(given: Any, names: Names, measures: str = "") -> float:
+    """Return a number as it is given, or that of a text without names whose unit measures what it should [SI]."""
+    if isinstance(given, str):
+        check_unit(given, measures)
+        found = expression(given, names)
+        if not isinstance(found, Number):
+            raise DefinitionError(f"{shortened(given)}: a number is expected here, with no names in it.")
+        return found.number
+    if not is_number(given):
+        raise DefinitionError(f"{shortened(given)} is not a finite number.")
+    return given  # type: ignore[no-any-return]  # an int stays one: it prints as it was written
+
+
+def amount_of(given: Any, names: Names, measures: str) -> Any:
+    """Return a number [SI], that of a text such as `1200 kg` whose unit measures what it should, or an expression as a quantity."""
+    if not isinstance(given, str):
+        return number_of(given, names)
+    check_unit(given, measures)
+    found = expression(given, names)
+    return found.number if isinstance(found, Number) else found
+
+
+def check_unit(text: str, measures: str) -> None:
+    """Raise DefinitionError where a text is one number with a unit that measures something else."""
+    unit = one_unit(text) if measures else ""
+    if unit and UNITS[unit][1] != measures:
+        parse(text.strip("+-() \t\n"), measures)
+
+
+def two(given: Any, what: str) -> tuple[Any, Any]:
+    """Return the two parts of a list; DefinitionError for anything else."""
+    if not isinstance(given, Sequence) or isinstance(given, str) or len(given) != 2:
+        raise DefinitionError(f"{shortened(given)} is not {what}.")
+    return given[0], given[1]
+
+
+def several(what: str, one: Read) -> Read:
+    """Return the check of a list of two, each by itself."""
+
+    def read(given: Any, names: Names) -> tuple[Any, Any]:
+        first, second = two(given, what)
+        return one(first, names), one(second, names)
+
+    return read
+
+
+def listed(given: Any, names: Names, depth: int = 0) -> Any:
+    """Return a number or a word, or a list of them, or lists of lists as tuples."""
+    if not isinstance(given, (list, tuple)):
+        return word_of(given) if isinstance(given, str) else number_of(given, names)
+    if depth == DEEPEST:
+        raise DefinitionError(f"{shortened(given)}: lists stand in each other more than {DEEPEST} deep.")
+    return tuple(listed(each, names, depth + 1) for each in given)
+
+
+# -- names and words ---------------------------------------------------------------------------------------
+
+
+def arrow_of(given: Any, names: Names) -> Arrow | str:
+    """Return a vector, or the name of one."""
+    if not isinstance(given, str):
+        raise DefinitionError(f"{shortened(given)} is not a vector, such as \"Vector(A, O)\".")
+    return arrow(given, names)
+
+
+def origin_of(given: Any, names: Names) -> str | tuple[float, float]:
+    """Return the name of a point, or a position [m]."""
+    return names.checked(given, "point") if isinstance(given, str) else place_of(given, names)
+
+
+def points_of(given: Any, names: Names) -> tuple[str, ...]:
+    """Return the names of points, from a text such as `O B C` or a list."""
+    words = given.split() if isinstance(given, str) else given
+    if not isinstance(words, Sequence) or not words:
+        raise DefinitionError(f"{shortened(given)} is not a list of points, such as \"O B C\".")
+    return tuple(names.checked(word, "point") for word in words)
+
+
+def body_of(given: Any, names: Names) -> str:
+    """Return the name of a link, or the names of points of a body, in one text."""
+    words = given.split() if isinstance(given, str) else given
+    if not isinstance(words, Sequence) or not words or len(set(map(str, words))) < len(words):
+        raise DefinitionError(f'{shortened(given)} is not a body; name a link, or two of its points such as "O B".')
+    kind = "point" if len(words) > 1 else "link"
+    return " ".join(names.checked(word, kind) for word in words)
+
+
+def loads_of(given: Any, names: Names) -> Any:
+    """Return the name of a load, or a list of such."""
+    if isinstance(given, str) or not isinstance(given, Sequence):
+        return names.checked(given, "load")
+    return [names.checked(each, "load") for each in given]
+
+
+def each_of(given: Iterable[tuple[Any, Any]], read: Callable[[Any, Any], Any]) -> list[Any]:
+    """Return what is read of each key and value; SeveralError with all mistakes, each under its key."""
+    found, mistakes = [], Mistakes()
+    for key, value in given:
+        with mistakes.at(str(key)):
+            found.append(read(key, value))
+    mistakes.check()
+    return found
+
+
+def load_list_of(given: Any, names: Names) -> tuple[str, ...]:
+    """Return the names of loads from a list."""
+    if not isinstance(given, (list, tuple)):
+        raise DefinitionError("is not a list [...].")
+    return tuple(each_of(enumerate(given), lambda place, name: names.checked(name, "load")))
+
+
+def factors_of(given: Any, names: Names) -> dict[str, float]:
+    """Return numbers by the names of loads."""
+    if not isinstance(given, Mapping):
+        raise DefinitionError("is not a table { key = value }.")
+    return dict(each_of(given.items(), lambda name, value: (names.checked(name, "load"), number_of(value, names))))
+
+
+def strokes_of(given: Any, names: Names) -> dict[str, float]:
+    """Return values of strokes by name [SI]."""
+    strokes = [name for name, section in names.sections.items() if section == "strokes"]
+    if not isinstance(given, Mapping):
+        raise DefinitionError(f"{shortened(given)} is not a table of strokes, such as {{ S = 0.0 }}.")
+    for name in given:
+        if name not in strokes:
+            raise unknown("Stroke", shortened(name, quote=False), strokes)
+    return {name: number_of(value, names) for name, value in given.items()}
+
+
+def member_of(given: Any, names: Names) -> str:
+    """Return the name of any member."""
+    if not isinstance(given, str) or given not in names.kinds:
+        raise unknown("Name", shortened(given, quote=False), names.kinds)
+    return given
+
+
+def side_of(given: Any, names: Names) -> Side:
+    """Return the side that a word says."""
+    found = Side.said(given) if isinstance(given, str) else None
+    if found is None:
+        raise DefinitionError(f"{shortened(given)} is not a side; write \"LEFT\" or \"RIGHT\".")
+    return found
+
+
+def word_of(given: Any, names: Names | None = None) -> str:
+    """Return a word that stands for itself."""
+    if not isinstance(given, str) or not given.isprintable():
+        raise DefinitionError(f"{shortened(given)} stands where a word in quotes is expected.")
+    return given
+
+
+def switch_of(given: Any, names: Names) -> bool:
+    """Return true or false."""
+    if not isinstance(given, (bool, np.bool_)):
+        raise DefinitionError(f"{shortened(given)} is neither true nor false.")
+    return bool(given)
+
+
+# -- as they are written -----------------------------------------------------------------------------------
+
+
+def written_origin(value: Any, design: Design, name: str) -> Any:
+    """Return where a guide starts: a point's name, or two coordinates."""
+    if not isinstance(value, tuple):
+        return label(value)
+    owner = name.rpartition(".")[0]
+    return [design.variable(f"{owner}.{axis}", Number(part)) for axis, part in zip("xy", value, strict=True)]
+
+
+def written_force(value: Any, design: Design, name: str) -> Any:
+    """Return the two parts of a force, each a design variable of its own."""
+    owner = name.rpartition(".")[0]
+    return [design.amount(part, "N", f"{owner}.{axis}") for axis, part in zip("xy", value, strict=True)]
+
+
+def written_names(value: Any, design: Design, name: str) -> str | list[str]:
+    """Return the name of one member, or a list of names."""
+    found = [name_of(each) for each in (value if isinstance(value, (list, tuple)) else (value,))]
+    return found[0] if len(found) == 1 else found
+
+
+def written_body(value: Any, design: Design, name: str) -> str:
+    """Return the names of a link or of points of a body in one text."""
+    return " ".join(map(name_of, value.split() if isinstance(value, str) else value if isinstance(value, tuple) else (value,)))
+
+
+def written_pair(value: Any, design: Design, name: str) -> Any:
+    """Return numbers in a list; DefinitionError for lists in it."""
+    return option(value)
+
+
+# -- the kinds ---------------------------------------------------------------------------------------------
+
+
+def reference(kind: str) -> Kind:
+    """Return the kind of an argument that names a member of a kind."""
+    return Kind(lambda given, names: names.checked(given, kind), refers=True)
+
+
+def fixed_number(measures: str) -> Kind:
+    """Return the kind of a number that follows nothing, with the unit that it may have."""
+    return Kind(lambda given, names: number_of(given, names, measures))
+
+
+def amount(unit: str) -> Kind:
+    """Return the kind of a number that may be a design variable or follow one, written in a unit where that is exact."""
+    measures = UNITS[unit][1] if unit in UNITS else ""
+    return Kind(lambda given, names: amount_of(given, names, measures), lambda value, design, name: design.amount(value, unit, name))
+
+
+place_of = several("a position in m, such as [0.51, 0.94]", lambda given, names: float(number_of(given, names)))
+pair_of = several("two numbers, such as [0, 1]", number_of)
+gravity_of = several("two numbers in m/s2, such as [0, -9.81]", number_of)
+force_of = several('a force of two parts in N, such as ["-5 kN", 0]', lambda given, names: amount_of(given, names, "force"))
+stroke_ends = several("two numbers, such as [0.0, 0.25]", number_of)
+coordinates_of = several("two coordinates in m, such as [0.20, 0.55]", value_of)
+
+
+KINDS: Mapping[str, Kind] = MappingProxyType(
+    {measures: fixed_number(measures) for measures in {each for _, each in UNITS.values()}}
+    | {kind: reference(kind) for kind in ("point", "guide", "load", "link")}
+    | {
+        "number": fixed_number(""),
+        "angle": Kind(lambda given, names: number_of(given, names, "angle"), lambda value, design, name: in_degrees(float(value))),
+        "quantity": Kind(value_of, lambda value, design, name: design.variable(name, quantity(value))),
+        "direction": Kind(value_of, lambda value, design, name: in_degrees(design.variable(name, quantity(value)))),
+        "vector": Kind(arrow_of, refers=True),
+        "points": Kind(points_of, written_body, refers=True),
+        "body": Kind(body_of, written_body, refers=True),
+        "loads": Kind(loads_of, written_names, refers=True),
+        "member": Kind(member_of, refers=True),
+        "load list": Kind(load_list_of, lambda value, design, name: [name_of(each) for each in value]),
+        "load factors": Kind(factors_of),
+        "origin": Kind(origin_of, written_origin),
+        "place": Kind(place_of, written_pair),
+        "pair": Kind(pair_of, written_pair),
+        "gravity": Kind(gravity_of, written_pair),
+        "force vector": Kind(force_of, written_force),
+        "side": Kind(side_of),
+        "word": Kind(word_of),
+        "switch": Kind(switch_of),
+        "numbers": Kind(listed),
+        "option": Kind(listed),
+    }
+)
+"""The kinds by name: what a class may say in `argument_kinds`, `expects` and `places`; what a unit measures is a kind as well."""

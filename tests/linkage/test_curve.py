@@ -28,8 +28,8 @@ from linkage import (
     pin_forces,
     ratio,
 )
-from linkage.formulas.oracle import program_expressions
 from linkage.program import Way
+from tests.linkage.sympy_program import program_expressions
 from tests.linkage.test_backends import agree, as_loop, by_nodes, everything
 
 XS = np.array([0.0, 0.07, 0.22, 0.3, 0.46, 0.6, 0.71, 0.8, 1.0])
@@ -82,7 +82,7 @@ def test_quantities_and_points_follow_it_with_exact_ratios():
 
 
 def test_every_way_to_run_a_program_agrees():
-    kernel, inputs = everything(Lifted), Lifted().at(phi=np.linspace(-7.0, 14.0, 200)).grid.flat
+    kernel, inputs = everything(Lifted), Lifted().at(phi=np.linspace(-7.0, 14.0, 200))._grid.flat
     wanted = by_nodes(kernel, inputs)
     for way in ("numpy", "floats"):
         agree(kernel(inputs, way=Way(way)).values[:, 0], wanted)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from ..quantities import Operand, Quantity, Reference, Where, distance
 from ..vectors import Scalar, Side, Vec
-from .labels import Slot
 from .primitives import CosineAngle, Offset, Turn, Vector, triangle
-from .step import UNBOUND, Assignment, Bar, Position, Step
+from .step import UNBOUND, Assignment, Position, Step
 
 
 class Dyad(Step):
@@ -21,6 +20,7 @@ class Dyad(Step):
     PX: Quantity = UNBOUND
     QX: Quantity = UNBOUND
     from_drawing = "distances"
+    arms = ("P", "Q")
     closes = True
     chooses = "two circles meet in two points"
     expects = (("P", "point"), ("Q", "point"), ("PX", "quantity"), ("QX", "quantity"))
@@ -30,9 +30,6 @@ class Dyad(Step):
         near: Position | None = None, at: Position | None = None, **lengths: Operand,
     ) -> None:
         super().__init__(P, Q, labels=lengths, side=side, near=near, at=at)
-
-    def slots(self) -> tuple[Slot, ...]:
-        return Slot("PX", (self.P, self.X)), Slot("QX", (self.Q, self.X))
 
     def place(self, where: Where) -> Vec:
         P, base = where.at(self.P), where.at(self.Q) - where.at(self.P)
@@ -56,9 +53,6 @@ class Dyad(Step):
     @property
     def sense(self) -> float:
         return float(self.settled_side)
-
-    def bars(self) -> tuple[Bar, ...]:
-        return Bar(self.P, self.X, self.PX), Bar(self.Q, self.X, self.QX)
 
     def expansion(self) -> tuple[Assignment, ...]:
         base = Vector(self.P, self.Q)

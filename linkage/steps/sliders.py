@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from ..quantities import Joint, JointSide, Number, Operand, Quantity, Reference, Where, guided, quantity, spelled
 from ..vectors import Line, Scalar, Side, Vec
-from .labels import Slot
-from .step import UNBOUND, Bar, Position, Step, angle_given
+from .step import UNBOUND, Position, Step, angle_given
 
 
 class SliderDyad(Step):
@@ -19,6 +18,7 @@ class SliderDyad(Step):
     PX: Quantity = UNBOUND
     parent_letters = ("P", "guide")
     closes = True
+    arms = ("P",)
     chooses = "a circle meets a line in two points"
     expects = (("P", "point"), ("guide", "guide"))
 
@@ -26,9 +26,6 @@ class SliderDyad(Step):
         self, P: Reference, guide: Reference, *, side: Side | str | None = None, near: Position | None = None, **lengths: Operand
     ) -> None:
         super().__init__(P, guide, labels=lengths, side=side, near=near)
-
-    def slots(self) -> tuple[Slot, ...]:
-        return (Slot("PX", (self.P, self.X)),)
 
     def place(self, where: Where) -> Vec:
         line, p = where.line(self.guide), where.value(self.PX)
@@ -53,9 +50,6 @@ class SliderDyad(Step):
         gap = abs(line.direction.cross(where.at(self.P) - line.origin)) - where.value(self.PX)
         return f"{self.P}{self.X} does not reach from {self.P} to {self.guide}", gap
 
-    def bars(self) -> tuple[Bar, ...]:
-        return (Bar(self.P, self.X, self.PX),)
-
     def joints(self) -> tuple[Joint, ...]:
         return (guided(self.X, self.guide),)
 
@@ -71,6 +65,7 @@ class PinSlotDyad(Step):
     Q: str
     PX: Quantity = UNBOUND
     closes = True
+    arms = ("P",)
     chooses = "its pin may lie ahead of P or behind it"
     expects = (("P", "point"), ("Q", "point"))
 
@@ -83,9 +78,6 @@ class PinSlotDyad(Step):
 
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), self.offset)
-
-    def slots(self) -> tuple[Slot, ...]:
-        return (Slot("PX", (self.P, self.X)),)
 
     def place(self, where: Where) -> Vec:
         P, to_pin, e = where.at(self.P), where.direction(self.P, self.Q), where.value(self.offset)
@@ -110,9 +102,6 @@ class PinSlotDyad(Step):
     def shortage(self, where: Where) -> tuple[str, Scalar]:
         gap = abs(where.value(self.offset)) - (where.at(self.Q) - where.at(self.P)).length()
         return f"the slot's offset is larger than the distance {self.P}{self.Q}", gap
-
-    def bars(self) -> tuple[Bar, ...]:
-        return (Bar(self.P, self.X, self.PX),)
 
     def arguments(self) -> list[str]:
         given = [] if isinstance(self.offset, Number) and self.offset.number == 0.0 else [f"offset={spelled(self.offset)}"]

@@ -159,6 +159,8 @@ class Step(Point):
     parents: tuple[Reference, ...]
     parent_letters: tuple[str, ...] = ("P", "Q")
     argument_kinds = MappingProxyType({"side": "side", "near": "place", "at": "place"})
+    arms: tuple[str, ...] = ()
+    """The letters of the parents that X hangs from by a link of its own: for P it has the length PX."""
     from_drawing: str = ""
     """What `at=(x, y)` supplies: the `distances` from both parents, or one distance and the `angle`."""
     chooses: str = ""
@@ -176,7 +178,10 @@ class Step(Point):
 
     def slots(self) -> tuple[Slot, ...]:
         """Return the labels this step takes; the step knows its points' names by now."""
-        return ()
+        return tuple(Slot(f"{letter}X", (getattr(self, letter), self.X)) for letter in self.arms)
+
+    def bars(self) -> tuple[Bar, ...]:
+        return tuple(Bar(getattr(self, letter), self.X, getattr(self, f"{letter}X")) for letter in self.arms)
 
     def check(self) -> None:
         """Raise DefinitionError where something this step needs is missing or too much."""

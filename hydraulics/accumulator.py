@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import keep_own, refuses_changes
 from linkage.loads import Poses
-from linkage.loads.element import written
+from linkage.loads.element import value_text
 from linkage.quantities import Dimension, Quantity, spelled
 from linkage.units import UNITS, cm3, litre, show, unit_or_none
 
@@ -83,7 +83,7 @@ class Accumulator:
         return changed
 
     def __str__(self) -> str:
-        return f"Accumulator(volume={written(self.volume)}, charge={written(self.charge)})"
+        return f"Accumulator(volume={value_text(self.volume)}, charge={value_text(self.charge)})"
 
 
 # -- several gas charges on one line ------------------------------------------------------------------------
@@ -244,7 +244,7 @@ class AccumulatorBlock:
     def __str__(self) -> str:
         vessels = ", ".join(map(str, self.accumulators))
         unit = f", unit={self.unit!r}" if self.unit else ""
-        return f"AccumulatorBlock([{vessels}], gas={self.gas.spelled}, atmosphere={written(self.atmosphere)}{unit})"
+        return f"AccumulatorBlock([{vessels}], gas={self.gas.spelled}, atmosphere={value_text(self.atmosphere)}{unit})"
 
     def gas_volume(self, pressure: ArrayLike) -> Array:
         """Return the gas volume [m3] at a pressure, same shape. DefinitionError below zero absolute or outside the gas law."""

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import pi
-from typing import Any, Literal, final
+from typing import Literal, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -123,37 +123,37 @@ class CylinderSize:
         return f"{many} {self.bore / mm:.4g}/{self.rod / mm:.4g} mm, {side}"
 
     @property
-    def piston_area(self) -> Any:
+    def piston_area(self) -> float | Array:
         """Area of one piston, m2."""
         return pi / 4.0 * self.bore**2
 
     @property
-    def rod_area(self) -> Any:
+    def rod_area(self) -> float | Array:
         """Area of the annulus around one rod, m2: what the rod side's pressure acts on."""
         return pi / 4.0 * (self.bore**2 - self.rod**2)
 
     @property
-    def ratio(self) -> Any:
+    def ratio(self) -> float | Array:
         """Piston area over annulus (phi of ISO 3320)."""
         return self.piston_area / self.rod_area
 
     @property
-    def area(self) -> Any:
+    def area(self) -> float | Array:
         """The area the pressure acts on, all cylinders, m2; of both sides that which pushes."""
         return self.pull_area if self.works == "rod" else self.push_area
 
     @property
-    def back_area(self) -> Any:
+    def back_area(self) -> float | Array:
         """The area on the other side of the pistons, all cylinders, m2."""
         return self.push_area if self.works == "rod" else self.pull_area
 
     @property
-    def push_area(self) -> Any:
+    def push_area(self) -> float | Array:
         """The area that pushes the ends apart: all pistons, m2."""
         return self.count * self.piston_area
 
     @property
-    def pull_area(self) -> Any:
+    def pull_area(self) -> float | Array:
         """The area that pulls the ends together: all annuli, m2."""
         return self.count * self.rod_area
 

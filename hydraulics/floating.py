@@ -10,22 +10,24 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeAlias, final
+from typing import ClassVar, TypeAlias, cast, final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import refuses_changes
-from linkage.loads import AT_REST, ForceElement, Load, Poses, Push, Rates, require_poses
+from linkage.loads import AT_REST, ForceElement, Load, Parameter, Poses, Push, Rate, Rates, require_poses
 from linkage.loads.two_point import end_forces
 from linkage.motion import Motion
 from linkage.plan import ArrayReading
-from linkage.quantities import Reference, label, name_of
-from linkage.statics import Case, Loads, stroke_followed
+from linkage.quantities import Member, Reference, label, name_of
+from linkage.statics import Case, Loads, plan_of, stroke_followed
+from linkage.vectors import Scalar
 
 from .accumulator import AccumulatorBlock
 from .inputs import Array, finite, follows, in_pascals, is_traced, number_set
-from .member import Circuit, Cylinder, found_in, is_named, the_cylinder
+from .member import Circuit, Cylinder, the_cylinder
 
 Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
 
@@ -45,24 +47,22 @@ class FloatCircuit(Circuit):
 
     cylinder: Reference
     block: Block
-    charge_pressure: Any
-    at: Any = 0.0
-    seal_friction: Any = 0.0
-    exponent: Any = 1.0
+    charge_pressure: Parameter
+    at: Parameter = 0.0
+    seal_friction: Parameter = 0.0
+    exponent: Parameter = 1.0
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
         {"charge_pressure": "bar", "at": "m", "seal_friction": "bar", "exponent": ""}
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"seal_friction"})
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"block": AccumulatorBlock})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"block": AccumulatorBlock})
 
     def __post_init__(self) -> None:
         super().__post_init__()
         for name in ("charge_pressure", "seal_friction"):
             if not follows(getattr(self, name)):
                 in_pascals(getattr(self, name), name.replace("_", " ").capitalize())
-        if not is_named(self.cylinder) and not isinstance(self.cylinder, Cylinder):
-            raise DefinitionError(f"FloatCircuit: {cited(self.cylinder)} is no Cylinder; name one.")
-        if not follows(self.exponent) and np.any(finite(self.exponent, "Exponent") < 1.0):
+        if not follows(self.exponent) and np.any(finite(cast(ArrayLike, self.exponent), "Exponent") < 1.0):
             raise DefinitionError(f"FloatCircuit: exponent={cited(self.exponent)} is below 1; 1 is a slow movement, 1.4 a fast one.")
         if not isinstance(self.block, AccumulatorBlock) and (not callable(self.block) or isinstance(self.block, type)):
             said = f"block={cited(self.block)} is no AccumulatorBlock"
@@ -70,11 +70,15 @@ class FloatCircuit(Circuit):
 
     def parts(self) -> tuple[Reference, ...]:
         followed = self.block.following if isinstance(self.block, AccumulatorBlock) else ()
-        return (*([self.cylinder] if is_named(self.cylinder) else []), *super().parts(), *followed)
+        return (*super().parts(), *followed)
 
-    def examine(self, members: Mapping[str, Any], title: str) -> None:
-        found = found_in(members, self.cylinder, f"{title}.{self.name}") if is_named(self.cylinder) else self.cylinder
-        if isinstance(found, Cylinder) and found.works == "both":
+    @property
+    def references(self) -> tuple[Reference, ...]:
+        return (self.cylinder,)
+
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
+        super().examine(members, title)
+        if any(found.works == "both" for found in self.members(members)):
             what = f"{title}.{self.name}: {label(self.cylinder)} works with both sides, but a charged line fills one"
             raise DefinitionError(f'{what}; say works="piston" or works="rod".')
 
@@ -82,12 +86,8 @@ class FloatCircuit(Circuit):
         block = str(self.block) if isinstance(self.block, AccumulatorBlock) else getattr(self.block, "__name__", "block")
         return f"FloatCircuit({', '.join([label(self.cylinder), block, *self.words()])})"
 
-    def feeds(self, members: Mapping[str, Any]) -> tuple[ForceElement, ...]:
+    def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         return self.members(members)
-
-    def members(self, members: Mapping[str, Any]) -> tuple[Cylinder, ...]:
-        found = found_in(members, self.cylinder, str(self)) if is_named(self.cylinder) else self.cylinder
-        return (found,) if isinstance(found, Cylinder) else ()
 
     def pressure_in(self, cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
         return self.pressure(motion)
@@ -120,7 +120,7 @@ class FloatCircuit(Circuit):
         fast = block.settled(number_set(self, motion, "charge_pressure"), exponent).pressure(charge, left)
         return np.where(exponent == 1.0, block.pressure(charge, left), fast) if is_traced(exponent) or np.any(exponent == 1.0) else fast
 
-    def thrust(self, motion: Poses, rates: Mapping[str, Any] = AT_REST) -> Array:
+    def thrust(self, motion: Poses, rates: Mapping[str, Rate] = AT_REST) -> Array:
         """Return the thrust [N], shape (...): frictionless at rest, or while strokes move at rates, with the seals' friction. (37), (39)"""
         if not isinstance(rates, Mapping):
             raise DefinitionError(f"FloatCircuit: rates={cited(rates)}: a speed for each stroke is expected, such as dict(S=0.05).")
@@ -133,7 +133,7 @@ class FloatCircuit(Circuit):
         return np.asarray(free - np.sign(ram.growth(motion, rates)) * friction)
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
-        return [Push(self.ram(motion), self.thrust(motion, rates if rates.rubs else AT_REST))]
+        return [Push(self.ram(motion), self.thrust(motion, rates if rates.has_friction else AT_REST))]
 
     def loads(self, motion: Poses) -> list[Load]:
         return self.moving(motion, AT_REST)
@@ -142,9 +142,10 @@ class FloatCircuit(Circuit):
         return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
 
 
-def length_at(motion: Poses, ram: Cylinder, at: Array) -> Any:
+def length_at(motion: Poses, ram: Cylinder, at: Array) -> Scalar:
     """Return a cylinder's length [m] where the line is charged: the stroke that it follows at `at`, others at the sketch; broadcasts."""
-    plan, stroke = motion.plan, stroke_followed(motion.plan, ram)
+    plan = plan_of(motion)
+    stroke = stroke_followed(plan, ram)
     reading = ArrayReading(plan.members, plan.table.lengths, {**motion.inputs, **plan.sketch_strokes, stroke: at})
     length = plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
     if length is not None:

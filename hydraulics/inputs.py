@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import unmasked
 from linkage.loads import ForceElement, Poses
-from linkage.loads.element import written
+from linkage.loads.element import value_text
 from linkage.plan import ArrayReading
 from linkage.program import Traced
 from linkage.quantities import Quantity, quantity
@@ -182,7 +182,7 @@ def setting(motion: Poses, given: Any, what: str) -> Any:
     if not follows(given):
         return given
     if motion.plan.moves(quantity(given)):
-        raise DefinitionError(f"{what} = {written(given)} follows a stroke, but is set before it moves; let it follow dimensions only.")
+        raise DefinitionError(f"{what} = {value_text(given)} follows a stroke, but is set before it moves; let it follow dimensions only.")
     return ArrayReading(motion.plan.members, motion.plan.table.lengths, motion.inputs).value(quantity(given))
 
 

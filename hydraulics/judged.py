@@ -8,19 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, final
+from typing import final
 
 import numpy as np
 
 from linkage.errors import DefinitionError, known_name, unknown
 from linkage.motion import Motion, Span, below_zero, greatest, lowest, reached, require_motion
-from linkage.statics import Case, Loads, elements_of
-from linkage.statics.holding import same
+from linkage.statics import Case, Loads, elements_of, same
 from linkage.units import UNITS, litre, mm, show
 
 from .cylinder import CylinderSize, standard_bores
 from .inputs import Array, not_negative, one_number
-from .lift import LiftCircuit, Lowering, Work
+from .lift import Choice, Holding, LiftCircuit, Lowering, Work
 from .member import Cylinder, one_design, one_size
 from .verdict import Verdict
 
@@ -41,16 +40,16 @@ def lift_verdicts(
         raise DefinitionError("A lift is judged along one stroke or one path; this motion is a grid of several strokes. Give at() arrays.")
     if not motion.reached.any():
         raise DefinitionError(f"{motion.plan.title}: no pose of this motion can be assembled, so that there is nothing to judge.")
-    judged = [Judged(circuit, ram, motion, loads, case, unit) for ram in circuit.rams(motion)]
-    nothing = idle(judged)
+    cylinders = [LiftingCylinder(circuit, ram, motion, loads, case, unit) for ram in circuit.rams(motion)]
+    nothing = idle(cylinders)
     if nothing is not None:
         return [nothing, filling(circuit, motion)]
-    several = len(judged) > 1
+    several = len(cylinders) > 1
     return [
-        *(named(each.lifting(), each.ram, several) for each in judged),
+        *(with_name(each.lifting(), each.ram, several) for each in cylinders),
         filling(circuit, motion),
-        *(named(each.holding(), each.ram, several) for each in judged),
-        *(named(each.lowering(resistance), each.ram, several) for each in judged),
+        *(with_name(each.holding(), each.ram, several) for each in cylinders),
+        *(with_name(each.lowering(resistance), each.ram, several) for each in cylinders),
     ]
 
 
@@ -64,23 +63,23 @@ def the_circuit(circuit: LiftCircuit | str, motion: Motion) -> LiftCircuit:
     return found
 
 
-def named(verdict: Verdict, ram: Cylinder, several: bool) -> Verdict:
+def with_name(verdict: Verdict, ram: Cylinder, several: bool) -> Verdict:
     """Return a verdict that names its cylinder, where there are several."""
     return Verdict(f"{verdict.rule} {ram.name or ram}", verdict.ok, verdict.sentence) if several else verdict
 
 
-def idle(judged: Sequence[Judged]) -> Verdict | None:
+def idle(cylinders: Sequence[LiftingCylinder]) -> Verdict | None:
     """Return the verdict on a lift that has nothing to carry; None where it has."""
-    first = judged[0]
+    first = cylinders[0]
     elements = elements_of(first.motion.plan, first.loads)
     members = first.motion.plan.members
     feeding = [(name, one.feeds(members)) for name, one in elements]
-    fed = [(name, each.ram) for each in judged for name, rams in feeding if any(same(each.ram, ram) for ram in rams)]
+    fed = [(name, each.ram) for each in cylinders for name, rams in feeding if any(same(each.ram, ram) for ram in rams)]
     if fed:
         (line, ram), *_ = fed
         says = f"{ram.name or ram} is fed by {line} and carries the gas's force, whatever the load: there is nothing that the pump lifts"
         return Verdict("lifting", False, f"{says}. Judge what the drive must do, driving_force(motion), or leave {line} out of the loads.")
-    if any(greatest(each.motion, lambda at, each=each: np.abs(each.thrust(at))).value > 0.0 for each in judged):  # type: ignore[misc]
+    if any(each.carries for each in cylinders):
         return None
     acting = [name for name, each in elements if not each.holds and not each.joined(first.motion.plan.members)]
     why = "no load is declared, such as Weight(G, mass=...)."
@@ -113,7 +112,8 @@ class Lifting:
         return self.least == np.inf
 
 
-class Judged:
+@final
+class LiftingCylinder:
     """One cylinder of a circuit over a motion."""
 
     def __init__(
@@ -122,13 +122,15 @@ class Judged:
         self.circuit, self.ram, self.motion, self.loads, self.case, self.unit = circuit, ram, motion, loads, case, unit
 
     @property
-    def choice(self) -> dict[str, Any]:
+    def choice(self) -> Choice:
         """Which cylinder and load case is meant."""
         return {"cylinder": self.ram, "case": self.case}
 
-    def thrust(self, motion: Motion) -> Array:
-        """Return what the cylinder carries without friction [N]."""
-        return self.ram.thrust(motion, self.loads, case=self.case)
+    @property
+    def carries(self) -> bool:
+        """Whether the cylinder carries anything anywhere."""
+        thrust = greatest(self.motion, lambda at: np.abs(self.ram.thrust(at, self.loads, case=self.case)))
+        return bool(thrust.value > 0.0)
 
     def force(self, motion: Motion) -> Array:
         """Return the rod force while it lifts [N]."""
@@ -139,7 +141,7 @@ class Judged:
         work = self.circuit.work(motion, self.loads, **self.choice)
         return self.circuit.most(motion, work) - work.force
 
-    def show(self, pressure: Any) -> str:
+    def show(self, pressure: Array | float) -> str:
         """Return a pressure in the unit of the sentences."""
         return show(float(pressure), self.unit, 4)
 
@@ -218,10 +220,11 @@ class Judged:
     def holding(self) -> Verdict:
         """Return the pressures that the load makes with the pump off, and whether they stay below the relief valve's."""
         circuit, motion, limit = self.circuit, self.motion, float(self.circuit.held(self.motion))
-        working, other = (
-            greatest(motion, lambda at, side=side: getattr(circuit.holding(at, self.loads, **self.choice), side))  # type: ignore[misc]
-            for side in ("working", "other")
-        )
+
+        def holds(at: Motion) -> Holding:
+            return circuit.holding(at, self.loads, cylinder=self.ram, case=self.case)
+
+        working, other = greatest(motion, lambda at: holds(at).working), greatest(motion, lambda at: holds(at).other)
         endless = next((each for each in (working, other) if each.unbounded), None)
         if endless is not None:
             text = f"the pressure grows without bounds {endless.where}: nothing holds there; keep away from that pose."
@@ -241,7 +244,7 @@ class Judged:
         circuit, motion, against = self.circuit, self.motion, f"against {self.show(resistance)} in the return line"
 
         def sinks(at: Motion) -> Lowering:
-            return circuit.lowering(at, self.loads, resistance=resistance, **self.choice)
+            return circuit.lowering(at, self.loads, resistance=resistance, cylinder=self.ram, case=self.case)
 
         def margin(at: Motion) -> Array:
             found = sinks(at)

@@ -13,17 +13,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeAlias, final
+from typing import ClassVar, TypeAlias, TypedDict, Unpack, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, known_name, one_word
 from linkage.frozen import refuses_changes
-from linkage.loads import Force, ForceElement, Load, Poses
+from linkage.loads import Force, ForceElement, Load, Parameter, Poses
 from linkage.motion import Motion, require_motion
 from linkage.motion.limits import Mask
-from linkage.quantities import Reference, label, name_of, real
+from linkage.quantities import Member, Reference, label, name_of, real
 from linkage.statics import Case, Loads, elements_of
 
 from .cylinder import CylinderSize
@@ -40,9 +40,17 @@ from .inputs import (
     one_number,
     positive,
 )
-from .member import DIRECTIONS, Circuit, Cylinder, found_in, is_named, the_cylinder
+from .member import DIRECTIONS, Circuit, Cylinder, the_cylinder
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
+
+
+class Choice(TypedDict, total=False):
+    """Which cylinder of a line is meant, in which load case, in which direction of its own."""
+
+    cylinder: Reference | None
+    case: Case
+    direction: str | None
 
 
 @final
@@ -58,24 +66,21 @@ class LiftCircuit(Circuit):
     """
 
     cylinder: Feeds
-    pressure: Any
-    flow: Any = 0.0
-    mechanical_efficiency: Any = 1.0
-    hydraulic_efficiency: Any = 1.0
-    back_pressure: Any = 0.0
-    relief: Any = None
+    pressure: Parameter
+    flow: Parameter = 0.0
+    mechanical_efficiency: Parameter = 1.0
+    hydraulic_efficiency: Parameter = 1.0
+    back_pressure: Parameter = 0.0
+    relief: Parameter | None = None
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType(
         {"pressure": "bar", "flow": "", "mechanical_efficiency": "", "hydraulic_efficiency": "", "back_pressure": "bar", "relief": "bar"}
     )
     not_negative: ClassVar[frozenset[str]] = frozenset({"pressure", "flow", "back_pressure", "relief"})
     optional: ClassVar[frozenset[str]] = frozenset({"relief"})
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"cylinder": "loads"})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "loads"})
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        for each in self.references:
-            if not is_named(each) and not isinstance(each, Cylinder):
-                raise DefinitionError(f"LiftCircuit: {cited(each)} is no Cylinder; name one.")
         for name in ("pressure", "relief", "back_pressure"):
             if name in self.numbers and not follows(getattr(self, name)):
                 what = f"{name.replace('_', ' ').capitalize()} of the circuit"
@@ -86,34 +91,23 @@ class LiftCircuit(Circuit):
             if not follows(getattr(self, f"{kind}_efficiency")):
                 efficient(getattr(self, f"{kind}_efficiency"), f"LiftCircuit: {kind}_efficiency")
         if not follows(self.flow):
-            in_cubic_metres(self.flow, "Flow of the pump")
+            in_cubic_metres(cast(ArrayLike, self.flow), "Flow of the pump")
 
     @property
     def references(self) -> tuple[Reference, ...]:
-        """Its cylinders, as they were given."""
-        given: Any = self.cylinder
-        return tuple(given) if isinstance(given, (list, tuple)) else (given,)
+        given = self.cylinder
+        return tuple(given) if isinstance(given, (list, tuple)) else (cast(Reference, given),)
 
-    def parts(self) -> tuple[Reference, ...]:
-        return (*(each for each in self.references if is_named(each)), *super().parts())
-
-    def examine(self, members: Mapping[str, Any], title: str) -> None:
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
         if not self.references:
             raise DefinitionError(f"{title}.{self.name}: the circuit has no cylinder; name one, LiftCircuit(lift, pressure=...).")
-        for each in self.references:
-            if is_named(each):
-                found_in(members, each, f"{title}.{self.name}")
+        super().examine(members, title)
 
     def loads(self, motion: Poses) -> list[Load]:
         return []
 
-    def joined(self, members: Mapping[str, Any]) -> tuple[ForceElement, ...]:
+    def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         return self.members(members)
-
-    def members(self, members: Mapping[str, Any]) -> tuple[Cylinder, ...]:
-        title = self.name or "LiftCircuit"
-        found = (found_in(members, each, title) if is_named(each) else each for each in self.references)
-        return tuple(each for each in found if isinstance(each, Cylinder))
 
     def __str__(self) -> str:
         names = ", ".join(label(each) for each in self.references)
@@ -176,53 +170,51 @@ class LiftCircuit(Circuit):
 
     # -- lifting -------------------------------------------------------------------------------------------
 
-    def work(
-        self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None, direction: str | None = None
-    ) -> Work:
+    def work(self, motion: Motion, loads: Loads = None, **choice: Unpack[Choice]) -> Work:
         """Return what a cylinder has to do while it moves in its working direction, or in the one named."""
+        direction, case = choice.get("direction"), choice.get("case")
         if direction is not None:
             known_name("Direction", direction, DIRECTIONS)
-        ram = self.one(motion, cylinder)
-        size = ram.sized(motion)
-        if size.works != "both":
-            way = direction or ("extending" if size.works == "piston" else "retracting")
-            thrust = ram.thrust(motion, loads, case=case, direction=way)
-            return Work(thrust, sense_in(way, thrust), size, self.efficiency(motion, "mechanical"), direction is None)
-        if direction is not None:
-            thrust = ram.thrust(motion, loads, case=case, direction=direction)
-            return Work(thrust, sense_in(direction, thrust), size, self.efficiency(motion, "mechanical"), False)
-        out, back = both_ways(ram, motion, loads, case)
-        pushes = out + back >= 0.0  # against a pushing load it extends, against a pulling one it retracts
-        thrust = np.where(pushes, out, back)
-        return Work(thrust, np.where(pushes, 1.0, -1.0), size, self.efficiency(motion, "mechanical"), True)
+        ram = self.one(motion, choice.get("cylinder"))
+        size, k_m = ram.sized(motion), self.efficiency(motion, "mechanical")
+        if size.works == "both" and direction is None:
+            out, back = both_ways(ram, motion, loads, case)
+            pushes = out + back >= 0.0  # against a pushing load it extends, against a pulling one it retracts
+            return Work(np.where(pushes, out, back), np.where(pushes, 1.0, -1.0), size, k_m)
+        way = direction or ("extending" if size.works == "piston" else "retracting")
+        thrust = ram.thrust(motion, loads, case=case, direction=way)
+        sense = np.sign(thrust) if way == "frictionless" else np.full(np.shape(thrust), 1.0 if way == "extending" else -1.0)
+        return Work(thrust, sense, size, k_m)
 
-    def rod_force(self, motion: Motion, loads: Loads = None, **choice: Any) -> Array:
+    def works(self, motion: Motion, loads: Loads, choice: Choice) -> list[Work]:
+        """Return what the cylinder that is named has to do, or each of them."""
+        each_of: list[Choice] = [{**choice, "cylinder": ram} for ram in self.meant(motion, choice.get("cylinder"))]
+        return [self.work(motion, loads, **each) for each in each_of]
+
+    def rod_force(self, motion: Motion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the rod force in the working direction [N], shape (...): T / k_m against a load, T k_m under one that drives."""
         return self.work(motion, loads, **choice).force
 
-    def pressure_for(self, motion: Motion, loads: Loads = None, **choice: Any) -> Array:
+    def pressure_for(self, motion: Motion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the pressure on the side that works [Pa gauge], shape (...): the pump's while it lifts; 0 where the load drives.
 
         `choice`: `case=`, `direction=` of the cylinder where it is not its working direction, `cylinder=` of a line of several (else
         the one that needs most).
         """
-        each = [self._pressure(motion, loads, **{**choice, "cylinder": ram}) for ram in self.meant(motion, choice.get("cylinder"))]
-        return np.asarray(np.max(each, axis=0))
+        return np.asarray(np.max([self._pressure(motion, work) for work in self.works(motion, loads, choice)], axis=0))
 
-    def _pressure(self, motion: Motion, loads: Loads, **choice: Any) -> Array:
-        work = self.work(motion, loads, **choice)
+    def _pressure(self, motion: Motion, work: Work) -> Array:
         back = np.where(work.supplied, self.back(motion) * work.other_area, 0.0)
         share = np.where(work.supplied, self.efficiency(motion, "hydraulic"), 1.0)
         return np.asarray(np.maximum(work.force + back, 0.0) / (work.area * share))
 
     def pressure_in(self, cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
-        return self._pressure(motion, loads, cylinder=cylinder, case=case, direction=direction)
+        return self._pressure(motion, self.work(motion, loads, cylinder=cylinder, case=case, direction=direction))
 
-    def largest(self, motion: Motion, loads: Loads = None, *, share: float = 1.0, **choice: Any) -> Array:
+    def largest(self, motion: Motion, loads: Loads = None, *, share: float = 1.0, **choice: Unpack[Choice]) -> Array:
         """Return the greatest rod force in the working direction [N]: k_h p area, less the back pressure's share."""
         proper_share(share)
-        work = self.work(motion, loads, **choice)
-        return self.most(motion, work, share)
+        return self.most(motion, self.work(motion, loads, **choice), share)
 
     def most(self, motion: Motion, work: Work, share: float = 1.0) -> Array:
         """Return the greatest rod force [N] with the areas of a work, at a share of the pump's pressure."""
@@ -236,19 +228,14 @@ class LiftCircuit(Circuit):
         pushes = share * self.efficiency(motion, "hydraulic") * self.supply(motion) * work.area
         return np.asarray(pushes - self.back(motion) * work.other_area)
 
-    def reserve(self, motion: Motion, loads: Loads = None, **choice: Any) -> Array:
+    def reserve(self, motion: Motion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the greatest rod force over the needed one, shape (...); NaN where it is not limited by this cylinder.
 
         Of a line of several cylinders the least, unless one is named.
         """
         with np.errstate(invalid="ignore"):
-            each = [self._reserve(motion, loads, **{**choice, "cylinder": ram}) for ram in self.meant(motion, choice.get("cylinder"))]
-            return least_of(each)
-
-    def _reserve(self, motion: Motion, loads: Loads, **choice: Any) -> Array:
-        work = self.work(motion, loads, **choice)
-        needed = np.where(work.force > 0.0, work.force, np.nan)
-        return np.asarray(self.most(motion, work) / needed)
+            works = self.works(motion, loads, choice)
+            return least_of([np.asarray(self.most(motion, work) / np.where(work.force > 0.0, work.force, np.nan)) for work in works])
 
     def capacity(
         self,
@@ -270,15 +257,15 @@ class LiftCircuit(Circuit):
         require_motion(motion)
         proper_share(share)
         unit = direction_of(along)
-        own: list[Any] = [name for name, _ in elements_of(motion.plan, None)] if loads is None else listed(loads)
+        own = [element for _, element in elements_of(motion.plan, loads)]
         return least_of([self._capacity(motion, point, own, unit, share, ram, case) for ram in self.meant(motion, cylinder)])
 
-    def _capacity(self, motion: Motion, point: str, own: list[Any], unit: Array, share: float, ram: Cylinder, case: Case) -> Array:
+    def _capacity(self, motion: Motion, point: str, own: list[ForceElement], unit: Array, share: float, ram: Cylinder, case: Case) -> Array:
         size, k_m = ram.sized(motion), self.efficiency(motion, "mechanical")
         lever = ram.thrust(motion, [Force(point, (-unit[0], -unit[1]))])  # what one newton there asks of it
         sense = np.sign(lever) if size.works == "both" else np.full(np.shape(lever), float(size.sense))
         lifts, lever = lever * sense > IDLE, lever * sense
-        force = self._given(motion, Work(sense, sense, size, k_m, True), share)
+        force = self._given(motion, Work(sense, sense, size, k_m), share)
 
         def carried(load: Array) -> Array:
             """Return the thrust that the machine and a load there need, in the direction in which it lifts."""
@@ -288,7 +275,7 @@ class LiftCircuit(Circuit):
 
         alone, safe = carried(np.zeros(motion.shape)), np.where(lifts, lever, 1.0)
         found = (force * k_m - alone) / safe
-        if any(each.frictions(motion) for _, each in elements_of(motion.plan, own)):
+        if any(each.frictions(motion) for each in own):
             for _ in range(ROUNDS):  # friction grows with the load: a line through two states, again until it stays
                 guess = np.where(lifts & (found > 0.0), found, 1.0)
                 slope = (carried(guess) - alone) / guess
@@ -317,13 +304,13 @@ class LiftCircuit(Circuit):
 
         Of a line of several cylinders the greatest, unless one is named.
         """
-        if cylinder is None and len(self.references) > 1:
-            each = [self.holding(motion, loads, cylinder=ram, case=case) for ram in self.rams(motion)]
-            return Holding(np.max([one.working for one in each], axis=0), np.max([one.other for one in each], axis=0))
-        ram = self.one(motion, cylinder)
-        size, thrust = ram.sized(motion), ram.thrust(motion, loads, case=case)
-        force = size.sense * thrust
-        return Holding(np.maximum(force, 0.0) / size.area, np.maximum(-force, 0.0) / size.back_area)
+        working, other = [], []
+        for ram in self.meant(motion, cylinder):
+            size, thrust = ram.sized(motion), ram.thrust(motion, loads, case=case)
+            force = size.sense * thrust
+            working.append(np.maximum(force, 0.0) / size.area)
+            other.append(np.maximum(-force, 0.0) / size.back_area)
+        return Holding(np.max(working, axis=0), np.max(other, axis=0))
 
     def lowering(
         self, motion: Motion, loads: Loads = None, *, resistance: ArrayLike = 0.0, cylinder: Reference | None = None, case: Case = None
@@ -333,40 +320,37 @@ class LiftCircuit(Circuit):
         Friction acts against the lowering: the load brings T k_m where it drives and takes T / k_m where it resists. Of a line of several
         cylinders it is the one that goes back hardest, unless one is named.
         """
-        if cylinder is None and len(self.references) > 1:
-            each = [self.lowering(motion, loads, resistance=resistance, cylinder=ram, case=case) for ram in self.rams(motion)]
-            push, free = np.max([one.push for one in each], axis=0), np.all([one.by_itself for one in each], axis=0)
-            return Lowering(np.min([one.working for one in each], axis=0), push, free)
-        against = fitted(motion, not_negative(resistance, "Return resistance"))
-        ram, k_m = self.one(motion, cylinder), self.efficiency(motion, "mechanical")
-        size = ram.sized(motion)
-        if size.works == "both":
-            out, back = both_ways(ram, motion, loads, case)
-            pushes = out + back >= 0.0
-            force, area = np.where(pushes, back, -out), np.where(pushes, size.push_area, size.pull_area)
-            other = np.where(pushes, size.pull_area, size.push_area)
-        else:
-            way = "retracting" if size.works == "piston" else "extending"
-            force, area, other = size.sense * ram.thrust(motion, loads, case=case, direction=way), size.area, size.back_area
-        brings = np.where(force > 0.0, force * k_m, force / k_m)
-        push = np.maximum(against * area - brings, 0.0) / other
-        return Lowering(np.maximum(brings, 0.0) / area, push, np.asarray(brings > against * area))
+        against, k_m = fitted(motion, not_negative(resistance, "Return resistance")), self.efficiency(motion, "mechanical")
+        working, push, by_itself = [], [], []
+        area: float | Array
+        other: float | Array
+        for ram in self.meant(motion, cylinder):
+            size = ram.sized(motion)
+            if size.works == "both":
+                out, back = both_ways(ram, motion, loads, case)
+                pushes = out + back >= 0.0
+                force, area = np.where(pushes, back, -out), np.where(pushes, size.push_area, size.pull_area)
+                other = np.where(pushes, size.pull_area, size.push_area)
+            else:
+                way = "retracting" if size.works == "piston" else "extending"
+                force, area, other = size.sense * ram.thrust(motion, loads, case=case, direction=way), size.area, size.back_area
+            brings = np.where(force > 0.0, force * k_m, force / k_m)
+            working.append(np.maximum(brings, 0.0) / area)
+            push.append(np.maximum(against * area - brings, 0.0) / other)
+            by_itself.append(np.asarray(brings > against * area))
+        return Lowering(np.min(working, axis=0), np.max(push, axis=0), np.all(by_itself, axis=0))
 
 
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Work:
-    """A cylinder's thrust [N] while it grows (`sense` 1) or shrinks (-1), its size, and the mechanical efficiency.
-
-    `lifts`: whether it moves in its working direction by the pump, as it does where no other direction was named.
-    """
+    """A cylinder's thrust [N] while it grows (`sense` 1) or shrinks (-1), its size, and the mechanical efficiency."""
 
     thrust: Array
     sense: Array
     size: CylinderSize
     k_m: Array
-    lifts: bool
 
     @property
     def pulls(self) -> Mask:
@@ -432,20 +416,13 @@ ROUNDS = 12
 """How often a capacity with friction is put right; each makes it better by the share of the friction."""
 
 
-def sense_in(direction: str, thrust: Array) -> Array:
-    """Return 1 while a cylinder grows, -1 while it shrinks; without a direction the way that it pushes."""
-    if direction == "frictionless":
-        return np.asarray(np.sign(thrust))
-    return np.full(np.shape(thrust), 1.0 if direction == "extending" else -1.0)
-
-
-def proper_share(share: Any) -> None:
+def proper_share(share: float) -> None:
     """Raise DefinitionError for a share of the pressure that is not above 0 and up to 1."""
     if not 0.0 < one_number(share, "share") <= 1.0:
         raise DefinitionError(f"share = {share:.6g} of the pressure is not in 0 to 1; 0.9 is how tractors are tested.")
 
 
-def direction_of(along: Any) -> Array:
+def direction_of(along: tuple[float, float]) -> Array:
     """Return a direction of length one, shape (2,); DefinitionError where it has no length."""
     try:
         unit = real(along)
@@ -466,11 +443,6 @@ def fitted(motion: Motion, value: Array) -> Array:
     except ValueError:
         raise DefinitionError(f"resistance of the shape {np.shape(value)} does not fit the poses {motion.shape}.") from None
     return value
-
-
-def listed(loads: Any) -> list[Any]:
-    """Return loads as a list."""
-    return list(loads) if isinstance(loads, Sequence) and not isinstance(loads, str) else [loads]
 
 
 def both_ways(ram: Cylinder, motion: Motion, loads: Loads, case: Case) -> tuple[Array, Array]:

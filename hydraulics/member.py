@@ -10,20 +10,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from abc import abstractmethod
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, Literal, final
+from typing import ClassVar, Literal, cast, final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, unknown, unwarned
 from linkage.frozen import refuses_changes
-from linkage.loads import AT_REST, DrawnAs, ForceElement, LoadCase, Poses, Push, Rates, TwoPoint, require_poses
+from linkage.loads import AT_REST, DrawnAs, ForceElement, LoadCase, Parameter, Poses, Push, Rates, TwoPoint, require_poses
 from linkage.motion import Column, Motion, Tabled, greatest, lowest, require_motion
 from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import Case, Loads, elements_of, member_thrust
-from linkage.statics.holding import same
+from linkage.statics import Case, Loads, elements_of, member_thrust, same
 from linkage.units import mm
 
 from .buckling import Buckling
@@ -48,8 +49,8 @@ class Cylinder(TwoPoint, Tabled):
 
     A: Reference
     B: Reference
-    bore: Any
-    rod: Any
+    bore: Parameter
+    rod: Parameter
     count: int = 1
     works: Literal["piston", "rod", "both"] = "piston"
     stroke: float | None = None
@@ -58,18 +59,17 @@ class Cylinder(TwoPoint, Tabled):
     safety: float = 3.5
     drawn_as: ClassVar[DrawnAs] = "cylinder"
     file_section: ClassVar[str] = "hydraulics"
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"stroke": "length", "closed": "length"})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"stroke": "length", "closed": "length"})
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"bore", "rod"})
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        bore, rod = (2.0, 1.0) if self._follows else (self.bore, self.rod)
-        CylinderSize(bore, rod, self.count, self.works)
+        size = CylinderSize(2.0, 1.0, self.count, self.works) if self._follows else self.size
         Buckling(1.0, self.mounting, self.safety)
         for value, what in ((self.stroke, "Stroke of the cylinder"), (self.closed, "Closed length of the cylinder")):
             if value is not None:
-                positive(stroke_in_metres(one_number(value, what), what, None if self._follows else self.bore), what)
+                positive(stroke_in_metres(one_number(value, what), what, None if self._follows else size.bore), what)
 
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:
         """Return nothing: it has no law of its own."""
@@ -99,7 +99,7 @@ class Cylinder(TwoPoint, Tabled):
         """The size as it is written here; DefinitionError where a bore or rod follows something else."""
         if self._follows:
             raise DefinitionError(f"{self}: its size follows the design; ask for sized(motion).")
-        return CylinderSize(self.bore, self.rod, self.count, self.works)
+        return CylinderSize(cast("float | Array", self.bore), cast("float | Array", self.rod), self.count, self.works)
 
     @property
     def _follows(self) -> bool:
@@ -140,7 +140,13 @@ class Cylinder(TwoPoint, Tabled):
     # -- what it carries -----------------------------------------------------------------------------------
 
     def thrust(
-        self, motion: Motion, loads: Loads = None, *, case: Case = None, direction: str = "frictionless", rates: Any = None
+        self,
+        motion: Motion,
+        loads: Loads = None,
+        *,
+        case: Case = None,
+        direction: str = "frictionless",
+        rates: Mapping[str, ArrayLike] | None = None,
     ) -> Array:
         """Return what this cylinder carries, whatever drives the machine, shape (...) [N], positive where it pushes its ends apart.
 
@@ -226,8 +232,8 @@ class Cylinder(TwoPoint, Tabled):
         cases: Iterable[Case] = [case] if case is not None else [None, *motion.plan.of_kind(LoadCase).values()]
         worst: tuple[float, float, float, str] | None = None
         for each in cases:
-            for direction in DIRECTIONS if rubs(motion, loads) else DIRECTIONS[:1]:
-                found = greatest(motion, lambda at, each=each, direction=direction: self._use(at, rod, loads, each, direction))  # type: ignore[misc]
+            for direction in DIRECTIONS if changes_in_motion(motion, loads) else DIRECTIONS[:1]:
+                found = greatest(motion, self._use(rod, loads, each, direction))
                 if np.isnan(found.value) or (worst is not None and found.value <= worst[0]):
                     continue
                 place = motion.moved(found.strokes)
@@ -238,10 +244,14 @@ class Cylinder(TwoPoint, Tabled):
             return [Verdict("buckling", True, "the rod is never pushed.")]
         return [rod.judged(worst[1], worst[2], worst[3], unbounded=not np.isfinite(worst[0]))]
 
-    def _use(self, motion: Motion, rod: Buckling, loads: Loads, case: Case, direction: str) -> Array:
-        """Return the utilisation of a rod over a motion: one cylinder's push times the safety over the force at which it buckles."""
-        push = self.thrust(motion, loads, case=case, direction=direction) / self.count
-        return np.where(push > 0.0, push / rod.allowed(motion.distance(self.A, self.B)), 0.0) + 0.0 * push
+    def _use(self, rod: Buckling, loads: Loads, case: Case, direction: str) -> Callable[[Motion], Array]:
+        """Return the utilisation of a rod, of a motion: one cylinder's push times the safety over the force at which it buckles."""
+
+        def use(motion: Motion) -> Array:
+            push = self.thrust(motion, loads, case=case, direction=direction) / self.count
+            return np.where(push > 0.0, push / rod.allowed(motion.distance(self.A, self.B)), 0.0) + 0.0 * push
+
+        return use
 
     @property
     def _pins(self) -> str:
@@ -277,18 +287,39 @@ class Circuit(ForceElement):
 
     places: ClassVar[tuple[str, ...]] = ()
     file_section: ClassVar[str] = "hydraulics"
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"cylinder": "load"})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"cylinder": "load"})
 
-    def members(self, members: Mapping[str, Any]) -> tuple[Cylinder, ...]:
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for each in self.references:
+            if not is_named(each) and not isinstance(each, Cylinder):
+                raise DefinitionError(f"{type(self).__name__}: {cited(each)} is no Cylinder; name one.")
+
+    @property
+    @abstractmethod
+    def references(self) -> tuple[Reference, ...]:
+        """Its cylinders, as they were given."""
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (*(each for each in self.references if is_named(each)), *super().parts())
+
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
+        for each in self.references:
+            if is_named(each):
+                found_in(members, each, f"{title}.{self.name}")
+
+    def members(self, members: Mapping[str, Member]) -> tuple[Cylinder, ...]:
         """Return its cylinders, as a class has them."""
-        raise NotImplementedError
+        title = self.name or type(self).__name__
+        found = (found_in(members, each, title) if is_named(each) else each for each in self.references)
+        return tuple(each for each in found if isinstance(each, Cylinder))
 
+    @abstractmethod
     def pressure_in(self, cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
         """Return the pressure on the working side of one of its cylinders, shape (...) [Pa gauge]."""
-        raise NotImplementedError
 
 
-def rubs(motion: Motion, loads: Loads) -> bool:
+def changes_in_motion(motion: Motion, loads: Loads) -> bool:
     """Return whether there is friction among some loads, or an element that acts otherwise while it moves."""
     return any(each.frictions(motion) or each.feeds(motion.plan.members) for _, each in elements_of(motion.plan, loads))
 
@@ -320,7 +351,7 @@ def the_cylinder(motion: Poses, reference: Reference) -> Cylinder:
     return _cylinder(reference, "The circuit")
 
 
-def found_in(members: Mapping[str, Any], reference: Reference, where: str) -> Cylinder:
+def found_in(members: Mapping[str, Member], reference: Reference, where: str) -> Cylinder:
     """Return the cylinder a reference stands for in a class; DefinitionError where there is none."""
     name = name_of(reference)
     if name in members:
@@ -330,7 +361,7 @@ def found_in(members: Mapping[str, Any], reference: Reference, where: str) -> Cy
     return _cylinder(reference, where)
 
 
-def _cylinder(found: Any, where: str) -> Cylinder:
+def _cylinder(found: object, where: str) -> Cylinder:
     if not isinstance(found, Cylinder):
         raise DefinitionError(f"{where}: {found} is no Cylinder; name one.")
     return found
@@ -339,6 +370,7 @@ def _cylinder(found: Any, where: str) -> Cylinder:
 TOLERANCE = 1e-9  # m: a length that is met to rounding is met
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True)
 class OneSize:
@@ -363,5 +395,5 @@ def _near(value: float, series: tuple[int, ...], what: str) -> str:
     return f"the {what} is not of ISO 3320, next to it {'are' if below and above else 'is'} {_listed([*below, *above])} mm"
 
 
-def _listed(values: Any) -> str:
+def _listed(values: Iterable[float]) -> str:
     return " and ".join(f"{value:.0f}" for value in values)

@@ -14,7 +14,7 @@ import numpy as np
 
 from hydraulics import Cylinder, CylinderSize, LiftCircuit, next_bore
 from hydraulics.inputs import in_pascals, positive
-from hydraulics.judged import Judged, Lifting
+from hydraulics.judged import Lifting, LiftingCylinder
 from linkage import (  # fmt: skip
     RIGHT,
     Column,
@@ -120,7 +120,7 @@ class MowerLift(Mechanism):
             return [batch_verdict(self.circuit, motion)]
         if not motion.reached.any():
             return ["No pose of this motion can be assembled; there is nothing to lift."]
-        judged = Judged(self.circuit, self.lift, motion, unit="kgf/cm2")
+        judged = LiftingCylinder(self.circuit, self.lift, motion, unit="kgf/cm2")
         found = judged.lifted()
         beside = [judged.holding(), judged.lowering(), *self.lift.buckling(motion)] if found.least > 0.0 else []
         apart = [] if motion.reached.all() else ["The poses out of reach are left out of this."]

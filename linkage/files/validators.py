@@ -82,7 +82,7 @@ def number_of(given: Any, names: Names, measures: str = "") -> float:
         return found.number
     if not is_number(given):
         raise DefinitionError(f"{shortened(given)} is not a finite number.")
-    return given  # type: ignore[no-any-return]  # an int stays one: it prints as it was written
+    return given  # an int stays one: it prints as it was written
 
 
 def amount_of(given: Any, names: Names, measures: str) -> Any:

@@ -313,13 +313,13 @@ def given_lines(equations: Any, listing: Listing, values: dict[str, str]) -> lis
     points = [names.vector(name) for name in listing.given_points if name not in listing.unknowns]
     dimensions = [names.quantity(name) for name in plan.table.entries]
     units = {names.quantity(name).name: unit for name, unit in listing.units.items()}
-    groups = [[worded(symbol, values, units) for symbol in group if symbol in used] for group in (strokes, points, dimensions)]
+    groups = [[given_words(symbol, values, units) for symbol in group if symbol in used] for group in (strokes, points, dimensions)]
     listed = "; ".join(", ".join(group) for group in groups if group)
     lines = wrap(f"Given: {listed}.", width=WIDTH, subsequent_indent="  ", break_long_words=False) if listed else []
     return [line.replace(TOGETHER, " ") for line in lines]
 
 
-def worded(symbol: Any, values: dict[str, str], units: dict[str, Unit]) -> str:
+def given_words(symbol: Any, values: dict[str, str], units: dict[str, Unit]) -> str:
     """Return a given symbol, with its value and unit where that is known."""
     if symbol.name not in values:
         return str(symbol.name)

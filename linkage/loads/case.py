@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import pi
 from types import MappingProxyType
-from typing import Any, ClassVar, final
+from typing import ClassVar, final
 
 from ..errors import DefinitionError, cited, unknown
 from ..frozen import keep_own, refuses_changes
@@ -14,7 +14,7 @@ from ..quantities import Member, Reference, in_degrees, is_number, name_of
 from ..quantities.quantity import plain
 from ..units import deg
 from .element import ForceElement
-from .point import gravity_of
+from .point import gravity_vector
 
 STEEPEST = 0.5 * pi * (1.0 + 1e-9)
 
@@ -31,7 +31,7 @@ class LoadCase(Member):
     """
 
     kind: ClassVar[str] = "load case"
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType(
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType(
         {"scale": "load factors", "only": "load list", "slope": "angle", "gravity": "gravity"}
     )
     title: str = ""
@@ -50,7 +50,7 @@ class LoadCase(Member):
             said = f"slope={plain(self.slope)!r} rad is {self.slope / deg:.4g} deg, steeper than a wall"
             raise DefinitionError(f"{self.label}: {said}; write slope={plain(self.slope)!r} * deg if these are degrees.")
         if self.gravity is not None:
-            object.__setattr__(self, "gravity", gravity_of(self.gravity, self.label))
+            object.__setattr__(self, "gravity", gravity_vector(self.gravity, self.label))
 
     @property
     def label(self) -> str:
@@ -91,7 +91,7 @@ class LoadCase(Member):
         return f"LoadCase({', '.join(words)})"
 
 
-def check_words(title: Any, scale: Any, only: Any) -> None:
+def check_words(title: object, scale: object, only: object) -> None:
     """Raise DefinitionError for a title that is no text, and for what is no choice of loads."""
     if not isinstance(title, str):
         example = 'LoadCase("transport", scale={"load": 2.0})'

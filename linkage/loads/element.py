@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, Protocol, Self
+from typing import Any, ClassVar, Protocol, Self, TypeAlias, TypeVar, final
 
 import numpy as np
 import numpy.typing as npt
@@ -15,13 +15,17 @@ from ..errors import DefinitionError, cited
 from ..frozen import keep_own
 from ..quantities import Jointed, Member, Number, Quantity, Reference, label, name_of, quantity, real, spelled
 from ..quantities.quantity import plain
-from ..steps import Point
+from ..steps import Bar, Point
 
-# A force at a point: what every force element comes down to.
+Array: TypeAlias = npt.NDArray[np.float64]
+Parameter: TypeAlias = "float | Array | Quantity | str"
+"""A number of an element [SI], an array that broadcasts against the motion, or a quantity that it follows, by its name too."""
+Rate: TypeAlias = "float | Array"
+"""A number or an array over the poses [1/s]."""
+Kind = TypeVar("Kind", bound=Member)
 
-Array = npt.NDArray[np.float64]
 
-
+@final
 @dataclass(frozen=True, eq=False)
 class Load:
     """A force [N], shape (2, ...), that acts at a point; the rest of its shape broadcasts against the motion's.
@@ -35,34 +39,107 @@ class Load:
     on: tuple[str, ...] = ()
 
 
+class TwoPinned(Protocol):
+    """A straight member between two pins."""
+
+    @property
+    def name(self) -> str:
+        """Its name in the class; empty for one that is not of it."""
+
+    @property
+    def ends(self) -> tuple[str, str]:
+        """The names of its two points."""
+
+
+@final
 @dataclass(frozen=True, eq=False)
 class Push:
     """The thrust [N] of a straight two-point member, positive where it pushes its ends apart; it broadcasts against the motion."""
 
-    member: Any
+    member: TwoPinned
     thrust: Array
 
 
-def couple(P: str, Q: str, arm: Array, moment: Array) -> list[Load]:
-    """Return a moment [Nm], counter-clockwise, on the body of P and Q as a pair of forces; `arm` is Q - P, shape (2, ...) [m]."""
-    across = np.stack([-arm[1], arm[0]]) * (moment / (arm[0] ** 2 + arm[1] ** 2))
-    return [Load(Q, across, (P, Q)), Load(P, -across, (P, Q))]
+@final
+@dataclass(frozen=True, eq=False)
+class Friction:
+    """Dry friction in a pin of a radius [m], or on the guides a point runs on (radius None; one guide where it is named)."""
+
+    point: str
+    coefficient: Array
+    radius: Array | None = None
+    guide: str = ""
+
+
+class PointGroup(Protocol):
+    """A rigid body: its points."""
+
+    @property
+    def points(self) -> tuple[str, ...]: ...
+
+
+class DeclaredLengths(Protocol):
+    """The table of a machine's dimensions, as far as its lengths go."""
+
+    @property
+    def lengths(self) -> Mapping[frozenset[str], Quantity]:
+        """The declared lengths by the two points they are between."""
+
+
+class Declared(Protocol):
+    """What a force element may ask of the machine that a motion is of; a plan answers."""
+
+    @property
+    def title(self) -> str:
+        """The name of its class."""
+
+    @property
+    def members(self) -> Mapping[str, Member]:
+        """All members of the class by name."""
+
+    @property
+    def table(self) -> DeclaredLengths:
+        """The dimensions."""
+
+    @property
+    def links(self) -> Sequence[PointGroup]:
+        """The rigid bodies, the frame first."""
+
+    @property
+    def cylinders(self) -> Sequence[Bar]:
+        """The driven lengths."""
+
+    @property
+    def telescopes(self) -> Sequence[str]:
+        """The points that a stroke moves along their body."""
+
+    def of_kind(self, kind: type[Kind]) -> Mapping[str, Kind]:
+        """Return the members of a kind by name."""
+
+    def reaches(self, start: Member | str) -> set[str]:
+        """Return the names of all members that something is built from, itself included."""
+
+    def moves(self, quantity: Member) -> bool:
+        """Return whether a quantity follows a stroke."""
+
+    def strays(self, quantity: Quantity) -> tuple[str, ...]:
+        """Return the angles whose whole turns a quantity depends on."""
 
 
 class Poses(Protocol):
-    """What a force element asks a motion for."""
+    """What a law of force may ask of a motion; numbers are arrays over the poses, or stand for them while the law is traced."""
 
     @property
     def shape(self) -> tuple[int, ...]:
         """Designs first, strokes last."""
 
     @property
-    def inputs(self) -> dict[str, Any]:
+    def inputs(self) -> Mapping[str, Array]:
         """Design variables and strokes by name [SI], shaped to broadcast against results."""
 
     @property
-    def plan(self) -> Any:
-        """The plan, with its members by name."""
+    def plan(self) -> Declared:
+        """The machine, with its members by name."""
 
     def __getitem__(self, name: str) -> Array:
         """Return a point's position, shape (2, ...) [m]."""
@@ -79,33 +156,24 @@ class Poses(Protocol):
     def sketched(self, quantity: Quantity) -> Array:
         """Return what a quantity is at the sketch pose of each design [SI]; broadcasts against results."""
 
-    def ratio(self, target: Any, *, wrt: str | None = None) -> Array:
+    def ratio(self, target: Reference, *, wrt: str | None = None) -> Array:
         """Return the derivative of a point or a quantity by a stroke."""
 
 
-class Rates(dict[str, Any]):
+@final
+class Rates(dict[str, Rate]):
     """How strokes move, by name [1/s], a number or an array over the poses each; empty at rest.
 
     `is_timed`: whether these are speeds that were given; where only a direction is known, their senses alone mean something.
-    `rubs`: whether friction acts, against their senses.
+    `has_friction`: whether friction acts, against their senses.
     """
 
-    def __init__(self, rates: Mapping[str, Any] = MappingProxyType({}), is_timed: bool = False, rubs: bool = True) -> None:
+    def __init__(self, rates: Mapping[str, Rate] = MappingProxyType({}), is_timed: bool = False, has_friction: bool = True) -> None:
         super().__init__(rates)
-        self.is_timed, self.rubs = is_timed, rubs
+        self.is_timed, self.has_friction = is_timed, has_friction
 
 
 AT_REST = Rates()
-
-
-@dataclass(frozen=True, eq=False)
-class Friction:
-    """Dry friction in a pin of a radius [m], or on the guides a point runs on (radius None; one guide where it is named)."""
-
-    point: str
-    coefficient: Array
-    radius: Array | None = None
-    guide: str = ""
 
 
 class ForceElement(Jointed):
@@ -199,18 +267,17 @@ class ForceElement(Jointed):
         given, key = getattr(self, name), f"{self.name}.{name}"
         member = motion.plan.members.get(self.name)
         if key in motion.inputs and type(member) is type(self) and getattr(member, name) is given:
-            found: Array = motion.inputs[key]
-            return found
+            return motion.inputs[key]
         if isinstance(given, (str, Quantity)):
             strays = motion.plan.strays(quantity(given))
             if strays:
-                what = f"{self.name or self}: {name} = {written(given)} depends on the whole turns of {strays[0]}, which are followed"
+                what = f"{self.name or self}: {name} = {value_text(given)} depends on the whole turns of {strays[0]}, which are followed"
                 raise DefinitionError(f"{what} for the loads of a class only; declare it in the class, or use sines and cosines.")
-            followed = motion.value(quantity(given))
-            if name in self.not_negative and np.any(followed < 0.0):
-                what = f"{self.name or self}: {name} = {written(given)} is negative, {np.nanmin(followed):.6g}"
+            at_poses = motion.value(quantity(given))
+            if name in self.not_negative and np.any(at_poses < 0.0):
+                what = f"{self.name or self}: {name} = {value_text(given)} is negative, {np.nanmin(at_poses):.6g}"
                 raise DefinitionError(f"{what}; let it follow what stays at or above zero.")
-            return followed
+            return at_poses
         return np.asarray(given, float)
 
     def position(self, motion: Poses, place: str) -> Array:
@@ -245,7 +312,7 @@ class ForceElement(Jointed):
 
     def words(self) -> list[str]:
         """Return its parameters and options as they are written."""
-        given = {name: written(getattr(self, name)) for name in self.numbers}
+        given = {name: value_text(getattr(self, name)) for name in self.numbers}
         more = {name: label(value) if isinstance(value, Member) else repr(plain(value)) for name, value in self.options().items()}
         return [f"{name}={text}" for name, text in (given | more).items()]
 
@@ -258,12 +325,18 @@ class ForceElement(Jointed):
         return self.renewed(**{name: values[key] for name, key in keys.items() if key in values})
 
 
-def written(value: Any) -> str:
+def value_text(value: object) -> str:
     """Return a parameter as it is written: a number, an expression, a name."""
     return spelled(quantity(value)) if isinstance(value, (str, Quantity)) else repr(plain(value))
 
 
-def require_poses(given: Any) -> None:
+def require_poses(given: object) -> None:
     """Raise DefinitionError for what holds no poses: anything but a motion, or what stands for one while a law is traced."""
     if isinstance(given, type) or not callable(getattr(given, "ratio", None)):
         raise DefinitionError(f"{cited(given)} is no motion; give machine.sweep(...) or machine.at(...).")
+
+
+def couple(P: str, Q: str, arm: Array, moment: Array) -> list[Load]:
+    """Return a moment [Nm], counter-clockwise, on the body of P and Q as a pair of forces; `arm` is Q - P, shape (2, ...) [m]."""
+    across = np.stack([-arm[1], arm[0]]) * (moment / (arm[0] ** 2 + arm[1] ** 2))
+    return [Load(Q, across, (P, Q)), Load(P, -across, (P, Q))]

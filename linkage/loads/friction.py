@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, final
+from typing import ClassVar, final
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
 from ..quantities import Member, Reference, is_number, label, name_of
-from .element import ForceElement, Friction, Load, Poses
+from .element import ForceElement, Friction, Load, Parameter, Poses
 
 THICKEST = 3.0
 """m; the radius of a larger pin was given in millimetres."""
@@ -26,8 +26,8 @@ class PinFriction(ForceElement):
     """
 
     point: Reference
-    radius: Any
-    coefficient: Any
+    radius: Parameter
+    coefficient: Parameter
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"radius": "mm", "coefficient": ""})
     not_negative: ClassVar[frozenset[str]] = frozenset({"radius", "coefficient"})
 
@@ -54,10 +54,10 @@ class GuideFriction(ForceElement):
     """
 
     point: Reference
-    coefficient: Any
+    coefficient: Parameter
     guide: Reference = ""
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"coefficient": ""})
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"guide": "guide"})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"guide": "guide"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"coefficient"})
 
     def __post_init__(self) -> None:

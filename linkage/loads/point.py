@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import cos, sin
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeAlias, final
+from typing import ClassVar, TypeAlias, final
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from ..quantities import Member, Reference, is_number, label, name_of, real
 from ..quantities.quantity import plain
 from ..steps import Link, Point
 from ..units import g0
-from .element import Array, ForceElement, Load, Poses, couple, written
+from .element import Array, Declared, ForceElement, Load, Parameter, Poses, couple, value_text
 
 DOWN = (0.0, -g0)  # gravity, m/s2
 
@@ -31,86 +31,66 @@ class Weight(ForceElement):
     """
 
     point: Reference
-    mass: Any
+    mass: Parameter
     gravity: tuple[float, float] = DOWN
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"mass": "kg"})
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"gravity": "gravity"})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"gravity": "gravity"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"mass"})
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        object.__setattr__(self, "gravity", gravity_of(self.gravity, "Weight"))
+        object.__setattr__(self, "gravity", gravity_vector(self.gravity, "Weight"))
 
     def loads(self, motion: Poses) -> list[Load]:
         return [Load(name_of(self.point), vector(self.number(motion, "mass"), self.gravity))]
 
     def in_gravity(self, gravity: tuple[float, float] | None, slope: float) -> Weight:
-        return self.renewed(gravity=turned(self.gravity if gravity is None else gravity, slope))
+        return self.renewed(gravity=on_slope(self.gravity if gravity is None else gravity, slope))
 
 
-def gravity_of(given: Any, what: str) -> tuple[float, float]:
+def gravity_vector(given: object, what: str) -> tuple[float, float]:
     """Return gravity as a vector [m/s2]; DefinitionError for anything but two finite numbers."""
     if is_number(given):
         raise DefinitionError(f"{what}: gravity={given!r} has no direction; write the vector gravity=(0, {-abs(plain(given))!r}).")
-    x, y = (plain(part) for part in two(given, f"{what}(gravity=...)"))
+    x, y = (plain(part) for part in two_parts(given, f"{what}(gravity=...)"))
     if not (is_number(x) and is_number(y)):
         raise DefinitionError(f"{what}: gravity={cited(given)} is not two finite numbers; write (x, y) in m/s2, such as (0, -9.81).")
     return x, y
 
 
-def turned(gravity: tuple[float, float], slope: float) -> tuple[float, float]:
+def on_slope(gravity: tuple[float, float], slope: float) -> tuple[float, float]:
     """Return gravity on ground that rises towards +x by a slope [rad], in axes that lie along the ground [m/s2]."""
     x, y = gravity
     return x * cos(slope) + y * sin(slope), y * cos(slope) - x * sin(slope)
 
 
-class Pair(ForceElement):
-    """An element with a vector of two numbers, its parameters x and y."""
-
-    @property
-    def x(self) -> Any:
-        """The vector's part to the right."""
-        return self.pair()[0]
-
-    @property
-    def y(self) -> Any:
-        """The vector's part upwards."""
-        return self.pair()[1]
-
-    def pair(self) -> tuple[Any, Any]:
-        """Return the vector; DefinitionError unless it has two parts."""
-        raise NotImplementedError
-
-
-def two(given: Any, what: str) -> tuple[Any, Any]:
-    """Return a vector's parts; DefinitionError unless there are two."""
-    parts = list(given) if isinstance(given, (list, tuple)) or (isinstance(given, np.ndarray) and given.ndim) else []
-    if len(parts) != 2 or np.ma.is_masked(given):
-        raise DefinitionError(f"{what}: {cited(given)} is not a vector; write (x, y).")
-    x, y = parts
-    return x, y
-
-
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class Force(Pair):
+class Force(ForceElement):
     """A force (x, y) [N] at a point, its direction fixed to the frame: `pull = Force(F, (-5 * kN, 0))`.
 
     Its parts are design variables: `pull.x`, `pull.y`, or `pull=(x, y)` at once.
     """
 
     point: Reference
-    vector: Any
+    vector: tuple[Parameter, Parameter]
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"x": "N", "y": "N"})
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"vector": "force vector"})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"vector": "force vector"})
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "vector", two(unmasked(self.vector), "Force"))  # parts of its own: one of them may be set
+        object.__setattr__(self, "vector", two_parts(unmasked(self.vector), "Force"))  # parts of its own: one of them may be set
         super().__post_init__()
 
-    def pair(self) -> tuple[Any, Any]:
-        return two(self.vector, "Force")
+    @property
+    def x(self) -> Parameter:
+        """The force's part to the right [N]."""
+        return two_parts(self.vector, "Force")[0]
+
+    @property
+    def y(self) -> Parameter:
+        """The force's part upwards [N]."""
+        return two_parts(self.vector, "Force")[1]
 
     def having(self, values: Mapping[str, float]) -> Force:
         return self.renewed(vector=(values.get(f"{self.name}.x", self.x), values.get(f"{self.name}.y", self.y)))
@@ -119,7 +99,7 @@ class Force(Pair):
         return [Load(name_of(self.point), vector(1.0, (self.number(motion, "x"), self.number(motion, "y"))))]
 
     def __str__(self) -> str:
-        return f"Force({label(self.point)}, ({written(self.x)}, {written(self.y)}))"
+        return f"Force({label(self.point)}, ({value_text(self.x)}, {value_text(self.y)}))"
 
 
 @final
@@ -133,14 +113,14 @@ class Support(ForceElement):
     """
 
     point: Reference
-    direction: Any
-    force: Any = 0.0
+    direction: tuple[float, float]
+    force: Parameter = 0.0
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"force": "N"})
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"direction": "pair"})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"direction": "pair"})
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        x, y = two(self.direction, "Support")
+        x, y = two_parts(self.direction, "Support")
         try:
             size = np.hypot(real(x), real(y))
         except ValueError:
@@ -159,13 +139,22 @@ class Support(ForceElement):
         return [Load(name_of(self.point), vector(self.number(motion, "force"), (self.unit[0], self.unit[1])))]
 
     def __str__(self) -> str:
-        x, y = two(self.direction, "Support")
-        return f"Support({label(self.point)}, ({written(x)}, {written(y)}), {', '.join(self.words())})"
+        x, y = two_parts(self.direction, "Support")
+        return f"Support({label(self.point)}, ({value_text(x)}, {value_text(y)}), {', '.join(self.words())})"
 
 
-def vector(size: Any, direction: tuple[Any, Any]) -> Array:
+def vector(size: Array | float, direction: tuple[Array | float, Array | float]) -> Array:
     """Return a size times a direction, shape (2, ...)."""
     return np.stack(np.broadcast_arrays(*(size * part for part in direction)))
+
+
+def two_parts(given: object, what: str) -> tuple[Parameter, Parameter]:
+    """Return a vector's parts; DefinitionError unless there are two."""
+    parts = list(given) if isinstance(given, (list, tuple)) or (isinstance(given, np.ndarray) and given.ndim) else []
+    if len(parts) != 2 or np.ma.is_masked(given):
+        raise DefinitionError(f"{what}: {cited(given)} is not a vector; write (x, y).")
+    x, y = parts
+    return x, y
 
 
 # What acts on a body as a whole: a moment, its own mass.
@@ -178,7 +167,7 @@ class OnBody(ForceElement):
     """An element on a body that is named by a link or by its points."""
 
     places: ClassVar[tuple[str, ...]] = ()
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"link": "body"})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"link": "body"})
     link: Body
 
     def named(self) -> tuple[Reference, ...]:
@@ -215,7 +204,7 @@ class OnBody(ForceElement):
             raise DefinitionError(f"{self.name} = {self}: {P} and {Q} coincide and give no direction; name two other points of the body.")
         return P, Q, arm
 
-    def check_rigid(self, plan: Any, points: tuple[str, ...]) -> None:
+    def check_rigid(self, plan: Declared, points: tuple[str, ...]) -> None:
         """Raise DefinitionError for points of different bodies; those of no declared body, and of what follows a stroke, may stand."""
         bodies = [set(body.points) for body in plan.links]
         rams = [{bar.P, bar.Q} for bar in plan.cylinders]
@@ -237,7 +226,7 @@ class Moment(OnBody):
     """A moment M [Nm] on a body, counter-clockwise: `drag = Moment(arm, M=-250)` or `Moment("O B", M=-250)`."""
 
     link: Body
-    M: Any
+    M: Parameter
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"M": "Nm"})
 
     def loads(self, motion: Poses) -> list[Load]:
@@ -256,18 +245,18 @@ class LinkMass(OnBody):
     """
 
     link: Body
-    mass: Any
-    at: Any = None
+    mass: Parameter
+    at: tuple[float, float] | None = None
     gravity: tuple[float, float] = DOWN
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"mass": "kg"})
-    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType({"at": "pair", "gravity": "gravity"})
+    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"at": "pair", "gravity": "gravity"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"mass"})
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.at is not None and not all(map(is_number, two(self.at, "LinkMass(at=...)"))):
+        if self.at is not None and not all(map(is_number, two_parts(self.at, "LinkMass(at=...)"))):
             raise DefinitionError(f"LinkMass: at={cited(self.at)} is not a place; write (along, across) in m.")
-        object.__setattr__(self, "gravity", gravity_of(self.gravity, "LinkMass"))
+        object.__setattr__(self, "gravity", gravity_vector(self.gravity, "LinkMass"))
 
     def loads(self, motion: Poses) -> list[Load]:
         P, Q, arm = self.axis(motion)
@@ -275,14 +264,9 @@ class LinkMass(OnBody):
         if self.at is None:
             points = self.points(motion.plan.members, motion.plan.title)
             return [Load(point, weight / len(points), (P, Q)) for point in points]
-        r = self.centre(arm)
+        along = arm / np.hypot(arm[0], arm[1])
+        r = along * float(self.at[0]) + np.stack([-along[1], along[0]]) * float(self.at[1])
         return [Load(P, weight, (P, Q)), *couple(P, Q, arm, r[0] * weight[1] - r[1] * weight[0])]
 
-    def centre(self, arm: Array) -> Array:
-        """Return the centre of gravity's position from P as `at` says, shape (2, ...) [m]."""
-        along = arm / np.hypot(arm[0], arm[1])
-        centre: Array = along * float(self.at[0]) + np.stack([-along[1], along[0]]) * float(self.at[1])
-        return centre
-
     def in_gravity(self, gravity: tuple[float, float] | None, slope: float) -> LinkMass:
-        return self.renewed(gravity=turned(self.gravity if gravity is None else gravity, slope))
+        return self.renewed(gravity=on_slope(self.gravity if gravity is None else gravity, slope))

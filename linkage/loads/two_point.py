@@ -17,7 +17,7 @@ import numpy as np
 from ..errors import DefinitionError, cited, told
 from ..frozen import refuses_changes
 from ..quantities import Distance, Joint, Reference, name_of, pinned
-from .element import AT_REST, Array, ForceElement, Load, Poses, Push, Rates
+from .element import AT_REST, Array, ForceElement, Load, Parameter, Poses, Push, Rate, Rates, TwoPinned
 
 DrawnAs: TypeAlias = Literal["strut", "spring", "damper", "cylinder"]
 
@@ -50,7 +50,7 @@ class TwoPoint(ForceElement):
         """The names of its two points."""
         return name_of(self.A), name_of(self.B)
 
-    def growth(self, motion: Poses, rates: Mapping[str, Any]) -> Array:
+    def growth(self, motion: Poses, rates: Mapping[str, Rate]) -> Array:
         """Return how fast its length grows [m/s] while strokes move at rates [1/s]; of no rates 0."""
         if not rates:
             return np.zeros(())
@@ -84,7 +84,7 @@ class TwoPoint(ForceElement):
         return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
 
 
-def check_fits(member: TwoPoint, thrust: Any, motion: Poses) -> None:
+def check_fits(member: TwoPoint, thrust: object, motion: Poses) -> None:
     """Raise DefinitionError for a thrust that is no number, or does not fit the poses."""
     if isinstance(thrust, (np.ndarray, float, int)):
         axes = zip(np.shape(thrust)[::-1], motion.shape[::-1], strict=False)
@@ -106,7 +106,7 @@ def end_forces(push: Push, motion: Poses) -> list[Load]:
     return [Load(A, -force), Load(B, force)]
 
 
-def refuse_coincidence(member: TwoPoint, length: Array, thrust: Array) -> None:
+def refuse_coincidence(member: TwoPinned, length: Array, thrust: Array) -> None:
     """Raise DefinitionError where the ends of a two-point member coincide while it pushes or pulls."""
     if np.any((length == 0.0) & (thrust != 0.0)):
         what = f"{member.name} = {member}" if member.name else str(member)
@@ -125,9 +125,9 @@ class Spring(TwoPoint):
 
     A: Reference
     B: Reference
-    stiffness: Any
-    free_length: Any = None
-    preload: Any = None
+    stiffness: Parameter
+    free_length: Parameter | None = None
+    preload: Parameter | None = None
     drawn_as: ClassVar[DrawnAs] = "spring"
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"stiffness": "", "free_length": "mm", "preload": "N"})
     not_negative: ClassVar[frozenset[str]] = frozenset({"stiffness", "free_length"})
@@ -154,7 +154,7 @@ class Damper(TwoPoint):
 
     A: Reference
     B: Reference
-    coefficient: Any
+    coefficient: Parameter
     drawn_as: ClassVar[DrawnAs] = "damper"
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"coefficient": ""})
     not_negative: ClassVar[frozenset[str]] = frozenset({"coefficient"})
@@ -171,7 +171,7 @@ class Actuator(TwoPoint):
 
     A: Reference
     B: Reference
-    force: Any
+    force: Parameter
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"force": "N"})
 
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:

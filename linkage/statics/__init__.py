@@ -1,11 +1,10 @@
 """Forces: the drive's by virtual work, the joints' by equilibrium of every body, supports, friction. N and Nm."""
 
 from .acting import Case, Loads, elements_of
-from .driving import driving_force, reaction
-from .forces import pin_forces
-from .holding import stroke_followed
-from .joints import JointForce
-from .requests import drive_force, pin_force
-from .result import PinForces
+from .force_requests import drive_force, pin_force
+from .holding import same, stroke_followed
+from .joint_forces import JointForce, PinForces, pin_forces
+from .poses import AnyMotion, plan_of
+from .supports import reaction
 from .table import PinLoad, max_table, table_text
-from .thrusts import member_thrust
+from .work import driving_force, member_thrust

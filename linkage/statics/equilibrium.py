@@ -5,56 +5,62 @@ Each body has three rows (forces along x and y, moment about its first point ove
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import cached_property
+from typing import final
 
 import numpy as np
 
+from ..errors import DefinitionError
 from ..program import FloatArray
-from .acting import Acting
+from ..quantities import Distance, Quantity, name_of
+from .acting import ActingLoad
 from .bodies import FRAME, Strut
-from .holding import Line
-from .joints import Contact, Structure, Wrench, wrenches
-from .poses import Poses, cross
+from .holding import areas
+from .joints import Contact, Structure, Wrench, direction_of, follows_points, wrenches
+from .poses import FlatPoses, cross
 
 
+@final
 @dataclass(frozen=True)
-class Column:
-    """A unit wrench that acts on one body from another."""
+class UnitWrench:
+    """A unit wrench that acts on one body from another: a column of the equations."""
 
     contact: Contact
     wrench: Wrench
 
 
+@final
 @dataclass(frozen=True)
-class Form:
-    """A linear form of the unknowns, shapes (n, columns), (n, frictions), (n,): row u + rub q + rest."""
+class LinearForm:
+    """A linear form of the unknowns and the frictions, shapes (n, columns), (n, frictions), (n,): row u + friction q + rest."""
 
     row: FloatArray
-    rub: FloatArray
+    friction: FloatArray
     rest: FloatArray
 
-    def __add__(self, other: Form) -> Form:
-        return Form(self.row + other.row, self.rub + other.rub, self.rest + other.rest)
+    def __add__(self, other: LinearForm) -> LinearForm:
+        return LinearForm(self.row + other.row, self.friction + other.friction, self.rest + other.rest)
 
-    def times(self, factor: FloatArray) -> Form:
+    def times(self, factor: FloatArray) -> LinearForm:
         """Return the form times a number at every pose, shape (n,)."""
-        return Form(self.row * factor[:, None], self.rub * factor[:, None], self.rest * factor)
+        return LinearForm(self.row * factor[:, None], self.friction * factor[:, None], self.rest * factor)
 
     def at(self, u: FloatArray, q: FloatArray) -> FloatArray:
         """Return its value for unknowns (n, columns) and frictions (n, frictions), shape (n,)."""
-        return np.asarray((self.row * u).sum(axis=1) + (self.rub * q).sum(axis=1) + self.rest)
+        return np.asarray((self.row * u).sum(axis=1) + (self.friction * q).sum(axis=1) + self.rest)
 
 
+@final
 @dataclass(frozen=True)
 class System:
-    """The equations of one structure at its poses. `rubs` are the unit wrenches of the friction; `length` a scale [m], if given."""
+    """The equations of one structure at its poses. `frictions` are unit wrenches of friction; `length` a scale [m], if given."""
 
     structure: Structure
-    poses: Poses
-    acting: tuple[Acting, ...]
-    rubs: Sequence[Column] = field(default=())
+    poses: FlatPoses
+    loads: tuple[ActingLoad, ...]
+    frictions: Sequence[UnitWrench] = ()
     length: float = 0.0
 
     @cached_property
@@ -68,31 +74,60 @@ class System:
         return float(np.max(np.ptp(places, axis=1))) / 2.0 or 1.0
 
     @cached_property
-    def columns(self) -> tuple[Column, ...]:
+    def columns(self) -> tuple[UnitWrench, ...]:
         """The unknowns, contact by contact."""
-        return tuple(Column(each, wrench) for each in self.structure.contacts for wrench in wrenches(each, self.poses, self.scale))
+        return tuple(UnitWrench(each, wrench) for each in self.structure.contacts for wrench in wrenches(each, self.poses, self.scale))
 
     @cached_property
     def first(self) -> dict[Contact, int]:
         """The first unknown of each contact."""
-        starts = np.cumsum([0, *(each.columns for each in self.structure.contacts)])
+        starts = np.cumsum([0, *(len(each.holds) for each in self.structure.contacts)])
         return dict(zip(self.structure.contacts, starts.tolist(), strict=False))
 
     @cached_property
     def starts(self) -> list[int]:
         """The first row of each body and lone pin, and the count of rows."""
-        sizes = [3] * len(self.structure.parts) + [2] * len(self.structure.lone)
+        sizes = [3] * len(self.structure.bodies) + [2] * len(self.structure.lone)
         return [0, *np.cumsum(sizes).tolist()]
-
-    @property
-    def width(self) -> int:
-        """How many unknowns there are."""
-        return len(self.columns)
 
     @property
     def height(self) -> int:
         """How many equations there are."""
         return int(self.starts[-1])
+
+    @cached_property
+    def A(self) -> FloatArray:
+        """The rows of the joint forces, shape (n, rows, columns)."""
+        return self.rows_of(self.columns)
+
+    @cached_property
+    def B(self) -> FloatArray:
+        """The rows of the friction, shape (n, rows, frictions)."""
+        return self.rows_of(self.frictions)
+
+    @cached_property
+    def load_rows(self) -> FloatArray:
+        """The rows of the loads, shape (n, rows)."""
+        rows = self.poses.zeros(self.height)
+        for body, _, wrench in self.borne:
+            self.put(rows, body, wrench)
+        return rows
+
+    @cached_property
+    def borne(self) -> tuple[tuple[int, ActingLoad, Wrench], ...]:
+        """The loads as wrenches, with the body each acts on."""
+        poses, none = self.poses, np.zeros(self.poses.count)
+        return tuple(
+            (self.structure.bearer(each.load), each, Wrench(poses.at(each.load.point), poses.flat(each.force), none)) for each in self.loads
+        )
+
+    def rows_of(self, columns: Sequence[UnitWrench]) -> FloatArray:
+        """Return the rows of some unit wrenches, shape (n, rows, columns)."""
+        found = self.poses.zeros(self.height, len(columns))
+        for index, column in enumerate(columns):
+            self.put(found[:, :, index], column.contact.on, column.wrench)
+            self.put(found[:, :, index], column.contact.by, column.wrench, -1.0)
+        return found
 
     def put(self, rows: FloatArray, body: int, wrench: Wrench, sign: float = 1.0) -> None:
         """Add a wrench on a body to its rows, shape (n, rows)."""
@@ -101,101 +136,104 @@ class System:
         start = self.starts[body]
         rows[:, start] += sign * wrench.force[0]
         rows[:, start + 1] += sign * wrench.force[1]
-        if body < len(self.structure.parts):
-            arm = wrench.at - self.poses.at(self.structure.parts[body].points[0])
+        if body < len(self.structure.bodies):
+            arm = wrench.at - self.poses.at(self.structure.bodies[body].points[0])
             rows[:, start + 2] += sign * (cross(arm, wrench.force) + wrench.couple) / self.scale
-
-    def table(self, columns: Sequence[Column]) -> FloatArray:
-        """Return the rows of some unit wrenches, shape (n, rows, columns)."""
-        found = self.poses.zeros(self.height, len(columns))
-        for index, column in enumerate(columns):
-            self.put(found[:, :, index], column.contact.on, column.wrench)
-            self.put(found[:, :, index], column.contact.by, column.wrench, -1.0)
-        return found
-
-    @cached_property
-    def A(self) -> FloatArray:
-        """The rows of the joint forces, shape (n, rows, columns)."""
-        return self.table(self.columns)
-
-    @cached_property
-    def B(self) -> FloatArray:
-        """The rows of the friction, shape (n, rows, frictions)."""
-        return self.table(self.rubs)
-
-    @cached_property
-    def loads(self) -> tuple[tuple[int, Acting, Wrench], ...]:
-        """The loads as wrenches, with the body each acts on."""
-        poses, none = self.poses, np.zeros(self.poses.count)
-        return tuple(
-            (self.structure.bearer(each.load), each, Wrench(poses.at(each.load.point), poses.flat(each.force), none))
-            for each in self.acting
-        )
-
-    @cached_property
-    def load_rows(self) -> FloatArray:
-        """The rows of the loads, shape (n, rows)."""
-        rows = self.poses.zeros(self.height)
-        for body, _, wrench in self.loads:
-            self.put(rows, body, wrench)
-        return rows
 
     # -- what is read off ----------------------------------------------------------------------------------
 
-    def unknown(self, contact: Contact, letter: str, sign: float) -> Form:
+    def drive(self, stroke: str) -> LinearForm:
+        """Return the generalised force of a stroke [N or Nm]: each drive's force times how it follows the stroke."""
+        forms = [force.times(ratio) for ratio, force in self.drives(stroke)]
+        if not forms:
+            raise DefinitionError(
+                f"{self.structure.plan.title}: the joints know no drive of {stroke}; "
+                f"declare it by Dyad(..., AB=... + {stroke}), Crank, OnGuide or OnLink, "
+                "or by the drives in the joints() of a step of one's own."
+            )
+        return sum(forms[1:], forms[0])
+
+    def drives(self, stroke: str) -> Iterator[tuple[FloatArray, LinearForm]]:
+        """Yield how each driven quantity follows a stroke, shape (n,), with the force that drives it; those that do not are left out."""
+        structure, poses = self.structure, self.poses
+        for strut in structure.struts:
+            if strut.known is None and strut.quantity is None:
+                yield poses.growth(strut.P, strut.Q, stroke), self.thrust(strut)
+            elif strut.known is None and strut.quantity is not None and self.follows(strut.quantity, stroke):
+                yield self.ratio(strut.quantity, stroke), self.thrust(strut)
+        for contact in structure.contacts:
+            drives = list(structure.drives(contact))
+            for letter in dict.fromkeys(letter for _, letter, _ in drives if contact.is_curve and letter != "c"):
+                if self.follows_curve(contact, stroke):
+                    way = (direction_of(contact, letter, poses) * poses.rate(contact.point, stroke)).sum(axis=0)
+                    yield way, self.unknown(contact, letter, 1.0)
+            for quantity, letter, sign in drives:
+                if (letter == "c" or not contact.is_curve) and self.follows(quantity, stroke):
+                    yield self.ratio(quantity, stroke), self.unknown(contact, letter, sign)
+
+    def follows_curve(self, contact: Contact, stroke: str) -> bool:
+        """Return whether a point that is driven along a curve of the frame follows a stroke; DefinitionError where others move it too."""
+        plan, behind = self.structure.plan, self.structure.plan.reaches(contact.point)
+        others = [name for name in plan.moving if name in behind and name != contact.point]
+        if others:
+            what = f"{contact.owner} is driven along a line of the frame, but its place depends on {', '.join(others)}, which move"
+            raise DefinitionError(f"{plan.title}: {what}; its force is not provided. Say by= the body that the line belongs to.")
+        return stroke in behind
+
+    def follows(self, quantity: Quantity, stroke: str) -> bool:
+        """Return whether a driven quantity follows a stroke; DefinitionError where it follows moving points as well."""
+        plan = self.structure.plan
+        if isinstance(quantity, Distance):
+            return True
+        if follows_points(plan, quantity):
+            what = f"a drive follows {quantity.name or quantity}, which depends on moving points"
+            raise DefinitionError(f"{plan.title}: {what}; its force is not provided.")
+        return stroke == quantity.name or stroke in plan.reaches(quantity)
+
+    def ratio(self, quantity: Quantity, stroke: str) -> FloatArray:
+        """Return how a driven quantity follows a stroke, shape (n,); of a distance it is told by its points."""
+        if isinstance(quantity, Distance):
+            return self.poses.growth(name_of(quantity.P), name_of(quantity.Q), stroke)
+        return self.poses.ratio(quantity, stroke)
+
+    def unknown(self, contact: Contact, letter: str, sign: float) -> LinearForm:
         """Return an unknown of a contact, signed; a couple in Nm."""
         factor = sign * (self.scale if letter == "c" else 1.0)
-        row = self.poses.zeros(self.width)
+        row = self.poses.zeros(len(self.columns))
         row[:, self.first[contact] + contact.holds.index(letter)] = self.poses.motion._array(factor)
-        return Form(row, self.poses.zeros(len(self.rubs)), self.poses.zeros())
+        return LinearForm(row, self.poses.zeros(len(self.frictions)), self.poses.zeros())
 
-    def thrust(self, strut: Strut) -> Form:
+    def thrust(self, strut: Strut) -> LinearForm:
         """Return a two-point member's thrust [N]: what pushes its far end against all that acts there."""
         body = self.structure.body_of(strut)
-        points = self.structure.parts[body].points
+        points = self.structure.bodies[body].points
 
         def far(contact: Contact) -> bool:
             at = contact.point if contact.point in points else next(iter(contact.track), "")
             return at in strut.far
 
-        return self.sum_along(body, far, strut.far.__contains__, self.poses.along(strut.P, strut.Q))
+        return self.cut(body, far, strut.far.__contains__, self.poses.along(strut.P, strut.Q))
 
-    def known(self, way: int = 1) -> list[tuple[Form, FloatArray]]:
+    def cut(self, body: int, is_joint: Callable[[Contact], bool], is_point: Callable[[str], bool], along: FloatArray) -> LinearForm:
+        """Return minus the forces on one side of a body along a direction, shape (2, n): what a cut there transmits."""
+        row, friction = (self.poses.zeros(len(columns)) for columns in (self.columns, self.frictions))
+        for values, columns in ((row, self.columns), (friction, self.frictions)):
+            for index, column in enumerate(columns):
+                sign = float(column.contact.on == body) - float(column.contact.by == body)
+                if sign and is_joint(column.contact):
+                    values[:, index] = -sign * (column.wrench.force * along).sum(axis=0)
+        pushes = [wrench.force for bearer, each, wrench in self.borne if bearer == body and is_point(each.load.point)]
+        return LinearForm(row, friction, -sum(((force * along).sum(axis=0) for force in pushes), self.poses.zeros()))
+
+    def known(self, way: int = 1) -> list[tuple[LinearForm, FloatArray]]:
         """Return what the thrusts of members are bound to: those of a law to its value, those of one line to each other's areas.
 
         `way` is 1 where the first cylinder of a line pushes, -1 where it pulls: it tells which side's area a cylinder works with.
         """
-        found = [(self.thrust(each), self.poses.flat(each.pushing.thrust)) for each in self.structure.struts if each.pushing is not None]
-        for line in self.structure.holding.lines:
+        found = [(self.thrust(each), self.poses.flat(each.known.thrust)) for each in self.structure.struts if each.known is not None]
+        for line in self.structure.holders.lines:
             struts = [each for each in self.structure.struts if each.line is line]
             (first, *others) = [(self.thrust(each), area) for each, area in zip(struts, areas(line, self.poses, way), strict=True)]
             none = self.poses.zeros()
             found += [(form.times(first[1]) + first[0].times(-1.0 * area), none) for form, area in others]
         return found
-
-    def sum_along(self, body: int, far: Callable[[Contact], bool], near: Callable[[str], bool], u: FloatArray) -> Form:
-        """Return minus the forces on one side of a body along a direction u, shape (2, n): what a cut there transmits."""
-        row, rub = (self.poses.zeros(len(columns)) for columns in (self.columns, self.rubs))
-        for values, columns in ((row, self.columns), (rub, self.rubs)):
-            for index, column in enumerate(columns):
-                sign = float(column.contact.on == body) - float(column.contact.by == body)
-                if sign and far(column.contact):
-                    values[:, index] = -sign * (column.wrench.force * u).sum(axis=0)
-        pushes = [wrench.force for bearer, each, wrench in self.loads if bearer == body and near(each.load.point)]
-        rest = sum(((force * u).sum(axis=0) for force in pushes), self.poses.zeros())
-        return Form(row, rub, -rest)
-
-
-def areas(line: Line, poses: Poses, way: int) -> list[FloatArray]:
-    """Return the thrust of each cylinder of a line at one unit of the line's pressure [m2], shape (n,).
-
-    Along the stroke that the line holds, some cylinders grow with the first and some against it: where the first one pushes
-    (`way` 1), the others drive the stroke the same way.
-    """
-    if len(line.cylinders) == 1:
-        return [np.ones(poses.count)]
-    if not any(each.works_both for each in line.cylinders):
-        return [poses.flat(each.area_in(poses.motion, np.ones(()))) for each in line.cylinders]
-    growth = [poses.growth(*each.ends, line.stroke) for each in line.cylinders]
-    senses = [poses.full(np.sign(rate * growth[0]) * way) for rate in growth]
-    return [poses.flat(each.area_in(poses.motion, sense)) for each, sense in zip(line.cylinders, senses, strict=True)]

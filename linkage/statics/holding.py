@@ -1,7 +1,10 @@
-"""Who holds the strokes: the steps that drive them, or cylinders that are declared in their place.
+"""Who holds the strokes: the steps that drive them, or cylinders that are declared in their place; and the levers they hold with.
 
 Every line of declared cylinders that no element feeds takes over one stroke; the drive it replaces carries nothing. Strokes that
 are left over keep the drive of their step. Which line takes which stroke is told by how its length follows them at some poses.
+
+Where a cylinder's length stands still against its drive, or those of several follow the strokes alike, no thrust balances the loads:
+such poses are refused like any other singular one, by the condition of the levers beside the speed at which the cylinders' ends part.
 """
 
 from __future__ import annotations
@@ -9,23 +12,29 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import permutations
+from typing import final
 
 import numpy as np
 
-from ..errors import DefinitionError, unwarned
-from ..loads import ForceElement, TwoPoint
+from ..errors import DefinitionError, SingularError, SingularWarning, unwarned, warn
+from ..loads import ForceElement, TwoPinned, TwoPoint
 from ..motion import Motion
+from ..motion.conditions import REFUSE, WARN, condition, is_or_are
+from ..motion.limits import where_words
 from ..plan import Plan
 from ..program import FloatArray
+from ..quantities import Member
+from .poses import FlatPoses
 
-SAMPLE = 7
+POSES = 7
 """Poses over the strokes at which it is looked how lengths follow them."""
-STILL = 1e-9
+SLOWEST = 1e-9
 """A length that changes by less than this part of its end's way does not follow a stroke."""
 
 
+@final
 @dataclass(frozen=True)
-class Line:
+class PressureLine:
     """Cylinders that share one pressure, one or more, and the stroke that they take over."""
 
     cylinders: tuple[TwoPoint, ...]
@@ -44,23 +53,24 @@ class Line:
         return len(self.cylinders) > 1 and any(each.works_both for each in self.cylinders)
 
 
+@final
 @dataclass(frozen=True)
-class Holding:
+class Holders:
     """The lines that hold, in the order declared."""
 
-    lines: tuple[Line, ...] = ()
+    lines: tuple[PressureLine, ...] = ()
 
     @property
     def taken(self) -> frozenset[str]:
         """The strokes whose own drives carry nothing."""
         return frozenset(line.stroke for line in self.lines)
 
-    def line_of(self, cylinder: TwoPoint) -> Line | None:
+    def line_of(self, cylinder: TwoPoint) -> PressureLine | None:
         """Return the line that a cylinder is on; None where it does not hold."""
         return next((line for line in self.lines if any(same(cylinder, each) for each in line.cylinders)), None)
 
 
-def holding_of(plan: Plan, elements: Iterable[ForceElement] = ()) -> Holding:
+def holders_of(plan: Plan, elements: Iterable[ForceElement] = ()) -> Holders:
     """Return who holds, of a machine's own cylinders and of those among some elements.
 
     DefinitionError, by name, for a cylinder that holds nothing and for one too many.
@@ -68,53 +78,48 @@ def holding_of(plan: Plan, elements: Iterable[ForceElement] = ()) -> Holding:
     own = tuple(plan.of_kind(ForceElement).values())
     extra = tuple(each for each in elements if not any(same(each, mine) for mine in own))
     if not any(each.holds for each in (*own, *extra)):
-        return Holding()
+        return Holders()
     if not any(each.holds or each.joined(plan.members) or each.feeds(plan.members) for each in extra):
-        found: Holding = plan.made(("holding",), lambda _: assigned(plan, own))
-        return found
+        return plan.made(("holders",), lambda _: assigned(plan, own))
     return assigned(plan, (*own, *extra))
 
 
-def same(a: ForceElement, b: ForceElement) -> bool:
+def same(a: TwoPinned | Member, b: TwoPinned | Member) -> bool:
     """Return whether two elements are one: the same, or of one name in the class."""
     return a is b or bool(a.name and a.name == b.name)
 
 
-def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holding:
+def assigned(plan: Plan, elements: Sequence[ForceElement]) -> Holders:
     """Return the lines with the strokes they take."""
     lines = joined_lines(plan, elements)
     if not lines:
-        return Holding()
-    follows = followed(plan, lines)
+        return Holders()
+    motion, strokes = sampled(plan), list(plan.strokes)
+    follows = line_shares(motion, lines)
     for line, row in zip(lines, follows, strict=True):
         if not row.any():
             raise DefinitionError(
-                f"{plan.title}: {titled(line)} holds nothing here: no stroke changes the distance {''.join(line[0].ends)}. "
+                f"{plan.title}: {line_names(line)} holds nothing here: no stroke changes the distance {''.join(line[0].ends)}. "
                 "Put it between two points that move against each other, or take it out."
             )
     best = matched(follows)
     if best is None:
-        raise DefinitionError(too_many(plan, lines))
-    names = list(plan.strokes)
-    pairs = [(line, names[place]) for line, place in zip(lines, best, strict=True)]
-    motion = sampled(plan)
+        names = [line_names(line) for line in lines]
+        many = f"{len(strokes)} stroke{'s' if len(strokes) != 1 else ''} ({', '.join(strokes) or 'none'})"
+        raise DefinitionError(
+            f"{plan.title}: {', '.join(names)} are more cylinders than there are strokes to hold, {many}: how they share the load is not "
+            f"settled. Put those of one pressure on one line, LiftCircuit([{', '.join(names)}], pressure=...), or give one its own force "
+            "by a FloatCircuit or an Actuator."
+        )
+    pairs = [(line, strokes[place]) for line, place in zip(lines, best, strict=True)]
     for line, stroke in pairs:
-        apart = [each for each in line if not share(motion, each, stroke) > 0.0]
+        apart = [each for each in line if not followed_way(motion, each, stroke) > 0.0]
         if apart:
             raise DefinitionError(
-                f"{plan.title}: {titled(line)} are on one line, but {titled(apart)} does not move with {stroke}: one pressure cannot hold "
-                f"several strokes. Give each a circuit of its own, LiftCircuit({titled(apart[:1])}, pressure=...)."
+                f"{plan.title}: {line_names(line)} are on one line, but {line_names(apart)} does not move with {stroke}: one pressure "
+                f"cannot hold several strokes. Give each a circuit of its own, LiftCircuit({line_names(apart[:1])}, pressure=...)."
             )
-    return Holding(tuple(Line(line, stroke, steady_rate(plan, line, stroke)) for line, stroke in pairs))
-
-
-def steady_rate(plan: Plan, line: Sequence[TwoPoint], stroke: str) -> float:
-    """Return how the declared length of a single cylinder follows its stroke: a number, of all designs and poses; else 0."""
-    length = plan.table.lengths.get(frozenset(line[0].ends)) if len(line) == 1 else None
-    if length is None or {name for name in plan.strokes if name == length.name or name in plan.reaches(length)} != {stroke}:
-        return 0.0
-    (slope,) = plan.made(("slope", *line[0].ends, stroke), lambda twin: twin.derived(twin.nodes(length), (stroke,)))
-    return float(slope.value) if slope.op == "constant" else 0.0
+    return Holders(tuple(PressureLine(line, stroke, steady_rate(plan, line, stroke)) for line, stroke in pairs))
 
 
 def joined_lines(plan: Plan, elements: Sequence[ForceElement]) -> list[tuple[TwoPoint, ...]]:
@@ -131,38 +136,41 @@ def joined_lines(plan: Plan, elements: Sequence[ForceElement]) -> list[tuple[Two
     return lines
 
 
-def followed(plan: Plan, lines: Sequence[tuple[TwoPoint, ...]]) -> FloatArray:
-    """Return how much each line's length follows each stroke, shape (lines, strokes), the sum of a line's being 1; 0 for not at all."""
-    motion = sampled(plan)
-    found = np.zeros((len(lines), len(plan.strokes)))
-    for i, line in enumerate(lines):
-        for j, stroke in enumerate(plan.strokes):
-            found[i, j] = max(share(motion, cylinder, stroke) for cylinder in line)
-    total = found.sum(axis=1, keepdims=True)
-    return np.asarray(found / np.where(total > 0.0, total, 1.0))
+def line_names(line: Sequence[TwoPoint]) -> str:
+    """Return a line's cylinders by their names, or their words where they have none."""
+    return " and ".join(each.name or str(each) for each in line)
 
 
-def stroke_followed(plan: Plan, member: TwoPoint) -> str:
-    """Return the stroke that a member's length follows, of several the one it follows most; DefinitionError where it follows none."""
-    if len(plan.strokes) == 1:
-        return next(iter(plan.strokes))
-    shares: FloatArray = plan.made(("followed", *member.ends), lambda _: followed(plan, [(member,)])[0])
-    if not shares.any():
-        what = f"no stroke changes the length of {member.name or member}"
-        raise DefinitionError(f"{plan.title}: {what}; it neither grows nor shrinks.")
-    return list(plan.strokes)[int(np.argmax(shares))]
+def steady_rate(plan: Plan, line: Sequence[TwoPoint], stroke: str) -> float:
+    """Return how the declared length of a single cylinder follows its stroke: a number, of all designs and poses; else 0."""
+    length = plan.table.lengths.get(frozenset(line[0].ends)) if len(line) == 1 else None
+    if length is None or {name for name in plan.strokes if name == length.name or name in plan.reaches(length)} != {stroke}:
+        return 0.0
+    (slope,) = plan.made(("slope", *line[0].ends, stroke), lambda twin: twin.derived(twin.nodes(length), (stroke,)))
+    return float(slope.value) if slope.op == "constant" else 0.0
+
+
+# How lengths follow strokes, at some poses.
 
 
 def sampled(plan: Plan) -> Motion:
     """Return some poses over the strokes, no two of them alike in any stroke."""
-    along = (np.arange(SAMPLE) + 0.37) / SAMPLE
+    along = (np.arange(POSES) + 0.37) / POSES
     shifts = {name: np.roll(along, 2 * k) for k, name in enumerate(plan.strokes)}
     values = {name: each.start + shifts[name] * (each.end - each.start) for name, each in plan.strokes.items()}
     strokes = {name: np.append(plan.sketch_strokes[name], value) for name, value in values.items()}
     return Motion(plan, plan.defaults, strokes, "nan")
 
 
-def share(motion: Motion, cylinder: TwoPoint, stroke: str) -> float:
+def line_shares(motion: Motion, lines: Sequence[tuple[TwoPoint, ...]]) -> FloatArray:
+    """Return how much each line's length follows each stroke, shape (lines, strokes), the sum of a line's being 1; 0 for not at all."""
+    ways = [[max(followed_way(motion, each, stroke) for each in line) for stroke in motion.plan.strokes] for line in lines]
+    found = np.reshape(np.array(ways, float), (len(lines), len(motion.plan.strokes)))
+    total = found.sum(axis=1, keepdims=True)
+    return np.asarray(found / np.where(total > 0.0, total, 1.0))
+
+
+def followed_way(motion: Motion, cylinder: TwoPoint, stroke: str) -> float:
     """Return how much a cylinder's length follows a stroke over its range [m], at the most; 0 for not at all."""
     A, B = cylinder.ends
     plan, span = motion.plan, motion.plan.strokes[stroke]
@@ -171,7 +179,7 @@ def share(motion: Motion, cylinder: TwoPoint, stroke: str) -> float:
     with unwarned():
         rate = np.abs(cylinder.growth(motion, {stroke: 1.0}))
         way = np.hypot(*motion.ratio(A, wrt=stroke)) + np.hypot(*motion.ratio(B, wrt=stroke))
-    moved = np.nan_to_num(np.where(rate > STILL * way, rate, 0.0))
+    moved = np.nan_to_num(np.where(rate > SLOWEST * way, rate, 0.0))
     return float(moved.max(initial=0.0)) * abs(span.end - span.start)
 
 
@@ -184,17 +192,152 @@ def matched(follows: FloatArray) -> tuple[int, ...] | None:
     return best if best is not None and worth[best] > 0.0 else None
 
 
-def titled(line: Sequence[TwoPoint]) -> str:
-    """Return a line's cylinders by their names, or their words where they have none."""
-    return " and ".join(each.name or str(each) for each in line)
+def stroke_followed(plan: Plan, member: TwoPoint) -> str:
+    """Return the stroke that a member's length follows, of several the one it follows most; DefinitionError where it follows none."""
+    if len(plan.strokes) == 1:
+        return next(iter(plan.strokes))
+    shares = plan.made(("shares", *member.ends), lambda _: line_shares(sampled(plan), [(member,)])[0])
+    if not shares.any():
+        what = f"no stroke changes the length of {member.name or member}"
+        raise DefinitionError(f"{plan.title}: {what}; it neither grows nor shrinks.")
+    return list(plan.strokes)[int(np.argmax(shares))]
 
 
-def too_many(plan: Plan, lines: Sequence[tuple[TwoPoint, ...]]) -> str:
-    """Return the words for more lines of cylinders than strokes that they could hold."""
-    names = [titled(line) for line in lines]
-    strokes = f"{len(plan.strokes)} stroke{'s' if len(plan.strokes) != 1 else ''} ({', '.join(plan.strokes) or 'none'})"
-    return (
-        f"{plan.title}: {', '.join(names)} are more cylinders than there are strokes to hold, {strokes}: how they share the load is not "
-        f"settled. Put those of one pressure on one line, LiftCircuit([{', '.join(names)}], pressure=...), or give one its own force by a "
-        "FloatCircuit or an Actuator."
-    )
+# The levers: what a thrust does on a unit of each stroke that is taken over.
+
+
+@final
+@dataclass(frozen=True)
+class Levers:
+    """The work of each line's first cylinder, with what the others of its line add, on a unit of each stroke taken: (n, lines, strokes).
+
+    `sizes` are those of its parts, `shares` the thrusts of each line's cylinders over that of its first, (n,) each.
+    """
+
+    matrix: FloatArray
+    sizes: FloatArray
+    shares: tuple[tuple[FloatArray, ...], ...]
+
+    def share(self, line: PressureLine, member: TwoPoint, place: int) -> FloatArray:
+        """Return the thrust of a cylinder of a line over that of its first."""
+        return next(part for each, part in zip(line.cylinders, self.shares[place], strict=True) if same(each, member))
+
+    def thrusts(self, need: FloatArray) -> FloatArray:
+        """Return the thrusts of the lines' first cylinders (n, lines) that give the strokes what they need (n, strokes)."""
+        if self.matrix.shape[1] == 1:
+            return need / self.matrix[:, 0]
+        return np.asarray(np.linalg.solve(np.swapaxes(self.matrix, 1, 2), need[:, :, None])[:, :, 0])
+
+    @property
+    def condition(self) -> FloatArray:
+        """How near the levers are to a singular pose, relative to their sizes (n,); infinite where they are at one."""
+        columns = self.sizes.max(axis=1, keepdims=True)
+        columns = np.where(columns > 0.0, columns, 1.0)
+        rows = (self.sizes / columns).max(axis=2, keepdims=True)
+        scaled = self.matrix / columns / np.where(rows > 0.0, rows, 1.0)
+        if self.matrix.shape[1] == 1:
+            return condition(scaled[:, 0, 0])
+        return inverse_size(scaled)
+
+
+def with_levers(poses: FlatPoses, lines: Sequence[PressureLine], what: str) -> tuple[FlatPoses, tuple[Levers, ...]]:
+    """Return the poses at which the cylinders hold, and their levers there: a second time where first cylinders pull.
+
+    SingularError at the others unless NaN was asked for; `what` opens the sentence.
+    """
+    if all(line.is_steady for line in lines):
+        matrix, one = np.zeros((poses.count, len(lines), len(lines))), np.ones(poses.count)
+        for i, line in enumerate(lines):
+            matrix[:, i, i] = line.steady
+        return poses, (Levers(matrix, np.abs(matrix), tuple((one,) for _ in lines)),)
+    ways = (1, -1) if any(line.changes_shares for line in lines) else (1,)
+    found = tuple(levers_of(poses, lines, way) for way in ways)
+    names = [each.name or str(each) for line in lines for each in line.cylinders]
+    whose = f"the length of {names[0]} stands" if len(names) == 1 else f"the lengths of {', '.join(names)} stand"
+    cond = np.max([each.condition for each in found], axis=0)
+    lost = np.isnan(refused_where(poses, np.zeros(poses.count), cond, what, f"{whose} still against the drive there"))
+    if not lost.any():
+        return poses, found
+    left = poses.without(lost)
+    return left, tuple(levers_of(left, lines, way) for way in ways)
+
+
+def levers_of(poses: FlatPoses, lines: Sequence[PressureLine], way: int) -> Levers:
+    """Return the levers of lines whose first cylinders push (`way` 1) or pull (-1)."""
+    n, count = poses.count, len(lines)
+    matrix, sizes, shares = np.zeros((n, count, count)), np.zeros((n, count, count)), []
+    for i, line in enumerate(lines):
+        weights = areas(line, poses, way)
+        shares.append(tuple(weight / weights[0] for weight in weights))
+        for cylinder, part in zip(line.cylinders, shares[-1], strict=True):
+            for j, other in enumerate(lines):
+                lever, size = lever_of(poses, cylinder, other.stroke)
+                matrix[:, i, j] += part * lever
+                sizes[:, i, j] += np.abs(part) * size
+    return Levers(matrix, sizes, tuple(shares))
+
+
+def areas(line: PressureLine, poses: FlatPoses, way: int) -> list[FloatArray]:
+    """Return the thrust of each cylinder of a line at one unit of the line's pressure [m2], shape (n,).
+
+    Along the stroke that the line holds, some cylinders grow with the first and some against it: where the first one pushes
+    (`way` 1), the others drive the stroke the same way.
+    """
+    if len(line.cylinders) == 1:
+        return [np.ones(poses.count)]
+    if not any(each.works_both for each in line.cylinders):
+        return [poses.flat(each.area_in(poses.motion, np.ones(()))) for each in line.cylinders]
+    growth = [poses.growth(*each.ends, line.stroke) for each in line.cylinders]
+    senses = [poses.full(np.sign(rate * growth[0]) * way) for rate in growth]
+    return [poses.flat(each.area_in(poses.motion, sense)) for each, sense in zip(line.cylinders, senses, strict=True)]
+
+
+def lever_of(poses: FlatPoses, cylinder: TwoPoint, stroke: str) -> tuple[FloatArray, FloatArray]:
+    """Return how a cylinder's length grows with a stroke, and how fast its ends part at the most, both (n,)."""
+    P, Q = cylinder.ends
+    known = poses.plan.table.lengths.get(frozenset((P, Q)))
+    if known is not None:
+        lever = np.broadcast_to(poses.ratio(known, stroke), (poses.count,))
+        return lever, np.full(poses.count, float(np.max(np.abs(lever), initial=0.0)))
+    return poses.growth(P, Q, stroke), np.hypot(*(poses.rate(Q, stroke) - poses.rate(P, stroke)))
+
+
+def refused_where(poses: FlatPoses, values: FloatArray, cond: FloatArray, what: str, reason: str) -> FloatArray:
+    """Return values (..., n), NaN where a condition (n,) is above that at which ratios are refused.
+
+    SingularError there unless the motion was asked for with `unreachable="nan"`; a warning with the error to expect near it. `what`
+    opens the sentence, `reason` ends it.
+    """
+    lost = ~(cond <= REFUSE)
+    near, motion = (cond > WARN) & ~lost, poses.motion
+    if lost.any() and motion.unreachable == "raise":
+        mask = poses.mask(lost)
+        where = where_words(motion.plan, mask, motion.strokes)
+        worst = float(np.max(np.nan_to_num(cond[lost], nan=np.inf)))
+        size = "infinite" if np.isinf(worst) else f"{worst:.1e}"
+        text = f"{what} {is_or_are(what)} refused {where}: {reason} (condition {size}, refused above {REFUSE:.0e})."
+        raise SingularError(text, mask=mask, motion=motion)
+    if near.any():
+        worst = float(cond[near].max())
+        where = where_words(motion.plan, poses.mask(near), motion.strokes)
+        # one division by a difference that is lost: the error goes with the condition, not its square
+        error = f"expect a relative error of about {np.finfo(float).eps * worst:.0e}"
+        text = f"{what} {is_or_are(what)} nearly refused {where}, for close by {reason} (condition {worst:.1e}); {error}."
+        warn(SingularWarning(text))
+    return np.where(lost, np.nan, values)
+
+
+def inverse_size(matrices: FloatArray) -> FloatArray:
+    """Return the size of the inverse of each matrix (n, k, k): one over its least singular value, or up to the root of k more."""
+    k = matrices.shape[1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if k > 3:
+            return np.asarray(1.0 / np.linalg.svd(matrices, compute_uv=False)[:, -1])
+        rows = [matrices[:, i] for i in range(k)]
+        if k == 2:
+            minors, det = np.abs(matrices).reshape(-1, 4), rows[0][:, 0] * rows[1][:, 1] - rows[0][:, 1] * rows[1][:, 0]
+        else:
+            crosses = [np.cross(rows[1], rows[2]), np.cross(rows[2], rows[0]), np.cross(rows[0], rows[1])]
+            minors, det = np.concatenate(crosses, axis=1), (rows[0] * crosses[0]).sum(axis=1)
+        found = np.sqrt((minors * minors).sum(axis=1)) / np.abs(det)
+    return np.where(det == 0.0, np.inf, found)

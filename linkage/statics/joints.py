@@ -1,10 +1,14 @@
-"""The locked mechanism as bodies and joints: what the equations of equilibrium are written for."""
+"""The locked mechanism as bodies and joints: what the equations of equilibrium are written for.
+
+Everything about a joint comes from what its member says of it in `joints()`; no kind of step is known here.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import final
 
 import numpy as np
 
@@ -12,15 +16,15 @@ from ..errors import DefinitionError, known_name, unknown
 from ..loads import ForceElement, Load
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import Angle, Joint, JointSide, Negative, Quantity, Ref, Sum, name_of
+from ..quantities import FRAME_SIDE, Angle, Joint, JointSide, Negative, Quantity, Ref, Sum, name_of
 from ..steps import Guide, Link, Point
-from .acting import Pushing
-from .bodies import FRAME, FRAME_NAME, Strut, blocks, frame_points, parts, refuse_driven
-from .holding import Holding, holding_of
-from .poses import Poses, left
+from .acting import ActingThrust
+from .bodies import FRAME, FRAME_NAME, Strut, frame_points, free_bodies, refuse_driven, sliding_blocks
+from .holding import Holders, holders_of
+from .poses import FlatPoses, left
 
-# Where bodies touch, and what each joint can transmit: the columns of the equations of equilibrium.
 
+@final
 @dataclass(frozen=True, eq=False)
 class Contact:
     """A joint between two bodies: its force acts on the body `on` from the body `by` (indices, -1 the frame), at a point.
@@ -39,11 +43,6 @@ class Contact:
     track: tuple[str, ...] = ()
 
     @property
-    def columns(self) -> int:
-        """How many unknowns it brings."""
-        return len(self.holds)
-
-    @property
     def presses(self) -> int:
         """How many of its unknowns make its friction: both components of a pin, the normal one of a guide."""
         return 2 if self.kind == "pin" else 1
@@ -58,115 +57,119 @@ class Contact:
         """Whether its point slides along its line."""
         return bool(self.track)
 
+    @property
+    def has_slot(self) -> bool:
+        """Whether the line it slides on belongs to the body `on`, as a cross slot does; else it is that of the body `by`."""
+        return self.joint is not None and self.joint.on.role == "slider" and self.point not in self.joint.on.points
+
+    @property
+    def is_curve(self) -> bool:
+        """Whether its point is driven along a line of the frame that is no guide's: its way is told by the point itself."""
+        return self.by == FRAME and not self.track
+
     def goes_by(self, name: str) -> bool:
         """Return whether it is meant by the name of a guide, a step or a point of its line."""
         given = self.joint.track if self.joint is not None else ()
         return name in (self.owner, *self.track, *given)
 
 
-@dataclass(frozen=True)
-class Wrench:
-    """A force [N] at a place [m] with a couple [Nm]: shapes (2, n), (2, n), (n,)."""
-
-    at: FloatArray
-    force: FloatArray
-    couple: FloatArray
+LETTERS = frozenset("xyntc")
+"""What a joint may hold."""
+ORDER = {kind: place for place, kind in enumerate(("guide", "slider", "slot", "driven", "crank", "telescope", "upright"))}
+"""The order in which joints are listed, after the pins; other kinds come last."""
 
 
-def wrenches(contact: Contact, poses: Poses, scale: float) -> list[Wrench]:
-    """Return the unit wrenches of a contact's unknowns; all unknowns are in N, a couple is `scale` [m] times its own."""
-    right, none = rightwards(poses), np.zeros((2, poses.count))
-    forces = {"x": right, "y": left(right), "c": none}
-    if set("nt") & set(contact.holds):
-        t = direction(contact, poses)
-        forces |= {"t": t, "n": left(t)}
-    place = poses.at(contact.point)
-    return [Wrench(place, forces[each], none[0] + (scale if each == "c" else 0.0)) for each in contact.holds]
-
-
-def rightwards(poses: Poses) -> FloatArray:
-    """Return the direction of the x axis, shape (2, n)."""
-    return np.stack([np.ones(poses.count), np.zeros(poses.count)])
-
-
-def direction(contact: Contact, poses: Poses) -> FloatArray:
-    """Return the direction of a contact's line, of length one, shape (2, n)."""
-    if contact.joint is None or contact.joint.line is None:
-        return rightwards(poses)
-    with np.errstate(all="ignore"):
-        along = contact.joint.line(poses.reading).direction
-    vector = poses.pair(along.x, along.y)
-    return np.asarray(vector / np.hypot(vector[0], vector[1]))
-
-
-# What a crank's angle is measured from: the frame, or another body's direction.
-
-def terms(plan: Plan, quantity: Quantity, sign: float = 1.0) -> Iterator[tuple[float, Quantity]]:
-    """Yield the terms of a sum with their signs, names resolved."""
-    if isinstance(quantity, Ref):
-        member = plan.members[quantity.target]
-        assert isinstance(member, Quantity)
-        yield from terms(plan, member, sign)
-    elif isinstance(quantity, Sum):
-        yield from terms(plan, quantity.a, sign)
-        yield from terms(plan, quantity.b, sign)
-    elif isinstance(quantity, Negative):
-        yield from terms(plan, quantity.a, -sign)
-    else:
-        yield sign, quantity
-
-
-def follows_points(plan: Plan, quantity: Quantity) -> bool:
-    """Return whether a quantity depends on moving points, and not on strokes and dimensions alone."""
-    return any(isinstance(plan.members[name], Point) and name in plan.moving for name in plan.reaches(quantity))
-
-
-def measured_from(plan: Plan, joint: Joint, owner: str) -> tuple[str, str] | None:
-    """Return the two points whose direction a turned joint's angle is counted from; None where that is the frame.
-
-    Raises DefinitionError for an angle that depends on moving points in another way: its torque has no one body to act against.
-    """
-    for drive in joint.drives:
-        moving = [(sign, term) for sign, term in terms(plan, drive.quantity) if follows_points(plan, term)]
-        if not moving:
-            continue
-        (sign, term), *others = moving
-        if others or sign < 0.0 or not isinstance(term, Angle):
-            raise DefinitionError(
-                f"{plan.title}: {owner} = {plan.members[owner]}: for forces its angle is counted from the frame or from one body, "
-                f"such as angle(A, B) + phi; {drive.quantity} is neither."
-            )
-        return name_of(term.P), name_of(term.Q)
-    return None
-
-
-def drives_of(plan: Plan, angle: Quantity) -> list[tuple[float, Quantity]]:
-    """Return the terms of an angle that are not another body's direction, with their signs."""
-    return [(sign, term) for sign, term in terms(plan, angle) if not follows_points(plan, term)]
-
-
+@final
 class Structure:
     """Bodies, lone pins and contacts of a plan. An index -1 is the frame; lone pins come after the bodies."""
 
-    def __init__(self, plan: Plan, elements: Iterable[ForceElement] = (), pushing: Sequence[Pushing] = ()) -> None:
-        self.plan = plan
+    def __init__(self, plan: Plan, elements: Iterable[ForceElement] = (), thrusts: Sequence[ActingThrust] = ()) -> None:
+        self.plan, elements = plan, tuple(elements)
         self.fixed = frame_points(plan)
-        elements = tuple(elements)
-        self.holding: Holding = holding_of(plan, elements)
-        bodies, self.struts = parts(plan, self.holding, pushing)
+        self.holders: Holders = holders_of(plan, elements)
+        bodies, self.struts = free_bodies(plan, self.holders, thrusts)
         sliding = dict.fromkeys((joint.point, plan.track(joint)) for _, joint in plan.joints if joint.kind == "guide")
-        self.blocks = blocks(plan, elements, bodies, (point for point, _ in sliding))
-        self.parts = (*self.blocks, *bodies)
-        tracked = [joint.point for _, joint in plan.joints if joint.track and joint.on.role == "runner"]
-        self.lone = tuple(dict.fromkeys(point for point in tracked if not self.owners(point)))
+        self.blocks = sliding_blocks(plan, elements, bodies, (point for point, _ in sliding))
+        self.bodies = (*self.blocks, *bodies)
+        runners = [joint.point for _, joint in plan.joints if joint.on.role == "runner"]
+        self.lone = tuple(dict.fromkeys(point for point in runners if not self.owners(point)))
         self.contacts = (*self.pins(), *self.joints())
+
+    # -- contacts ------------------------------------------------------------------------------------------
+
+    def pins(self) -> Iterator[Contact]:
+        """Yield the pins: of k bodies at a point, k - 1 turn on the first."""
+        for point in self.plan.points:
+            first, *others = self.owners(point) or [FRAME]
+            yield from (Contact("pin", point, other, first) for other in others)
+
+    def joints(self) -> Iterator[Contact]:
+        """Yield what the steps, guides and slides hold: equal slides once, of drives that a cylinder replaces what is left."""
+        seen: set[tuple[str, tuple[str, ...]]] = set()
+        for name, joint in sorted(self.plan.joints, key=lambda each: ORDER.get(each[1].kind, len(ORDER))):
+            self.check(name, joint)
+            track, runs = self.plan.track(joint), joint.on.role == "runner"
+            holds, kind = self.left(name, joint), joint.kind
+            if joint.on.role == "slider" and joint.on.points[0] in self.fixed:
+                continue
+            if track and runs:
+                if (joint.point, track) in seen:
+                    continue
+                seen.add((joint.point, track))
+            if not holds:
+                continue
+            refuse_driven(self.plan, joint.still)
+            on, by = self.side(joint.on, joint, name), self.side(joint.by, joint, name)
+            if runs and "t" in joint.holds and "t" not in holds:
+                kind = "guide"
+            if kind == "guide" and 0 <= on < len(self.blocks):
+                kind, holds = "slider", holds + "c"
+            if joint.by == FRAME_SIDE and (base := measured_from(self.plan, joint, name)) is not None:
+                by = self.carrier(*base, name)
+            yield Contact(kind, joint.point, on, by, holds, name, joint, track)
+
+    def check(self, owner: str, joint: Joint) -> None:
+        """Raise DefinitionError for a joint, of a step of one's own, that does not say enough to write its forces."""
+        opening = f"{self.plan.title}: {owner}.joints(): the joint {joint.kind!r} at {joint.point}"
+        letters, drives = set(joint.holds), {drive.along for drive in joint.drives if drive.along}
+        if not letters <= LETTERS or len(letters) < len(joint.holds):
+            raise DefinitionError(f"{opening} holds {joint.holds!r}; letters of x, y, n, t, c are expected, each once.")
+        if letters & {"n", "t"} and joint.line is None:
+            raise DefinitionError(f"{opening} holds {joint.holds!r}, across (n) or along (t) a line, but says none; give line=.")
+        if drives - letters:
+            raise DefinitionError(f"{opening} drives {', '.join(sorted(drives - letters))}, which it does not hold ({joint.holds!r}).")
+        if joint.point not in self.plan.points:
+            raise unknown("Point", joint.point, self.plan.points, where=opening)
+
+    def left(self, owner: str, joint: Joint) -> str:
+        """Return what a joint still holds when cylinders have taken over strokes."""
+        strokes: dict[str, set[str]] = {letter: set() for letter in joint.holds}
+        for drive in joint.drives:
+            if drive.along:
+                strokes[drive.along] |= self.plan.reaches(drive.quantity.name or drive.quantity) & set(self.plan.strokes)
+        gone = {letter: names for letter, names in strokes.items() if names and names <= self.holders.taken}
+        taken = sorted(set().union(*gone.values()))
+        if len(gone) > len(taken):
+            what = f"{owner}.joints(): {' and '.join(gone)} are driven by {', '.join(taken)}, which a cylinder takes over"
+            raise DefinitionError(f"{self.plan.title}: {what}; let one letter follow it, such as t along a line=, so that the other holds.")
+        return "".join(letter for letter in joint.holds if letter not in gone)
+
+    def drives(self, contact: Contact) -> Iterator[tuple[Quantity, str, float]]:
+        """Yield what a contact drives: the quantity, the letter of the force that is conjugate to it, and its sign."""
+        joint = contact.joint
+        for drive in joint.drives if joint is not None else ():
+            if drive.along in contact.holds and drive.along:
+                parts = [(1.0, drive.quantity)]
+                if drive.along == "c" and contact.joint is not None and contact.joint.by == FRAME_SIDE:
+                    parts = [(sign, term) for sign, term in signed_terms(self.plan, drive.quantity) if not follows_points(self.plan, term)]
+                yield from ((term, drive.along, drive.sign * sign) for sign, term in parts)
 
     # -- who owns what -------------------------------------------------------------------------------------
 
     def owners(self, point: str) -> list[int]:
         """Return the bodies of a point, the frame first."""
         frame = [FRAME] if point in self.fixed else []
-        return frame + [index for index, part in enumerate(self.parts) if point in part.points]
+        return frame + [index for index, body in enumerate(self.bodies) if point in body.points]
 
     def holder(self, point: str) -> int:
         """Return the body that carries the pin at a point; DefinitionError where nothing holds it."""
@@ -174,7 +177,7 @@ class Structure:
         if found:
             return found[0]
         if point in self.lone:
-            return len(self.parts) + self.lone.index(point)
+            return len(self.bodies) + self.lone.index(point)
         raise DefinitionError(f"{self.plan.title}: {point} belongs to no body; for forces declare its link, such as Link({point}, ...).")
 
     def carrier(self, P: str, Q: str, what: str) -> int:
@@ -195,89 +198,7 @@ class Structure:
     def body_of(self, strut: Strut) -> int:
         """Return the body that a two-point member is, or is part of."""
         name = strut.host or strut.name
-        return next(index for index, part in enumerate(self.parts) if part.name == name and {strut.P, strut.Q} <= set(part.points))
-
-    def name(self, index: int) -> str:
-        """Return a body's name."""
-        if index == FRAME:
-            return FRAME_NAME
-        return self.parts[index].name if index < len(self.parts) else f"pin {self.lone[index - len(self.parts)]}"
-
-    @cached_property
-    def names(self) -> dict[str, str]:
-        """The names of all bodies by what they go by: their own, their link's, their points; not what several go by."""
-        found: dict[str, str] = {}
-        labels = [(part.label, part.name) for part in self.parts if part.label]
-        for link, member in self.plan.of_kind(Link).items():  # a driven length goes by its link's name as well
-            driven = [each for each in self.struts if each.quantity is not None and {each.P, each.Q} == set(member.point_names)]
-            labels += [(link, each.name) for each in driven]
-        for label, name in labels:
-            if [each for each, _ in labels].count(label) == 1:
-                found[label] = name
-        return found | {self.name(index): self.name(index) for index in range(FRAME, len(self.parts) + len(self.lone))}
-
-    @property
-    def bodies(self) -> tuple[str, ...]:
-        """The names of the frame and of all bodies."""
-        return tuple(self.name(body) for body in range(FRAME, len(self.parts)))
-
-    def called(self, name: str) -> str:
-        """Return a body's name for what it goes by: its own, its link's, its points, or two or more of them (`O B`); else as given."""
-        if not isinstance(name, str):
-            raise unknown("Body", name, self.names, where=self.plan.title)
-        if name in self.names:
-            return self.names[name]
-        points = set(name.split())
-        found = [part.name for part in self.parts if len(points) > 1 and points <= set(part.points)]
-        return found[0] if len(found) == 1 else name
-
-    def index(self, name: str) -> int:
-        """Return a body by its name, its link's or its points; DefinitionError for any other."""
-        known_name("Body", name, self.names, where=self.plan.title)
-        indices = {self.name(index): index for index in range(FRAME, len(self.parts) + len(self.lone))}
-        return indices[self.names[name]]
-
-    # -- contacts ------------------------------------------------------------------------------------------
-
-    def pins(self) -> Iterator[Contact]:
-        """Yield the pins: of k bodies at a point, k - 1 turn on the first."""
-        for point in self.plan.points:
-            first, *others = self.owners(point) or [FRAME]
-            yield from (Contact("pin", point, other, first) for other in others)
-
-    def joints(self) -> Iterator[Contact]:
-        """Yield what the steps, guides and slides hold: equal slides once, of drives that a cylinder replaces what is left."""
-        seen: set[tuple[str, tuple[str, ...]]] = set()
-        for name, joint in sorted(self.plan.joints, key=lambda each: ORDER.get(each[1].kind, len(ORDER))):
-            track = self.plan.track(joint)
-            holds, kind = self.left(joint), joint.kind
-            if joint.on.role == "slider" and joint.on.points[0] in self.fixed:
-                continue
-            if track and kind in ("guide", "driven"):
-                if (joint.point, track) in seen:
-                    continue
-                seen.add((joint.point, track))
-            if not holds:
-                continue
-            refuse_driven(self.plan, joint.still)
-            on, by = self.side(joint.on, joint, name), self.side(joint.by, joint, name)
-            if kind == "driven" and "t" not in holds:
-                kind = "guide"
-            if kind == "guide" and 0 <= on < len(self.blocks):
-                kind, holds = "slider", holds + "c"
-            if kind == "crank" and (base := measured_from(self.plan, joint, name)) is not None:
-                by = self.carrier(*base, name)
-            yield Contact(kind, joint.point, on, by, holds, name, joint, track)
-
-    def left(self, joint: Joint) -> str:
-        """Return what a joint still holds when cylinders have taken over strokes."""
-        gone = [letter for letter in joint.holds if (strokes := self.strokes_of(joint, letter)) and strokes <= self.holding.taken]
-        return "".join(letter for letter in joint.holds if letter not in gone)
-
-    def strokes_of(self, joint: Joint, letter: str) -> set[str]:
-        """Return the strokes that drive a joint along one of its letters."""
-        reached = [self.plan.reaches(drive.quantity.name or drive.quantity) for drive in joint.drives if drive.along == letter]
-        return set[str]().union(*reached) & set(self.plan.strokes)
+        return next(index for index, body in enumerate(self.bodies) if body.name == name and {strut.P, strut.Q} <= set(body.points))
 
     def side(self, side: JointSide, joint: Joint, owner: str) -> int:
         """Return the body that one side of a joint names."""
@@ -290,20 +211,20 @@ class Structure:
         if not side.points:
             return FRAME
         if joint.arm and side is joint.on:
-            return next(index for index, part in enumerate(self.parts) if owner in part.points)
+            return next(index for index, body in enumerate(self.bodies) if owner in body.points)
         return self.holder(side.points[0]) if len(side.points) == 1 else self.carrier(side.points[0], side.points[1], owner)
-
-    @cached_property
-    def running(self) -> set[tuple[str, tuple[str, ...]]]:
-        """The points that run on guides and slots, the driven ones too, each with its line."""
-        return {(joint.point, self.plan.track(joint)) for _, joint in self.plan.joints if joint.track and joint.on.role == "runner"}
 
     def runner(self, point: str, line: tuple[str, ...]) -> int:
         """Return the body that a guide or slot holds at a point: one that runs on it with two points, else the carrier of the pin."""
         others = {other for other, its in self.running if its == line} - {point}
         owners = self.owners(point)
-        both = [index for index in owners if index != FRAME and others & set(self.parts[index].points)]
+        both = [index for index in owners if index != FRAME and others & set(self.bodies[index].points)]
         return both[0] if both and FRAME not in owners else self.holder(point)
+
+    @cached_property
+    def running(self) -> set[tuple[str, tuple[str, ...]]]:
+        """The points that run on guides and slots, the driven ones too, each with its line."""
+        return {(joint.point, self.plan.track(joint)) for _, joint in self.plan.joints if joint.track and joint.on.role == "runner"}
 
     def guide_carrier(self, guide: Guide) -> int:
         """Return the body that a guide belongs to."""
@@ -316,50 +237,126 @@ class Structure:
 
     def slider(self, point: str) -> int:
         """Return the body at a point that moves without turning."""
-        return next(index for index, part in enumerate(self.parts) if part.points == (point,) and part.slides)
+        return next(index for index, body in enumerate(self.bodies) if body.points == (point,) and body.slides)
 
-    # -- drives --------------------------------------------------------------------------------------------
+    # -- names ---------------------------------------------------------------------------------------------
 
-    def driven(self, contact: Contact) -> Iterator[tuple[Quantity, str, float]]:
-        """Yield what a contact drives: the quantity, the letter of the force that is conjugate to it, and its sign."""
-        joint = contact.joint
-        for drive in joint.drives if joint is not None else ():
-            if drive.along in contact.holds and drive.along:
-                terms = drives_of(self.plan, drive.quantity) if drive.along == "c" and contact.kind == "crank" else [(1.0, drive.quantity)]
-                yield from ((term, drive.along, drive.sign * sign) for sign, term in terms)
+    @property
+    def indices(self) -> range:
+        """The frame, the bodies and the lone pins."""
+        return range(FRAME, len(self.bodies) + len(self.lone))
+
+    @property
+    def body_names(self) -> tuple[str, ...]:
+        """The names of the frame and of all bodies."""
+        return tuple(self.name(body) for body in range(FRAME, len(self.bodies)))
+
+    def name(self, index: int) -> str:
+        """Return a body's name."""
+        if index == FRAME:
+            return FRAME_NAME
+        return self.bodies[index].name if index < len(self.bodies) else f"pin {self.lone[index - len(self.bodies)]}"
+
+    @cached_property
+    def names(self) -> dict[str, str]:
+        """The names of all bodies by what they go by: their own, their link's, their points; not what several go by."""
+        labels = [(body.label, body.name) for body in self.bodies if body.label]
+        for link, member in self.plan.of_kind(Link).items():  # a driven length goes by its link's name as well
+            driven = [each for each in self.struts if each.quantity is not None and {each.P, each.Q} == set(member.point_names)]
+            labels += [(link, each.name) for each in driven]
+        known = [label for label, _ in labels]
+        found = {label: name for label, name in labels if known.count(label) == 1}
+        return found | {self.name(index): self.name(index) for index in self.indices}
+
+    def full_name(self, name: str) -> str:
+        """Return a body's name for what it goes by: its own, its link's, its points, or two or more of them (`O B`); else as given."""
+        if not isinstance(name, str):
+            raise unknown("Body", name, self.names, where=self.plan.title)
+        if name in self.names:
+            return self.names[name]
+        points = set(name.split())
+        found = [body.name for body in self.bodies if len(points) > 1 and points <= set(body.points)]
+        return found[0] if len(found) == 1 else name
+
+    def index(self, name: str) -> int:
+        """Return a body by its name, its link's or its points; DefinitionError for any other."""
+        known_name("Body", name, self.names, where=self.plan.title)
+        return {self.name(index): index for index in self.indices}[self.names[name]]
 
 
-#: The order in which joints are listed, after the pins.
-ORDER = {kind: place for place, kind in enumerate(("guide", "slider", "slot", "driven", "crank", "telescope", "upright"))}
+# What a turned joint's angle is measured from: the frame, or another body's direction.
 
 
-# What one joint transmits, and between which bodies.
+def measured_from(plan: Plan, joint: Joint, owner: str) -> tuple[str, str] | None:
+    """Return the two points whose direction a turned joint's angle is counted from; None where that is the frame.
 
-@dataclass(frozen=True, eq=False)
-class JointForce:
-    """What one joint transmits: the force on the body `on` from the body `by`, shape (2, ...) [N], with a couple (...) [Nm].
-
-    `kind` is a pin, a guide, a slot, a driven point, a crank's drive, a slider or a telescope. `axis` are the two points that give
-    the body's own x axis; for the frame it is None.
+    Raises DefinitionError for an angle that depends on moving points in another way: its torque has no one body to act against.
     """
+    for drive in joint.drives:
+        if drive.along != "c":
+            continue
+        moving = [(sign, term) for sign, term in signed_terms(plan, drive.quantity) if follows_points(plan, term)]
+        if not moving:
+            continue
+        (sign, term), *others = moving
+        if others or sign < 0.0 or not isinstance(term, Angle):
+            raise DefinitionError(
+                f"{plan.title}: {owner} = {plan.members[owner]}: for forces its angle is counted from the frame or from one body, "
+                f"such as angle(A, B) + phi; {drive.quantity} is neither."
+            )
+        return name_of(term.P), name_of(term.Q)
+    return None
 
-    point: str
-    on: str
-    by: str
-    kind: str
+
+def signed_terms(plan: Plan, quantity: Quantity, sign: float = 1.0) -> Iterator[tuple[float, Quantity]]:
+    """Yield the terms of a sum with their signs, names resolved."""
+    if isinstance(quantity, Ref):
+        member = plan.members[quantity.target]
+        assert isinstance(member, Quantity)
+        yield from signed_terms(plan, member, sign)
+    elif isinstance(quantity, Sum):
+        yield from signed_terms(plan, quantity.a, sign)
+        yield from signed_terms(plan, quantity.b, sign)
+    elif isinstance(quantity, Negative):
+        yield from signed_terms(plan, quantity.a, -sign)
+    else:
+        yield sign, quantity
+
+
+def follows_points(plan: Plan, quantity: Quantity) -> bool:
+    """Return whether a quantity depends on moving points, and not on strokes and dimensions alone."""
+    return any(isinstance(plan.members[name], Point) and name in plan.moving for name in plan.reaches(quantity))
+
+
+# What a joint transmits at the poses: the columns of the equations of equilibrium.
+
+
+@final
+@dataclass(frozen=True)
+class Wrench:
+    """A force [N] at a place [m] with a couple [Nm]: shapes (2, n), (2, n), (n,)."""
+
+    at: FloatArray
     force: FloatArray
     couple: FloatArray
-    axis: tuple[str, str] | None = None
 
-    @property
-    def size(self) -> FloatArray:
-        """The size of the force, shape (...) [N]."""
-        return np.asarray(np.hypot(self.force[0], self.force[1]))
 
-    @property
-    def has_force(self) -> bool:
-        """Whether it transmits a force; a crank's drive has only a couple."""
-        return self.kind not in ("crank", "upright")
+def wrenches(contact: Contact, poses: FlatPoses, scale: float) -> list[Wrench]:
+    """Return the unit wrenches of a contact's unknowns; all unknowns are in N, a couple is `scale` [m] times its own."""
+    none = np.zeros((2, poses.count))
+    place = poses.at(contact.point)
+    forces = {letter: none if letter == "c" else direction_of(contact, letter, poses) for letter in contact.holds}
+    return [Wrench(place, force, none[0] + (scale if letter == "c" else 0.0)) for letter, force in forces.items()]
 
-    def __str__(self) -> str:
-        return f"{self.point} ({self.kind}) on {self.on} from {self.by}"
+
+def direction_of(contact: Contact, letter: str, poses: FlatPoses) -> FloatArray:
+    """Return the direction of one of a contact's forces, x, y, n or t, of length one, shape (2, n)."""
+    line = contact.joint.line if contact.joint is not None else None
+    if letter in "xy" or line is None:
+        along = np.stack([np.ones(poses.count), np.zeros(poses.count)])
+    else:
+        with np.errstate(all="ignore"):
+            way = line(poses.reading).direction
+        vector = poses.pair(way.x, way.y)
+        along = np.asarray(vector / np.hypot(vector[0], vector[1]))
+    return left(along) if letter in "yn" else along

@@ -4,67 +4,39 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from copy import copy
-from typing import Any, Protocol
+from typing import Protocol, final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ..errors import unwarned
-from ..loads import Poses as ForElements
+from ..errors import DefinitionError, cited, unwarned
+from ..loads import Poses, require_poses
 from ..motion import BoundRequest
 from ..motion.limits import Mask
 from ..motion.requests import Ratios
-from ..plan import Plan
+from ..plan import Plan, Reading
 from ..program import FloatArray
-from ..vectors import Line
+from ..quantities import Reference
+from ..vectors import Scalar
 
 
-class Posed(ForElements, Protocol):
-    """What the statics ask of a motion, besides what force elements ask: all that is known of it at its poses."""
-
-    @property
-    def plan(self) -> Plan: ...
-
-    @property
-    def strokes(self) -> Mapping[str, Any]:
-        """The strokes by name."""
-
-    @property
-    def reached(self) -> Any:
-        """The mask of the poses that are reached."""
-
-    def _refused(self, what: BoundRequest, words: str) -> Mask:
-        """Return the mask of poses where a result is refused; raise or warn as asked."""
-
-    @property
-    def unreachable(self) -> str:
-        """What is done about other poses: "raise" or "nan"."""
-
-    @property
-    def _reading(self) -> Any:
-        """Every rule of the plan read at the poses."""
-
-    def ratio(self, target: Any, *, wrt: str | None = None) -> FloatArray:
-        """Return the derivative of a point or a quantity by a stroke."""
-
-    def _array(self, values: Any) -> FloatArray:
-        """Return numbers as the arrays it works with."""
-
-
-class Poses:
+@final
+class FlatPoses:
     """The poses of a motion that are reached and not singular, flat; forces of the others are NaN.
 
     `names` are the members that the forces depend on, all where it is None. Raises SingularError at a singular pose unless the
     motion was asked for with `unreachable="nan"`; warns near one. The policy is that of the transfer ratios.
     """
 
-    def __init__(self, motion: Posed, what: str, names: set[str] | None = None) -> None:
+    def __init__(self, motion: AnyMotion, what: str, names: set[str] | None = None) -> None:
         self.motion, self.plan = motion, motion.plan
-        self.good: Mask = motion.reached & ~self._refused(what, set(self.plan.members) if names is None else names)
+        behind = frozenset(self.plan.members if names is None else names)
+        self.good: Mask = motion.reached & ~motion._refused(Ratios(behind), what)
         self.count = int(self.good.sum())
         self._at: dict[str, FloatArray] = {}
         self._rates: dict[tuple[str, str], FloatArray] = {}
 
-    def without(self, lost: Mask) -> Poses:
+    def without(self, lost: Mask) -> FlatPoses:
         """Return the poses that a mask (n,) leaves."""
         left = copy(self)
         left.good = self.good.copy()
@@ -73,16 +45,13 @@ class Poses:
         left._at, left._rates = {}, {}
         return left
 
-    def _refused(self, what: str, names: set[str]) -> Mask:
-        return self.motion._refused(Ratios(frozenset(names)), what)
-
     @property
     def is_whole(self) -> bool:
         """Whether these are all poses of the motion, of which there are some."""
         return self.count == self.good.size > 0
 
     @property
-    def reading(self) -> Any:
+    def reading(self) -> Reading:
         """Every rule read at the motion's poses."""
         return self.motion._reading
 
@@ -90,7 +59,7 @@ class Poses:
         """Return zeros to write results into, shape (n, *shape)."""
         return self.motion._array(np.zeros((self.count, *shape)))
 
-    def flat(self, values: Any) -> FloatArray:
+    def flat(self, values: ArrayLike) -> FloatArray:
         """Return values over the motion, shape (..., *shape) or broadcast to it, as (..., n)."""
         array = self.motion._array(values)
         lead = array.shape[: max(0, array.ndim - len(self.motion.shape))]
@@ -105,46 +74,79 @@ class Poses:
         result[..., self.good] = values
         return result
 
+    def mask(self, where: Mask) -> Mask:
+        """Return a mask (n,) in the motion's shape, false at the other poses."""
+        return np.asarray(self.full(where.astype(float)) == 1.0)
+
     def at(self, point: str) -> FloatArray:
         """Return a point's position, shape (2, n) [m]."""
         if point not in self._at:
             self._at[point] = self.flat(self.motion[point])
         return self._at[point]
 
+    def ratio(self, target: Reference, drive: str) -> FloatArray:
+        """Return the ratio of a point (2, n) or a quantity (n,); what is near singular has been told already."""
+        with unwarned():
+            return self.flat(self.motion.ratio(target, wrt=drive))
+
     def rate(self, point: str, drive: str) -> FloatArray:
-        """Return a point's transfer ratio, shape (2, n)."""
+        """Return a point's transfer ratio, shape (2, n), worked out once."""
         key = (point, drive)
         if key not in self._rates:
             self._rates[key] = self.ratio(point, drive)
         return self._rates[key]
 
-    def growth(self, P: str, Q: str, drive: str) -> FloatArray:
-        """Return how the distance of two points grows with a stroke, shape (n,); 0 where they coincide."""
-        arm = self.at(Q) - self.at(P)
-        length = np.hypot(arm[0], arm[1])
-        rate = self.rate(Q, drive) - self.rate(P, drive)
-        return np.asarray((arm * rate).sum(axis=0) / over_zero(length))
-
-    def ratio(self, target: Any, drive: str) -> FloatArray:
-        """Return the ratio of a point (2, n) or a quantity (n,); what is near singular has been told already."""
-        with unwarned():
-            return self.flat(self.motion.ratio(target, wrt=drive))
-
-    def line(self, guide: str) -> tuple[FloatArray, FloatArray]:
-        """Return a guide's origin [m] and direction, shape (2, n) both."""
-        with np.errstate(all="ignore"):
-            line: Line = self.reading.line(guide)
-        return self.pair(line.origin.x, line.origin.y), self.pair(line.direction.x, line.direction.y)
-
-    def pair(self, x: Any, y: Any) -> FloatArray:
-        """Return two parts of a vector as (2, n)."""
-        return np.stack([self.flat(x), self.flat(y)])
-
     def along(self, P: str, Q: str) -> FloatArray:
         """Return the direction from P to Q, of length one, shape (2, n)."""
         arm = self.at(Q) - self.at(P)
-        length = np.hypot(arm[0], arm[1])
-        return np.asarray(arm / over_zero(length))
+        return np.asarray(arm / over_zero(np.hypot(arm[0], arm[1])))
+
+    def growth(self, P: str, Q: str, drive: str) -> FloatArray:
+        """Return how the distance of two points grows with a stroke, shape (n,); 0 where they coincide."""
+        arm = self.at(Q) - self.at(P)
+        rate = self.rate(Q, drive) - self.rate(P, drive)
+        return np.asarray((arm * rate).sum(axis=0) / over_zero(np.hypot(arm[0], arm[1])))
+
+    def pair(self, x: Scalar, y: Scalar) -> FloatArray:
+        """Return two parts of a vector as (2, n)."""
+        return np.stack([self.flat(x), self.flat(y)])
+
+
+class AnyMotion(Poses, Protocol):
+    """What the statics ask of a motion, besides what force elements ask: all that is known of it at its poses."""
+
+    @property
+    def plan(self) -> Plan: ...
+
+    @property
+    def strokes(self) -> Mapping[str, FloatArray]:
+        """The strokes by name."""
+
+    @property
+    def reached(self) -> Mask:
+        """The mask of the poses that are reached."""
+
+    @property
+    def unreachable(self) -> str:
+        """What is done about other poses: "raise" or "nan"."""
+
+    @property
+    def _reading(self) -> Reading:
+        """Every rule of the plan read at the poses."""
+
+    def _refused(self, what: BoundRequest, words: str) -> Mask:
+        """Return the mask of poses where a result is refused; raise or warn as asked."""
+
+    def _array(self, values: ArrayLike) -> FloatArray:
+        """Return numbers as the arrays it works with."""
+
+
+def plan_of(motion: Poses) -> Plan:
+    """Return the plan of the motion that a law of force is asked for; DefinitionError for what is no motion of a mechanism."""
+    require_poses(motion)
+    if not isinstance(motion.plan, Plan):
+        raise DefinitionError(f"{cited(motion)} is no motion of a mechanism; give machine.sweep(...) or machine.at(...).")
+    return motion.plan
 
 
 def over_zero(length: FloatArray) -> FloatArray:

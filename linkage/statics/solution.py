@@ -1,78 +1,185 @@
-"""A system solved, and what is read off it: joint forces, what acts on each body, the residual."""
+"""The equations of equilibrium solved on arrays, all poses in one call; and the words where there is no solution."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Protocol
+from typing import final
 
 import numpy as np
 
 from ..errors import DefinitionError, SingularError
 from ..motion.limits import Mask, where_words
 from ..program import FloatArray
-from ..quantities import Distance, Quantity, name_of
-from .acting import Loaded
-from .equilibrium import Form, System
-from .friction import Pressed, Rows, Rub, rubs, settled
-from .joints import Contact, JointForce, Structure, follows_points
-from .poses import Poses
-
-# The solution of the equations of equilibrium, all poses in one call; and the words where there is none.
+from .acting import ActingLoads
+from .equilibrium import LinearForm, System
+from .friction import JointFriction, PressingForces, PressingRows, consistent_frictions, joint_frictions
+from .joints import Contact, Structure
+from .poses import FlatPoses
 
 SPLITS = ("refuse", "least squares")
 RANK = 1e-9  # singular values below this part of the largest count as zero
 
 
+@final
 @dataclass(frozen=True)
-class Balance:
-    """The joint forces u = start + spread q, shapes (n, columns) and (n, columns, frictions)."""
+class PoseForces:
+    """All forces of a motion: each contact's force (2, ...) and couple (...), the drives' and the members' thrusts (...).
 
-    start: FloatArray
-    spread: FloatArray
+    `q` are the frictions (frictions, n) [N] of the joints with friction, `locked` where friction leaves no bounded ones (n,).
+    """
+
+    structure: Structure
+    poses: FlatPoses
+    acting: ActingLoads
+    frictions: list[JointFriction]
+    q: FloatArray
+    locked: Mask
+    contacts: list[tuple[FloatArray, FloatArray]]
+    drives: Mapping[str, FloatArray]
+    thrusts: Mapping[str, FloatArray]
 
 
+def by_equations(poses: FlatPoses, acting: ActingLoads, split: str) -> PoseForces:
+    """Return the forces by the equations solved on arrays."""
+    system, frictions = system_with_friction(poses, acting)
+    found = Equilibrium(system, frictions, split, tuple(system.known())).solution()
+    pulls = np.zeros(poses.count, bool)
+    for line in system.structure.holders.lines:
+        if line.changes_shares:  # several cylinders, one of which works with both sides: solved again where the first pulls
+            first = next(each for each in system.structure.struts if each.line is line)
+            pulls |= found.value(system.thrust(first)) < 0.0
+    if pulls.any():
+        other = Equilibrium(system, frictions, split, tuple(system.known(-1))).solution()
+        u, q = (np.where(pulls[:, None], a, b) for a, b in ((other.u, found.u), (other.q, found.q)))
+        found = Solution(system, u, q, np.where(pulls, other.locked, found.locked), frictions)
+    full = poses.full
+    joints = [found.transmitted(contact) for contact in system.structure.contacts]
+    return PoseForces(
+        system.structure, poses, acting, frictions, found.q.T, found.locked,
+        [(full(force), full(couple)) for force, couple in joints],
+        {name: full(found.value(system.drive(name))) for name in poses.motion.strokes},
+        {each.name: full(found.value(system.thrust(each))) for each in system.structure.struts},
+    )  # fmt: skip
+
+
+def system_with_friction(poses: FlatPoses, acting: ActingLoads) -> tuple[System, list[JointFriction]]:
+    """Return the equations' system and its joints with friction."""
+    structure = Structure(poses.plan, acting.elements, acting.thrusts)
+    frictions = joint_frictions(structure, poses, acting.frictions, acting.movement) if acting.frictions else []
+    return System(structure, poses, acting.loads, tuple(each.unit for each in frictions)), frictions
+
+
+@final
 @dataclass(frozen=True)
-class Equations:
-    """A system, with a known drive force for each support that takes its place as an unknown."""
+class Solution:
+    """Joint forces u (n, columns) and frictions q (n, frictions) [N]; `locked` where friction leaves no bounded ones (n,)."""
 
     system: System
-    rubbing: list[Rub] = field(default_factory=list)
-    split: str = "refuse"
-    bound: tuple[tuple[Form, FloatArray], ...] = ()
-    supports: FloatArray | None = None
+    u: FloatArray
+    q: FloatArray
+    locked: Mask
+    frictions: list[JointFriction]
 
     @property
-    def free(self) -> int:
-        """How many unknowns are not joint forces: the supports."""
-        return 0 if self.supports is None else int(self.supports.shape[2])
+    def poses(self) -> FlatPoses:
+        """The poses they are at."""
+        return self.system.poses
+
+    def value(self, form: LinearForm) -> FloatArray:
+        """Return a linear form of the forces, shape (n,)."""
+        return form.at(self.u[:, : len(self.system.columns)], self.q)
+
+    def transmitted(self, contact: Contact) -> tuple[FloatArray, FloatArray]:
+        """Return the force (2, n) [N] and the couple (n,) [Nm] of a joint on its body, friction included."""
+        force, couple = np.zeros((2, self.system.poses.count)), np.zeros(self.system.poses.count)
+        first = self.system.first[contact]
+        pairs = [(column, self.u[:, first + k]) for k, column in enumerate(self.system.columns[first : first + len(contact.holds)])]
+        pairs += [(each.unit, self.q[:, k]) for k, each in enumerate(self.frictions) if each.contact == contact]
+        for column, size in pairs:
+            force, couple = force + column.wrench.force * size, couple + column.wrench.couple * size
+        return force, couple
+
+
+def locked_words(found: PoseForces | Solution, direction: str) -> list[str]:
+    """Return the words for poses that friction locks; raise them where NaN was not asked for."""
+    if not found.locked.any():
+        return []
+    motion, mask = found.poses.motion, found.poses.mask(found.locked)
+    points = ", ".join(dict.fromkeys(each.contact.point for each in found.frictions))
+    text = (
+        f"{motion.plan.title} locks itself while {direction} {where_words(motion.plan, mask, motion.strokes)}: "
+        f"with the friction at {points} no bounded drive force moves it. Lower the friction, or make the transmission angles larger."
+    )
+    if motion.unreachable == "raise":
+        raise SingularError(text, mask=mask, motion=motion)
+    return [text]
+
+
+@final
+@dataclass(frozen=True)
+class Equilibrium:
+    """A system with what its thrusts are bound to, and a column for each support that takes the place of a known drive force."""
+
+    system: System
+    frictions: list[JointFriction] = field(default_factory=list)
+    split: str = "refuse"
+    bound: tuple[tuple[LinearForm, FloatArray], ...] = ()
+    supports: FloatArray | None = None
 
     @cached_property
     def A(self) -> FloatArray:
         """All rows of the unknowns, shape (n, rows, columns)."""
-        upper = self.system.A
+        upper, free = self.system.A, 0
         if self.supports is not None:
-            upper = np.concatenate([upper, self.supports], axis=2)
-        rows = [np.concatenate([form.row, self.system.poses.zeros(self.free)], axis=1)[:, None] for form, _ in self.bound]
+            upper, free = np.concatenate([upper, self.supports], axis=2), int(self.supports.shape[2])
+        rows = [np.concatenate([form.row, self.system.poses.zeros(free)], axis=1)[:, None] for form, _ in self.bound]
         return np.concatenate([upper, *rows], axis=1)
 
     @cached_property
     def right(self) -> FloatArray:
         """The right sides: of the loads, and of each friction, shape (n, rows, 1 + frictions)."""
         loads = np.concatenate([-self.system.load_rows, *((value - form.rest)[:, None] for form, value in self.bound)], axis=1)
-        rubs = np.concatenate([-self.system.B, *(-form.rub[:, None] for form, _ in self.bound)], axis=1)
-        return np.concatenate([loads[:, :, None], rubs], axis=2)
+        frictions = np.concatenate([-self.system.B, *(-form.friction[:, None] for form, _ in self.bound)], axis=1)
+        return np.concatenate([loads[:, :, None], frictions], axis=2)
 
-    def solve(self) -> Balance:
-        """Return the balance. Raises DefinitionError where bodies hang loose or links are redundant, SingularError at some poses."""
+    def solution(self) -> Solution:
+        """Return the forces at which friction and joint forces agree; errors as `solve`."""
+        system, frictions, poses = self.system, self.frictions, self.system.poses
+        found = self.solve()
+        start, spread = found[:, :, 0], found[:, :, 1:]  # u = start + spread q
+        if not frictions:
+            return Solution(system, start, np.zeros((poses.count, 0)), np.zeros(poses.count, bool), [])
+        rows = [system.first[each.contact] + k for each in frictions for k in range(each.contact.presses)]
+        by_unit, lever = np.moveaxis(spread[:, rows], 0, -1), np.ones((len(frictions), poses.count))
+        pressing = PressingForces(PressingRows(tuple(each.contact.presses for each in frictions)), start[:, rows].T, by_unit, lever)
+        forces, locked = consistent_frictions(pressing, np.stack([each.coefficient for each in frictions]))
+        q = forces.T
+        return Solution(system, start + (spread * q[:, None]).sum(axis=2), q, locked, frictions)
+
+    def solve(self) -> FloatArray:
+        """Return the joint forces without friction and by each friction of 1 N, shape (n, columns, 1 + frictions).
+
+        Raises DefinitionError where bodies hang loose or links are redundant, SingularError at some poses.
+        """
         n, rows, columns = self.A.shape
         if n == 0:
-            return Balance(np.zeros((0, columns)), np.zeros((0, columns, len(self.system.rubs))))
-        self.check(rows, columns)
+            return np.zeros((0, columns, 1 + len(self.system.frictions)))
+        self.check()
         found = self.square() if rows == columns else np.linalg.pinv(self.A, rcond=RANK) @ self.right
-        self.check_held(found)
-        return Balance(found[:, :, 0], found[:, :, 1:])
+        with np.errstate(invalid="ignore", over="ignore"):
+            miss = np.abs(self.A @ found - self.right).max(axis=(1, 2))
+            size = np.abs(self.A).max(axis=(1, 2)) * np.abs(found).max(axis=(1, 2)) + np.abs(self.right).max(axis=(1, 2))
+            bad = ~(miss <= 1e-6 * size)
+        bad &= size > 0.0
+        if bad.any():
+            poses, plan = self.system.poses, self.system.structure.plan
+            mask = poses.mask(bad)
+            where = where_words(plan, mask, poses.motion.strokes)
+            text = f"{plan.title}: the joints cannot hold the loads {where}: the pose is singular. Leave it out."
+            raise SingularError(text, mask=mask, motion=poses.motion)
+        return found
 
     def square(self) -> FloatArray:
         """Return the solution of as many equations as unknowns; NaN where one pose has none."""
@@ -84,11 +191,14 @@ class Equations:
             found[sound] = np.linalg.solve(self.A[sound], self.right[sound])
             return found
 
-    def check(self, rows: int, columns: int) -> None:
+    # -- why there is none ---------------------------------------------------------------------------------
+
+    def check(self) -> None:
         """Raise DefinitionError for a mechanism with loose bodies, or with redundant links unless a split is asked for."""
         if self.split not in SPLITS:
             raise DefinitionError(f'split={self.split!r}: say "refuse" or "least squares".')
-        rank = self.rank
+        rows, columns = self.A.shape[1:]
+        rank = rank_of(self.sample)
         if rank < rows:
             raise DefinitionError(self.loose_words(rows - rank))
         if rank < columns and self.split == "refuse":
@@ -100,59 +210,31 @@ class Equations:
         n = len(self.A)
         return self.A[sorted({0, n // 3, (2 * n) // 3, n - 1})]
 
-    @cached_property
-    def rank(self) -> int:
-        """How many of the equations are independent, at the best of some poses."""
-        return rank_of(self.sample)
-
-    def check_held(self, found: FloatArray) -> None:
-        """Raise SingularError where the forces are not finite or do not balance the loads."""
-        with np.errstate(invalid="ignore", over="ignore"):
-            miss = np.abs(self.A @ found - self.right).max(axis=(1, 2))
-            size = np.abs(self.A).max(axis=(1, 2)) * np.abs(found).max(axis=(1, 2)) + np.abs(self.right).max(axis=(1, 2))
-            bad = ~(miss <= 1e-6 * size)
-        bad &= size > 0.0
-        if not bad.any():
-            return
-        poses, plan = self.system.poses, self.system.structure.plan
-        mask = poses.full(bad.astype(float)) == 1.0
-        where = where_words(plan, mask, poses.motion.strokes)
-        text = f"{plan.title}: the joints cannot hold the loads {where}: the pose is singular. Leave it out."
-        raise SingularError(text, mask=mask, motion=poses.motion)
-
-    # -- words ---------------------------------------------------------------------------------------------
-
     def redundant_words(self, count: int) -> str:
-        """Return which links hold twice what is held already."""
-        structure = self.system.structure
-        names = [structure.name(body) for body in range(len(structure.parts)) if self.rank_without(body)]
-        guides = [contact for contact in structure.contacts if contact.kind == "guide" and self.rank_without_contact(contact)]
-        spare = [*(f"link {name}" for name in names), *(f"the guide of {contact.point}" for contact in guides)]
+        """Return which links hold twice what is held already: those without which the rest is still held."""
+        system, structure, spare = self.system, self.system.structure, []
+        for body, part in enumerate(structure.bodies):
+            gone = [index for index, column in enumerate(system.columns) if body in (column.contact.on, column.contact.by)]
+            rows = list(range(system.starts[body], system.starts[body + 1]))
+            left = np.delete(np.delete(self.sample, gone, axis=2), rows, axis=1)
+            if left.size > 0 and rank_of(left) == left.shape[1]:
+                spare.append(f"link {part.name}")
+        for contact in structure.contacts:
+            if contact.kind == "guide":
+                left = np.delete(self.sample, system.first[contact], axis=2)
+                spare += [f"the guide of {contact.point}"] if rank_of(left) == left.shape[1] else []
         many = "1 joint force too many" if count == 1 else f"{count} joint forces too many"
         return (
             f"{structure.plan.title} is overconstrained, {many}. Redundant is one of these, without which it is still held: "
             f'{", ".join(spare) or "none alone"}. Take one out, or ask for split="least squares".'
         )
 
-    def rank_without(self, body: int) -> bool:
-        """Return whether the rest is still held when a body is taken out with its joints."""
-        system = self.system
-        gone = [index for index, column in enumerate(system.columns) if body in (column.contact.on, column.contact.by)]
-        rows = list(range(system.starts[body], system.starts[body + 1]))
-        left = np.delete(np.delete(self.sample, gone, axis=2), rows, axis=1)
-        return bool(left.size > 0 and rank_of(left) == left.shape[1])
-
-    def rank_without_contact(self, contact: Contact) -> bool:
-        """Return whether the rest is still held without one guide."""
-        left: FloatArray = np.delete(self.sample, self.system.first[contact], axis=2)
-        return bool(rank_of(left) == left.shape[1])
-
     def loose_words(self, count: int) -> str:
         """Return which bodies nothing holds."""
-        names = ", ".join(self.loose())
         return (
             f"{self.system.structure.plan.title}: with its drives locked it can still move in {count} way{'s' if count > 1 else ''}: "
-            f"{names} not held. Declare what holds: Link(...) for bodies placed by Offset, a cylinder by Dyad(..., AB=...)."
+            f"{', '.join(self.loose())} not held. Declare what holds: Link(...) for bodies placed by Offset, "
+            "a cylinder by Dyad(..., AB=...), joints() of a step of one's own."
         )
 
     def loose(self) -> Iterator[str]:
@@ -170,180 +252,3 @@ def rank_of(matrices: FloatArray) -> int:
         return 0
     values = np.linalg.svd(matrices, compute_uv=False)
     return int((values > RANK * values[:, :1]).sum(axis=1).max())
-
-
-# What the drives do: thrusts and torques, read off the joint forces where each drive is cut.
-
-def cut(system: System, drive: str) -> Form:
-    """Return the generalised force of a stroke [N or Nm]: each drive's force times how it follows the stroke."""
-    found = [(quantity, force) for quantity, force in driven(system) if follows(system.structure, quantity, drive)]
-    if not found:
-        raise DefinitionError(
-            f"{system.structure.plan.title}: the joints know no drive of {drive}; "
-            f"declare it by Dyad(..., AB=... + {drive}), Crank, OnGuide or OnLink."
-        )
-    forms = [force.times(ratio_of(system.poses, quantity, drive)) for quantity, force in found]
-    return sum(forms[1:], forms[0])
-
-
-def ratio_of(poses: Poses, quantity: Quantity, drive: str) -> FloatArray:
-    """Return how a driven quantity follows a stroke, shape (n,); of a distance it is told by its points."""
-    if isinstance(quantity, Distance):
-        return poses.growth(name_of(quantity.P), name_of(quantity.Q), drive)
-    return poses.ratio(quantity, drive)
-
-
-def follows(structure: Structure, quantity: Quantity, drive: str) -> bool:
-    """Return whether a driven quantity follows a stroke; DefinitionError where it follows moving points as well."""
-    if isinstance(quantity, Distance):
-        return True
-    if follows_points(structure.plan, quantity):
-        what = f"a drive follows {quantity.name or quantity}, which depends on moving points"
-        raise DefinitionError(f"{structure.plan.title}: {what}; its force is not provided.")
-    return drive == quantity.name or drive in structure.plan.reaches(quantity)
-
-
-def driven(system: System) -> Iterator[tuple[Quantity, Form]]:
-    """Yield every driven quantity with the force that drives it."""
-    structure = system.structure
-    for strut in structure.struts:
-        if strut.drives:
-            yield Distance(strut.P, strut.Q) if strut.quantity is None else strut.quantity, system.thrust(strut)
-    for contact in structure.contacts:
-        for quantity, letter, sign in structure.driven(contact):
-            yield quantity, system.unknown(contact, letter, sign)
-
-
-class Rubbed(Protocol):
-    """Forces with friction: where they are, what rubs, and where that leaves no bounded ones (n,)."""
-
-    @property
-    def poses(self) -> Poses: ...
-
-    @property
-    def rubbing(self) -> list[Rub]: ...
-
-    @property
-    def locked(self) -> Mask: ...
-
-
-@dataclass(frozen=True)
-class Solved:
-    """Joint forces u (n, columns) and frictions q (n, frictions) [N]; `locked` where friction leaves no bounded ones (n,)."""
-
-    system: System
-    u: FloatArray
-    q: FloatArray
-    locked: Mask
-    rubbing: list[Rub]
-
-    @property
-    def poses(self) -> Poses:
-        """The poses they are at."""
-        return self.system.poses
-
-    def value(self, form: Form) -> FloatArray:
-        """Return a linear form of the forces, shape (n,)."""
-        return form.at(self.u[:, : self.system.width], self.q)
-
-    def transmitted(self, contact: Contact) -> tuple[FloatArray, FloatArray]:
-        """Return the force (2, n) [N] and the couple (n,) [Nm] of a joint on its body, friction included."""
-        force, couple = np.zeros((2, self.system.poses.count)), np.zeros(self.system.poses.count)
-        first = self.system.first[contact]
-        pairs = [(column, self.u[:, first + k]) for k, column in enumerate(self.system.columns[first : first + contact.columns])]
-        pairs += [(rub.column, self.q[:, k]) for k, rub in enumerate(self.rubbing) if rub.column.contact == contact]
-        for column, size in pairs:
-            force, couple = force + column.wrench.force * size, couple + column.wrench.couple * size
-        return force, couple
-
-
-def solve(poses: Poses, loaded: Loaded, split: str = "refuse") -> Solved:
-    """Return the joint forces of a loaded motion."""
-    system, rubbing = prepared(poses, loaded)
-    found = consistent(Equations(system, rubbing, split, tuple(system.known())))
-    pulled = pulling(found)
-    if not pulled.any():
-        return found
-    other = consistent(Equations(system, rubbing, split, tuple(system.known(-1))))
-    return chosen(pulled, other, found)
-
-
-def pulling(solved: Solved) -> Mask:
-    """Return the poses where a line of several cylinders, one of which works with both sides, pulls with its first (n,)."""
-    system = solved.system
-    mask = np.zeros(system.poses.count, bool)
-    for line in system.structure.holding.lines:
-        if line.changes_shares:
-            first = next(each for each in system.structure.struts if each.line is line)
-            mask |= solved.value(system.thrust(first)) < 0.0
-    return mask
-
-
-def chosen(mask: Mask, there: Solved, else_: Solved) -> Solved:
-    """Return one solution where a mask (n,) holds, the other one elsewhere."""
-    u, q = (np.where(mask[:, None], a, b) for a, b in ((there.u, else_.u), (there.q, else_.q)))
-    return Solved(else_.system, u, q, np.where(mask, there.locked, else_.locked), else_.rubbing)
-
-
-def prepared(poses: Poses, loaded: Loaded) -> tuple[System, list[Rub]]:
-    """Return the equations' system and its rubbing joints."""
-    structure = Structure(poses.plan, loaded.elements, loaded.pushing)
-    rubbing = rubs(structure, poses, loaded.frictions, loaded.movement) if loaded.frictions else []
-    return System(structure, poses, loaded.acting, tuple(rub.column for rub in rubbing)), rubbing
-
-
-def consistent(equations: Equations) -> Solved:
-    """Return the forces at which friction and joint forces agree."""
-    system, balance, rubbing = equations.system, equations.solve(), equations.rubbing
-    if not rubbing:
-        return Solved(system, balance.start, np.zeros((system.poses.count, 0)), np.zeros(system.poses.count, bool), [])
-    found, locked = settled(pressing(system, balance, rubbing), np.stack([rub.coefficient for rub in rubbing]))
-    q = found.T
-    return Solved(system, balance.start + (balance.spread * q[:, None]).sum(axis=2), q, locked, rubbing)
-
-
-def pressing(system: System, balance: Balance, rubbing: list[Rub]) -> Pressed:
-    """Return the forces that make the frictions, by the solution of the equations."""
-    parts = tuple(rub.column.contact.presses for rub in rubbing)
-    starts = [system.first[rub.column.contact] for rub in rubbing]
-    rows = [start + k for start, many in zip(starts, parts, strict=True) for k in range(many)]
-    by_unit = np.moveaxis(balance.spread[:, rows], 0, -1)
-    return Pressed(Rows(parts), balance.start[:, rows].T, by_unit, np.ones((len(rubbing), system.poses.count)))
-
-
-@dataclass(frozen=True)
-class Equilibrium:
-    """All forces of a motion: each contact's force (2, ...) and couple (...), the drives' and the members' thrusts (...).
-
-    `q` are the frictions (frictions, n) [N] of the rubbing joints, `locked` where friction leaves no bounded ones (n,).
-    """
-
-    structure: Structure
-    poses: Poses
-    loaded: Loaded
-    rubbing: list[Rub]
-    q: FloatArray
-    locked: Mask
-    forces: list[tuple[FloatArray, FloatArray]]
-    drives: Mapping[str, FloatArray]
-    thrusts: Mapping[str, FloatArray]
-
-    @property
-    def joints(self) -> tuple[JointForce, ...]:
-        """Every joint's force in the motion's shape."""
-        structure, found = self.structure, []
-        for contact, (force, couple) in zip(structure.contacts, self.forces, strict=True):
-            axis = structure.parts[contact.on].axis if 0 <= contact.on < len(structure.parts) else None
-            on, by = structure.name(contact.on), structure.name(contact.by)
-            found.append(JointForce(contact.point, on, by, contact.kind, force, couple, axis))
-        return tuple(found)
-
-
-def by_equations(poses: Poses, loaded: Loaded, split: str) -> Equilibrium:
-    """Return the forces by the equations solved on arrays."""
-    solved = solve(poses, loaded, split)
-    structure, full = solved.system.structure, poses.full
-    forces = [tuple(map(full, solved.transmitted(contact))) for contact in structure.contacts]
-    drives = {name: full(solved.value(cut(solved.system, name))) for name in poses.motion.strokes}
-    thrusts = {each.name: full(solved.value(solved.system.thrust(each))) for each in structure.struts}
-    return Equilibrium(structure, poses, loaded, solved.rubbing, solved.q.T, solved.locked, forces, drives, thrusts)  # type: ignore[arg-type]

@@ -5,17 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from math import pi
-from typing import Any
+from typing import TypeAlias, final
 
 import numpy as np
 
 from ..errors import DefinitionError, cited, unwarned
 from ..motion import greatest
 from ..units import deg, kN
-from .joints import JointForce
-from .result import PinForces
+from .joint_forces import JointForce, PinForces
+
+Place: TypeAlias = tuple[np.intp, ...]
+"""A pose among those of a motion, or a design among its designs, by its indices."""
 
 
+@final
 @dataclass(frozen=True)
 class PinLoad:
     """The largest force of one joint: its size [N], its direction in the body's own axes [rad], and where it occurs.
@@ -68,11 +71,11 @@ def max_table(results: PinForces | Iterable[PinForces]) -> tuple[PinLoad, ...]:
 
 def results_of(given: PinForces | Iterable[PinForces]) -> list[PinForces]:
     """Return results of `pin_forces`, one or several, as a list; DefinitionError for anything else."""
-    found: list[Any] = [given] if isinstance(given, PinForces) else list(given) if isinstance(given, (list, tuple, Iterator)) else [given]
-    for each in found:
-        if not isinstance(each, PinForces):
-            raise DefinitionError(f"max_table: {cited(each)} is no result of pin_forces; give pin_forces(motion), or a list of such.")
-    return found
+    found: list[object] = list(given) if isinstance(given, (list, tuple, Iterator)) else [given]
+    wrong = next((each for each in found if not isinstance(each, PinForces)), None)
+    if wrong is not None or None in found:
+        raise DefinitionError(f"max_table: {cited(wrong)} is no result of pin_forces; give pin_forces(motion), or a list of such.")
+    return [each for each in found if isinstance(each, PinForces)]
 
 
 def largest(result: PinForces) -> list[PinLoad]:
@@ -83,55 +86,42 @@ def largest(result: PinForces) -> list[PinLoad]:
     try:
         found = greatest(result.motion, lambda at: np.stack([joint.size for joint in result.again(at).joints if joint.has_force]))
     except DefinitionError:  # arrays over the poses
-        return [row for row in (at_poses(result, joint) for joint in joints) if row is not None]
+        return [largest_at_poses(result, joint) for joint in joints if np.isfinite(joint.size).any()]
     rows = []
     for place, joint in enumerate(joints):
         value = np.asarray(found.value)[place]
         if not np.isnan(value).all():
             design = np.unravel_index(int(np.nanargmax(value)), value.shape)
             strokes = {name: float(np.asarray(each)[place][design]) for name, each in found.strokes.items()}
-            rows.append(at_place(result, joint, float(value[design]), tuple(int(each) for each in design), strokes))
+            there = result.again(result.motion.moved(strokes))
+            key = joint.point, joint.on, joint.by, joint.kind
+            same = next(each for each in there.joints if (each.point, each.on, each.by, each.kind) == key)
+            rows.append(pin_load(there, same, float(value[design]), design, design, strokes))
     return rows
 
 
-def at_place(result: PinForces, joint: JointForce, force: float, design: tuple[int, ...], strokes: Mapping[str, float]) -> PinLoad:
-    """Return a joint's row for its largest force, found at some strokes of one design."""
-    there = result.again(result.motion.moved(strokes))
-    same = next(each for each in there.joints if (each.point, each.on, each.by, each.kind) == (joint.point, joint.on, joint.by, joint.kind))
-    x, y = (float(same.force[k][design]) for k in (0, 1))
-    angle = turned(float(np.arctan2(y, x)) - body_angle(there, same, design))
-    axis = "".join(joint.axis or ("x",))
-    return PinLoad(joint.point, joint.on, joint.by, joint.kind, force, angle, axis, strokes, design, result.case, result.direction)
-
-
-def at_poses(result: PinForces, joint: JointForce) -> PinLoad | None:
-    """Return a joint's largest force over the poses of a result; None where it has none."""
-    size = joint.size
-    if not np.isfinite(size).any():
-        return None
+def largest_at_poses(result: PinForces, joint: JointForce) -> PinLoad:
+    """Return a joint's largest force over the poses of a result."""
+    size, designs = joint.size, len(result.motion._design_shape)
     place = np.unravel_index(int(np.nanargmax(size)), size.shape)
-    designs = len(result.motion._design_shape)
-    x, y = (float(joint.force[k][place]) for k in (0, 1))
-    own = body_angle(result, joint, place)
-    return PinLoad(
-        joint.point, joint.on, joint.by, joint.kind, float(size[place]), turned(float(np.arctan2(y, x)) - own),
-        "".join(joint.axis or ("x",)), {name: float(value[place[designs:]]) for name, value in result.motion.strokes.items()},
-        tuple(int(each) for each in place[:designs]), result.case, result.direction,
-    )  # fmt: skip
+    strokes = {name: float(value[place[designs:]]) for name, value in result.motion.strokes.items()}
+    return pin_load(result, joint, float(size[place]), place, place[:designs], strokes)
 
 
-def turned(angle: float) -> float:
-    """Return an angle [rad] between -pi and pi; half a turn to within rounding is pi."""
+def pin_load(
+    result: PinForces, joint: JointForce, force: float, place: Place, design: Place, strokes: Mapping[str, float]
+) -> PinLoad:
+    """Return a joint's row for its largest force, at a place among the poses of a result; its direction in the body's own axes."""
+    angle = float(np.arctan2(joint.force[1][place], joint.force[0][place]))
+    if joint.axis is not None:
+        (px, py), (qx, qy) = (result.motion[point] for point in joint.axis)
+        angle -= float(np.arctan2((qy - py)[place], (qx - px)[place]))
     within = (angle + pi) % (2.0 * pi) - pi
-    return within + 2.0 * pi if within < -pi + 1e-9 else within
-
-
-def body_angle(result: PinForces, joint: JointForce, place: tuple[Any, ...]) -> float:
-    """Return the direction of a body's own x axis at a pose [rad]."""
-    if joint.axis is None:
-        return 0.0
-    (px, py), (qx, qy) = (result.motion[point] for point in joint.axis)
-    return float(np.arctan2((qy - py)[place], (qx - px)[place]))
+    angle = within + 2.0 * pi if within < -pi + 1e-9 else within  # half a turn to within rounding is pi
+    return PinLoad(
+        joint.point, joint.on, joint.by, joint.kind, force, angle, "".join(joint.axis or ("x",)), strokes,
+        tuple(map(int, design)), result.case, result.direction,
+    )  # fmt: skip
 
 
 def table_text(rows: Iterable[PinLoad]) -> str:

@@ -1,57 +1,199 @@
-"""The drive's force by virtual work, through the exact transfer ratios."""
+"""Forces by virtual work, through the exact transfer ratios: a stroke's generalised force, and what one straight member carries."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from ..errors import DefinitionError
+from ..loads import Rate, TwoPoint
+from ..motion import Motion, require_motion
+from ..motion.requests import stroke_of
 from ..program import FloatArray
-from .acting import Loaded
-from .friction import Rub
-from .poses import Poses
+from ..quantities import is_number
+from .acting import (
+    ActingLoads,
+    Case,
+    Loads,
+    Movement,
+    acting_elements,
+    acting_loads,
+    member_title,
+    movement_of,
+    path_tangent,
+    sense_of,
+)
+from .force_program import forces_at
+from .holding import Levers, PressureLine, holders_of, same, stroke_followed, with_levers
+from .poses import FlatPoses
+from .solution import locked_words
 
 
-def by_work(poses: Poses, loaded: Loaded, drive: str) -> FloatArray:
+def driving_force(
+    motion: Motion,
+    loads: Loads = None,
+    drive: str | None = None,
+    *,
+    case: Case = None,
+    direction: str = "frictionless",
+    rates: Mapping[str, ArrayLike] | None = None,
+    efficiency: float = 1.0,
+) -> FloatArray:
+    """Return the generalised force of a stroke by virtual work, shape (...): [N], for a crank's angle the torque [Nm].
+
+    It is positive the way the stroke grows, and not a cylinder's thrust: with `AB=L0 - S` a positive one pulls, with `AB=L0 + 2 * S`
+    it is twice the thrust, which `pin_forces(...).thrusts` and a cylinder's own `thrust(motion)` tell.
+    `loads` are the machine's own unless others are given; `case` a LoadCase or its name. While "extending" (the stroke grows) or
+    "retracting" friction adds its work; along a path of several strokes its senses are those of the path. `rates`, such as
+    `dict(S=0.05)` [1/s], are what dampers ask for. Given as an `efficiency` k, the force is F / k where the load resists and F k where
+    it drives. Raises SingularError at a dead point and where friction locks the mechanism.
+    """
+    require_motion(motion)
+    stroke = stroke_of(motion.plan, drive, "drive")
+    movement = movement_of(motion, direction, rates, stroke)
+    acting = acting_loads(motion, loads, case, movement)
+    names = {name for point in acting.points for name in motion.plan.reaches(point)}
+    poses = FlatPoses(motion, f"The driving force of {stroke}", None if acting.frictions else names)
+    force = by_work(poses, acting, stroke)
+    if acting.frictions:
+        found = forces_at(poses, acting, loads, case)
+        locked_words(found, direction)
+        if tuple(movement.rates) == (stroke,) and not movement.is_timed:
+            lost = (each * joint.rate for each, joint in zip(found.q, found.frictions, strict=True))  # never negative
+            force = force + movement.sense * sum(lost, np.zeros(poses.count))
+        else:
+            force = poses.flat(found.drives[stroke])
+    return poses.full(with_losses(force, efficiency, movement.sense))
+
+
+def with_losses(force: FloatArray, efficiency: float, sense: int) -> FloatArray:
+    """Return F / k where the load resists the motion, F k where it drives it."""
+    if not (is_number(efficiency) and 0.0 < efficiency <= 1.0):
+        raise DefinitionError(f"efficiency={efficiency!r}: a number above 0 and up to 1 is expected.")
+    if efficiency != 1.0 and not sense:
+        raise DefinitionError('An efficiency works against the motion: say direction="extending" or "retracting".')
+    return np.where(force * sense > 0.0, force / efficiency, force * efficiency)
+
+
+# The work of the loads.
+
+
+def by_work(poses: FlatPoses, acting: ActingLoads, drive: str) -> FloatArray:
     """Return the force of a drive that balances the loads [N or Nm], shape (n,): minus their work on a unit of its stroke."""
-    return np.asarray(0.0 - sum(works(poses, loaded, drive), np.zeros(poses.count)))
-
-
-def works(poses: Poses, loaded: Loaded, drive: str) -> Iterator[FloatArray]:
-    """Yield the work of each load on a unit of a drive's stroke [N or Nm], shape (n,)."""
-    for each in loaded.acting:
-        if each.load.point in poses.plan.moving:
-            yield (poses.flat(each.force) * poses.rate(each.load.point, drive)).sum(axis=0)
-    for push in loaded.pushing:
+    moving, work = poses.plan.moving, np.zeros(poses.count)
+    for load in acting.loads:
+        if load.load.point in moving:
+            work = work + (poses.flat(load.force) * poses.rate(load.load.point, drive)).sum(axis=0)
+    for push in acting.thrusts:
         P, Q = push.ends
-        if {P, Q} & set(poses.plan.moving):
-            yield poses.flat(push.thrust) * poses.growth(P, Q, drive)
+        if {P, Q} & set(moving):
+            work = work + poses.flat(push.thrust) * poses.growth(P, Q, drive)
+    return np.asarray(0.0 - work)
 
 
-def rubbed(rubbing: list[Rub], q: FloatArray) -> FloatArray:
-    """Return the work that friction takes on a unit of the stroke [N or Nm], shape (n,), never negative."""
-    return np.asarray(sum((each * rub.rate for each, rub in zip(q, rubbing, strict=True)), np.zeros(q.shape[1])))
-
-
-def gap(poses: Poses, loaded: Loaded, drives: Mapping[str, FloatArray]) -> float:
+def work_gap(poses: FlatPoses, acting: ActingLoads, drives: Mapping[str, FloatArray]) -> float:
     """Return the largest difference between the drives' forces by equilibrium and by work, over the loads' powers; NaN with friction.
 
     A load's power counts as force times way, whatever the angle between them: where loads balance each other, as counterweights do, or
     do no work, the drive's own force is nearly nothing.
     """
-    if loaded.frictions:
+    if acting.frictions:
         return float("nan")
+    sizes = [(each.load.point, np.hypot(*poses.flat(each.force))) for each in acting.loads]
+    sizes += [(end, np.abs(poses.flat(push.thrust))) for push in acting.thrusts for end in push.ends]
     worst = 0.0
     for name, force in drives.items():
-        missed = float(np.nanmax(np.abs(poses.flat(force) - by_work(poses, loaded, name)), initial=0.0))
-        power = float(np.max(sum(powers(poses, loaded, name), np.zeros(poses.count)), initial=0.0))
+        missed = float(np.nanmax(np.abs(poses.flat(force) - by_work(poses, acting, name)), initial=0.0))
+        powers = sum((size * np.hypot(*poses.rate(point, name)) for point, size in sizes), np.zeros(poses.count))
+        power = float(np.max(powers, initial=0.0))
         worst = max(worst, missed / power if power > 0.0 else missed)
     return worst
 
 
-def powers(poses: Poses, loaded: Loaded, drive: str) -> Iterator[FloatArray]:
-    """Yield the size of each load's force times the way of its point on a unit of a drive's stroke [N or Nm], shape (n,)."""
-    acting = [(each.load.point, np.hypot(*poses.flat(each.force))) for each in loaded.acting]
-    acting += [(end, np.abs(poses.flat(push.thrust))) for push in loaded.pushing for end in push.ends]
-    for point, size in acting:
-        yield size * np.hypot(*poses.rate(point, drive))
+# What one straight two-point member carries: a cylinder that holds, a cylinder on a charged line, a spring.
+
+
+def member_thrust(
+    motion: Motion,
+    member: TwoPoint,
+    loads: Loads = None,
+    *,
+    case: Case = None,
+    direction: str = "frictionless",
+    rates: Mapping[str, ArrayLike] | None = None,
+) -> FloatArray:
+    """Return what a two-point member carries, shape (...) [N], positive where it pushes its ends apart.
+
+    Of one that holds, by virtual work on the strokes that the cylinders have taken over; with friction by equilibrium. Of one with a
+    law of its own, that. One that is not of the class stands in the place of the class's cylinder between the same points.
+    `direction` is the member's own: "extending" while it grows, whatever that makes of the strokes. Raises DefinitionError for one
+    that neither holds nor has a law here, SingularError where its length stands still against its drive.
+    """
+    require_motion(motion)
+    plan, member = motion.plan, standing_for(motion, member)
+    holders = holders_of(plan, [*(each.element for each in acting_elements(plan, loads, None)), member])
+    line = holders.line_of(member)
+    movement = member_movement(motion, member, direction, rates, line)
+    acting = acting_loads(motion, loads, case, movement)
+    if line is None:
+        own = [each.thrust for each in acting.thrusts if same(each.member, member)]
+        if not own:
+            why = "it does not hold, and no element among these loads gives its force"
+            raise DefinitionError(f"{plan.title}: {member.name or member} carries nothing here: {why}.")
+        return np.where(motion.reached, sum(own, np.zeros(motion.shape)), np.nan)
+    what = f"The thrust of {member.name or member}"
+    if acting.frictions:
+        found = forces_at(poses_held(motion, acting, what), acting, loads, case)
+        locked_words(found, direction)
+        return found.thrusts[member_title(member)]
+    names = {name for point in (*acting.points, *(end for each in line.cylinders for end in each.ends)) for name in plan.reaches(point)}
+    poses, levers = with_levers(FlatPoses(motion, what, names), holders.lines, what)
+    return poses.full(thrust_by_work(poses, acting, holders.lines, levers, member))
+
+
+def poses_held(motion: Motion, acting: ActingLoads, what: str) -> FlatPoses:
+    """Return the poses at which a motion's forces can be worked out: not singular, and held by the cylinders that hold."""
+    poses = FlatPoses(motion, what)
+    lines = holders_of(motion.plan, acting.elements).lines
+    return poses if not lines else with_levers(poses, lines, what)[0]
+
+
+def standing_for(motion: Motion, member: TwoPoint) -> TwoPoint:
+    """Return the machine's own holding element in whose place another one is tried, between the same points; else the same."""
+    own = motion.plan.of_kind(TwoPoint).values()
+    if any(same(member, each) for each in own):
+        return member
+    return next((each for each in own if each.holds and set(each.ends) == set(member.ends)), member)
+
+
+def member_movement(
+    motion: Motion, member: TwoPoint, direction: str, rates: Mapping[str, ArrayLike] | None, line: PressureLine | None
+) -> Movement:
+    """Return how strokes move while a member grows or shrinks: along the path, else by the stroke it holds or follows most."""
+    sense = sense_of(direction)
+    if not sense:
+        return movement_of(motion, direction, rates, None)
+    if rates is not None:
+        moves = movement_of(motion, "frictionless", rates, None).rates
+        if np.any(sense * np.nan_to_num(member.growth(motion, moves)) < 0.0):
+            what = f"{member.name or member}: direction={direction!r} is its own, and at these rates it goes the other way at some poses"
+            raise DefinitionError(f"{motion.plan.title}: {what}; drop one of them.")
+        return Movement(direction, moves, True, True)
+    tangent: Mapping[str, Rate] = path_tangent(motion) or {line.stroke if line is not None else stroke_followed(motion.plan, member): 1.0}
+    way = sense * np.sign(np.nan_to_num(member.growth(motion, tangent)))
+    return Movement(direction, {name: way * rate for name, rate in tangent.items()}, True)
+
+
+def thrust_by_work(
+    poses: FlatPoses, acting: ActingLoads, lines: Sequence[PressureLine], levers: Sequence[Levers], member: TwoPoint
+) -> FloatArray:
+    """Return a holding cylinder's thrust by virtual work on the strokes taken over, shape (n,), frictionless."""
+    need = np.stack([by_work(poses, acting, line.stroke) for line in lines], axis=-1)
+    place = next(k for k, line in enumerate(lines) if any(same(each, member) for each in line.cylinders))
+    shares = [each.share(lines[place], member, place) for each in levers]
+    firsts = [each.thrusts(need)[:, place] for each in levers]
+    if len(levers) == 1:
+        return firsts[0] * shares[0]
+    return np.where(firsts[0] < 0.0, firsts[1] * shares[1], firsts[0] * shares[0])

@@ -172,10 +172,10 @@ def measure_text(measure: Any, has_version: bool = False) -> str:
 
     def text(value: Any) -> str:
         match value:
+            case np.generic():
+                return repr(value.item())  # before the plain numbers, of which NumPy's are kinds that print as its version does
             case None | int() | float() | complex() | str() | bytes():
                 return repr(value)
-            case np.generic():
-                return repr(value.item())
             case np.ndarray():
                 return f"{value.dtype} {value.shape} {digest(value.tobytes()) if value.dtype.kind != 'O' else ''}"
             case list() | tuple():
@@ -199,14 +199,19 @@ def measure_text(measure: Any, has_version: bool = False) -> str:
             return f"{text(type(value))} {text(getattr(value, '__dict__', None))}"
         source = source_text(value)
         if source is None and isinstance(value, FunctionType) and not has_version:
-            lacks = "is a lambda, without source text of its own" if value.__name__ == "<lambda>" else "has no source text that is found"
-            raise DefinitionError(
-                f"measure: {home}.{name} {lacks}, so that a folder cannot tell it from another one; "
-                "define it by `def` in a file, or say version=1 and count it up when you change it."
-            )
+            raise without_source(f"{home}.{name}")
         return text([f"{home}.{name}", source, outside_values(value, source or "")])
 
     return text(measure)
+
+
+def without_source(name: str) -> DefinitionError:
+    """Return the error for a function whose source text cannot be had."""
+    lacks = "is a lambda, without source text of its own" if name.endswith("<lambda>") else "has no source text that is found"
+    return DefinitionError(
+        f"measure: {name} {lacks}, so that a folder cannot tell it from another one; "
+        "define it by `def` in a file, or say version=1 and count it up when you change it."
+    )
 
 
 def source_text(value: FunctionType | type) -> str | None:

@@ -101,6 +101,16 @@ def survey(
     check_one_design(machine)
     designs = Designs.of(machine, over)
     task = Task(machine, measure, piece_size(machine, designs.count, piece), one_word("backend", backend, ("numpy", "numba")))
+    check_options(machine, measure, executor, version, progress)
+    checkpoint = None if folder is None else Checkpoint.of(folder, task, designs, version)
+    with progress_told(progress, machine.plan.heading) as tell:
+        run = SurveyRun(task, designs, executor or LocalExecutor(), checkpoint, tell)
+        run.go()
+    return Survey(machine, designs, run.values, tuple(run.batches))
+
+
+def check_options(machine: Mechanism, measure: Measure, executor: Executor | None, version: str | int, progress: bool | Progress) -> None:
+    """Raise DefinitionError for what is no function to measure with, no executor, no version or no progress."""
     if not callable(measure):
         raise DefinitionError(f"{machine.plan.title}: measure={measure!r:.60}: a function of a mechanism is expected.")
     if executor is not None and (isinstance(executor, type) or not callable(getattr(executor, "submit", None))):
@@ -110,11 +120,6 @@ def survey(
         raise DefinitionError(f"version={cited(version)}: a text or a whole number is expected, such as version=2.")
     if not isinstance(progress, bool) and (not callable(progress) or isinstance(progress, type)):
         raise DefinitionError(f"progress={cited(progress)}: say True for a bar, or give a function of (done, total) designs.")
-    checkpoint = None if folder is None else Checkpoint.of(folder, task, designs, version)
-    with progress_told(progress, machine.plan.heading) as tell:
-        run = SurveyRun(task, designs, executor or LocalExecutor(), checkpoint, tell)
-        run.go()
-    return Survey(machine, designs, run.values, tuple(run.batches))
 
 
 def piece_size(machine: Mechanism, count: int, given: int | None) -> int:

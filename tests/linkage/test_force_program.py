@@ -31,9 +31,10 @@ from linkage import (
     pin_forces,
 )
 from linkage.statics import max_table
-from linkage.statics.acting import gathered, movement_of
-from linkage.statics.forces import held_poses
+from linkage.statics.acting import acting_loads, movement_of
+from linkage.statics.joint_forces import joints_of
 from linkage.statics.solution import by_equations
+from linkage.statics.work import poses_held
 from linkage.steps import Guide
 from linkage.units import bar, kN, litre, mm
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -89,15 +90,16 @@ def both(motion, loads=None, **choice):
     """Return the forces by the kernel, and by the equations on arrays."""
     drive, rates = choice.get("drive"), choice.get("rates")
     movement = movement_of(motion, choice.get("direction", "frictionless"), rates, drive)
-    loaded = gathered(motion, loads, choice.get("case"), movement)
-    return pin_forces(motion, loads, **choice), by_equations(held_poses(motion, loaded, "The joint forces"), loaded, "refuse")
+    acting = acting_loads(motion, loads, choice.get("case"), movement)
+    return pin_forces(motion, loads, **choice), by_equations(poses_held(motion, acting, "The joint forces"), acting, "refuse")
 
 
 def check(motion, loads=None, **choice):
     """Hold the two against each other, to 1e-12 of the largest force."""
     found, wanted = both(motion, loads, **choice)
-    size = max(float(np.nanmax(np.abs(joint.force))) for joint in wanted.joints)
-    for one, other in zip(found.joints, wanted.joints, strict=True):
+    joints = joints_of(wanted.structure, wanted.contacts)
+    size = max(float(np.nanmax(np.abs(joint.force))) for joint in joints)
+    for one, other in zip(found.joints, joints, strict=True):
         assert (one.point, one.on, one.by, one.kind) == (other.point, other.on, other.by, other.kind)
         assert_allclose(one.force, other.force, rtol=0, atol=1e-12 * size)
         assert_allclose(one.couple, other.couple, rtol=0, atol=1e-12 * size)

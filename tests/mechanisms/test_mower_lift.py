@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from hydraulics import LiftCircuit
-from hydraulics.judged import Judged
+from hydraulics.judged import LiftingCylinder
 from linkage import (
     RIGHT,
     CosineAngle,
@@ -198,7 +198,7 @@ def test_verdict_of_the_other_reading():
 def test_end_of_the_short_range_is_a_root(dimensions, printed, count):
     """Not the grid of the table: where the range ends, kz = 1, whatever the number of poses."""
     lift = MowerLift(**dimensions)
-    (short,) = Judged(lift.circuit, lift.lift, lift.sweep(count)).lifted().short
+    (short,) = LiftingCylinder(lift.circuit, lift.lift, lift.sweep(count)).lifted().short
     start, end = short.start["S"], short.end["S"]
     assert (start, f"{end:.4f}") == (0.55, printed)
     below, at, above = reserve(lift.at(S=[end - 1e-9, end, end + 1e-9]))

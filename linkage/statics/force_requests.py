@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import Any, TypeVar, final
+from typing import TypeVar, final
 from weakref import ref
 
 import numpy as np
@@ -17,15 +17,14 @@ from ..motion.grid import MotionLike
 from ..motion.requests import identity_of, stroke_of
 from ..plan import Plan
 from ..program import Node, Notes
+from ..vectors import Scalar
 from .acting import Case, Loads
-from .driving import driving_force
 from .equilibrium import System
-from .forces import pin_forces
+from .joint_forces import JointForce, joint_on, joints_of, pin_forces
 from .joints import Contact, Structure
-from .result import met
-from .solution import Solved
-from .traced_loads import Law, eliminated_system, held
-from .work import by_work
+from .solution import Solution
+from .traced_loads import TracedLoads, checked_length, eliminated_forces
+from .work import by_work, driving_force
 
 Bound = TypeVar("Bound", bound=BoundRequest)
 
@@ -36,7 +35,7 @@ def loads_identity(loads: Loads, case: Case) -> Hashable:
     Members that were declared do not, nor do frozen dataclasses. What their laws compute with is taken not to change either.
     """
     listed = () if loads is None else loads if isinstance(loads, (list, tuple)) else (loads,)
-    parts = [each if each is None or isinstance(each, str) else ref(each) if is_fixed(each) else ... for each in (case, *listed)]
+    parts = [each if each is None or isinstance(each, str) else ref(each) if is_unchanging(each) else ... for each in (case, *listed)]
     return None if ... in parts else (loads is None, *parts)
 
 
@@ -46,7 +45,7 @@ def bound_once(plan: Plan, request: Request, bound: Callable[[Plan], Bound]) -> 
     return bound(plan) if identity is None else plan.made(("bound", identity), lambda _: bound(plan))
 
 
-def is_fixed(thing: object) -> bool:
+def is_unchanging(thing: object) -> bool:
     """Return whether loads or a load case cannot change: members of a class, and frozen dataclasses."""
     if not isinstance(thing, (ForceElement, LoadCase)):
         return False
@@ -72,8 +71,8 @@ class DriveForce(Request):
 
     def _bound(self, plan: Plan) -> DriveForceOf:
         drive = stroke_of(plan, self.drive, "drive")
-        law = Law.of(plan, self.loads, self.case)
-        return DriveForceOf(self.loads, self.case, drive, law.key, frozenset(law.names), frozenset(law.carriers))
+        traced = TracedLoads.apart(plan, self.loads, self.case)
+        return DriveForceOf(self.loads, self.case, drive, traced.key, frozenset(traced.names), frozenset(traced.carriers))
 
 
 def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None) -> DriveForce:
@@ -105,11 +104,11 @@ class ForceOf(BoundRequest):
         return True
 
     def notes(self, plan: Plan) -> Notes:
-        return self.laws(plan).notes
+        return self.traced(plan).notes
 
-    def laws(self, plan: Plan) -> Law:
+    def traced(self, plan: Plan) -> TracedLoads:
         """Return the loads traced on a plan's program."""
-        return Law.on(plan, self.loads, self.case)
+        return TracedLoads.on(plan, self.loads, self.case)
 
 
 @final
@@ -118,18 +117,18 @@ class DriveForceOf(ForceOf):
     """A drive's force bound to a plan: its drive, the key of its loads, the members it reads, and those it is differentiated through."""
 
     drive: str
-    law: tuple[Any, ...]
+    loads_key: tuple[Hashable, ...]
     read: frozenset[str]
     carriers: frozenset[str]
 
     @property
     def key(self) -> Hashable:
-        return "drive force", self.drive, self.law
+        return "drive force", self.drive, self.loads_key
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        law = self.laws(plan)
-        (force,) = by_work(law.poses, law.loaded, self.drive)
-        return (law.motion.node(force),)
+        traced = self.traced(plan)
+        (force,) = by_work(traced.poses, traced.acting, self.drive)
+        return (traced.motion.node(force),)
 
     def names(self, plan: Plan) -> set[str]:
         return set(self.read)
@@ -144,8 +143,10 @@ class DriveForceOf(ForceOf):
         return f"the driving force of {self.drive}"
 
 
-#: What can be asked of a force, from its parts.
-COMPONENTS: Mapping[str, Callable[[Any, Any], Any]] = MappingProxyType({"x": lambda x, y: x, "y": lambda x, y: y, "size": np.hypot})
+COMPONENTS: Mapping[str, Callable[[Scalar, Scalar], Scalar]] = MappingProxyType(
+    {"x": lambda x, y: x, "y": lambda x, y: y, "size": np.hypot}
+)
+"""What can be asked of a force, from its parts."""
 
 
 @final
@@ -168,13 +169,13 @@ class PinForce(Request):
 
     def _bound(self, plan: Plan) -> PinForceOf:
         known_name("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
-        law = Law.of(plan, self.loads, self.case)
-        structure = Structure(plan, law.loaded.elements, law.loaded.pushing)
-        asked = replace(self, on=structure.called(self.on))
-        joint, _ = joint_of(structure, self.point, asked.on)
+        traced = TracedLoads.apart(plan, self.loads, self.case)
+        structure = Structure(plan, traced.acting.elements, traced.acting.thrusts)
+        request = replace(self, on=structure.full_name(self.on))
+        _, joint, _ = contact_of(structure, self.point, request.on)
         spans = tuple((strut.name, strut.P, strut.Q) for strut in structure.struts)
-        length = plan.made(("held", spans), lambda _: held(plan, law.loaded))
-        return PinForceOf(self.loads, self.case, asked, (*law.key, spans), length, str(joint))
+        length = plan.made(("checked length", spans), lambda _: checked_length(plan, traced.acting))
+        return PinForceOf(self.loads, self.case, request, (*traced.key, spans), length, str(joint))
 
 
 def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = None, case: Case = None) -> PinForce:
@@ -183,7 +184,7 @@ def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = 
     It is that of the frictionless `pin_forces(motion, loads, case=case).force(point, on)`: on the body `on` from the other one.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
-    names: tuple[Any, ...] = point, on
+    names: tuple[object, ...] = point, on
     if not all(isinstance(each, str) for each in names):
         said = "the names of a point and of a body are expected"
         raise DefinitionError(f'pin_force({cited(point)}, {cited(on)}): {said}, such as pin_force("G", "arm").')
@@ -193,26 +194,25 @@ def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = 
 @final
 @dataclass(frozen=True, eq=False)
 class PinForceOf(ForceOf):
-    """A pin force bound to a plan: what was asked, the key of its loads, a length of the mechanism [m], and the joint in words."""
+    """A pin force bound to a plan: the request, the key of its loads, a length of the mechanism [m], and the joint in words."""
 
-    asked: PinForce
-    law: tuple[Any, ...]
+    request: PinForce
+    loads_key: tuple[Hashable, ...]
     length: float
     joint: str
 
     @property
     def key(self) -> Hashable:
-        return "pin force", self.asked.point, self.asked.on, self.asked.component, self.law
+        return "pin force", self.request.point, self.request.on, self.request.component, self.loads_key
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        law = self.laws(plan)
-        structure, motion = Structure(plan, law.loaded.elements, law.loaded.pushing), law.motion
-        system = System(structure, law.poses, law.loaded.acting, length=self.length)
-        u = eliminated_system(system, motion)
-        none = np.zeros((1, 0))
-        joint, sign = joint_of(structure, self.asked.point, self.asked.on)
-        force, _ = Solved(system, u, none, np.zeros(1, bool), []).transmitted(joint.contact)
-        return (motion.node(COMPONENTS[self.asked.component](*(sign * force[:, 0]))),)
+        traced = self.traced(plan)
+        structure, motion = traced.structure, traced.motion
+        system = System(structure, traced.poses, traced.acting.loads, length=self.length)
+        u = eliminated_forces(system, motion)
+        contact, _, sign = contact_of(structure, self.request.point, self.request.on)
+        force, _ = Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), []).transmitted(contact)
+        return (motion.node(COMPONENTS[self.request.component](*(sign * force[:, 0]))),)
 
     def names(self, plan: Plan) -> set[str]:
         return set(plan.members)
@@ -221,33 +221,12 @@ class PinForceOf(ForceOf):
         pin_forces(require_motion(motion), self.loads, case=self.case)
 
     def __str__(self) -> str:
-        what = "the size" if self.asked.component == "size" else f"the {self.asked.component} component"
+        what = "the size" if self.request.component == "size" else f"the {self.request.component} component"
         return f"{what} of the force at {self.joint}"
 
 
-@dataclass(frozen=True)
-class Met:
-    """A joint by the names of its bodies."""
-
-    contact: Contact
-    on: str
-    by: str
-
-    @property
-    def point(self) -> str:
-        """The point it is at."""
-        return self.contact.point
-
-    @property
-    def has_force(self) -> bool:
-        """Whether it transmits a force."""
-        return self.contact.has_force
-
-    def __str__(self) -> str:
-        return f"{self.point} ({self.contact.kind}) on {self.on} from {self.by}"
-
-
-def joint_of(structure: Structure, point: str, on: str) -> tuple[Met, float]:
-    """Return the joint that is meant, and the sign of its force on the body."""
-    joints = [Met(each, structure.name(each.on), structure.name(each.by)) for each in structure.contacts]
-    return met(joints, point, on, structure.plan.title)
+def contact_of(structure: Structure, point: str, on: str) -> tuple[Contact, JointForce, float]:
+    """Return the contact that is meant, its joint without a value, and the sign of its force on the body."""
+    joints = joints_of(structure, [(np.zeros(2), np.zeros(()))] * len(structure.contacts))
+    joint, sign = joint_on(joints, point, on, structure.plan.title)
+    return structure.contacts[joints.index(joint)], joint, sign

@@ -1,0 +1,271 @@
+"""Joint forces by equilibrium of every body: on which body, from which body, how large, and how well they balance."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import DefinitionError, known_name, unknown
+from ..motion import Motion, require_motion, stroke_unit
+from ..motion.limits import Mask, where_words
+from ..motion.requests import stroke_of
+from ..program import FloatArray
+from ..units import kN
+from .acting import ActingLoad, ActingLoads, Case, Loads, acting_loads, movement_of
+from .bodies import FRAME_NAME
+from .force_program import forces_at
+from .joints import Structure, direction_of
+from .poses import FlatPoses
+from .solution import PoseForces, locked_words
+from .work import by_work, poses_held, work_gap
+
+
+def pin_forces(
+    motion: Motion,
+    loads: Loads = None,
+    *,
+    case: Case = None,
+    direction: str = "frictionless",
+    drive: str | None = None,
+    rates: Mapping[str, ArrayLike] | None = None,
+    split: str = "refuse",
+) -> PinForces:
+    """Return every joint force at every pose, by equilibrium of every body, in one solve over designs and strokes.
+
+    `loads` are the machine's own unless others are given; `case` a LoadCase or its name. `direction` is "extending" (the stroke
+    grows), "retracting" or "frictionless"; with friction and several strokes `drive` says which one moves, along a path of several
+    they move as it goes. `rates`, such as `dict(S=0.05)` [1/s], are what dampers ask for. Raises DefinitionError where a body hangs
+    loose or a link is redundant (unless `split="least squares"`), SingularError at a singular pose and where friction leaves no
+    bounded forces (unless the motion has `unreachable="nan"`).
+    """
+    movement = movement_of(motion, direction, rates, drive)
+    if drive is not None:
+        stroke_of(motion.plan, drive, "drive")
+    acting = acting_loads(motion, loads, case, movement)
+    found = forces_at(poses_held(motion, acting, "The joint forces"), acting, loads, case, split)
+    structure = found.structure
+    remarks = [*locked_words(found, direction), *lift_off_words(found), *self_locking_words(found), *at_rest_words(acting)]
+    borne = tuple((structure.name(structure.bearer(each.load)), each) for each in acting.loads)
+    again = partial(pin_forces, loads=loads, case=case, direction=direction, drive=drive, rates=rates, split=split)
+    return PinForces(
+        motion, joints_of(structure, found.contacts), found.drives, found.thrusts, acting.case, direction,
+        found.poses.mask(found.locked), tuple(remarks), found.poses, acting, borne, structure, again,
+    )  # fmt: skip
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class PinForces:
+    """All joint forces of a motion in one load case and one direction of motion; shapes (2, ...) and (...).
+
+    `drives` are the generalised forces of the strokes [N or Nm], `thrusts` what each driven length and each two-point element carries
+    [N], positive where it pushes its ends apart. `remarks` say in words where friction locks the mechanism (there the forces are NaN,
+    and `locked` is true) and which dampers stand still.
+    """
+
+    motion: Motion
+    joints: tuple[JointForce, ...]
+    drives: Mapping[str, FloatArray]
+    thrusts: Mapping[str, FloatArray]
+    case: str
+    direction: str
+    locked: Mask
+    remarks: tuple[str, ...]
+    _poses: FlatPoses
+    _acting: ActingLoads
+    _loads: tuple[tuple[str, ActingLoad], ...]
+    _structure: Structure
+    _again: Callable[[Motion], PinForces]
+
+    def again(self, motion: Motion) -> PinForces:
+        """Return the same of another motion of the machine: the same loads, case, direction and rates; NaN where they are refused."""
+        require_motion(motion)
+        return self._again(motion)
+
+    def at(self, point: str) -> tuple[JointForce, ...]:
+        """Return the joints at a point."""
+        return joints_at(self.joints, point, self.motion.plan.title)
+
+    def force(self, point: str, on: str = "") -> FloatArray:
+        """Return the force at a point on a body from the other one, shape (2, ...) [N].
+
+        Where several joints meet, `on` says on which body it acts: by its points, its link's or its element's name; DefinitionError
+        where that leaves a choice.
+        """
+        joint, sign = joint_on(self.joints, point, self.body_named(on), self.motion.plan.title)
+        return sign * joint.force
+
+    def on_body(self, name: str) -> Mapping[str, FloatArray]:
+        """Return all forces on a body by the point they act at, joints and loads, shape (2, ...) [N]: they balance (for FEM)."""
+        found = self.body_named(name)
+        if found not in self.on_bodies:
+            raise unknown("Body", name, self.on_bodies, where=self.motion.plan.title)
+        return self.on_bodies[found]
+
+    def body_named(self, name: str) -> str:
+        """Return a body's name for what it goes by; else the name as given."""
+        return self._structure.full_name(name)
+
+    @cached_property
+    def on_bodies(self) -> Mapping[str, Mapping[str, FloatArray]]:
+        """All forces by the body and the point they act at."""
+        found: dict[str, dict[str, FloatArray]] = {name: {} for name in self._structure.body_names}
+        sides = [side for each in self.joints for side in ((each.on, each.point, each.force), (each.by, each.point, -each.force))]
+        for body, point, force in (*sides, *((body, each.load.point, each.force) for body, each in self._loads)):
+            there = found.setdefault(body, {})
+            there[point] = there[point] + force if point in there else force
+        return found
+
+    @cached_property
+    def residual(self) -> float:
+        """The largest imbalance of forces or moments of any body over the largest force, at the worst pose."""
+        return residual(self)
+
+    @cached_property
+    def gap(self) -> float:
+        """The largest difference of the drives' forces to those by virtual work, over the works of the loads; NaN with friction."""
+        return work_gap(self._poses, self._acting, self.drives)
+
+    def __str__(self) -> str:
+        head = f"{self.motion.plan.title}, {self.case}, {self.direction}"
+        units = {name: "Nm" if stroke_unit(self.motion.plan, name) == "rad" else "N" for name in self.drives}
+        lines = [f"  {name}: {range_text(values, units[name])}" for name, values in self.drives.items()]
+        lines += [f"  thrust of {name}: {range_text(values, 'kN')}" for name, values in self.thrusts.items()]
+        lines += [f"  {each}: {range_text(each.size, 'kN') if each.has_force else range_text(each.couple, 'Nm')}" for each in self.joints]
+        against = "" if np.isnan(self.gap) else f"; against virtual work {self.gap:.0e}"
+        return "\n".join([head, *lines, f"  residual of equilibrium {self.residual:.0e}{against}", *(f"  {each}" for each in self.remarks)])
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class JointForce:
+    """What one joint transmits: the force on the body `on` from the body `by`, shape (2, ...) [N], with a couple (...) [Nm].
+
+    `kind` is a pin, a guide, a slot, a driven point, a crank's drive, a slider or a telescope. `axis` are the two points that give
+    the body's own x axis; for the frame it is None. `has_force`: whether it transmits a force; a crank's drive has only a couple.
+    """
+
+    point: str
+    on: str
+    by: str
+    kind: str
+    force: FloatArray
+    couple: FloatArray
+    axis: tuple[str, str] | None = None
+    has_force: bool = True
+
+    @property
+    def size(self) -> FloatArray:
+        """The size of the force, shape (...) [N]."""
+        return np.asarray(np.hypot(self.force[0], self.force[1]))
+
+    def __str__(self) -> str:
+        return f"{self.point} ({self.kind}) on {self.on} from {self.by}"
+
+
+def joints_of(structure: Structure, forces: Iterable[tuple[FloatArray, FloatArray]]) -> tuple[JointForce, ...]:
+    """Return every joint's force, from each contact's force (2, ...) and couple (...)."""
+    found = []
+    for contact, (force, couple) in zip(structure.contacts, forces, strict=True):
+        axis = structure.bodies[contact.on].axis if 0 <= contact.on < len(structure.bodies) else None
+        on, by = structure.name(contact.on), structure.name(contact.by)
+        found.append(JointForce(contact.point, on, by, contact.kind, force, couple, axis, contact.has_force))
+    return tuple(found)
+
+
+def joints_at(joints: Sequence[JointForce], point: str, title: str) -> tuple[JointForce, ...]:
+    """Return the joints at a point; DefinitionError where there is none."""
+    name = known_name("Joint", point, dict.fromkeys(each.point for each in joints), where=title)
+    return tuple(each for each in joints if each.point == name)
+
+
+def joint_on(joints: Sequence[JointForce], point: str, on: str, title: str) -> tuple[JointForce, float]:
+    """Return the joint at a point that transmits a force to a body, and -1 where it is seen from the other body, else 1."""
+    found = [each for each in joints_at(joints, point, title) if each.has_force]
+    names = dict.fromkeys(name for each in found for name in (each.on, each.by))
+    if not on and len(found) == 1:
+        return found[0], 1.0
+    if on and on not in names:
+        raise unknown("Body", on, names, where=f"the joint {point} of {title}")
+    taken = [(each, 1.0) for each in found if each.on == on] + [(each, -1.0) for each in found if each.by == on]
+    if len(taken) != 1:
+        where = ", ".join(f"on {each.on} from {each.by}" for each in found)
+        remedy = f"say on= the other body, on which it is the opposite, or take them from at({point!r})" if on else "say on= which body"
+        raise DefinitionError(f"{title}: several joints meet at {point} ({where}); {remedy}.")
+    return taken[0]
+
+
+def residual(found: PinForces) -> float:
+    """Return the largest imbalance of any body over the largest force there is, at the worst pose; moments over the machine's size."""
+    motion, shape = found.motion, found.motion.shape
+    places = {point: motion[point] for point in motion.plan.points}
+    extent = max((float(np.nanmax(place, initial=0.0) - np.nanmin(place, initial=0.0)) for place in places.values()), default=1.0) or 1.0
+    sums: dict[str, FloatArray] = {}
+    largest = np.zeros(shape)
+    forces = [(each.on, each.point, each.force, each.couple) for each in found.joints]
+    forces += [(each.by, each.point, -each.force, -each.couple) for each in found.joints]
+    forces += [(body, load.load.point, load.force, np.zeros(())) for body, load in found._loads]
+    for body, point, force, couple in forces:
+        moment = (places[point][0] * force[1] - places[point][1] * force[0] + couple) / extent
+        row = np.stack(np.broadcast_arrays(*force, moment))
+        sums[body] = sums[body] + row if body in sums else row
+        largest = np.maximum(largest, np.hypot(force[0], force[1]))
+    bodies = [np.abs(rows[: 2 if body.startswith("pin ") else 3]).max(axis=0) for body, rows in sums.items() if body != FRAME_NAME]
+    worst = np.max(bodies, axis=0, initial=0.0) if bodies else np.zeros(shape)
+    return float(np.nanmax(worst / np.where(largest > 0.0, largest, 1.0), initial=0.0))
+
+
+def range_text(values: FloatArray, unit: str) -> str:
+    """Return a range of values [N or Nm] in words, in the unit given."""
+    factor = kN if unit == "kN" else 1.0
+    finite = np.asarray(values)[np.isfinite(values)] / factor
+    if not finite.size:
+        return "no value"
+    ends = dict.fromkeys(f"{float(value):.6g}" for value in (finite.min(), finite.max()))
+    return f"{' to '.join(ends)} {unit}"
+
+
+def lift_off_words(found: PoseForces) -> list[str]:
+    """Return the words for contacts that would have to pull to hold their bodies together: there these come apart."""
+    poses, structure, words = found.poses, found.structure, []
+    for contact, (force, _) in zip(structure.contacts, found.contacts, strict=True):
+        if contact.joint is None or not contact.joint.pushes:
+            continue
+        push = (poses.flat(force) * direction_of(contact, "n", poses)).sum(axis=0)
+        mask = poses.mask(push < 0.0)
+        if mask.any():
+            bodies = f"{structure.name(contact.on)} from {structure.name(contact.by)}"
+            words.append(
+                f"{contact.owner} lifts off ({contact.kind}, {bodies}) {where_words(poses.plan, mask, poses.motion.strokes)}: there the "
+                f"contact would have to pull, with up to {-float(np.nanmin(push)):.6g} N. Press it on with a spring or a weight."
+            )
+    return words
+
+
+def self_locking_words(found: PoseForces) -> list[str]:
+    """Return the words for poses where friction alone holds the load: it drives, and must still be pushed."""
+    acting, motion = found.acting, found.poses.motion
+    if not acting.frictions or len(acting.movement.rates) != 1:
+        return []
+    ((stroke, rate),) = acting.movement.rates.items()
+    free = found.poses.full(by_work(found.poses, acting, stroke))
+    with np.errstate(invalid="ignore"):
+        mask = (free * rate < 0.0) & (found.drives[stroke] * rate > 0.0)
+    if not mask.any():
+        return []
+    why = f"friction holds the load, which would move {stroke} without it; the drive must help"
+    return [f"Self-locking while {acting.movement.direction} {where_words(motion.plan, mask, motion.strokes)}: {why}."]
+
+
+def at_rest_words(acting: ActingLoads) -> list[str]:
+    """Return the words for what gives nothing: no loads at all, dampers without rates."""
+    if not acting.loads and not acting.thrusts:
+        return ["no load acts, so that all forces are zero; declare one in the class, such as load = Weight(G, mass=1200)."]
+    if not acting.at_rest:
+        return []
+    return [f"{', '.join(acting.at_rest)}: at rest a damper gives nothing; give the speeds, rates=dict(S=0.05)."]

@@ -1,0 +1,97 @@
+"""The force of a support when the drive's force is known."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..errors import DefinitionError, known_name
+from ..loads import Support
+from ..motion import Motion, require_motion
+from ..motion.conditions import condition
+from ..motion.requests import stroke_of
+from ..program import FloatArray
+from ..quantities import name_of, real
+from .acting import Case, Loads, acting_loads, movement_of
+from .holding import refused_where
+from .joints import Wrench
+from .poses import FlatPoses
+from .solution import Equilibrium, locked_words, system_with_friction
+from .work import by_work
+
+
+def reaction(
+    motion: Motion,
+    loads: Loads = None,
+    support: Support | str | None = None,
+    *,
+    drive_force: ArrayLike = 0.0,
+    drive: str | None = None,
+    case: Case = None,
+    direction: str = "frictionless",
+    rates: Mapping[str, ArrayLike] | None = None,
+) -> FloatArray:
+    """Return the force of a support along its direction, shape (...) [N], when the drive's force is known.
+
+    `drive_force` [N or Nm] is the drive's own, as `driving_force` counts it, a number or an array over the motion; leave it 0 where
+    an element such as a charged line stands for it. The machine's only Support is meant unless one is given; its own `force` does
+    not count. With several strokes `drive` names the one that the support balances; the others stand still. Raises SingularError
+    where the support's point does not move along its direction with the drive.
+    """
+    require_motion(motion)
+    name, element = support_of(motion, support)
+    stroke = stroke_of(motion.plan, drive, "drive")
+    acting = acting_loads(motion, loads, case, movement_of(motion, direction, rates, stroke), without=name)
+    poses = FlatPoses(motion, f"The reaction of {name}")
+    known = poses.flat(known_force(motion, drive_force))
+    lever = way_along(poses, element, stroke, name)
+    if not acting.frictions:
+        return poses.full((by_work(poses, acting, stroke) - known) / lever)
+    # with friction: the reaction at which it, the joint forces and the known drive force agree
+    system, frictions = system_with_friction(poses, acting)
+    column, point = np.zeros((poses.count, system.height, 1)), name_of(element.point)
+    push = Wrench(poses.at(point), np.zeros((2, poses.count)) + element.unit[:, None], np.zeros(poses.count))
+    system.put(column[:, :, 0], system.structure.holder(point), push)
+    bound = (*system.known(), (system.drive(stroke), known))
+    found = Equilibrium(system, frictions, bound=bound, supports=column).solution()
+    locked_words(found, direction)
+    return poses.full(found.u[:, -1])
+
+
+def support_of(motion: Motion, support: Support | str | None) -> tuple[str, Support]:
+    """Return the support that is meant, with its name."""
+    own = motion.plan.of_kind(Support)
+    if isinstance(support, Support):
+        return support.name or str(support), support
+    if support is None and len(own) == 1:
+        return next(iter(own.items()))
+    if support is None:
+        raise DefinitionError(f"{motion.plan.title} has {len(own)} supports: say which one, such as Support('R', (0, 1)).")
+    name = known_name("Support", support, own, where=motion.plan.title)
+    return name, own[name]
+
+
+def known_force(motion: Motion, drive_force: ArrayLike) -> FloatArray:
+    """Return a known force of a drive in the motion's shape; DefinitionError where it does not fit or is not finite."""
+    try:
+        known = np.asarray(np.broadcast_to(real(drive_force), motion.shape))
+    except ValueError:
+        what = f"a number or an array that fits the poses {motion.shape} is expected"
+        raise DefinitionError(f"drive_force={drive_force!r}: {what}.") from None
+    if not np.all(np.isfinite(known[motion.reached])):
+        raise DefinitionError(f"drive_force={drive_force!r} is not finite at every pose; give numbers in N or Nm.")
+    return known
+
+
+def way_along(poses: FlatPoses, support: Support, drive: str, name: str) -> FloatArray:
+    """Return how far the support's point moves along its direction on a unit of the stroke, shape (n,); SingularError where it does not."""
+    point = name_of(support.point)
+    along = (poses.rate(point, drive) * support.unit[:, None]).sum(axis=0)
+    carrying = [each for each in poses.plan.moving if each in poses.plan.reaches(point)]
+    size = np.max([np.hypot(*poses.rate(each, drive)) for each in carrying], axis=0, initial=0.0)  # of the fastest point on the way to it
+    with np.errstate(divide="ignore", invalid="ignore"):
+        cond = condition(np.where(size > 0.0, along / np.where(size > 0.0, size, 1.0), 0.0))
+    why = f"its point {point} does not move along its direction with {drive}, so that no reaction balances the drive"
+    return refused_where(poses, along, cond, f"The reaction of {name}", why)

@@ -38,6 +38,7 @@ from linkage import (
     pin_forces,
     ratio,
 )
+from linkage.files import load, to_json, to_toml
 from linkage.pictures.scene import Scene
 from linkage.program import Way
 from linkage.statics.forces import by_equations, gathered, movement_of
@@ -123,7 +124,7 @@ def test_gradients_are_exact(variable):
 
 
 def test_every_way_to_run_a_program_agrees():
-    kernel, inputs = everything(Valve), Valve().at(phi=np.linspace(-7.0, 14.0, 300)).grid.flat
+    kernel, inputs = everything(Valve), Valve().at(phi=np.linspace(-7.0, 14.0, 300))._grid.flat
     wanted = by_nodes(kernel, inputs)
     agree(kernel(inputs, way=Way("numpy")).values[:, 0], wanted)
     agree(kernel(inputs, way=Way("floats")).values[:, 0], wanted)
@@ -265,6 +266,23 @@ def test_their_parameters_are_design_variables(variable):
     for each, below, above in zip(asked, low, high, strict=True):
         (exact,) = Flap().at(phi=phi).gradient(each, wrt=[variable])
         assert_allclose(exact, (above - below) / (2e-6 * value), rtol=1e-6, atol=1e-6)
+
+
+# -- files -------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("machine", [Valve, Rod, Flap])
+@pytest.mark.parametrize("write", [to_toml, to_json])
+def test_a_file_goes_there_and_back(machine, write):
+    text = write(machine(OA=0.035))
+    back = load(text)
+    assert write(back()) == text
+    assert ("kind" in text) and ("docs.extending." in text)
+    own, again = machine(OA=0.035).sweep(9), back().sweep(9)
+    for name in own.plan.points:
+        assert_array_equal(again[name], own[name])
+    assert_array_equal(pin_forces(again).drives["phi"], pin_forces(own).drives["phi"])
+    assert type(back.plan.members["O"]) is Ground
 
 
 # -- the shipped steps say no more ---------------------------------------------------------------------------

@@ -5,9 +5,8 @@ from __future__ import annotations
 from ..errors import DefinitionError
 from ..quantities import FRAME_SIDE, Driven, Joint, JointSide, Operand, Quantity, Reference, Where, quantity, spelled
 from ..vectors import Vec
-from .labels import Slot
 from .primitives import Axis, Offset, Turn
-from .step import UNBOUND, Assignment, Bar, Step
+from .step import UNBOUND, Assignment, Step
 
 
 class Crank(Step):
@@ -18,7 +17,7 @@ class Crank(Step):
 
     P: str
     PX: Quantity = UNBOUND
-    parent_letters = ("P",)
+    parent_letters = arms = ("P",)
     expects = (("P", "point"), ("angle", "quantity"))
 
     def __init__(self, P: Reference, *, angle: Operand, **lengths: Operand) -> None:
@@ -31,9 +30,6 @@ class Crank(Step):
     def in_radians(self) -> tuple[Quantity, ...]:
         return (self.angle,)
 
-    def slots(self) -> tuple[Slot, ...]:
-        return (Slot("PX", (self.P, self.X)),)
-
     def check(self) -> None:
         super().check()
         if self.angle.is_constant:
@@ -44,9 +40,6 @@ class Crank(Step):
         arm = Vec(cos, sin) * where.value(self.PX)
         X: Vec = where.at(self.P) + arm
         return X
-
-    def bars(self) -> tuple[Bar, ...]:
-        return (Bar(self.P, self.X, self.PX),)
 
     def joints(self) -> tuple[Joint, ...]:
         return (Joint("crank", self.P, JointSide((self.P, self.X)), FRAME_SIDE, "c", drives=(Driven(self.angle, "c"),)),)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from ..quantities import Operand, Quantity, Reference, Where, distance
 from ..vectors import Scalar, Side, Vec
-from .labels import Slot
 from .primitives import CosineAngle, Offset, Turn, Vector, triangle
-from .step import UNBOUND, Assignment, Bar, Position, Step
+from .step import UNBOUND, Assignment, Position, Step
 
 
 class Dyad(Step):
@@ -21,6 +20,8 @@ class Dyad(Step):
     PX: Quantity = UNBOUND
     QX: Quantity = UNBOUND
     from_drawing = "distances"
+    arms = ("P", "Q")
+    closes = True
     chooses = "two circles meet in two points"
     expects = (("P", "point"), ("Q", "point"), ("PX", "quantity"), ("QX", "quantity"))
 
@@ -30,18 +31,12 @@ class Dyad(Step):
     ) -> None:
         super().__init__(P, Q, labels=lengths, side=side, near=near, at=at)
 
-    def slots(self) -> tuple[Slot, ...]:
-        return Slot("PX", (self.P, self.X)), Slot("QX", (self.Q, self.X))
-
     def place(self, where: Where) -> Vec:
         P, base = where.at(self.P), where.at(self.Q) - where.at(self.P)
         along, height = triangle(where, base.square(), where.value(self.PX), where.value(self.QX))
         inverse = 1.0 / base.square()
         X: Vec = P + (base * (along * inverse) + base.left() * (float(self.settled_side) * (height * inverse)))
         return X
-
-    def modes(self) -> tuple[Side, ...]:
-        return Side.LEFT, Side.RIGHT
 
     def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
         base = (where.at(self.Q) - where.at(self.P)).length()
@@ -56,15 +51,8 @@ class Dyad(Step):
         return where.at(self.P) - X, where.at(self.Q) - X
 
     @property
-    def closes(self) -> bool:
-        return True
-
-    @property
     def sense(self) -> float:
         return float(self.settled_side)
-
-    def bars(self) -> tuple[Bar, ...]:
-        return Bar(self.P, self.X, self.PX), Bar(self.Q, self.X, self.QX)
 
     def expansion(self) -> tuple[Assignment, ...]:
         base = Vector(self.P, self.Q)

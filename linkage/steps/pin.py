@@ -21,6 +21,7 @@ class Pin(Point):
     A pin that no dyad places belongs to a group, whose pins are found together.
     """
 
+    closes = True
     argument_kinds = MappingProxyType({"near": "place", "at": "place"})
 
     def __init__(self, *place: Any, near: Position | None = None, at: Position | None = None) -> None:
@@ -57,10 +58,6 @@ class Pin(Point):
     @property
     def companions(self) -> tuple[str, ...]:
         return () if self.group is None else self.group.pins
-
-    @property
-    def closes(self) -> bool:
-        return True
 
     def __str__(self) -> str:
         word, (x, y) = ("near" if self.near else "at"), self.sketched

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from ..quantities import Joint, JointSide, Number, Operand, Quantity, Reference, Where, guided, quantity, spelled
 from ..vectors import Line, Scalar, Side, Vec
-from .labels import Slot
-from .step import UNBOUND, Bar, Position, Step, angle_given
+from .step import UNBOUND, Position, Step, angle_given
 
 
 class SliderDyad(Step):
@@ -18,6 +17,8 @@ class SliderDyad(Step):
     guide: str
     PX: Quantity = UNBOUND
     parent_letters = ("P", "guide")
+    closes = True
+    arms = ("P",)
     chooses = "a circle meets a line in two points"
     expects = (("P", "point"), ("guide", "guide"))
 
@@ -25,12 +26,6 @@ class SliderDyad(Step):
         self, P: Reference, guide: Reference, *, side: Side | str | None = None, near: Position | None = None, **lengths: Operand
     ) -> None:
         super().__init__(P, guide, labels=lengths, side=side, near=near)
-
-    def slots(self) -> tuple[Slot, ...]:
-        return (Slot("PX", (self.P, self.X)),)
-
-    def modes(self) -> tuple[Side, ...]:
-        return Side.LEFT, Side.RIGHT
 
     def place(self, where: Where) -> Vec:
         line, p = where.line(self.guide), where.value(self.PX)
@@ -47,10 +42,6 @@ class SliderDyad(Step):
         return where.at(self.P) - where.at(self.X), where.line(self.guide).direction.left()
 
     @property
-    def closes(self) -> bool:
-        return True
-
-    @property
     def sense(self) -> float:
         return -float(self.settled_side)
 
@@ -58,9 +49,6 @@ class SliderDyad(Step):
         line = where.line(self.guide)
         gap = abs(line.direction.cross(where.at(self.P) - line.origin)) - where.value(self.PX)
         return f"{self.P}{self.X} does not reach from {self.P} to {self.guide}", gap
-
-    def bars(self) -> tuple[Bar, ...]:
-        return (Bar(self.P, self.X, self.PX),)
 
     def joints(self) -> tuple[Joint, ...]:
         return (guided(self.X, self.guide),)
@@ -76,6 +64,9 @@ class PinSlotDyad(Step):
     P: str
     Q: str
     PX: Quantity = UNBOUND
+    closes = True
+    arms = ("P",)
+    chooses = "its pin may lie ahead of P or behind it"
     expects = (("P", "point"), ("Q", "point"))
 
     def __init__(
@@ -87,12 +78,6 @@ class PinSlotDyad(Step):
 
     def parts(self) -> tuple[Reference, ...]:
         return (*super().parts(), self.offset)
-
-    def slots(self) -> tuple[Slot, ...]:
-        return (Slot("PX", (self.P, self.X)),)
-
-    def modes(self) -> tuple[Side, ...]:
-        return Side.LEFT, Side.RIGHT
 
     def place(self, where: Where) -> Vec:
         P, to_pin, e = where.at(self.P), where.direction(self.P, self.Q), where.value(self.offset)
@@ -111,19 +96,12 @@ class PinSlotDyad(Step):
         return where.at(self.Q) - P, (where.at(self.X) - P).left()
 
     @property
-    def closes(self) -> bool:
-        return True
-
-    @property
     def sense(self) -> float:
         return float(self.settled_side)
 
     def shortage(self, where: Where) -> tuple[str, Scalar]:
         gap = abs(where.value(self.offset)) - (where.at(self.Q) - where.at(self.P)).length()
         return f"the slot's offset is larger than the distance {self.P}{self.Q}", gap
-
-    def bars(self) -> tuple[Bar, ...]:
-        return (Bar(self.P, self.X, self.PX),)
 
     def arguments(self) -> list[str]:
         given = [] if isinstance(self.offset, Number) and self.offset.number == 0.0 else [f"offset={spelled(self.offset)}"]
@@ -149,6 +127,7 @@ class GuideCross(Step):
 
     guide: str
     other: str
+    closes = True
     parent_letters = ("guide", "other")
     expects = (("guide", "guide"), ("other", "guide"))
 
@@ -169,10 +148,6 @@ class GuideCross(Step):
         return where.line(self.guide).direction, where.line(self.other).direction
 
     @property
-    def closes(self) -> bool:
-        return True
-
-    @property
     def sense(self) -> float:
         return 1.0
 
@@ -189,6 +164,7 @@ class YokeDyad(Step):
 
     P: str
     guide: str
+    closes = True
     parent_letters = ("P", "guide")
     expects = (("P", "point"), ("guide", "guide"))
 
@@ -216,10 +192,6 @@ class YokeDyad(Step):
     def meeting(self, where: Where) -> tuple[Vec, ...]:
         direction = where.line(self.guide).direction
         return direction, direction.turned(*where.turn(self.angle))
-
-    @property
-    def closes(self) -> bool:
-        return True
 
     @property
     def sense(self) -> float:

@@ -8,7 +8,7 @@ from copy import copy
 from dataclasses import dataclass
 from math import pi
 from types import MappingProxyType
-from typing import Any, Self, TypeAlias
+from typing import Any, ClassVar, Self, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -73,6 +73,8 @@ class Point(Jointed):
 
     X: str = ""
     """Its name once it is bound, in a class or in a group."""
+    closes: ClassVar[bool] = False
+    """Whether placing this point closes a loop, so that it can fail and become singular."""
 
     kind = "point"
     file_section = "points"
@@ -112,11 +114,6 @@ class Point(Jointed):
     def hangs_from(self) -> str:
         """The point that a construction alone leads from, drawn as a thin line where no body joins them; empty where others hold it."""
         return ""
-
-    @property
-    def closes(self) -> bool:
-        """Whether placing this point closes a loop, so that it can fail and become singular."""
-        return False
 
     @property
     def sense(self) -> float:
@@ -162,6 +159,8 @@ class Step(Point):
     parents: tuple[Reference, ...]
     parent_letters: tuple[str, ...] = ("P", "Q")
     argument_kinds = MappingProxyType({"side": "side", "near": "place", "at": "place"})
+    arms: tuple[str, ...] = ()
+    """The letters of the parents that X hangs from by a link of its own: for P it has the length PX."""
     from_drawing: str = ""
     """What `at=(x, y)` supplies: the `distances` from both parents, or one distance and the `angle`."""
     chooses: str = ""
@@ -179,7 +178,10 @@ class Step(Point):
 
     def slots(self) -> tuple[Slot, ...]:
         """Return the labels this step takes; the step knows its points' names by now."""
-        return ()
+        return tuple(Slot(f"{letter}X", (getattr(self, letter), self.X)) for letter in self.arms)
+
+    def bars(self) -> tuple[Bar, ...]:
+        return tuple(Bar(getattr(self, letter), self.X, getattr(self, f"{letter}X")) for letter in self.arms)
 
     def check(self) -> None:
         """Raise DefinitionError where something this step needs is missing or too much."""
@@ -190,6 +192,9 @@ class Step(Point):
                 raise self.missing(slot)
         if self.chooses and self.side is None and self.near is None:
             raise self.needs_side(self.chooses)
+
+    def modes(self) -> tuple[Side, ...]:
+        return (Side.LEFT, Side.RIGHT) if self.chooses else ()
 
     def parts(self) -> tuple[Reference, ...]:
         return (*self.parents, *(part for part in map(quantity, self.labels.values()) if not part.is_constant))

@@ -28,8 +28,8 @@ from linkage import (
     pin_forces,
     ratio,
 )
-from linkage.formulas.oracle import program_expressions
 from linkage.program import Way
+from tests.linkage.sympy_program import program_expressions
 from tests.linkage.test_backends import agree, as_loop, by_nodes, everything
 
 XS = np.array([0.0, 0.07, 0.22, 0.3, 0.46, 0.6, 0.71, 0.8, 1.0])

@@ -229,7 +229,7 @@ class Levers:
         return np.asarray(np.linalg.solve(np.swapaxes(self.matrix, 1, 2), need[:, :, None])[:, :, 0])
 
     @property
-    def condition_of_sine(self) -> FloatArray:
+    def condition(self) -> FloatArray:
         """How near the levers are to a singular pose, relative to their sizes (n,); infinite where they are at one."""
         columns = self.sizes.max(axis=1, keepdims=True)
         columns = np.where(columns > 0.0, columns, 1.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cmath import exp, phase
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import combinations
@@ -13,8 +14,9 @@ from ..assembly import places_at
 from ..errors import AssemblyError, DefinitionError
 from ..plan import Plan, Reading, Trace, merged, strokes_text
 from ..program import FloatArray, Level, Node, Tangent, ancestors, interpret
-from ..steps import Link
-from ..units import mm
+from ..quantities import quantity
+from ..steps import Link, match
+from ..units import mm, show
 from ..vectors import Vec
 
 # The constraints of a mechanism with all its points free: their Jacobian at a pose, from the rules of the steps.
@@ -236,12 +238,12 @@ def remedy(found: Mobility) -> str:
 
 
 def check_lengths(plan: Plan) -> None:
-    """Raise DefinitionError where a declared link changes its length over the strokes by more than rounding."""
+    """Raise DefinitionError where a declared link changes its length over the strokes, or is not as long as it is said to be."""
     samples = [sample(plan, share) for share in (0.0, 0.13, 0.37, 0.61, 0.88, 1.0)]
-    known = [places for places in samples if places is not None]
+    known = [found for found in samples if found is not None]
     for name, link in plan.of_kind(Link).items():
         for P, Q in () if plan.is_cylinder(link) else combinations(link.point_names, 2):
-            lengths = [float(np.hypot(*np.subtract(places[P], places[Q]))) for places in known]
+            lengths = [float(np.hypot(*np.subtract(places[P], places[Q]))) for places, _ in known]
             change = max(lengths, default=0.0) - min(lengths, default=0.0)
             if change > 1e-9 * max(lengths, default=1.0):
                 raise DefinitionError(
@@ -249,6 +251,29 @@ def check_lengths(plan: Plan) -> None:
                     "but a link is rigid. Take it out, or correct a length.",
                     member=name,
                 )
+        if known and link.labels:
+            check_labels(plan, name, link, *known[0])
+
+
+def check_labels(plan: Plan, name: str, link: Link, places: Mapping[str, tuple[float, float]], inputs: Mapping[str, Any]) -> None:
+    """Raise DefinitionError where what a link says of its points is not how other labels place them."""
+    reading = Reading(plan.members, plan.table.lengths, inputs)
+    for label, value in link.labels.items():
+        ((slot, _, sign, given),) = match({label: value}, link.slots(), f"{name} = {link}").values()
+        stated = sign * float(reading.value(quantity(given)))
+        P, Q, *rest = (complex(*places[point]) for point in slot.points)
+        if rest:
+            found = stated + phase((rest[0] - Q) / (P - Q) * exp(-1j * stated)) if P != Q != rest[0] else stated
+            differs, unit = abs(found - stated) > 1e-6, "deg"
+        else:
+            found, unit = abs(P - Q), "m"
+            differs = abs(found - abs(stated)) > 1e-9 * max(found, abs(stated))
+        if differs:
+            raise DefinitionError(
+                f"{plan.title}: {name} = {link}: {label} is given as {show(sign * stated, unit)}, but its points are placed by other "
+                f"labels, which make it {show(sign * found, unit)}. Take it out, or correct a length or an angle.",
+                member=name,
+            )
 
 
 def check_slides(plan: Plan) -> None:
@@ -271,9 +296,9 @@ def check_slides(plan: Plan) -> None:
                 )
 
 
-def sample(plan: Plan, share: float) -> dict[str, tuple[float, float]] | None:
-    """Return the places of all points at a share of every stroke; None where it cannot be assembled."""
+def sample(plan: Plan, share: float) -> tuple[dict[str, tuple[float, float]], dict[str, Any]] | None:
+    """Return the places of all points at a share of every stroke, and the inputs there; None where it cannot be assembled."""
     try:
-        return places_at(plan, {name: stroke.start + share * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()})[0]
+        return places_at(plan, {name: stroke.start + share * (stroke.end - stroke.start) for name, stroke in plan.strokes.items()})
     except AssemblyError:
         return None

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..errors import DefinitionError
 from ..frozen import refuses_changes
 from ..vectors import Scalar
 from .member import Member, Reference, Turning, Where, name_of
@@ -26,6 +27,10 @@ class Angle(Quantity):
     P: Reference
     Q: Reference
     expects = (("P", "point"), ("Q", "point"))
+
+    def __post_init__(self) -> None:
+        if self.P is self.Q or (isinstance(self.P, str) and self.P == self.Q):
+            raise DefinitionError(f"{self}: a direction leads from one point to another; name two points.")
 
     @property
     def measures(self) -> str:

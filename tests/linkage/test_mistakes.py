@@ -184,3 +184,36 @@ def test_a_crank_of_a_few_turns_is_no_mistake():
         shoe = linkage.Slide("P", post)
 
     assert Screw().sweep(29).reached.all()
+
+
+SIDES = {"OB": 0.5, "OC": 0.3, "BC": np.sqrt(0.34 - 0.3 * np.cos(0.4)), "BOC": 0.4, "COB": -0.4}
+
+
+@pytest.mark.parametrize("label", SIDES)
+@pytest.mark.parametrize("off", [0.0, 1e-4])
+def test_what_a_link_says_of_points_that_others_place_is_held_against_them(label, off):
+    lines = f"""
+    phi = Stroke(0, 1)
+    O = Ground(0, 0)
+    B = Crank(O, OB=0.5, angle=phi)
+    D = OnLink(O, B, OD=0.3, BOD=0.4)
+    C = OnLink(O, D, OC=0.3)
+    arm = Link(O, B, C, {label}={float(SIDES[label] + off)!r})
+"""
+    if label == "OB" and off:
+        with pytest.raises(DefinitionError, match=r"OB=0\.5001 contradicts OB=0\.5; a dimension has one value"):
+            made(lines)
+    elif label == "OC" and off:
+        with pytest.raises(DefinitionError, match=r"OC=0\.3001 contradicts OC=0\.3; a dimension has one value"):
+            made(lines)
+    elif off:
+        with pytest.raises(DefinitionError, match=rf"{label} is given as .*placed by other labels, which make it .*Take it out"):
+            made(lines)
+    else:
+        assert made(lines)().sweep(3).reached.all()
+
+
+@pytest.mark.parametrize("line", ["v = angle(O, O)", 'v = angle("O", "O")'])
+def test_a_direction_needs_two_points(line):
+    with pytest.raises(DefinitionError, match=r"a direction leads from one point to another; name two points"):
+        made(f"\n    S = Stroke(0, 1)\n    O = Ground(0, 0)\n    {line}\n")

@@ -195,9 +195,10 @@ def test_compiled_paths_are_the_same(seed):
 def test_compiled_paths_of_many_designs_are_the_same():
     pytest.importorskip("numba")
     rods = 0.1006 + np.random.default_rng(1).uniform(-3e-3, 3e-3, 100)
-    expected = StephensonThreeFar(DF=rods).sweep(9, unreachable="nan")
+    psi = np.radians(np.linspace(40.0, 110.0, 30))
+    expected = StephensonThreeFar(DF=rods).at(psi=psi, unreachable="nan")
     with pinned("numba"):
-        found = StephensonThreeFar(DF=rods).sweep(9, unreachable="nan")
+        found = StephensonThreeFar(DF=rods).at(psi=psi, unreachable="nan")
     assert not expected.reached.all()
     assert_array_equal(found.reached, expected.reached)
     for pin in "ABD":

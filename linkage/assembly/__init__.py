@@ -1,8 +1,8 @@
 """Pins, links and slides turned into steps; groups solved and continued along the stroke."""
 
 from .assemble import assembled
-from .following import NONE_SOLVED, parted, with_angles
-from .groups import Solved, solve_groups
+from .following import NONE_SOLVED, ambiguous_angle, with_angles
+from .groups import GroupSolution, solve_groups
 from .modes import Assembly, assemblies
 from .newton import Newton
 from .sketch import places_at

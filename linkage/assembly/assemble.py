@@ -14,14 +14,14 @@ from ..quantities import Member, Quantity, Reference, name_of, needs
 from ..steps import Group, Guide, Link, OnLink, Pin, Slide, Step
 from ..vectors import Side
 from .parts import Parts, Shape, check_held, next_step
-from .sketch import Place, Sketch, measured, missing_labels, sided
+from .sketch import Place, Sketch, missing_labels, sided, with_measured_labels
 
 # What a parts list refers to, looked at before its pins are placed: names, kinds, labels.
 
 def check_names(members: Mapping[str, Member], title: str) -> None:
     """Raise DefinitionError for a name that nobody declares, one of another kind, and a label that does not fit its link's points."""
     for name, member in members.items():
-        for each in needed(name, member, title):
+        for each in needed_names(name, member, title):
             if each not in members:
                 raise unknown("Name", each, members, where=f"{title}.{name}", member=name)
     for name, member in members.items():
@@ -33,7 +33,7 @@ def check_names(members: Mapping[str, Member], title: str) -> None:
                 member.fitted()
 
 
-def needed(name: str, member: Member, title: str) -> tuple[str, ...]:
+def needed_names(name: str, member: Member, title: str) -> tuple[str, ...]:
     """Return the names that a member needs; DefinitionError, with the place, where a part of it cannot be one."""
     try:
         return tuple(needs(member))
@@ -51,7 +51,7 @@ def parts_of(member: Member) -> list[tuple[Reference, str]]:
 # What no dyad pattern places: the smallest sets of pins whose equations determine them together.
 
 @dataclass(frozen=True)
-class Row:
+class PinEquation:
     """An equation of the parts list: the loose pins it holds, and what it stands for."""
 
     pins: tuple[str, ...]
@@ -65,22 +65,22 @@ class Row:
     """The link that it comes from, if one."""
 
 
-def rows_of(parts: Parts, title: str) -> list[Row]:
+def pin_equations(parts: Parts, title: str) -> list[PinEquation]:
     """Return the equations of all links and slides that hold loose pins."""
-    rows: list[Row] = []
+    rows: list[PinEquation] = []
     for name, link in parts.links.items():
         if parts.loose(link):
             with about(name):
-                rows += link_rows(parts, name, title)
+                rows += link_equations(parts, name, title)
     for slide in parts.slides.values():
         held = (name_of(slide.point), *parts.guides[name_of(slide.guide)].points)
         loose = tuple(point for point in held if point in parts.pins and point not in parts.placed)
         if loose:
-            rows.append(Row(loose, slide=slide))
+            rows.append(PinEquation(loose, slide=slide))
     return rows
 
 
-def link_rows(parts: Parts, name: str, title: str) -> list[Row]:
+def link_equations(parts: Parts, name: str, title: str) -> list[PinEquation]:
     """Return a link's equations: one length, and two for every further point that is rigid with two points before it."""
     link, shape = parts.links[name], parts.shapes[name]
     points = [*parts.firm(link), *parts.loose(link)]
@@ -94,13 +94,13 @@ def link_rows(parts: Parts, name: str, title: str) -> list[Row]:
         return tuple(pin for pin in pins if pin not in parts.placed)
 
     measured = None if length is None else (first, second, length)
-    rows = [Row(loose(first, second), length=measured, fault=fault, link=name)] if loose(first, second) else []
+    rows = [PinEquation(loose(first, second), length=measured, fault=fault, link=name)] if loose(first, second) else []
     for pin, step in attachments(points, shape, f"{title}: the shape of {name} = {link}"):
         fault = undrawn(parts, name, pin, step)
         if not fault:
             step = as_sketched(parts, pin, step, f"{title}: {name} = {link}", shape)
         held = (*map(name_of, step.parents), pin)
-        rows += [Row(loose(*held), attached=(pin, step), half=half, fault=fault, link=name) for half in (0, 1)]
+        rows += [PinEquation(loose(*held), attached=(pin, step), half=half, fault=fault, link=name) for half in (0, 1)]
     return rows
 
 
@@ -151,7 +151,7 @@ def next_group(parts: Parts, title: str) -> Group:
     """
     import networkx as nx
 
-    rows = rows_of(parts, title)
+    rows = pin_equations(parts, title)
     matched = matching(rows, parts, title)
     graph = nx.DiGraph()
     graph.add_nodes_from(dict.fromkeys(pin for pin, _ in matched))  # a set would be in another order in every run
@@ -164,11 +164,11 @@ def next_group(parts: Parts, title: str) -> Group:
         faulty = next((rows[row] for row in own if rows[row].fault), None)
         if faulty is not None:
             raise DefinitionError(f"{title}: {faulty.fault}", member=faulty.link)
-        return checked(grouped([pin for pin in parts.pins if pin in pins], [rows[row] for row in own]), title)
+        return as_determined(grouped([pin for pin in parts.pins if pin in pins], [rows[row] for row in own]), title)
     raise DefinitionError(f"{title}: no pin is left to place.")
 
 
-def matching(rows: list[Row], parts: Parts, title: str) -> dict[tuple[str, int], int]:
+def matching(rows: list[PinEquation], parts: Parts, title: str) -> dict[tuple[str, int], int]:
     """Return which equation determines which coordinate; DefinitionError for a pin that is left free."""
     import networkx as nx
 
@@ -191,7 +191,7 @@ def matching(rows: list[Row], parts: Parts, title: str) -> dict[tuple[str, int],
     return {each: found[place] - first for place, each in enumerate(coordinates)}
 
 
-def grouped(pins: list[str], rows: list[Row]) -> Group:
+def grouped(pins: list[str], rows: list[PinEquation]) -> Group:
     """Return the group of some pins with its equations."""
     group = Group(" ".join(pins))
     group.given = tuple(dict.fromkeys(row.length for row in rows if row.length))
@@ -204,7 +204,7 @@ def grouped(pins: list[str], rows: list[Row]) -> Group:
     return group
 
 
-def checked(group: Group, title: str) -> Group:
+def as_determined(group: Group, title: str) -> Group:
     """Return a group that has as many different conditions as coordinates; DefinitionError for one that is held twice in the same way."""
     held, needed = len(group.given) + 2 * len(group.attached) + len(group.slides), 2 * len(group.pins)
     if held != needed:
@@ -278,7 +278,7 @@ class Assembler:
             named = copy(member)
             object.__setattr__(named, "_name", name)
             with about(name):
-                member = sided(name, measured(name, named, self.settled, self.title), self.settled, self.title)
+                member = sided(name, with_measured_labels(name, named, self.settled, self.title), self.settled, self.title)
         self.settled[name] = member
         self.parts.placed.add(name)
 

@@ -19,7 +19,7 @@ import numpy.typing as npt
 
 from ..plan import Plan
 from ..program import FloatArray, Kernel
-from .groups import Solved, solve_groups
+from .groups import GroupSolution, solve_groups
 from .newton import Mask
 
 Index = npt.NDArray[np.intp]
@@ -36,13 +36,13 @@ MANY = 1 << 17
 APART = 3.0
 """References [rad] that differ by more are looked at: the angles may differ by a turn."""
 NOWHERE: Mapping[str, FloatArray] = MappingProxyType({})
-KEPT: WeakKeyDictionary[Plan, tuple[tuple[float, ...], Index, Mapping[str, Track]]] = WeakKeyDictionary()
+KEPT: WeakKeyDictionary[Plan, tuple[tuple[float, ...], Index, Mapping[str, AnglePath]]] = WeakKeyDictionary()
 """The last single design of a plan, how far its angles are followed each way, and these."""
-NONE_SOLVED = Solved({}, np.zeros((1, 1), bool))
+NONE_SOLVED = GroupSolution({}, np.zeros((1, 1), bool))
 """What is solved where there are no groups."""
 
 
-def with_angles(found: Solved, plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray]) -> Solved:
+def with_angles(found: GroupSolution, plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray]) -> GroupSolution:
     """Return what is solved with the references of followed angles [rad], shape (designs, poses); NaN where one cannot be followed.
 
     Designs are floats or (m,), strokes (n,) or (m, n).
@@ -53,9 +53,9 @@ def with_angles(found: Solved, plan: Plan, designs: Mapping[str, Any], strokes: 
     m = max((np.size(value) for value in single.values()), default=1)
     m = max([m, *(len(value) for value in strokes.values() if np.ndim(value) == 2)])
     n = max((np.shape(value)[-1] for value in strokes.values()), default=1)
-    ways = Ways.of(plan, {name: np.broadcast_to(value, (m, n)) for name, value in strokes.items()})
+    ways = StrokeLines.of(plan, {name: np.broadcast_to(value, (m, n)) for name, value in strokes.items()})
     if m == 1 and len(strokes) == 1:
-        tracks = kept_tracks(plan, single, ways)
+        tracks = kept_paths(plan, single, ways)
         return replace(found, inputs={**found.inputs, **{name: np.rint(each.at(ways.target, ways.place)) for name, each in tracks.items()}})
     references: dict[str, FloatArray] = {name: np.full((m, n), np.nan) for name in plan.followed}
     for part in ways.parts():
@@ -65,14 +65,14 @@ def with_angles(found: Solved, plan: Plan, designs: Mapping[str, Any], strokes: 
     return replace(found, inputs={**found.inputs, **references})
 
 
-def kept_tracks(plan: Plan, designs: Mapping[str, float], ways: Ways) -> Mapping[str, Track]:
+def kept_paths(plan: Plan, designs: Mapping[str, float], ways: StrokeLines) -> Mapping[str, AnglePath]:
     """Return the followed angles of one design along both ways of its one stroke; those of the last design are kept."""
     key, known = tuple(designs.values()), KEPT.get(plan)
     if known is not None and known[0] == key and np.all(known[1] >= ways.length):
         return known[2]
     ((name, stroke),) = plan.strokes.items()
     ends = np.array([stroke.start, stroke.end]) - plan.sketch_strokes[name]
-    declared = np.ceil(np.array([ends.max(), -ends.min()]) / piece_of(plan, name)).astype(np.intp)
+    declared = np.ceil(np.array([ends.max(), -ends.min()]) / piece_length(plan, name)).astype(np.intp)
     whole = replace(ways, length=np.maximum(ways.length, declared))
     found = whole.tracks(plan, designs)
     KEPT[plan] = key, whole.length, found
@@ -85,7 +85,7 @@ def singled(designs: Mapping[str, Any]) -> dict[str, Any]:
     return {name: float(value[0]) if value.size == 1 else value for name, value in flat.items()}
 
 
-def parted(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray], references: Mapping[str, FloatArray]) -> str:
+def ambiguous_angle(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatArray], references: Mapping[str, FloatArray]) -> str:
     """Return an angle that does not change from each pose (m, *shape) to the next as it does on the straight line between them; "" if none.
 
     With several strokes the ways from the sketch to two poses may pass a pose where the ends of the angle meet on either side.
@@ -102,7 +102,7 @@ def parted(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatAr
         a, b = one[far], other[far]
         full = {each: np.broadcast_to(value, shape).ravel() for each, value in strokes.items()}
         first, last = ({each: value[ends] for each, value in full.items()} for ends in (a, b))
-        ways = Ways.between(plan, a // (len(flat) // shape[0]), first, last, a.shape)
+        ways = StrokeLines.between(plan, a // (len(flat) // shape[0]), first, last, a.shape)
         begin = {each: np.ravel(found)[a] for each, found in references.items()}
         for part in ways.parts():
             ends = part.tracks(plan, singled(designs), begin)[name].at(part.lines, ways.place[part.lines])
@@ -111,14 +111,14 @@ def parted(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, FloatAr
     return ""
 
 
-def piece_of(plan: Plan, name: str) -> float:
+def piece_length(plan: Plan, name: str) -> float:
     """Return the length of a piece of a stroke."""
     stroke = plan.strokes[name]
     return min(abs(stroke.end - stroke.start), 2.0 * pi) / PIECES
 
 
 @dataclass(frozen=True)
-class Ways:
+class StrokeLines:
     """Lines in stroke space, each with its design, its first strokes, the strokes per unit of place, and its whole length.
 
     `target` and `place`, shape (m, n), tell on which line a pose stands, and where.
@@ -142,7 +142,7 @@ class Ways:
             first = {name: np.full(m * n, sketch[name]) for name in strokes}
             return cls.between(plan, rows.ravel(), first, {name: value.ravel() for name, value in strokes.items()}, (m, n))
         ((name, values),) = strokes.items()
-        unit = piece_of(plan, name)
+        unit = piece_length(plan, name)
         place, target = np.abs(values - sketch[name]) / unit, 2 * rows + (values < sketch[name])
         length = np.ones(2 * m, np.intp)
         np.maximum.at(length, target.ravel(), np.ceil(place).astype(np.intp).ravel())
@@ -155,26 +155,26 @@ class Ways:
     ) -> Self:
         """Return the ways of designs (k,) from some strokes to others, (k,) each."""
         apart = {name: last[name] - first[name] for name in first}
-        pieces = [np.ceil(np.abs(each) / piece_of(plan, name)) for name, each in apart.items()]
+        pieces = [np.ceil(np.abs(each) / piece_length(plan, name)) for name, each in apart.items()]
         length = np.maximum(1, np.max(pieces, axis=0)).astype(np.intp)
         lines = np.arange(len(length))
         along = {name: each / length for name, each in apart.items()}
         return cls(first, design, along, length, lines.reshape(shape), length.reshape(shape).astype(float), lines)
 
-    def parts(self) -> list[Ways]:
+    def parts(self) -> list[StrokeLines]:
         """Return these ways some at a time; those with no pose are left out."""
         used = self.lines[np.isin(self.lines, self.target)]
         ends = np.cumsum(self.length[used] + 1) // MANY
         return [replace(self, lines=used[ends == each]) for each in np.unique(ends)]
 
-    def tracks(self, plan: Plan, designs: Mapping[str, Any], begin: Mapping[str, FloatArray] = NOWHERE) -> dict[str, Track]:
+    def tracks(self, plan: Plan, designs: Mapping[str, Any], begin: Mapping[str, FloatArray] = NOWHERE) -> dict[str, AnglePath]:
         """Return every followed angle along these ways, which begin at the sketch, or where the angles are about `begin` [rad]."""
-        found: dict[str, Track] = {}
+        found: dict[str, AnglePath] = {}
         for name in plan.followed:
             found[name] = self._track(Vectors(plan, designs, self, name, dict(found)), begin.get(name))
         return found
 
-    def _track(self, vectors: Vectors, begin: FloatArray | None) -> Track:
+    def _track(self, vectors: Vectors, begin: FloatArray | None) -> AnglePath:
         counts = self.length[self.lines] + 1
         line = np.repeat(self.lines, counts)
         place = np.arange(len(line)) - np.repeat(np.cumsum(counts) - counts, counts).astype(float)
@@ -191,7 +191,7 @@ class Ways:
             place = 0.5 * (left.place + right.place)
             middle = Points(left.line, place, *vectors.at(left.line, place)) if len(place) else left
             left, right = left.joined(middle), middle.joined(right)
-        return Track.of(done, points.taken(points.place == 0.0), begin)
+        return AnglePath.of(done, points.taken(points.place == 0.0), begin)
 
 
 @dataclass(frozen=True)
@@ -224,7 +224,7 @@ def fits(left: Points, right: Points) -> Mask:
 
 
 @dataclass(frozen=True)
-class Track:
+class AnglePath:
     """An angle along ways: pieces in order, with the angle at their start [rad], NaN behind where it is lost, and its change over each."""
 
     starts: FloatArray
@@ -236,7 +236,7 @@ class Track:
     offsets: FloatArray
 
     @classmethod
-    def of(cls, done: Sequence[tuple[Points, Points, Mask]], start: Points, near: FloatArray | None) -> Track:
+    def of(cls, done: Sequence[tuple[Points, Points, Mask]], start: Points, near: FloatArray | None) -> AnglePath:
         """Return the track of settled pieces; the directions at its start lie near some angles, or between -180 and 180 deg."""
         left, right, good = done[0]
         for more_left, more_right, more_good in done[1:]:
@@ -280,9 +280,9 @@ class Vectors:
 
     plan: Plan
     designs: Mapping[str, Any]
-    ways: Ways
+    ways: StrokeLines
     name: str
-    known: Mapping[str, Track]
+    known: Mapping[str, AnglePath]
 
     def at(self, line: Index, place: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the vector and its derivative by the place, shape (2, k); NaN out of reach."""

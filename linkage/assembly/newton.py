@@ -2,20 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import reduce
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ..plan import Plan
-from ..program import FloatArray, Kernel, jacobian, solve_arrays
-from ..steps import Group
+from ..errors import AssemblyError
+from ..plan import Plan, strokes_text
+from ..program import (
+    ARRAYS,
+    GUARDED,
+    FloatArray,
+    Kernel,
+    Level,
+    Node,
+    Tangent,
+    ancestors,
+    compiled,
+    expanded,
+    function,
+    is_zero,
+    solve_arrays,
+)
+from ..steps import Group, Pin
+from ..units import mm
+from .rules import newton_ended
 
 Mask = npt.NDArray[np.bool_]
 CONVERGED = 1e-10
-#: A step so small, against the group's size, leaves an error of its square: 1e-14 and less.
-QUADRATIC = 1e-7
+ITERATIONS = 9
+PIVOT, SURE_PIVOT = 1e-6, 1e-4
+"""How small a pivot may be beside the entries it clears away, for a step that the next one corrects and for a clearance."""
+THRESHOLD = 0.25
+"""At the sketch a pivot is at least so large beside the entries it clears away."""
 
 
 class Newton:
@@ -29,52 +51,35 @@ class Newton:
         self.names = group.inputs[:-1]
 
     @property
-    def _kernel(self) -> Kernel:
-        return self.plan.made(("newton", self.group.name), lambda plan: equations(plan, self.group))
+    def programs(self) -> Programs:
+        """Newton's step and the clearance, written out for this group."""
+        return self.plan.made(("newton", self.group.name), lambda plan: Programs.of(plan, self.group))
 
-    def raw(self, inputs: Mapping[str, Any], u: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def held(self, inputs: Mapping[str, Any]) -> dict[str, Any]:
+        """Return what the programs take of the inputs, floats or arrays like these: all that does not hang on the group's own pins."""
+        programs = self.programs
+        with np.errstate(all="ignore"):
+            known = programs.hold(*(inputs[name] for name in programs.inputs))
+        return {f"@k{k}": value if np.ndim(value) else float(value) for k, value in enumerate(known)}
+
+    def _run(self, kernel: Kernel, held: Mapping[str, Any], u: FloatArray) -> FloatArray:
+        """Return the values of a kernel, shape (outputs, n)."""
+        return kernel({**held, **dict(zip(self.names, u, strict=True))}, size=(1, u.shape[1])).values[:, 0]
+
+    def raw(self, held: Mapping[str, Any], u: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the residuals and the Jacobian by rows as the constraints state them, shape (c, n) and (c, c, n)."""
         count, n = u.shape
-        varied = any(np.ndim(inputs[name]) for name in self.plan.defaults)
-        given = dict(inputs) | dict(zip(self.names, u, strict=True))
-        if varied:  # poses as designs: each has dimensions of its own
-            given |= {name: np.reshape(given[name], (-1, 1)) for name in given if name not in self.plan.defaults and np.ndim(given[name])}
-        values = self._kernel(given, size=(n, 1) if varied else (1, n)).values
-        values = values[:, :, 0] if varied else values[:, 0]
+        values = self._run(self.programs.raw, held, u)
         return values[:count], values[count:].reshape(count, count, n)
 
-    def extent(self, rows: FloatArray, u: FloatArray) -> FloatArray:
-        """Return the size of the group at each pose [m]: its longest rod, or how far its pins lie apart."""
-        rods = rows[: len(self.group.rods)]
-        apart = np.ptp(u.reshape(-1, 2, u.shape[-1]), axis=0).max(axis=0)
-        return np.asarray(np.sqrt(np.maximum((rods * rods).sum(axis=1).max(axis=0, initial=0.0), apart * apart)))
-
     def system(self, inputs: Mapping[str, Any], u: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return the residuals [m], the Jacobian with rows of length one, and the rows' own lengths [m]."""
-        residual, rows = self.raw(inputs, u)
+        """Return the residuals [m], the Jacobian with rows of length one, and the rows' own lengths [m], at one pose."""
+        kernel = self.plan.made(("equations", self.group.name), lambda plan: GroupEquations.of(plan, self.group)).kernel
+        values = kernel({**inputs, **dict(zip(self.names, u, strict=True))}).values[:, 0]
+        residual, rows = values[: len(u)], values[len(u) :].reshape(len(u), len(u), 1)
         size = np.sqrt((rows * rows).sum(axis=1))
         with np.errstate(all="ignore"):
             return residual / size, rows / size[:, None], size
-
-    def correct(self, inputs: Mapping[str, Any], guess: FloatArray, iterations: int = 9) -> tuple[FloatArray, Mask]:
-        """Return the solution next to a guess and the mask of the poses where it was found; each stands when its own steps have ended."""
-        u, n = guess, guess.shape[1]
-        settled, last = np.zeros(n, bool), np.full(n, np.inf)
-        size, change = np.empty(0), np.full(n, np.inf)
-        with np.errstate(all="ignore"):
-            for _ in range(iterations):
-                residual, rows = self.raw(inputs, u)
-                size = size if size.size else self.extent(rows, u)
-                step = solve_arrays(*rows.reshape(-1, n), *residual)
-                change = np.where(settled, last, np.abs(step).max(axis=0))
-                u = np.where(settled, u, u - step)
-                # the steps' errors follow each other's squares, next to a singular pose by a large factor
-                ahead = np.where(np.isinf(last), 1e4 * change, change * (change / last) ** 2)
-                settled = settled | (change <= QUADRATIC * size) & (ahead <= QUADRATIC**2 * size) | np.isnan(change)
-                last = change
-                if settled.all():
-                    break
-            return u, np.asarray(change <= QUADRATIC * size)
 
     def start(self, inputs: Mapping[str, Any], sketch: FloatArray, iterations: int = 100) -> tuple[FloatArray, bool, float]:
         """Return the solution nearest a rough sketch by damped steps, whether it was found, and what is missing [m]."""
@@ -98,38 +103,329 @@ class Newton:
                     return u, True, 0.0
         return u, False, float(np.abs(residual).max())
 
-    def sense(self, inputs: Mapping[str, Any], u: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def correct(self, held: Mapping[str, Any], guess: FloatArray, size: FloatArray) -> tuple[FloatArray, Mask]:
+        """Return the solution next to a guess and the mask of the poses where it was found; each stands when its own steps have ended.
+
+        `size` is about that of the group at each pose [m].
+        """
+        n = guess.shape[1]
+        found, done = np.empty(guess.shape), np.zeros(n, bool)
+        left, u, last = np.arange(n), guess, np.full(n, np.inf)
+        with np.errstate(all="ignore"):
+            for k in range(ITERATIONS):
+                u, change = self._step(held, u)
+                ended, near = newton_ended(change, last, size)
+                stands = (ended > 0.0) | (k == ITERATIONS - 1)
+                if stands.all() and len(left) == n:
+                    return u, np.asarray(near > 0.0)
+                found[:, left[stands]], done[left[stands]] = u[:, stands], near[stands] > 0.0
+                on = np.flatnonzero(~stands)
+                if not on.size:
+                    break
+                left, u, last, size, held = left[on], np.take(u, on, axis=1), change[on], size[on], at_poses(held, on)
+        return found, done
+
+    def _step(self, held: Mapping[str, Any], u: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the pins after one step and how far they went [m]; a pose whose pivots are small with pivots of its own."""
+        values = self._run(self.programs.step, held, u)
+        on, change, pivot = values[:-2], values[-2], values[-1]
+        weak = np.flatnonzero(~(pivot > 0.0))
+        weak = weak[np.isfinite(u[:, weak]).all(axis=0)] if weak.size else weak
+        if weak.size:
+            residual, rows = self.raw(at_poses(held, weak), u[:, weak])
+            step = solve_arrays(*rows.reshape(-1, len(weak)), *residual)
+            on[:, weak], change[weak] = u[:, weak] - step, np.abs(step).max(axis=0)
+        return on, change
+
+    def sense(self, held: Mapping[str, Any], u: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return how near each pose is to a singular one, and the group's size [m].
 
         The sign is that of the determinant, which changes where branches cross. The nearness is 2 over the condition of the Jacobian
         with rows of length one, at most 1; the condition is bounded by the Frobenius norms of the Jacobian and its inverse.
         """
-        _, rows = self.raw(inputs, u)
-        with np.errstate(all="ignore"):
-            scaled = np.moveaxis(rows / np.sqrt((rows * rows).sum(axis=1))[:, None], (0, 1), (-2, -1))
-            finite = np.isfinite(scaled).all(axis=(1, 2))
-            safe = np.where(finite[:, None, None], scaled, np.eye(len(rows)))
-            sign = np.linalg.slogdet(safe)[0]
-            safe = np.where((sign != 0.0)[:, None, None], safe, np.eye(len(rows)))
-            size = np.sqrt((np.linalg.inv(safe) ** 2).sum(axis=(1, 2)))
-            nearness = np.minimum(1.0, 2.0 * np.sqrt(len(rows)) / size)
-            return np.where(finite, sign * nearness, np.nan), self.extent(rows, u)
+        sense, size, pivot = self._run(self.programs.clearance, held, u)
+        weak = np.flatnonzero(~(pivot > 0.0))
+        if weak.size:
+            sense[weak] = nearness(self.raw(at_poses(held, weak), u[:, weak])[1])
+        return sense, size
 
     def sine(self, inputs: Mapping[str, Any], u: FloatArray) -> FloatArray:
-        """Return how near each pose is to a singular one, without a sign."""
-        _, rows, _ = self.system(inputs, u)
-        count, entries = len(rows), rows.reshape(-1, rows.shape[2])
-        with np.errstate(all="ignore"):
-            inverse = [solve_arrays(*entries, *(np.full(rows.shape[2], float(k == each)) for k in range(count))) for each in range(count)]
-            size = np.sqrt(sum((column * column).sum(axis=0) for column in inverse))
-            sine = np.minimum(1.0, 2.0 * np.sqrt(count) / size)
-        return np.where(np.isfinite(u).all(axis=0), np.where(np.isnan(sine), 0.0, sine), np.nan)
+        """Return how near poses are to a singular one, without a sign: designs (m,), strokes (n,) or (m, n), pins (coordinates, m, n)."""
+        sense, pivot = self.programs.sine({**inputs, **dict(zip(self.names, u, strict=True))}, size=u.shape[1:]).values
+        weak = ~(pivot > 0.0)
+        if weak.any():
+            arrays = {name: value for name, value in inputs.items() if np.ndim(value)}
+            arrays |= {name: np.reshape(value, (-1, 1)) for name, value in arrays.items() if name in self.plan.defaults}
+            poses = {name: np.broadcast_to(value, weak.shape)[weak] for name, value in arrays.items()}
+            sense[weak] = nearness(self.raw(self.held({**inputs, **poses}), u[:, weak])[1])
+        return np.where(np.isfinite(u).all(axis=0), np.where(np.isnan(sense), 0.0, np.abs(sense)), np.nan)
 
 
-def equations(plan: Plan, group: Group) -> Kernel:
-    """Return the kernel of the residuals of a group and of their derivatives by its pins' coordinates, groups before it held."""
-    pins = [plan.trace.at(pin) for pin in group.pins]
-    roots = [part for place in pins for part in (place.x, place.y)]
-    (closure,) = dict.fromkeys(root.closure for root in roots)
-    assert closure is not None
-    return Kernel([*closure.residuals, *(entry for row in jacobian(plan.trace.graph, closure) for entry in row)])
+def at_poses(inputs: Mapping[str, Any], which: Any) -> dict[str, Any]:
+    """Return the inputs of some poses."""
+    return {name: value[which] if np.ndim(value) else value for name, value in inputs.items()}
+
+
+def nearness(rows: FloatArray) -> FloatArray:
+    """Return the clearance with its sign from Jacobians (c, c, n), each with its own pivots; 0 where singular, NaN without a value."""
+    with np.errstate(all="ignore"):
+        scaled = np.moveaxis(rows / np.sqrt((rows * rows).sum(axis=1))[:, None], (0, 1), (-2, -1))
+        finite = np.isfinite(scaled).all(axis=(1, 2))
+        safe = np.where(finite[:, None, None], scaled, np.eye(len(rows)))
+        sign = np.linalg.slogdet(safe)[0]
+        safe = np.where((sign != 0.0)[:, None, None], safe, np.eye(len(rows)))
+        size = np.sqrt((np.linalg.inv(safe) ** 2).sum(axis=(1, 2)))
+        return np.where(finite, sign * np.minimum(1.0, 2.0 * np.sqrt(len(rows)) / size), np.nan)
+
+
+# The equations of a group as programs: as the constraints state them, and solved by elimination written out for its own structure.
+
+
+@dataclass(frozen=True, eq=False)
+class GroupEquations:
+    """The residuals of a group, the roots they determine, and the Jacobian by rows; groups before it are held."""
+
+    residuals: tuple[Node, ...]
+    roots: tuple[Node, ...]
+    rows: tuple[tuple[Node, ...], ...]
+    kernel: Kernel
+
+    @classmethod
+    def of(cls, plan: Plan, group: Group) -> GroupEquations:
+        """Return the equations of a group of a plan."""
+        roots = tuple(part for place in map(plan.trace.at, group.pins) for part in (place.x, place.y))
+        (closure,) = dict.fromkeys(root.closure for root in roots)
+        assert closure is not None
+        columns = [Tangent(plan.trace.graph, {each: float(each is root) for each in roots}) for root in roots]
+        rows = tuple(tuple(column.of(residual) for column in columns) for residual in closure.residuals)
+        return cls(closure.residuals, roots, rows, Kernel([*closure.residuals, *(entry for row in rows for entry in row)]))
+
+    def at_sketch(self, plan: Plan) -> FloatArray:
+        """Return the Jacobian at the sketch, default dimensions, shape (c, c)."""
+        pins = at_sketch(plan)
+        inputs: dict[str, Any] = plan.defaults | plan.sketch_strokes
+        for group in plan.groups.values():
+            inputs |= dict(zip(group.inputs, pins[group.name][:, 0], strict=False))
+        count = len(self.rows)
+        rows: FloatArray = self.kernel(inputs).values[count:, 0, 0].reshape(count, count)
+        return rows
+
+
+@dataclass(frozen=True, eq=False)
+class Programs:
+    """Newton's step and the clearance of a group, from its pins and what is known before: inputs `@k0`, `@k1`, ...
+
+    The last value of each is above zero where no pivot is too small.
+    """
+
+    inputs: tuple[str, ...]
+    known: tuple[Node, ...]
+    hold: Callable[..., tuple[Any, ...]]
+    """What is known, from the inputs."""
+    nodes: tuple[Node, ...]
+    """The pins after a step, its largest change [m] and the pivots' worth; the clearance and the size [m]."""
+    raw: Kernel
+    step: Kernel
+    clearance: Kernel
+    sine: Kernel
+
+    @classmethod
+    def of(cls, plan: Plan, group: Group) -> Programs:
+        """Return the programs of a group; the order of its elimination is settled at the sketch."""
+        equations = GroupEquations.of(plan, group)
+        elimination = Elimination(equations.rows, equations.at_sketch(plan))
+        step = elimination.solved(equations.residuals)
+        on = [root - each for root, each in zip(equations.roots, step, strict=True)]
+        steps = [*on, largest_of([size_of(each) for each in step]), elimination.worth(PIVOT)]
+        clearance = elimination.clearance()
+        constraints = [*equations.residuals, *(entry for row in equations.rows for entry in row)]
+        nodes = expanded([*steps, clearance, group_size(equations, len(group.rods)), *constraints])
+        known = held_inputs(nodes, [root.origin for root in equations.roots])
+        graph = plan.trace.graph
+        nodes = replaced(nodes, {node: graph.input(f"@k{k}", Level.POSE) for k, node in enumerate(known)})
+        rules, raw = nodes[: len(steps) + 2], nodes[len(steps) + 2 :]
+        order = ancestors(known)
+        given = [node for node in order if node.op == "input"]
+        text = function("hold", given, [node for node in order if node.op not in ("input", "constant")], known, GUARDED)
+        return cls(
+            inputs=tuple(node.value for node in given),
+            known=tuple(known),
+            hold=compiled(text, ARRAYS)["hold"],
+            nodes=tuple(rules),
+            raw=Kernel(raw),
+            step=Kernel(rules[: len(steps)]),
+            clearance=Kernel([*rules[len(steps) :], rules[len(steps) - 1]]),
+            sine=Kernel([clearance, elimination.worth(SURE_PIVOT)]),
+        )
+
+
+def held_inputs(outputs: Sequence[Node], moving: Sequence[Node]) -> list[Node]:
+    """Return what outputs are computed from that does not hang on some moving inputs: as little as tells all of them."""
+    hangs = set(moving)
+    found: dict[Node, None] = {}
+    for node in ancestors(outputs):
+        args = list([each.origin for each in node.args])
+        if any(arg in hangs for arg in args):
+            hangs.add(node)
+            found |= dict.fromkeys(arg for arg in args if arg not in hangs and arg.op != "constant")
+    found |= dict.fromkeys(node for node in [each.origin for each in outputs] if node not in hangs and node.op != "constant")
+    return list(found)
+
+
+def replaced(outputs: Sequence[Node], by: Mapping[Node, Node]) -> list[Node]:
+    """Return nodes like some outputs, with others in the place of some they are computed from."""
+    better = dict(by)
+    for node in ancestors(outputs, by):
+        if node not in better:
+            args = tuple(better[arg.origin] for arg in node.args)
+            better[node] = node if args == node.args else node.graph.made(node.op, args)
+    return [better[node.origin] for node in outputs]
+
+
+def largest_of(nodes: Sequence[Node]) -> Node:
+    """Return the largest of some nodes."""
+    return reduce(lambda a, b: a.graph.apply("maximum", a, b), nodes)
+
+
+def size_of(node: Node) -> Node:
+    """Return a node without its sign."""
+    return node.graph.apply("absolute", node)
+
+
+def squares(nodes: Sequence[Node]) -> Node:
+    """Return the sum of the squares of nodes that are not zero by structure."""
+    first, *others = (node * node for node in nodes if not is_zero(node))
+    return sum(others, first)
+
+
+def group_size(equations: GroupEquations, rods: int) -> Node:
+    """Return the size of the group [m]: its longest rod, or how far its pins lie apart."""
+    lengths = [squares(row) for row in equations.rows[:rods]]
+    for axis in (0, 1):
+        places = equations.roots[axis::2]
+        apart = largest_of(places) + largest_of([-each for each in places])
+        lengths.append(apart * apart)
+    return largest_of(lengths) ** 0.5
+
+
+class Elimination:
+    """The elimination of a group's Jacobian as operations on nodes, its pivots chosen at the sketch: few operations, none too small."""
+
+    def __init__(self, rows: Sequence[Sequence[Node]], values: FloatArray) -> None:
+        self.matrix = rows
+        self.rows = [list(row) for row in rows]
+        self.sizes = np.sqrt((values * values).sum(axis=1))
+        self.order = pivots(values / self.sizes[:, None], np.array([[not is_zero(entry) for entry in row] for row in rows]))
+        self.factors: list[tuple[int, int, Node]] = []
+        self.inverse: dict[int, Node] = {}
+        self.beside: list[tuple[Node, Node]] = []
+        left, columns = [row for row, _ in self.order], [column for _, column in self.order]
+        for row, column in self.order:
+            left.remove(row)
+            columns.remove(column)
+            self._clear(row, column, [other for other in left if not is_zero(self.rows[other][column])], columns)
+
+    def _clear(self, row: int, column: int, others: Sequence[int], columns: Sequence[int]) -> None:
+        """Take a pivot's row from the others in its column."""
+        pivot = self.rows[row][column]
+        self.inverse[row] = 1.0 / pivot
+        if others:
+            sizes = [size_of(self.rows[other][column]) * float(self.sizes[row] / self.sizes[other]) for other in others]
+            self.beside.append((size_of(pivot), largest_of(sizes)))
+        for other in others:
+            factor = self.rows[other][column] * self.inverse[row]
+            self.factors.append((other, row, factor))
+            for each in columns:
+                if not is_zero(self.rows[row][each]):
+                    self.rows[other][each] = self.rows[other][each] - factor * self.rows[row][each]
+
+    def worth(self, least: float) -> Node:
+        """Return a number that is above zero where every pivot is larger than `least` of what it clears away."""
+        excess = [least * entry - pivot for pivot, entry in self.beside]
+        return -largest_of(excess or [self.rows[0][0].graph.constant(-1.0)])
+
+    def solved(self, right: Sequence[Node]) -> list[Node]:
+        """Return the unknowns for a right side."""
+        values = list(right)
+        for row, pivot, factor in self.factors:
+            if not is_zero(values[pivot]):
+                values[row] = values[row] - factor * values[pivot]
+        found: dict[int, Node] = {}
+        for row, column in reversed(self.order):
+            rest = values[row]
+            for each, value in found.items():
+                if not is_zero(self.rows[row][each]) and not is_zero(value):
+                    rest = rest - self.rows[row][each] * value
+            found[column] = rest * self.inverse[row]
+        return [found[column] for column in range(len(found))]
+
+    def clearance(self) -> Node:
+        """Return 2 over the condition of the Jacobian with rows of length one, bounded by Frobenius norms, with the determinant's sign."""
+        graph, count = self.rows[0][0].graph, len(self.rows)
+        total = graph.constant(0.0)
+        for place, row in enumerate(self.matrix):
+            column = self.solved([graph.constant(float(place == each)) for each in range(count)])
+            total = total + squares(column) * squares(row)
+        near = graph.apply("minimum", 1.0, 2.0 * count**0.5 / total**0.5)
+        determinant = graph.constant(parity(self.order))
+        for pivot_row, pivot_column in self.order:
+            determinant = determinant * self.rows[pivot_row][pivot_column]
+        return graph.pick(determinant, 0.0, -near, near)
+
+
+def parity(order: Sequence[tuple[int, int]]) -> float:
+    """Return the sign of a permutation."""
+    columns = [column for _, column in sorted(order)]
+    crossings = sum(a > b for k, a in enumerate(columns) for b in columns[k + 1 :])
+    return -1.0 if crossings % 2 else 1.0
+
+
+def pivots(values: FloatArray, filled: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Return rows and columns in the order of an elimination that fills few entries, with pivots that are large for these values.
+
+    Source: H. M. Markowitz, Management Science 3 (1957), 255, with thresholds.
+    """
+    values, filled = np.array(values), np.array(filled)
+    order: list[tuple[int, int]] = []
+    rows, columns = list(range(len(values))), list(range(len(values)))
+    while rows:
+        sizes = np.abs(values[np.ix_(rows, columns)])
+        share = np.where(filled[np.ix_(rows, columns)], sizes / np.maximum(sizes.max(axis=0), 1e-300), 0.0)
+        entries = filled[np.ix_(rows, columns)]
+        cost = (entries.sum(axis=1)[:, None] - 1) * (entries.sum(axis=0)[None, :] - 1)
+        cost = np.where(share >= THRESHOLD, cost - 0.5 * share, np.inf)
+        k, j = np.unravel_index(int(np.argmin(cost)), cost.shape)
+        row, column = rows.pop(int(k)), columns.pop(int(j))
+        order.append((row, column))
+        for other in rows:
+            if filled[other, column]:
+                values[other] -= values[other, column] / values[row, column] * values[row]
+                filled[other] |= filled[row]
+    return order
+
+
+def at_sketch(plan: Plan) -> dict[str, FloatArray]:
+    """Return the pins of every group at the sketch, default dimensions, shape (coordinates, 1); AssemblyError where it is out of reach."""
+    return plan.made("sketch", started)
+
+
+def started(plan: Plan) -> dict[str, FloatArray]:
+    """Return the pins of every group at the sketch from their rough places."""
+    inputs: dict[str, Any] = plan.defaults | plan.sketch_strokes
+    found: dict[str, FloatArray] = {}
+    for name, group in plan.groups.items():
+        pins = [plan.of_kind(Pin)[pin] for pin in group.pins]
+        newton = Newton(plan, group)
+        rough = np.array([part for pin in pins for part in pin.sketched]).reshape(-1, 1)
+        found[name], done, missing = newton.start(inputs, rough)
+        if not done:
+            names = " ".join(pin.name for pin in pins)
+            strokes = strokes_text(plan, plan.sketch_strokes)
+            gap = f"{missing / mm:.3g} mm are missing" if np.isfinite(missing) else "their equations have no value"
+            raise AssemblyError(
+                f"{plan.title}: the pins {names} cannot be assembled from their sketch at {strokes}: {gap} in "
+                "the nearest pose. Move their near=(x, y) closer to the real pose, or change a length.",
+                point=pins[0].name, mask=np.ones((), bool), shortfall=missing,
+            )  # fmt: skip
+        inputs |= dict(zip(newton.names, found[name], strict=True))
+    return found

@@ -152,7 +152,7 @@ def next_step(parts: Parts) -> tuple[str, Step] | None:
     return None
 
 
-def attached(parts: Parts, pin: str) -> Step | None:
+def on_body(parts: Parts, pin: str) -> Step | None:
     """Return the pin's place on a body two of whose points are placed."""
     for name, link in parts.links.items():
         firm = parts.firm(link)
@@ -163,7 +163,7 @@ def attached(parts: Parts, pin: str) -> Step | None:
     return None
 
 
-def hung(parts: Parts, pin: str) -> Step | None:
+def on_two_links(parts: Parts, pin: str) -> Step | None:
     """Return the RRR dyad of two links that hang on a placed point each."""
     arms = list(parts.arms(pin))
     for k, (_, P, p) in enumerate(arms):
@@ -173,7 +173,7 @@ def hung(parts: Parts, pin: str) -> Step | None:
     return None
 
 
-def sliding(parts: Parts, pin: str) -> Step | None:
+def on_link_and_guide(parts: Parts, pin: str) -> Step | None:
     """Return the RRP dyad of a link that hangs on a placed point and a placed guide."""
     guides = parts.guides_of(pin)
     for _, P, length in parts.arms(pin):
@@ -182,13 +182,13 @@ def sliding(parts: Parts, pin: str) -> Step | None:
     return None
 
 
-def crossing(parts: Parts, pin: str) -> Step | None:
+def on_two_guides(parts: Parts, pin: str) -> Step | None:
     """Return the PRP dyad of a pin on two placed guides."""
     guides = parts.guides_of(pin)
     return GuideCross(guides[0], guides[1]) if len(guides) > 1 else None
 
 
-def slotted(parts: Parts, pin: str) -> Step | None:
+def in_slot(parts: Parts, pin: str) -> Step | None:
     """Return the RPR dyad of a body that hangs on a placed point P and whose slot, through P and this pin, holds a placed pin."""
     for _, P, length in parts.arms(pin):
         for slide in parts.slides.values():
@@ -198,7 +198,7 @@ def slotted(parts: Parts, pin: str) -> Step | None:
     return None
 
 
-def yoked(parts: Parts, pin: str) -> Step | None:
+def on_guide_and_slot(parts: Parts, pin: str) -> Step | None:
     """Return the RPP dyad of a body that slides on a placed guide with two points while its slot holds a placed pin."""
     for guide in parts.guides_of(pin):
         for name, link in parts.links.items():
@@ -213,7 +213,9 @@ def yoked(parts: Parts, pin: str) -> Step | None:
     return None
 
 
-PATTERNS: tuple[Callable[[Parts, str], Step | None], ...] = (attached, hung, sliding, crossing, slotted, yoked)
+PATTERNS: tuple[Callable[[Parts, str], Step | None], ...] = (
+    on_body, on_two_links, on_link_and_guide, on_two_guides, in_slot, on_guide_and_slot,
+)
 
 
 def check_held(parts: Parts, title: str) -> None:

@@ -1,47 +1,40 @@
-"""A group continued from the sketch to the poses asked for, without jumps, each way by its own steps.
-
-A step is taken where Newton's method converges so near to the place predicted from the last two that no other solution lies
-between, on the same side of every singular pose, and the distance from these has not shrunk to less than half; else it is made
-smaller. Two branches lie apart, against the group's size, by about as much as the pose stands clear of a singular one, so that steps
-become small in proportion where branches cross or end, and a way comes to an end there to 1e-6 of that clearance.
-"""
+"""A group continued from the sketch to the poses asked for, without jumps, each way by its own steps, by the rules of `rules`."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple, Protocol, TypeAlias
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ..program import FloatArray
-from .newton import Mask, Newton
+from ..program import BACKEND, FloatArray
+from .lanes import STUCK, Program, place_rows, state_rows
+from .newton import Newton
+from .rules import FIRST, TOUCH, goes_on, interpolated, predicted, step_judged
 
 Index = npt.NDArray[np.intp]
-Places: TypeAlias = tuple[Index, FloatArray, FloatArray, FloatArray, FloatArray]
-"""Which lanes took a step, where to, the pins there, their clearance and the group's size."""
-
-TOUCH = 1e-6
-"""The clearance at which a way ends: below it two branches are not told from each other."""
-NEAR = 0.1
-"""How far from the predicted place a solution may lie, of the clearance times the group's size."""
-ROUNDING = 1e-13
-SHRINK = 0.5
-GROW = 2.0
-FIRST = 1e-2
-"""The first step, of the largest."""
-LEAST = 1e-12
-"""The least step, of the largest; a group that Newton's method does not carry so far ends there."""
 CROSSING = 0.75
-BLOCK = 4096
+BLOCK = 16384
+ROOM = 64
+"""The places of a lane that memory is first made for."""
+FEW = 4
+"""So many lanes are followed one by one in plain floats: an array operation on a few numbers costs more than a step."""
 
 
-class Route(Protocol):
-    """Ways from the sketch: the inputs of the program at places of lanes, arrays (n,) or floats. A place is 0 at the sketch."""
+class InputRoute(ABC):
+    """Ways from the sketch: straight lines of the program's inputs over places of lanes. A place is 0 at the sketch."""
+
+    @abstractmethod
+    def lines(self, lane: Index) -> dict[str, tuple[Any, Any]]:
+        """Return every input at place 0 and its change over a unit of place, floats or arrays like the lanes."""
 
     def inputs(self, lane: Index, place: FloatArray) -> dict[str, Any]:
-        """Return the inputs."""
+        """Return the inputs at places of lanes, arrays (n,) or floats."""
+        lines = self.lines(lane).items()
+        return {name: start if np.ndim(slope) == 0 and slope == 0.0 else start + place * slope for name, (start, slope) in lines}
 
 
 @dataclass(frozen=True)
@@ -52,130 +45,183 @@ class Lanes:
     place: FloatArray
     u: FloatArray
     goal: FloatArray
-    largest: float | FloatArray
+    largest: FloatArray
     """The largest step."""
     exact: bool
     """Whether a way ends at its goal, or at the first of its own steps behind it, so that these are the same for every goal."""
 
-
-class Landed(NamedTuple):
-    """What Newton's method found a step ahead, and whether it did; how far from where it was expected, the clearance, the size [m]."""
-
-    u: FloatArray
-    done: Mask
-    miss: FloatArray
-    sense: FloatArray
-    size: FloatArray
+    @property
+    def ends(self) -> FloatArray:
+        """Each lane's goal, the place that no step leads beyond, and the largest step, shape (3, lanes)."""
+        return np.array([self.goal, self.goal if self.exact else np.full(len(self.goal), np.inf), self.largest])
 
 
-@dataclass
-class Ways:
-    """Where the lanes of a track stand: their place, the pins, the clearance with its sign, the place and pins before, the next step."""
-
-    t: FloatArray
-    u: FloatArray
-    s: FloatArray
-    before: FloatArray
-    u_before: FloatArray
-    step: FloatArray
-    largest: FloatArray
-    going: Mask
-    record: list[Places]
-
-    @classmethod
-    def of(cls, newton: Newton, inputs: Mapping[str, Any], lanes: Lanes) -> Ways:
-        """Return the lanes at their beginning."""
-        largest = np.broadcast_to(np.asarray(lanes.largest, float), lanes.place.shape)
-        s, size = newton.sense(inputs, lanes.u)
-        record = [(np.arange(len(s)), lanes.place.copy(), lanes.u.copy(), s.copy(), size)]
-        t, u = lanes.place.copy(), lanes.u.copy()
-        return cls(t, u, s, t.copy(), u.copy(), FIRST * largest, largest, np.asarray(np.abs(s) >= TOUCH), record)
-
-    def copied(self) -> Ways:
-        """Return a copy that can be followed farther."""
-        return replace(
-            self, t=self.t.copy(), u=self.u.copy(), s=self.s.copy(), before=self.before.copy(), u_before=self.u_before.copy(),
-            step=self.step.copy(), going=self.going.copy(), record=list(self.record),
-        )  # fmt: skip
-
-    def guess(self, k: Index, h: FloatArray) -> FloatArray:
-        """Return where the pins of some lanes are expected after a step: on the line through the last two places."""
-        back = self.t[k] - self.before[k]
-        share = np.where(back > 0.0, h / np.where(back > 0.0, back, 1.0), 0.0)
-        return np.asarray(self.u[:, k] + (self.u[:, k] - self.u_before[:, k]) * share)
-
-    def taken(self, k: Index, ahead: FloatArray, landed: Landed) -> None:
-        """Go to what was found a step ahead where it is the same branch; settle the next step."""
-        h, sense, size = ahead - self.t[k], landed.sense, landed.size
-        with np.errstate(all="ignore"):
-            was, now = np.abs(self.s[k]), np.abs(sense)
-            excess = np.sqrt((NEAR * np.minimum(was, now) + ROUNDING) * size / np.maximum(landed.miss, 1e-300))
-            same = landed.done & (sense * self.s[k] > 0.0)
-            good = same & (now >= SHRINK * was) & (excess >= 1.0)
-            falls = np.maximum(was - now, 0.0) / h
-            onward = np.minimum(h * np.clip(0.7 * excess, SHRINK, GROW), np.where(falls > 0.0, 0.45 * now / falls, np.inf))
-            again = h * np.where(same, np.clip(0.7 * excess, 0.1, SHRINK), 0.3)
-        self.step[k] = np.where(good, np.minimum(self.largest[k], onward), again)
-        a = k[good]
-        self.before[a], self.u_before[:, a] = self.t[a], self.u[:, a]
-        self.t[a], self.u[:, a], self.s[a] = ahead[good], landed.u[:, good], sense[good]
-        self.record.append((a, self.t[a], self.u[:, a], self.s[a], size[good]))
-        self.going[k] = (np.abs(self.s[k]) >= TOUCH) & (self.step[k] > LEAST * self.largest[k]) & (self.t[k] + self.step[k] > self.t[k])
-
-
-class Track:
+class GroupPath:
     """One group's way along each lane of a route: the places it was solved at, and the solution at any place between."""
 
-    def __init__(self, newton: Newton, route: Route, before: Sequence[Track], lanes: Lanes, begun: Track | None = None) -> None:
+    def __init__(
+        self, newton: Newton, route: InputRoute, before: Sequence[GroupPath], lanes: Lanes, begun: GroupPath | None = None
+    ) -> None:
         self.newton, self.route, self.before, self.lanes = newton, route, before, lanes
-        self._ways: Ways = Ways.of(newton, self.inputs(lanes.lane, lanes.place), lanes) if begun is None else begun._ways.copied()
-        self._follow(self._ways)
-        self._store(self._ways.record, len(lanes.lane))
+        self._row = {name: k for k, name in enumerate(state_rows(len(lanes.u)))}
+        self._kept = len(place_rows(len(lanes.u)))
+        count = len(lanes.u)
+        self._pins, self._old, self._older = (slice(self._row[name], self._row[name] + count) for name in ("u0", "w0", "x0"))
+        self._state: FloatArray = np.zeros((len(self._row), len(lanes.lane))) if begun is None else begun._state.copy()
+        self._record: list[tuple[Index, FloatArray]] = [] if begun is None else list(begun._record)
+        if begun is None:
+            self._begin()
+        self._follow()
+        self._store()
 
-    def onward(self, before: Sequence[Track], goal: FloatArray) -> Track:
+    def onward(self, before: Sequence[GroupPath], goal: FloatArray) -> GroupPath:
         """Return this track followed farther, by the steps it would have taken at once; itself where it goes so far."""
         if np.all((goal <= self.lanes.goal) | (self.ended < np.inf)):
             return self
-        return Track(self.newton, self.route, before, replace(self.lanes, goal=np.maximum(goal, self.lanes.goal)), self)
+        return GroupPath(self.newton, self.route, before, replace(self.lanes, goal=np.maximum(goal, self.lanes.goal)), self)
 
-    def inputs(self, lane: Index, place: FloatArray) -> dict[str, Any]:
-        """Return the inputs at places of lanes, the pins of the groups before this one included."""
-        found = self.route.inputs(lane, place)
+    def _held(self, lane: Index, place: FloatArray) -> dict[str, Any]:
+        """Return what is known at places of lanes, the pins of the groups before this one included."""
+        inputs = self.route.inputs(lane, place)
         for track in self.before:
-            found |= dict(zip(track.newton.names, track.at(lane, place), strict=True))
-        return found
+            inputs |= dict(zip(track.newton.names, track.at(lane, place), strict=True))
+        return self.newton.held(inputs)
 
-    def _follow(self, ways: Ways) -> None:
+    def _begin(self) -> None:
+        """Set the lanes to their beginning."""
+        lanes, row = self.lanes, self._row
+        sense, size = self.newton.sense(self._held(lanes.lane, lanes.place), lanes.u)
+        begin = dict.fromkeys(("t", "before", "earlier"), lanes.place) | {"sense": sense, "size": size, "step": FIRST * lanes.largest}
+        for name, values in (begin | {"going": np.abs(sense) >= TOUCH}).items():
+            self._state[row[name]] = values
+        self._state[self._pins] = self._state[self._old] = self._state[self._older] = lanes.u
+
+    # -- from place to place ---------------------------------------------------------------------------------
+
+    def _follow(self) -> None:
         """Follow every lane to its goal, or to the end of its way."""
-        lanes = self.lanes
+        state, row, lanes = self._state, self._row, self.lanes
         while True:
-            k = np.flatnonzero(ways.going & (ways.t < lanes.goal))
-            if not k.size:
+            going = np.flatnonzero((state[row["going"]] > 0.0) & (state[row["t"]] < lanes.goal))
+            if not going.size:
+                self._keep_start()
                 return
-            h = np.minimum(ways.step[k], lanes.goal[k] - ways.t[k]) if lanes.exact else ways.step[k]
-            ahead = np.where(h < ways.step[k], lanes.goal[k], ways.t[k] + h)
-            guess = ways.guess(k, h)
-            inputs = self.inputs(lanes.lane[k], ahead)
-            found, done = self.newton.correct(inputs, guess)
-            sense, size = self.newton.sense(inputs, found)
-            with np.errstate(invalid="ignore"):
-                miss = np.abs(found - guess).max(axis=0)
-            ways.taken(k, ahead, Landed(found, done, miss, sense, size))
+            way = (lanes.goal[going] - state[row["t"], going]) / lanes.largest[going]
+            if (program := self._compiled_program(float(np.sum(way)))) is not None:
+                self._compiled(program, going)
+            elif len(going) <= FEW and (program := self._program()) is not None:
+                self._keep_start()
+                self._in_floats(program, going)
+            else:
+                self._keep_start()
+                self._step(going)
+                continue
+            stuck = np.flatnonzero(state[row["going"]] == STUCK)
+            if stuck.size:
+                state[row["going"], stuck] = 1.0
+                self._step(stuck)
 
-    def _store(self, record: Sequence[Places], count: int) -> None:
+    def _keep_start(self) -> None:
+        """Record where the lanes begin, once."""
+        if not self._record:
+            self._record.append((np.arange(len(self.lanes.lane)), self._state[: self._kept].copy()))
+
+    def _program(self) -> Program | None:
+        """Return the program of lanes; None where another group comes first."""
+        plan, group = self.newton.plan, self.newton.group
+        program = plan.made(("lanes", group.name), lambda twin: Program.of(twin, group))
+        return program if set(program.inputs) <= set(self.route.lines(self.lanes.lane[:1])) else None
+
+    def _compiled_program(self, steps: float) -> Program | None:
+        """Return the program where so many steps are done by compiled loops."""
+        asked, program = BACKEND.get(), self._program()
+        return program if program and (asked == "numba" or (asked is None and program.is_compiled(steps))) else None
+
+    def _lines(self, program: Program, lanes: Index) -> tuple[FloatArray, FloatArray]:
+        """Return the inputs of some lanes at place 0 and their changes, shape (inputs, lanes)."""
+        lines = self.route.lines(self.lanes.lane[lanes])
+        a, b = np.empty((2, len(program.inputs), len(lanes)))
+        for k, name in enumerate(program.inputs):
+            a[k], b[k] = lines[name]
+        return a, b
+
+    def _in_floats(self, program: Program, lanes: Index) -> None:
+        """Follow some lanes one after the other."""
+        a, b = self._lines(program, lanes)
+        places, good, width = program.memory.places, self._row["good"], len(self._row)
+        ends = self.lanes.ends
+        for k, lane in enumerate(lanes):
+            s = [0.0] * len(places)
+            s[:width] = self._state[:, lane].tolist()
+            s[places["a0"] : places["a0"] + len(a)], s[places["b0"] : places["b0"] + len(b)] = a[:, k].tolist(), b[:, k].tolist()
+            s[places["goal"] : places["goal"] + 3] = ends[:, lane].tolist()
+            found = []
+            while program.floats(s):
+                if s[good]:
+                    found.append(s[: self._kept])
+            self._state[:, lane] = s[:width]
+            if found:
+                self._record.append((np.full(len(found), lane), np.array(found).T))
+
+    def _compiled(self, program: Program, lanes: Index) -> None:
+        """Follow some lanes in a compiled loop."""
+        a, b = self._lines(program, lanes)
+        state, ends, count = np.take(self._state, lanes, axis=1), np.take(self.lanes.ends, lanes, axis=1), np.zeros(len(lanes), np.int64)
+        start, room, begins = 0, ROOM * (len(lanes) + 1), not self._record and len(lanes) == len(self.lanes.lane)
+        if not begins:
+            self._keep_start()
+        while start < len(lanes):
+            out = np.empty((self._kept, room))
+            next_lane, used = program.follow(a, b, state, ends, out, count, start, begins)
+            self._record.append((np.repeat(lanes[start:next_lane], count[start:next_lane]), out[:, :used]))
+            room = room if next_lane > start else 2 * room
+            start = next_lane
+        self._state[:, lanes] = state
+
+    def _step(self, k: Index) -> None:
+        """Take a step with some lanes, all at once."""
+        whole, row, lanes = len(k) == len(self.lanes.lane), self._row, self.lanes
+        state, (_, limit, largest) = (each if whole else np.take(each, k, axis=1) for each in (self._state, lanes.ends))
+        places = [state[row[name]] for name in ("t", "before", "earlier")]
+        pins = [state[each] for each in (self._pins, self._old, self._older)]
+        with np.errstate(all="ignore"):
+            ahead, (line,), (start,) = predicted(state[row["step"]], limit, places, [[each] for each in pins])
+            held = self._held(lanes.lane[k], ahead)
+            found, done = self.newton.correct(held, start, state[row["size"]])
+            sense, size = self.newton.sense(held, found)
+            miss = np.abs(found - line).max(axis=0)
+            good, step = step_judged(ahead - places[0], state[row["sense"]], largest, done, miss, sense, size)
+            taken = slice(None) if good.all() else np.flatnonzero(good)
+            for old, new in ((2, 1), (1, 0)):
+                places[old][taken], pins[old][:, taken] = places[new][taken], pins[new][:, taken]
+            places[0][taken], pins[0][:, taken] = ahead[taken], found[:, taken]
+            state[row["sense"], taken], state[row["size"], taken] = sense[taken], size[taken]
+            state[row["step"]] = step
+            state[row["going"]] = goes_on(state[row["t"]], state[row["sense"]], step, largest)
+        if not whole:
+            self._state[:, k] = state
+        self._record.append((k[taken], np.array(state[: self._kept, taken])))
+
+    def _store(self) -> None:
         """Keep the places of all lanes one after the other."""
-        lane = np.concatenate([each[0] for each in record])
-        order = np.argsort(lane, kind="stable")
-        self.places = np.concatenate([each[1] for each in record])[order]
-        self.u = np.concatenate([each[2] for each in record], axis=1)[:, order]
-        self.clear = np.abs(np.concatenate([each[3] for each in record])[order])
-        self.size = np.concatenate([each[4] for each in record])[order]
-        self.first = np.searchsorted(lane[order], np.arange(count + 1))
+        count = len(self.lanes.lane)
+        lane, kept = self._record[0]
+        if len(self._record) > 1:
+            lane, kept = np.concatenate([each for each, _ in self._record]), np.concatenate([each for _, each in self._record], axis=1)
+        kept = np.ascontiguousarray(kept)
+        if np.any(lane[1:] < lane[:-1]):
+            order = np.argsort(lane, kind="stable")
+            lane, kept = lane[order], np.take(kept, order, axis=1)
+        self._record = [(lane, kept)]
+        self.kept, self.places, self.clear, self.size, self.u = kept, kept[0], np.abs(kept[1]), kept[2], kept[3:]
+        self.first = np.searchsorted(lane, np.arange(count + 1))
         self.last = self.first[1:] - 1
         reached = self.places[self.last]
         lost = ~np.isfinite(self.clear[self.first[:-1]])
         self.ended = np.where(lost, -1.0, np.where(reached >= self.lanes.goal, np.inf, reached))
-        self.crossed = np.array([0.0 <= self.ended[k] < np.inf and self._crosses(k) for k in range(count)], bool)
+        self.crossed = np.zeros(count, bool)
+        for k in np.flatnonzero((self.ended >= 0.0) & (self.ended < np.inf)):
+            self.crossed[k] = self._crosses(int(k))
 
     def _crosses(self, k: int) -> bool:
         """Return whether two branches cross where a way ends: its clearance falls in proportion there, and as a root where it turns."""
@@ -198,7 +244,11 @@ class Track:
 
     def at(self, lane: Index, place: FloatArray) -> FloatArray:
         """Return the pins at places of lanes, shape (coordinates, n) [m]; NaN behind the end of a way."""
-        parts = [self._between(lane[k : k + BLOCK], place[k : k + BLOCK]) for k in range(0, len(lane), BLOCK)]
+        program = self._compiled_program(len(lane))
+        if program is not None:
+            return self._between(lane, place, self._filled(program, lane, place))
+        blocks = [slice(k, k + BLOCK) for k in range(0, len(lane), BLOCK)]
+        parts = [self._between(lane[each], place[each], self._near(lane[each], place[each])) for each in blocks]
         return np.concatenate(parts, axis=1) if parts else np.empty((len(self.u), 0))
 
     def _left(self, lane: Index, place: FloatArray) -> Index:
@@ -211,31 +261,37 @@ class Track:
             found = np.searchsorted(owner + self.places / top, lane + np.minimum(place / top, 0.9999), side="right") - 1
         return np.clip(found, self.first[lane], np.maximum(self.last[lane] - 1, self.first[lane]))
 
-    def _bend(self, lane: Index, left: Index, right: Index) -> FloatArray:
-        """Return the second divided difference of the pins at two places and the one before, so that what comes later changes nothing."""
-        before = np.maximum(left - 1, self.first[lane])
-        h, back = self.places[right] - self.places[left], self.places[left] - self.places[before]
-        known = (h > 0.0) & (back > 0.0)
-        h, back = np.where(known, h, 1.0), np.where(known, back, 1.0)
-        chords = (self.u[:, right] - self.u[:, left]) / h - (self.u[:, left] - self.u[:, before]) / back
-        return np.asarray(np.where(known, chords / (h + back), 0.0))
-
-    def _between(self, lane: Index, place: FloatArray) -> FloatArray:
-        left = self._left(lane, place)
-        right = np.minimum(left + 1, self.last[lane])
-        width = self.places[right] - self.places[left]
-        t = np.where(width > 0.0, (place - self.places[left]) / np.where(width > 0.0, width, 1.0), 0.0)
-        first = self.u[:, left]
-        guess = first + (self.u[:, right] - first) * t + self._bend(lane, left, right) * (t * (t - 1.0) * width * width)
-        within = place <= self.ended[lane]
-        found, done = self.newton.correct(self.inputs(lane, place), np.where(within, guess, np.nan))
-        limit = (NEAR * np.minimum(self.clear[left], self.clear[right]) + ROUNDING) * np.minimum(self.size[left], self.size[right])
-        with np.errstate(invalid="ignore"):
-            close = done & (np.abs(found - guess).max(axis=0) <= limit)
-        again = np.flatnonzero(within & ~close & (width > 0.0))
+    def _between(self, lane: Index, place: FloatArray, near: tuple[FloatArray, FloatArray]) -> FloatArray:
+        """Return the pins at places, from what is found near them."""
+        found, close = near
+        again = np.flatnonzero(close == 0.0)
         if again.size:  # followed on their own from the place before
-            lanes = Lanes(lane[again], self.places[left[again]], first[:, again], place[again], 0.25 * width[again], exact=True)
-            there = Track(self.newton, self.route, self.before, lanes)
+            left = self._left(lane[again], place[again])
+            width = self.places[np.minimum(left + 1, self.last[lane[again]])] - self.places[left]
+            again, left, width = again[width > 0.0], left[width > 0.0], width[width > 0.0]
+            lanes = Lanes(lane[again], self.places[left], self.u[:, left], place[again], 0.25 * width, exact=True)
+            there = GroupPath(self.newton, self.route, self.before, lanes)
             found[:, again] = np.where(np.isinf(there.ended), there.u[:, there.last], np.nan)
-            close[again] = True
-        return np.where(within & close, found, np.nan)
+            close[again] = 1.0
+        found[:, close <= 0.0] = np.nan
+        return found
+
+    def _near(self, lane: Index, place: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return what Newton's method finds at places, 1 where that is near enough to what is expected, -1 beyond the end of a way."""
+        left = self._left(lane, place)
+        right, before = np.minimum(left + 1, self.last[lane]), np.maximum(left - 1, self.first[lane])
+        places, pins = ([np.take(values, each, axis=-1) for each in (before, left, right)] for values in (self.places, self.u))
+        clear, sizes = ([values[each] for each in (left, right)] for values in (self.clear, self.size))
+        with np.errstate(all="ignore"):
+            (guess,), bound = interpolated(place, places, [[each] for each in pins], clear, sizes)
+            within = place <= self.ended[lane]
+            found, done = self.newton.correct(self._held(lane, place), np.where(within, guess, np.nan), sizes[0])
+            close = done & (np.abs(found - guess).max(axis=0) <= bound)
+        return found, np.where(within, close, -1.0)
+
+    def _filled(self, program: Program, lane: Index, place: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the same in a compiled loop."""
+        a, b = self._lines(program, np.arange(len(self.lanes.lane)))
+        found, close = np.empty((len(self.u), len(lane))), np.empty(len(lane))
+        program.fill(lane, np.ascontiguousarray(place), a, b, self.first, self.kept, self.ended, found, close)
+        return found, close

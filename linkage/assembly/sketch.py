@@ -106,7 +106,7 @@ def modes(name: str, step: Step, settled: Mapping[str, Member], title: str) -> t
     return bound.modes() if isinstance(bound, Point) else ()
 
 
-def measured(name: str, step: Step, settled: Mapping[str, Member], title: str) -> Step:
+def with_measured_labels(name: str, step: Step, settled: Mapping[str, Member], title: str) -> Step:
     """Return a step drawn `at=(x, y)` with the lengths and angles that it does not give measured from there [m, rad]."""
     if step.drawn_at is None:
         return step

@@ -25,7 +25,7 @@ Places = Mapping[str, tuple[float, float]]
 
 
 @dataclass(frozen=True)
-class Rows:
+class ConstraintRows:
     """Constraint rows, each of length one, by the coordinates of the points and the strokes; `owner` names their source."""
 
     matrix: FloatArray
@@ -50,7 +50,7 @@ def loose_trace(plan: Plan, points: tuple[str, ...]) -> Trace:
     return trace
 
 
-def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Any]) -> Rows:
+def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Any]) -> ConstraintRows:
     """Return the rows of the steps' own constraints at a pose; points that no body holds are left out."""
     trace = loose_trace(plan, tuple(plan.points))
     residuals: dict[str, tuple[Any, ...]] = {}
@@ -71,7 +71,7 @@ def step_rows(plan: Plan, places: Places, inputs: Mapping[str, Any]) -> Rows:
     matrix = np.zeros((len(nodes), len(seeds)))
     for (row, column, _), value in zip(behind, interpret([tangents[column].of(node) for _, column, node in behind], at), strict=True):
         matrix[row, column] = float(value)
-    return Rows(unit(matrix), tuple(owner for owner, _ in nodes), tuple(seeds))
+    return ConstraintRows(unit_rows(matrix), tuple(owner for owner, _ in nodes), tuple(seeds))
 
 
 def held_points(plan: Plan, constrained: set[str]) -> tuple[str, ...]:
@@ -81,7 +81,7 @@ def held_points(plan: Plan, constrained: set[str]) -> tuple[str, ...]:
     return tuple(name for name in plan.moving if name in held)
 
 
-def link_rows(plan: Plan, places: Places, unknowns: tuple[str, ...]) -> Rows:
+def link_rows(plan: Plan, places: Places, unknowns: tuple[str, ...]) -> ConstraintRows:
     """Return the rows of declared links at a pose: one length, and two for every further point, rigid with the first two."""
     found: list[FloatArray] = []
     owners: list[str] = []
@@ -91,7 +91,7 @@ def link_rows(plan: Plan, places: Places, unknowns: tuple[str, ...]) -> Rows:
         for row in rigid_rows(link.point_names, places, unknowns):
             found.append(row)
             owners.append(name)
-    return Rows(unit(np.array(found).reshape(len(found), len(unknowns))), tuple(owners), unknowns)
+    return ConstraintRows(unit_rows(np.array(found).reshape(len(found), len(unknowns))), tuple(owners), unknowns)
 
 
 def rigid_rows(points: tuple[str, ...], places: Places, unknowns: tuple[str, ...]) -> list[FloatArray]:
@@ -101,17 +101,17 @@ def rigid_rows(points: tuple[str, ...], places: Places, unknowns: tuple[str, ...
     Q = max(points[1:], key=lambda point: abs(complex_at[point] - complex_at[P]))
     base = complex_at[Q] - complex_at[P]
     direction = base / abs(base)
-    rows = [row({Q: direction, P: -direction}, unknowns)]
+    rows = [coordinate_row({Q: direction, P: -direction}, unknowns)]
     for X in points[1:]:
         if X != Q:
             turn = (complex_at[X] - complex_at[P]) / base
             # dX - dP - turn (dQ - dP) = 0, its real and its imaginary part
-            rows.append(row({X: 1, P: turn.conjugate() - 1, Q: -turn.conjugate()}, unknowns))
-            rows.append(row({X: 1j, P: 1j * (turn.conjugate() - 1), Q: -1j * turn.conjugate()}, unknowns))
+            rows.append(coordinate_row({X: 1, P: turn.conjugate() - 1, Q: -turn.conjugate()}, unknowns))
+            rows.append(coordinate_row({X: 1j, P: 1j * (turn.conjugate() - 1), Q: -1j * turn.conjugate()}, unknowns))
     return rows
 
 
-def row(terms: Mapping[str, complex], unknowns: tuple[str, ...]) -> FloatArray:
+def coordinate_row(terms: Mapping[str, complex], unknowns: tuple[str, ...]) -> FloatArray:
     """Return a row from its part for each point: the scalar product with (x, y) written as a complex number."""
     found = np.zeros(len(unknowns))
     for point, part in terms.items():
@@ -121,7 +121,7 @@ def row(terms: Mapping[str, complex], unknowns: tuple[str, ...]) -> FloatArray:
     return found
 
 
-def unit(matrix: FloatArray) -> FloatArray:
+def unit_rows(matrix: FloatArray) -> FloatArray:
     """Return the rows scaled to length one; rows of zeros stay."""
     size = np.linalg.norm(matrix, axis=1, keepdims=True)
     return np.asarray(matrix / np.where(size > 0.0, size, 1.0))
@@ -172,7 +172,7 @@ def mobility_at(plan: Plan, strokes: dict[str, float]) -> Mobility:
     places, inputs = places_at(plan, strokes)
     steps = step_rows(plan, places, inputs)
     links = link_rows(plan, places, steps.unknowns)
-    both = Rows(np.vstack([steps.matrix, links.matrix]), (*steps.owners, *links.owners), steps.unknowns)
+    both = ConstraintRows(np.vstack([steps.matrix, links.matrix]), (*steps.owners, *links.owners), steps.unknowns)
     active = np.abs(both.matrix).sum(axis=0) > 0.0
     free = int((active | np.array([name not in plan.strokes for name in both.unknowns], bool)).sum())
     full = rank(both.matrix)
@@ -221,14 +221,14 @@ def check(plan: Plan) -> None:
         bodies = ", ".join(body.name for body in plan.links)
         raise DefinitionError(
             f"{plan.title}: the mobility is {found.rank}, the strokes are {found.strokes} ({', '.join(plan.strokes) or 'none'}). "
-            f"Gruebler count {found.gruebler} of the bodies {bodies}. {remedy(found)}",
+            f"Gruebler count {found.gruebler} of the bodies {bodies}. {mobility_remedy(found)}",
             member=next(iter(plan.strokes), ""),
         )
     check_lengths(plan)
     check_slides(plan)
 
 
-def remedy(found: Mobility) -> str:
+def mobility_remedy(found: Mobility) -> str:
     """Return what to do about a mobility that is not the number of strokes."""
     if found.locking:
         return f"The link {found.locking[0]} locks the linkage: take it out, or give it the length it needs all over the stroke."

@@ -10,7 +10,7 @@ from typing import Any, Protocol, Self, TypeAlias
 
 import numpy as np
 
-from ..assembly import NONE_SOLVED, Solved, solve_groups, with_angles
+from ..assembly import NONE_SOLVED, GroupSolution, solve_groups, with_angles
 from ..errors import DefinitionError
 from ..frozen import FrozenDict, read_only
 from ..plan import ArrayReading, Plan
@@ -72,7 +72,7 @@ class Grid:
         return self.flat_designs | self.flat_strokes | dict(self.solved.inputs)
 
     @cached_property
-    def solved(self) -> Solved:
+    def solved(self) -> GroupSolution:
         """The pins of groups and the references of followed angles, shape (m, n)."""
         if not self.plan.solved:
             return NONE_SOLVED
@@ -81,7 +81,7 @@ class Grid:
             groups = self._each() if self.per_design else solve_groups(self.plan, self.flat_designs, self.flat_strokes)
         return with_angles(groups, self.plan, self.flat_designs, self.flat_strokes)
 
-    def _each(self) -> Solved:
+    def _each(self) -> GroupSolution:
         """Return the pins of groups where each design has strokes of its own: followed design by design."""
         m, n = self.size
         found = [
@@ -93,7 +93,7 @@ class Grid:
             for place in range(m)
         ]
         inputs = {name: np.concatenate([np.broadcast_to(each.inputs[name], (1, n)) for each in found]) for name in found[0].inputs}
-        return Solved(inputs, np.concatenate([np.broadcast_to(each.crossed, (1, n)) for each in found]))
+        return GroupSolution(inputs, np.concatenate([np.broadcast_to(each.crossed, (1, n)) for each in found]))
 
     @cached_property
     def inputs(self) -> dict[str, Any]:

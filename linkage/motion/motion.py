@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeAlias
 
 import numpy as np
 
-from ..assembly import parted
+from ..assembly import ambiguous_angle
 from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, cited, one_word, unwarned, warn
 from ..plan import ArrayReading, Plan
 from ..program import FloatArray, Kernel
@@ -347,7 +347,7 @@ class Motion:
         solved = self._grid.solved.inputs
         references = {name: np.broadcast_to(solved[name], self._grid.size).reshape(m, *shape) for name in self.plan.followed}
         designs = {name: np.broadcast_to(value, self._design_shape) if np.ndim(value) else value for name, value in self.designs.items()}
-        name = parted(self.plan, designs, self.strokes, references)
+        name = ambiguous_angle(self.plan, designs, self.strokes, references)
         if name:
             raise SingularError(
                 f"{self.plan.title}: {name}, whose whole turns count here, is followed from the sketch, and the straight ways to two "

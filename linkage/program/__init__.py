@@ -1,13 +1,17 @@
 """The traced straight-line program, its derivatives and its kernels."""
 
-from ..vectors import FloatArray
+from ..vectors import FloatArray, pick
+from .cache import compiled
 from .derivatives import Tangent, gradient, jacobian
-from .elimination import eliminated
+from .elimination import eliminated, expanded, is_zero
 from .foreign import c_text, javascript_text
 from .interpret import Iterated, interpret, scatter
-from .kernel import QUICKEST, Kernel, Result, Way, fixed_backend
+from .kernel import BACKEND, QUICKEST, Kernel, Result, Way, fixed_backend
 from .linear import solve_arrays
+from .loop import HEAD, NUMBA, lane_loop
 from .node import Closure, Graph, Level, Node
-from .operations import NO_VALUE
-from .schedule import ancestors
+from .numba_backend import compiled_loop, pays_compiled
+from .operations import ARRAYS, FLOATS, NO_VALUE
+from .schedule import ancestors, lowered
+from .text import GUARDED, Dialect, function
 from .traced import Notes, Traced, node_of

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from .node import Node
-from .schedule import Schedule
+from .schedule import Schedule, ancestors
 from .text import TEMPLATES, Dialect, NodeNames
 
 # What stands above every compiled loop: functions that a compiler can work out for many poses at once.
@@ -208,3 +208,18 @@ def copied_out(depth: int, output: int, place: int) -> list[str]:
 def indented(depth: int, *lines: str) -> list[str]:
     """Return lines under some levels of blocks."""
     return ["    " * depth + line for line in lines]
+
+
+# A program over lanes that lie beside each other in rows of one memory `s`: lane b of row k is s[k * width + b].
+
+
+def lane_loop(rows: Mapping[Node, int], results: Sequence[tuple[int, Node]], width: int, dialect: Dialect) -> list[str]:
+    """Return the loop that reads nodes from rows, works out others, which depend on these alone, and writes results into rows."""
+    own = [node for node in ancestors([node for _, node in results], rows) if node not in rows and node.op not in ("constant", "input")]
+    read = {arg.origin for node in own for arg in node.args} | {node.origin for _, node in results}
+    given = {node: f"x{row}" for node, row in rows.items() if node in read}
+    names = NodeNames(dialect, given)
+    lines = [f"x{row} = s[{row * width} + b]" for node, row in rows.items() if node in read]
+    lines += names.assign(own, "v")
+    lines += [f"s[{row * width} + b] = {names.read(node)}" for row, node in results]
+    return [f"for b in range({width}):", *indented(1, *lines)]

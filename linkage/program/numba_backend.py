@@ -34,6 +34,35 @@ def is_there() -> bool:
     return find_spec("numba") is not None
 
 
+def pays_compiled(work: float, ready: bool, text: Callable[[], str]) -> bool:
+    """Return whether so many operations are worth a compiled loop: it is there, on disk, or worth making."""
+    return ready or (work >= LOAD and is_there() and (work >= COMPILE or is_cached(text())))
+
+
+def compiled_loop(text: str, name: str, arguments: Callable[[Any], Sequence[Any]]) -> Callable[..., Any]:
+    """Return a function of a text compiled for arguments, which are told in the types of Numba; kept on disk."""
+    try:
+        from numba import njit, types
+    except ImportError:
+        raise LinkageError('backend="numba" needs Numba: pip install "hydrolinkage[fast]".') from None
+
+    def make(function: Callable[..., None], file: CompiledFile | None) -> Callable[..., None]:
+        def lazy(cache: bool) -> Any:
+            return njit(fastmath=FLAGS, error_model="numpy", nogil=True, cache=cache)(function)
+
+        done = lazy(file is not None)
+        if file is not None and not file.take(Path(done.stats.cache_path)):
+            done, file = lazy(False), None
+        done.compile(tuple(arguments(types)))
+        done.disable_compile()
+        if file is not None:
+            file.note()
+        loop: Callable[..., None] = done
+        return loop
+
+    return compiled_in_file(text, name, make)
+
+
 class NumbaLoop:
     """A program as a compiled loop; the design part is left to NumPy."""
 
@@ -49,36 +78,15 @@ class NumbaLoop:
     def is_worth(self, m: int, n: int, spent: int) -> bool:
         """Return whether so many designs and poses, and those before them, pay for compiling."""
         turned = self.turns(m, n)
-        if turned in self._ready:
-            return True
-        work = float(spent + m * n) * max(len(self.plan.pose), 1)
-        return work >= LOAD and is_there() and (work >= COMPILE or is_cached(self._texts[turned]))
+        return pays_compiled(float(spent + m * n) * max(len(self.plan.pose), 1), turned in self._ready, lambda: self._texts[turned])
 
     def _loop(self, turned: bool) -> Callable[..., None]:
         """Return the compiled loop over poses or, turned, over designs."""
         if turned not in self._ready:
-            try:
-                from numba import njit, types
-            except ImportError:
-                raise LinkageError('backend="numba" needs Numba: pip install "hydrolinkage[fast]".') from None
-            read = [types.Array(types.float64, axes, "C", readonly=True) for axes in (2, 3)]  # what a motion holds cannot be written
-            arguments = (*read, types.float64[::1], *(types.int64[::1],) * 3)
-
-            def make(function: Callable[..., None], file: CompiledFile | None) -> Callable[..., None]:
-                def lazy(cache: bool) -> Any:
-                    return njit(fastmath=FLAGS, error_model="numpy", nogil=True, cache=cache)(function)
-
-                done = lazy(file is not None)
-                if file is not None and not file.take(Path(done.stats.cache_path)):
-                    done, file = lazy(False), None
-                done.compile(arguments)
-                done.disable_compile()
-                if file is not None:
-                    file.note()
-                loop: Callable[..., None] = done
-                return loop
-
-            self._ready[turned] = compiled_in_file(self._texts[turned], "poses", make)
+            self._ready[turned] = compiled_loop(self._texts[turned], "poses", lambda types: (
+                *(types.Array(types.float64, axes, "C", readonly=True) for axes in (2, 3)),  # what a motion holds cannot be written
+                types.float64[::1], *(types.int64[::1],) * 3,
+            ))  # fmt: skip
         return self._ready[turned]
 
     def turns(self, m: int, n: int) -> bool:

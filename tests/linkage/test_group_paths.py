@@ -5,7 +5,10 @@ import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import AssemblyError, Crank, Ground, Guide, Link, Mechanism, Pin, Slide, Stroke, drawn
+from linkage.assembly import newton, path
+from linkage.program import pinned
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
+from tests.linkage.random_parts import group_parts
 from tests.linkage.test_groups import Platform, platform
 
 LOW, HIGH = np.radians(62.0), np.radians(88.0)
@@ -141,3 +144,62 @@ def test_group_hangs_on_what_slides_in_its_slot():
     for point in "EF":
         assert np.hypot(*motion.ratio(point)).max() > 1e-3
         assert_allclose(motion.ratio(point), motion.ratio(point, method="central"), rtol=1e-7, atol=1e-9)
+
+
+# -- one rule, three back ends ---------------------------------------------------------------------------
+
+
+def solved(seed, **designs):
+    """Return the pins of a random group's fresh class at random strokes, some out of reach, and what is told of them."""
+    cls, _ = group_parts(seed)
+    (stroke,) = cls.plan.strokes.values()
+    values = np.random.default_rng(seed).uniform(2.0 * stroke.start - stroke.end, 2.0 * stroke.end - stroke.start, 40)
+    motion = cls(**designs).at(S=values, unreachable="nan")
+    pins = np.concatenate([motion[pin] for group in cls.plan.groups.values() for pin in group.pins])
+    return pins, motion.reached, repr(motion)
+
+
+def check_same(found, expected):
+    assert_allclose(found[0], expected[0], rtol=0, atol=2e-12)
+    assert_array_equal(found[1], expected[1])
+    assert found[2] == expected[2]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_lanes_in_floats_and_in_arrays_are_the_same(seed, monkeypatch):
+    in_floats = solved(seed)
+    monkeypatch.setattr(path, "FEW", 0)
+    check_same(solved(seed), in_floats)
+
+
+@pytest.mark.parametrize("few", [0, 4])
+def test_small_pivots_change_nothing(few, monkeypatch):
+    """No pivot is large enough: every step and every clearance falls back on pivots of its own."""
+    expected = solved(1)
+    monkeypatch.setattr(path, "FEW", few)
+    for name in ("PIVOT", "SURE_PIVOT"):
+        monkeypatch.setattr(newton, name, 1e9)
+    check_same(solved(1), expected)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_compiled_paths_are_the_same(seed):
+    pytest.importorskip("numba")
+    expected = solved(seed)
+    with pinned("numba"):
+        check_same(solved(seed), expected)
+
+
+@pytest.mark.slow
+def test_compiled_paths_of_many_designs_are_the_same():
+    pytest.importorskip("numba")
+    rods = 0.1006 + np.random.default_rng(1).uniform(-3e-3, 3e-3, 100)
+    psi = np.radians(np.linspace(40.0, 110.0, 30))
+    expected = StephensonThreeFar(DF=rods).at(psi=psi, unreachable="nan")
+    with pinned("numba"):
+        found = StephensonThreeFar(DF=rods).at(psi=psi, unreachable="nan")
+    assert not expected.reached.all()
+    assert_array_equal(found.reached, expected.reached)
+    for pin in "ABD":
+        assert_allclose(found[pin], expected[pin], rtol=0, atol=2e-12)

@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from linkage import AssemblyError, Crank, Ground, Guide, Link, Mechanism, Pin, Slide, Stroke, drawn
 from linkage.assembly import newton, path
-from linkage.program import pinned
+from linkage.program import fixed_backend
 from mechanisms.classics.stephenson_three import StephensonThree, StephensonThreeFar
 from tests.linkage.random_parts import group_parts
 from tests.linkage.test_groups import Platform, platform
@@ -187,7 +187,7 @@ def test_small_pivots_change_nothing(few, monkeypatch):
 def test_compiled_paths_are_the_same(seed):
     pytest.importorskip("numba")
     expected = solved(seed)
-    with pinned("numba"):
+    with fixed_backend("numba"):
         check_same(solved(seed), expected)
 
 
@@ -197,7 +197,7 @@ def test_compiled_paths_of_many_designs_are_the_same():
     rods = 0.1006 + np.random.default_rng(1).uniform(-3e-3, 3e-3, 100)
     psi = np.radians(np.linspace(40.0, 110.0, 30))
     expected = StephensonThreeFar(DF=rods).at(psi=psi, unreachable="nan")
-    with pinned("numba"):
+    with fixed_backend("numba"):
         found = StephensonThreeFar(DF=rods).at(psi=psi, unreachable="nan")
     assert not expected.reached.all()
     assert_array_equal(found.reached, expected.reached)

@@ -46,6 +46,10 @@ def draw(
 ) -> Figure | Drawing:
     """Return a mechanism's figure at chosen strokes, or a motion at one of its poses, on axes if they are given; see `linkage.draw`."""
     if isinstance(machine, Motion):
+        if at is not None or path or count != 101:
+            raise DefinitionError(
+                f"{machine.plan.title}: a motion is drawn at one of its poses, pose=; at=, path= and count= go with a machine."
+            )
         return draw_pose(machine, pose, ax=ax, faint=faint)
     require_mechanism(machine)
     if ax is not None:

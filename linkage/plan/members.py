@@ -246,10 +246,10 @@ class Members:
 
     @cached_property
     def may_overflow(self) -> bool:
-        """Whether a place depends on arithmetic that has no value everywhere: quotients, powers, functions."""
-        names = self.reaches(*self.points)
-        parts = [part for name in names for part in self.with_parts(name)]
-        return any(isinstance(part, Function) or (isinstance(part, Operation) and part.symbol != "*") for part in parts)
+        """Whether a place depends on arithmetic that has no value everywhere: quotients, powers, functions, rules of other packages."""
+        parts = [part for name in self.reaches(*self.points) for part in self.with_parts(name)]
+        foreign = any(type(part).__module__.split(".")[0] != "linkage" for part in parts)
+        return foreign or any(isinstance(part, Function) or (isinstance(part, Operation) and part.symbol != "*") for part in parts)
 
     @cached_property
     def groups(self) -> dict[str, Group]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from enum import IntEnum
 from threading import Lock
-from typing import Any, TypeAlias
+from typing import Any, NoReturn, TypeAlias
 
 import numpy as np
 
@@ -77,6 +77,15 @@ class Node:
 
     def __pos__(self) -> Node:
         return self
+
+    def _compared(self, other: object) -> NoReturn:
+        """Raise DefinitionError: a rule is read once for all poses."""
+        raise DefinitionError(
+            "a rule is worked out for all poses at once, so that its numbers cannot be compared, in an `if` or in np.where; "
+            "np.minimum, np.maximum and abs choose without asking for values."
+        )
+
+    __lt__ = __le__ = __gt__ = __ge__ = _compared
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Operand, **options: object) -> Any:
         name = {"true_divide": "divide"}.get(ufunc.__name__, ufunc.__name__)

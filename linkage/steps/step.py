@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
-from ..quantities import Jointed, Member, Number, Operand, Quantity, Reference, Where, is_number, name_of, quantity
+from ..quantities import Jointed, Member, Number, Operand, Quantity, Reference, Where, is_number, label, name_of, quantity
 from ..units import deg
 from ..vectors import Scalar, Side, Vec
 from .labels import DimensionTable, Slot, match, relabelled, written_labels
@@ -86,6 +86,11 @@ class Point(Jointed):
     @abstractmethod
     def place(self, where: Where) -> Vec:
         """Return the position [m]; NaN where it cannot be assembled."""
+        raise DefinitionError(f"{self.name}: {type(self).__name__} does not say where its point lies; give it place(where).")
+
+    def __str__(self) -> str:
+        """Return the line that makes this step; one with arguments that are no parts says it itself."""
+        return f"{type(self).__name__}({', '.join(map(label, self.parts()))})"
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
         """Return what must vanish at this point's place, in every reading: that it lies where it is placed, unless a step knows better.

@@ -51,7 +51,7 @@ def written_gas(gas: Gas) -> Any:
 def _(gas: Polytropic) -> Any:
     if gas.spelled in LAWS:
         return gas.spelled
-    return {"law": "polytropic", "n": one_number(gas.n), **temperature(gas)}
+    return {"law": "polytropic", "n": gas_number(gas.n), **temperature(gas)}
 
 
 @written_gas.register
@@ -61,10 +61,10 @@ def _(gas: RealNitrogen) -> Any:
 
 def temperature(gas: Gas) -> dict[str, Any]:
     """Return the temperature of a law [K] where it is not the usual one."""
-    return {} if gas.temperature == ROOM else {"temperature": one_number(gas.temperature)}
+    return {} if gas.temperature == ROOM else {"temperature": gas_number(gas.temperature)}
 
 
-def one_number(value: Any) -> Any:
+def gas_number(value: Any) -> Any:
     """Return a number of a gas law; DefinitionError where there are several."""
     if not is_number(plain(value)):
         raise DefinitionError(f"the gas law has several values, {value!r}; a file holds one design.")

@@ -17,18 +17,7 @@ import numpy.typing as npt
 from .assembly import Assembly, assembled, assemblies
 from .errors import DefinitionError, cited, told, unknown
 from .mobility import FourBar, Mobility, check, four_bars, mobility
-from .motion import (
-    Column,
-    Motion,
-    PoseFunction,
-    RequestLike,
-    at_values,
-    columns_of,
-    evaluate,
-    require_motion,
-    source_of,
-    sweep_values,
-)
+from .motion import Column, Motion, PoseFunction, RequestLike, at_values, columns_of, evaluate, require_motion, source_of, sweep_values
 from .plan import Body, Plan
 from .program import FloatArray, Way
 from .quantities import Member, Stroke
@@ -81,7 +70,7 @@ def of_own_motion(method: Callable[[Mechanism, Motion], Answer]) -> Callable[[Me
     return checked
 
 
-class Structure(ABCMeta):
+class MechanismType(ABCMeta):
     """The class of the classes of mechanism: what a class is made of does not change once it is made."""
 
     plan: Plan
@@ -106,7 +95,7 @@ class Structure(ABCMeta):
         return DefinitionError(f"{cls.__name__}.{name} {what}: {cls.__name__} is worked out already and would not follow; {remedy}.")
 
 
-class Mechanism(metaclass=Structure):
+class Mechanism(metaclass=MechanismType):
     """The base of every mechanism. A subclass declares points, links and strokes, one line each, in any order.
 
     An instance is a design: `ThreePointHitch(OB=0.32)`; every keyword is a dimension by its name [SI], a float or

@@ -15,7 +15,7 @@ import numpy as np
 from hydraulics import Cylinder, CylinderSize, LiftCircuit, next_bore
 from hydraulics.inputs import in_pascals, positive
 from hydraulics.judged import Lifting, LiftingCylinder
-from linkage import (  # fmt: skip
+from linkage import (
     RIGHT,
     Column,
     CosineAngle,

@@ -269,3 +269,30 @@ def test_the_door_loads_numpy_only():
     loaded = subprocess.run([sys.executable, "-c", program], cwd=ROOT, check=True, capture_output=True, text=True).stdout.split()
     assert "linkage" in loaded
     assert (HEAVY | OPTIONAL).isdisjoint(loaded), sorted((HEAVY | OPTIONAL).intersection(loaded))
+
+
+DOORS = {"animate", "draw", "equations", "page", "plot"}  # thin functions of the package in front of those of a room
+
+
+def defined(path: str) -> set[str]:
+    """Return the public functions and classes at the top of a file."""
+    tree = ast.parse((ROOT / path).read_text(encoding="utf-8"))
+    names = {node.name for node in tree.body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
+    return {name for name in names if not name.startswith("_")}
+
+
+def test_a_name_has_one_meaning_in_the_framework():
+    owners: dict[str, list[str]] = {}
+    for path in sorted(sources()):
+        for name in defined(path) if path.split("/")[0] in ("linkage", "hydraulics") else ():
+            owners.setdefault(name, []).append(path)
+    assert {name: paths for name, paths in owners.items() if len(paths) > 1 and name not in DOORS} == {}
+    assert all({path.split("/")[1] for path in owners[name]} >= {"doors.py"} and len(owners[name]) == 2 for name in DOORS)
+
+
+def test_no_room_bears_the_name_of_a_public_function():
+    import linkage
+
+    rooms = {path.parent.name for path in (ROOT / "linkage").glob("*/__init__.py")}
+    assert rooms == set(FLOOR) - {"errors", "units", "vectors", "disk", "frozen", "mechanism"}
+    assert not rooms & {name for name in linkage.__all__ if callable(getattr(linkage, name))}

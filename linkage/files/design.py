@@ -57,7 +57,7 @@ class Design:
         owner, sign = self.plan.table.spellings[spelling]
         self.written.add(owner)
         found = sign * float(self.set[owner]) if owner in self.set else value.number
-        return in_degrees(found) if self.plan.table.entries[owner].kind == "angle" else found
+        return degrees_text(found) if self.plan.table.entries[owner].kind == "angle" else found
 
     def scalar(self, given: Quantity) -> float | str:
         """Return a quantity as a number or as text that reads back as the same; DefinitionError where there is none."""
@@ -80,7 +80,7 @@ class Design:
         return text
 
 
-def in_degrees(value: float | str) -> float | str:
+def degrees_text(value: float | str) -> float | str:
     """Return an angle [rad] as text in degrees where that is short and reads back as the same, else as it is."""
     return in_unit(value, "deg") if isinstance(value, float) and abs(value) < 1e9 else value
 
@@ -115,7 +115,7 @@ def changed(machine: Mechanism) -> dict[str, float]:
     return {name: value for name, value in machine.dimensions.items() if value != machine.plan.defaults[name]}
 
 
-def members_of(machine: type[Mechanism] | Mechanism) -> dict[str, Member]:
+def members_to_write(machine: type[Mechanism] | Mechanism) -> dict[str, Member]:
     """Return the members to write, in the order they are declared.
 
     An instance with changed dimensions has moved away from its sketch: sides are said, pins stand where they are now.
@@ -145,14 +145,14 @@ def measured(design: Design, members: Mapping[str, Member]) -> dict[str, dict[st
     found: dict[str, dict[str, float]] = {}
     for each, entry in design.plan.table.entries.items():
         if each not in design.written and entry.kind in ("length", "angle"):
-            owner = next((name for name, member in members.items() if isinstance(member, Link) and joined(each, member)), "")
+            owner = next((name for name, member in members.items() if isinstance(member, Link) and is_label_of(each, member)), "")
             if not owner:
                 raise DefinitionError(f"{each} was measured from the drawing and belongs to no link; give it in the class.")
             found.setdefault(owner, {})[each] = float(design.set.get(each, entry.default))
     return found
 
 
-def joined(text: str, link: Link) -> bool:
+def is_label_of(text: str, link: Link) -> bool:
     """Return whether a label is made of a link's own points."""
     names = [name_of(point) for point in link.points]
     return text in {"".join(several) for count in (2, 3) for several in permutations(names, count)}

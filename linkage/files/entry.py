@@ -19,7 +19,7 @@ from ..steps import Point, Step
 from .design import Design
 from .names import NAME_LENGTH, Names, shortened
 from .source import Mistakes
-from .validators import KINDS, Kind, amount, each_of, number_of, value_of
+from .validators import KINDS, Kind, amount, each_of, number_of, quantity_of
 
 LABELS = 100
 VALUES = 100
@@ -228,7 +228,7 @@ def worded(cls: type[Any]) -> bool:
     return issubclass(cls, (Point, ForceElement))
 
 
-class Entry:
+class FileEntry:
     """How the members of a class stand in a file: the table of their section, and the `word` that tells them apart there, if any.
 
     `path` is the import path of a class without a word; `keys` are those that differ from the names of the arguments, `make`
@@ -297,7 +297,7 @@ class Entry:
             parents = under_keys.pop(self.spread, under_keys.values())
         for label in labels:
             with mistakes.at(label):
-                labels[label] = value_of(given[label], names)
+                labels[label] = quantity_of(given[label], names)
         found = read_table(given, names, self.arguments, mistakes)
         check_keys(given, [*self.keys, *labels], mistakes)
         mistakes.check()

@@ -100,12 +100,12 @@ def applied(function: str) -> Callable[..., Quantity]:
         if len(values) < len(arguments):
             return Function(function, *arguments)
         with np.errstate(all="ignore"):
-            return number(float(FUNCTIONS[function](*values)), f"{function}({', '.join(map(repr, values))})")
+            return finite_number(float(FUNCTIONS[function](*values)), f"{function}({', '.join(map(repr, values))})")
 
     return make
 
 
-def number(value: Any, text: str) -> Number:
+def finite_number(value: Any, text: str) -> Number:
     """Return a number; DefinitionError where a calculation has no finite one."""
     if not isinstance(value, (int, float)) or not math.isfinite(value):
         raise DefinitionError(f"{text} has no finite value.")
@@ -248,7 +248,7 @@ class Parser:
             return made
         text = f"{a.number!r} {sign} {b.number!r}"
         try:
-            return number(BINARY[sign](a.number, b.number), text)
+            return finite_number(BINARY[sign](a.number, b.number), text)
         except ArithmeticError:
             raise DefinitionError(f"{text} has no finite value.") from None
 

@@ -50,10 +50,10 @@ def trusted(given: Any) -> tuple[str, ...]:
 def built(data: Any, faults: Faults, trust: Collection[str]) -> type[Mechanism]:
     """Return the class that the tables say."""
     sections = sections_of(data, faults)
-    title, doc = head(data, faults)
+    title, doc = head_read(data, faults)
     names = names_of(sections, faults)
     order = ordered(data, names, faults)
-    members = members_of(order, sections, names, title, faults, trust)
+    members = members_read(order, sections, names, title, faults, trust)
     faults.check()
     return made(title, doc, members, names, faults)
 
@@ -76,7 +76,7 @@ def sections_of(data: Any, faults: Faults) -> dict[str, Mapping[str, Any]]:
     return found
 
 
-def head(data: Mapping[str, Any], faults: Faults) -> tuple[str, str | None]:
+def head_read(data: Mapping[str, Any], faults: Faults) -> tuple[str, str | None]:
     """Return the class's name and its docstring."""
     title, doc = data.get("name"), data.get("doc")
     with faults.at("name"):
@@ -127,7 +127,7 @@ def ordered(data: Mapping[str, Any], names: Names, faults: Faults) -> list[str]:
 # -- the members -------------------------------------------------------------------------------------------
 
 
-def members_of(
+def members_read(
     order: list[str], sections: Mapping[str, Mapping[str, Any]], names: Names, title: str, faults: Faults, trust: Collection[str]
 ) -> dict[str, Member]:
     """Return the members by name, in an order, each sound by itself; the mistakes of the others are noted."""

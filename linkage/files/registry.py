@@ -22,11 +22,11 @@ from ..motion import stroke_unit
 from ..quantities import Dimension, Member, Quantity, Stroke, ref
 from ..quantities.quantity import plain
 from ..units import UNITS, parse
-from .design import Design, in_degrees
-from .entry import PATH, Entry, worded
+from .design import Design, degrees_text
+from .entry import PATH, FileEntry, worded
 from .expression import one_unit
 from .names import Names, shortened
-from .validators import arrow_of, coordinates_of, number_of, points_of, stroke_ends, strokes_of, value_of
+from .validators import arrow_of, coordinates_of, number_of, points_of, quantity_of, stroke_ends, strokes_of
 
 GROUP = "hydrolinkage.files"
 SHIPPED = {"hydraulics": "hydrolinkage"}
@@ -59,7 +59,7 @@ class Bare:
 def stroke_written(member: Stroke, design: Design) -> list[float | str]:
     """Return a stroke's ends, those of an angle in degrees."""
     turns = stroke_unit(design.plan, member.name) == "rad"
-    return [in_degrees(end) if turns else end for end in (member.start, member.end)]
+    return [degrees_text(end) if turns else end for end in (member.start, member.end)]
 
 
 def dimension_of(given: Any, names: Names) -> Dimension:
@@ -85,7 +85,7 @@ def dimension_written(member: Dimension, design: Design) -> Any:
 
 def output_of(given: Any, names: Names) -> Quantity:
     """Return the quantity that an expression says; of a name alone one that follows it."""
-    found = value_of(given, names)
+    found = quantity_of(given, names)
     return ref(found.name) if found.name else found
 
 
@@ -105,7 +105,7 @@ def vector_of(given: Any, names: Names) -> steps.Arrow:
 def drawn_written(member: steps.Drawn, design: Design) -> dict[str, Any]:
     """Return the strokes at which a sketch holds, angles in degrees."""
     turning = [name for name in design.plan.strokes if stroke_unit(design.plan, name) == "rad"]
-    return {name: in_degrees(plain(value)) if name in turning else plain(value) for name, value in member.strokes.items()}
+    return {name: degrees_text(plain(value)) if name in turning else plain(value) for name, value in member.strokes.items()}
 
 
 def ground_written(member: steps.Ground, design: Design) -> list[float | str]:
@@ -127,7 +127,7 @@ def link_of(*points: str, **labels: Any) -> steps.Link:
     return steps.Link(*points, **labels)
 
 
-AnEntry: TypeAlias = Entry | Bare
+AnEntry: TypeAlias = FileEntry | Bare
 
 POINTS = (
     steps.Dyad, steps.OnLink, steps.Crank, steps.Offset, steps.SliderDyad, steps.PinSlotDyad, steps.GuideCross, steps.YokeDyad,
@@ -142,16 +142,16 @@ OWN: tuple[AnEntry, ...] = (
     Bare(Dimension, "dimensions", dimension_of, dimension_written),
     Bare(steps.Drawn, "drawn", lambda given, names: steps.Drawn(strokes_of(given, names)), drawn_written),
     Bare(steps.Ground, "ground", lambda given, names: steps.Ground(*coordinates_of(given, names)), ground_written),
-    Entry(steps.Guide, "guides", keys={"P": "from", "Q": "to"}),
-    *(Entry(step, "points", step.__name__) for step in POINTS),
+    FileEntry(steps.Guide, "guides", keys={"P": "from", "Q": "to"}),
+    *(FileEntry(step, "points", step.__name__) for step in POINTS),
     Bare(steps.Arrow, "vectors", vector_of, lambda member, design: design.own(member), family=True),
-    Entry(steps.Link, "links", make=link_of),
-    Entry(steps.Pin, "pins"),
-    Entry(steps.Slide, "slides"),
+    FileEntry(steps.Link, "links", make=link_of),
+    FileEntry(steps.Pin, "pins"),
+    FileEntry(steps.Slide, "slides"),
     Bare(steps.Group, "groups", lambda given, names: steps.Group(" ".join(points_of(given, names))), group_written),
     Bare(Quantity, "outputs", output_of, output_written, family=True),
-    *(Entry(load, "loads", load.__name__) for load in LOADS),
-    Entry(loads.LoadCase, "cases"),
+    *(FileEntry(load, "loads", load.__name__) for load in LOADS),
+    FileEntry(loads.LoadCase, "cases"),
 )
 
 
@@ -191,7 +191,7 @@ class Registry:
         if len(found) > 1:
             raise DefinitionError(f"it is {' and '.join(found)} at once; say one of them.")
         if found == [PATH]:
-            return Entry(class_of(given[PATH], section, trust), section, path=given[PATH])
+            return FileEntry(class_of(given[PATH], section, trust), section, path=given[PATH])
         if found:
             return words[found[0]]
         example = EXAMPLES.get(section) or next(iter(words.values())).example
@@ -223,7 +223,7 @@ class Registry:
         path, why = f"{cls.__module__}:{cls.__qualname__}", ""
         if worded(cls) and cls.file_section in self.sections:
             if imported(path) is cls:
-                return Entry(cls, cls.file_section, path=path)
+                return FileEntry(cls, cls.file_section, path=path)
             why = f" A file names such a class by its import path, but {path} leads to none: define it in a module, outside functions."
         raise DefinitionError(f"{member.name} = {member}: a file cannot hold a {cls.__name__}.{why}{self.absent()}")
 
@@ -231,7 +231,7 @@ class Registry:
 @lru_cache(maxsize=1)
 def registry() -> Registry:
     """Return the entries of this package and of those that are installed beside it."""
-    return Registry((*OWN, *(Entry(cls, cls.file_section, cls.__name__ if worded(cls) else "") for cls in extensions())))
+    return Registry((*OWN, *(FileEntry(cls, cls.file_section, cls.__name__ if worded(cls) else "") for cls in extensions())))
 
 
 def extensions() -> Iterable[type[Member]]:

@@ -14,7 +14,7 @@ from ..quantities import Number, Quantity, is_number, label, name_of, quantity
 from ..steps import Arrow
 from ..units import UNITS, parse
 from ..vectors import Side
-from .design import Design, in_degrees, option
+from .design import Design, degrees_text, option
 from .expression import arrow, expression, one_unit
 from .names import Names, shortened
 from .source import Mistakes
@@ -63,7 +63,7 @@ class Kind:
 # -- numbers and expressions -------------------------------------------------------------------------------
 
 
-def value_of(given: Any, names: Names) -> Quantity:
+def quantity_of(given: Any, names: Names) -> Quantity:
     """Return a number [SI], a text such as `500 mm`, or an expression as a quantity."""
     if isinstance(given, str):
         return expression(given, names)
@@ -118,13 +118,13 @@ def several(what: str, one: Read) -> Read:
     return read
 
 
-def listed(given: Any, names: Names, depth: int = 0) -> Any:
+def lists_of(given: Any, names: Names, depth: int = 0) -> Any:
     """Return a number or a word, or a list of them, or lists of lists as tuples."""
     if not isinstance(given, (list, tuple)):
         return word_of(given) if isinstance(given, str) else number_of(given, names)
     if depth == DEEPEST:
         raise DefinitionError(f"{shortened(given)}: lists stand in each other more than {DEEPEST} deep.")
-    return tuple(listed(each, names, depth + 1) for each in given)
+    return tuple(lists_of(each, names, depth + 1) for each in given)
 
 
 # -- names and words ---------------------------------------------------------------------------------------
@@ -208,7 +208,7 @@ def member_of(given: Any, names: Names) -> str:
     return given
 
 
-def side_of(given: Any, names: Names) -> Side:
+def side_named(given: Any, names: Names) -> Side:
     """Return the side that a word says."""
     found = Side.said(given) if isinstance(given, str) else None
     if found is None:
@@ -287,7 +287,7 @@ pair_of = several("two numbers, such as [0, 1]", number_of)
 gravity_of = several("two numbers in m/s2, such as [0, -9.81]", number_of)
 force_of = several('a force of two parts in N, such as ["-5 kN", 0]', lambda given, names: amount_of(given, names, "force"))
 stroke_ends = several("two numbers, such as [0.0, 0.25]", number_of)
-coordinates_of = several("two coordinates in m, such as [0.20, 0.55]", value_of)
+coordinates_of = several("two coordinates in m, such as [0.20, 0.55]", quantity_of)
 
 
 KINDS: Mapping[str, Kind] = MappingProxyType(
@@ -295,9 +295,9 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
     | {kind: reference(kind) for kind in ("point", "guide", "load", "link")}
     | {
         "number": fixed_number(""),
-        "angle": Kind(lambda given, names: number_of(given, names, "angle"), lambda value, design, name: in_degrees(float(value))),
-        "quantity": Kind(value_of, lambda value, design, name: design.variable(name, quantity(value))),
-        "direction": Kind(value_of, lambda value, design, name: in_degrees(design.variable(name, quantity(value)))),
+        "angle": Kind(lambda given, names: number_of(given, names, "angle"), lambda value, design, name: degrees_text(float(value))),
+        "quantity": Kind(quantity_of, lambda value, design, name: design.variable(name, quantity(value))),
+        "direction": Kind(quantity_of, lambda value, design, name: degrees_text(design.variable(name, quantity(value)))),
         "vector": Kind(arrow_of, refers=True),
         "points": Kind(points_of, written_body, refers=True),
         "body": Kind(body_of, written_body, refers=True),
@@ -310,11 +310,11 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         "pair": Kind(pair_of, written_pair),
         "gravity": Kind(gravity_of, written_pair),
         "force vector": Kind(force_of, written_force),
-        "side": Kind(side_of),
+        "side": Kind(side_named),
         "word": Kind(word_of),
         "switch": Kind(switch_of),
-        "numbers": Kind(listed),
-        "option": Kind(listed),
+        "numbers": Kind(lists_of),
+        "option": Kind(lists_of),
     }
 )
 """The kinds by name: what a class may say in `argument_kinds`, `expects` and `places`; what a unit measures is a kind as well."""

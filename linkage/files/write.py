@@ -14,7 +14,7 @@ from typing import Any
 from ..disk import replacing_text
 from ..errors import DefinitionError, FileError
 from ..mechanism import Mechanism, declared, require_mechanism
-from .design import Design, measured, members_of
+from .design import Design, measured, members_to_write
 from .names import Names, shortened
 from .registry import registry
 
@@ -29,21 +29,21 @@ def to_dict(machine: Machine) -> dict[str, Any]:
     """
     if not isinstance(machine, Mechanism) and not (isinstance(machine, type) and issubclass(machine, Mechanism)):
         raise DefinitionError(f"{shortened(machine)} is no mechanism; give a class of Mechanism, or a design of one.")
-    members = members_of(machine)
+    members = members_to_write(machine)
     entries = {name: registry().writing(member) for name, member in members.items()}
     sections = {name: entry.section for name, entry in entries.items()}
     design = Design(machine, Names(sections, {name: registry().kind(section) for name, section in sections.items()}))
     tables: dict[str, dict[str, Any]] = {section: {} for section in dict.fromkeys(sections.values())}
     for name, member in members.items():
-        tables[sections[name]][name] = written(name, entries[name].write, member, design)
+        tables[sections[name]][name] = entry_written(name, entries[name].write, member, design)
     if design.set:
         for name, labels in measured(design, members).items():
             tables[sections[name]][name] |= labels
     names = [name for table in tables.values() for name in table]
-    return head(machine, [] if names == list(members) else list(members)) | tables
+    return head_table(machine, [] if names == list(members) else list(members)) | tables
 
 
-def written(name: str, write: Any, member: Any, design: Design) -> Any:
+def entry_written(name: str, write: Any, member: Any, design: Design) -> Any:
     """Return a member's entry; DefinitionError, with its name, where there is none."""
     try:
         return write(member, design)
@@ -51,7 +51,7 @@ def written(name: str, write: Any, member: Any, design: Design) -> Any:
         raise DefinitionError(f"{design.plan.title}.{name} cannot be written into a file: {error}") from error
 
 
-def head(machine: Machine, order: list[str]) -> dict[str, Any]:
+def head_table(machine: Machine, order: list[str]) -> dict[str, Any]:
     """Return what stands above the sections: name, docstring, and the members' order where the sections do not keep it."""
     cls = type(machine) if isinstance(machine, Mechanism) else machine
     doc = cleandoc(cls.__doc__ or "")

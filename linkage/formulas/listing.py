@@ -25,34 +25,34 @@ X_AXIS = vector_symbol("i")
 
 
 @singledispatch
-def written(member: Member, reading: Any) -> Any:
+def symbolic_value(member: Member, reading: Any) -> Any:
     """Return what a member equals: a SymPy vector, or a term for a quantity."""
     raise NotImplementedError(f"{type(member).__name__} has no symbolic form")
 
 
-@written.register
+@symbolic_value.register
 def _(member: Quantity, reading: Any) -> Term:
     return term(member.rule(reading))
 
 
-@written.register
+@symbolic_value.register
 def _(member: CosineAngle, reading: Any) -> Term:
     return Term(Tcos(*(reading.value(side).expr for side in member.triangle)), ANGLE)
 
 
-@written.register
+@symbolic_value.register
 def _(member: Axis, reading: Any) -> Any:
     return X_AXIS
 
 
-@written.register
+@symbolic_value.register
 def _(member: Turn, reading: Any) -> Any:
     length = None if member.scaled_to is None else reading.scaled(member, member.scaled_to)
     base, angle = reading.arrow(member.base), reading.value(member.angle).as_angle()
     return TurnV(base, angle.expr) if length is None else TurnVL(base, angle.expr, length.expr)
 
 
-@written.register
+@symbolic_value.register
 def _(member: Guide, reading: Any) -> Any:
     """Return the guide's direction, of length one."""
     if member.Q is not None:
@@ -63,12 +63,12 @@ def _(member: Guide, reading: Any) -> Any:
     return TurnV(X_AXIS, angle.expr)
 
 
-@written.register
+@symbolic_value.register
 def _(member: Offset, reading: Any) -> Any:
     return reading.at(member.P).expr + reading.arrow(member.by)
 
 
-@written.register
+@symbolic_value.register
 def _(member: Point, reading: Any) -> Any:
     """Return a point's place by its own rule; of one that is given by coordinates these where one is a formula, else None."""
     place: Any = member.place(reading)
@@ -169,7 +169,7 @@ class Listing:
             self.between(name_of(each.value.P), name_of(each.value.Q))
         else:
             key = each.name if isinstance(each.value, Point) else id(each.value)
-            self.define(key, self.names.vector(each.name), written(each.value, self), LENGTH)
+            self.define(key, self.names.vector(each.name), symbolic_value(each.value, self), LENGTH)
 
     def define(self, key: Any, symbol: Any, rhs: Any, unit: Unit) -> None:
         """Write a line; nothing is written for a fixed point of plain coordinates."""
@@ -195,8 +195,8 @@ class Listing:
         key = named or id(member)
         if key not in self._vectors:
             if not named:
-                return written(member, self)
-            self.define(key, self.names.vector(named), written(member, self), LENGTH)
+                return symbolic_value(member, self)
+            self.define(key, self.names.vector(named), symbolic_value(member, self), LENGTH)
         return self._vectors[key]
 
     def vector(self, vector: Reference) -> Any:
@@ -229,11 +229,11 @@ class Listing:
             return self.input(named)
         if named or id(member) in self._labels:
             return self._known(named or id(member), member)
-        return self._lengths.get(spelled(member)) or written(member, self)
+        return self._lengths.get(spelled(member)) or symbolic_value(member, self)
 
     def _known(self, key: Any, member: Quantity) -> Term:
         if key not in self._terms:
-            found: Term = written(member, self)
+            found: Term = symbolic_value(member, self)
             self._terms[key] = found if isinstance(key, int) and found.expr.is_Atom else self._line(key, member, found)
         return self._terms[key]
 
@@ -287,7 +287,7 @@ class Listing:
         member = self.plan.members[name]
         assert isinstance(member, Guide)
         if ("line", name) not in self._vectors:
-            self.define(("line", name), self.names.direction(name), written(member, self), NUMBER)
+            self.define(("line", name), self.names.direction(name), symbolic_value(member, self), NUMBER)
         along = Place(lambda: self._vectors["line", name], self, unit=NUMBER)
         start: Any = Place(lambda: self.names.vector(name), self) if member.P is None else self.at(member.P)
         return Line(start, along)  # type: ignore[arg-type]

@@ -20,7 +20,7 @@ from .scene import Places, Scene, Straight
 from .shapes import rounded
 from .sheet import points_a_metre, sheet
 from .style import FAINT, STRONG, Look
-from .symbols import CylinderPart, MovingPart, added, direction_of, ground, polygon, rails, sliders
+from .symbols import CylinderPart, MovingPart, added, distance_and_direction, ground, polygon, rails, sliders
 
 
 def mechanism(ax: Axes, motion: Motion, pose: int | tuple[int, ...] = 0, *, faint: bool = False) -> Drawing:
@@ -127,7 +127,7 @@ class StraightPart(MovingPart):
 
     def move(self, at: Places) -> None:
         P, Q = at[self.straight.P], at[self.straight.Q]
-        length, along = direction_of(P, Q)
+        length, along = distance_and_direction(P, Q)
         turned = np.array([along, [-along[1], along[0]]])
         for line, artist in zip(self.straight.lines, self.artists, strict=True):
             artist.set_xy(P + line.at(length) @ turned)

@@ -197,10 +197,10 @@ class Stage:
         self.run.set_data(along.values[: pose + 1], values[: pose + 1])
         self.marker.set_data(along.values[pose : pose + 1], values[pose : pose + 1])
         self.stroke.set_text(stroke_words(motion.plan, along.name, float(motion.strokes[along.name][pose]), fixed=True))
-        self.value.set_text(value_text(self.playback.column.drawn, pose))
+        self.value.set_text(column_text(self.playback.column.drawn, pose))
 
 
-def value_text(values: FloatArray, pose: int) -> str:
+def column_text(values: FloatArray, pose: int) -> str:
     """Return one of a column's values as text, all with so many decimals that the greatest has four digits; empty where it has none."""
     if not np.isfinite(values[pose]):
         return ""

@@ -51,7 +51,7 @@ def polygon(ax: Axes, level: float, **options: Any) -> Polygon:
     return added(ax, Polygon(np.zeros((1, 2)), zorder=level, **options))
 
 
-def direction_of(start: FloatArray, end: FloatArray) -> tuple[float, FloatArray]:
+def distance_and_direction(start: FloatArray, end: FloatArray) -> tuple[float, FloatArray]:
     """Return the distance of two points and the unit vector from one to the other, shape (2,)."""
     length = float(np.hypot(*(end - start)))
     return length, (end - start) / (length or 1.0)
@@ -80,7 +80,7 @@ class CylinderPart(MovingPart):
 
     def move(self, at: Places) -> None:
         P, Q = at[self.ram.P], at[self.ram.Q]
-        length, along = direction_of(P, Q)
+        length, along = distance_and_direction(P, Q)
         P = P + self.ram.aside * np.array([-along[1], along[0]])
         for name, (start, end) in lengthwise(self.ram, length, self.size).items():
             self.pieces[name].set_xy(box(P, along, start, end, WIDTH[name] * self.size))
@@ -169,7 +169,7 @@ class BlockPart(MovingPart):
 
 def block(rider: FloatArray, start: FloatArray, end: FloatArray, half: float, size: float) -> FloatArray:
     """Return a block's corners, shape (4, 2) [m]; `half` is half its width [m]."""
-    return box(rider, direction_of(start, end)[1], -LONG * size, LONG * size, half)
+    return box(rider, distance_and_direction(start, end)[1], -LONG * size, LONG * size, half)
 
 
 def sliders(ax: Axes, scene: Scene, look: Look) -> list[MovingPart]:
@@ -203,7 +203,7 @@ def hatched(scene: Scene) -> list[FloatArray]:
 
 def rail(start: FloatArray, end: FloatArray, pins: list[FloatArray], size: float) -> FloatArray:
     """Return a rail's line under its blocks and its hatches: below the track, above where a pin stands on the track."""
-    long, along = direction_of(start, end)
+    long, along = distance_and_direction(start, end)
     below = np.array([along[1], -along[0]])
     below = -below if below[1] > 1e-6 or (abs(below[1]) <= 1e-6 and below[0] < 0.0) else below
     from_start = [pin - start for pin in pins]

@@ -5,6 +5,6 @@ from .members import construction_order, printed, strokes_text
 from .missing import Mask, called, failures, missing_words, negative, opening
 from .plan import Plan
 from .reading import ArrayReading, Reading
-from .table import Entry, Table
+from .table import DesignVariable, Table
 from .trace import NEAR, REGULAR, Guard, Loop, Measure, Trace
 

@@ -23,7 +23,7 @@ Label: TypeAlias = frozenset[str] | tuple[str, frozenset[str]]
 
 
 @dataclass(frozen=True)
-class Entry:
+class DesignVariable:
     """One design variable: its default [SI], what it measures, where it stands, and the unit it is shown in, if it has one."""
 
     name: str
@@ -38,7 +38,7 @@ class Table:
 
     def __init__(self, title: str) -> None:
         self.title = title
-        self.entries: dict[str, Entry] = {}
+        self.entries: dict[str, DesignVariable] = {}
         self.defaults: dict[str, float] = {}
         self.spellings: dict[str, tuple[str, int]] = {}
         self.following: dict[str, str] = {}
@@ -48,7 +48,7 @@ class Table:
     def add(self, name: str, default: float, kind: str, where: str, unit: str = "") -> None:
         """Enter a design variable; raise DefinitionError where its name is taken or its value cannot be."""
         self.check_free(name, where)
-        entry = Entry(name, default, kind, where, unit)
+        entry = DesignVariable(name, default, kind, where, unit)
         checked(entry, default)
         self.entries[name], self.defaults[name] = entry, default
         self.spellings[name] = (name, 1)
@@ -134,7 +134,7 @@ RANGES: Mapping[str, tuple[float, float]] = {
 """The least and the greatest value that is in order [SI], by what a variable measures."""
 
 
-def signed(value: float | npt.ArrayLike, sign: int, entry: Entry) -> Numbers:
+def signed(value: float | npt.ArrayLike, sign: int, entry: DesignVariable) -> Numbers:
     """Return a setting under its owner's sign; raise DefinitionError for what is not a number."""
     if isinstance(value, float):
         return sign * float(value)
@@ -145,7 +145,7 @@ def signed(value: float | npt.ArrayLike, sign: int, entry: Entry) -> Numbers:
     return float(sign * array) if array.ndim == 0 else read_only(sign * array)
 
 
-def checked(entry: Entry, value: Numbers) -> Numbers:
+def checked(entry: DesignVariable, value: Numbers) -> Numbers:
     """Return a value that the variable may take; raise DefinitionError for NaN, infinity and what is out of its range."""
     low, high = RANGES.get(entry.kind, (-LARGEST, LARGEST))
     if low <= value <= high if type(value) is float else np.all((np.asarray(value) >= low) & (np.asarray(value) <= high)):

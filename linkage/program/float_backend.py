@@ -61,10 +61,10 @@ class PlainFloats:
     def run(self, design: Sequence[Numbers], poses: Sequence[Numbers], values: FloatArray, guards: FloatArray) -> None:
         """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
         count, m, n = values.shape
-        designs = [listed(value, m) for value in design]
+        designs = [float_list(value, m) for value in design]
         for place in range(m):
             here = [value[place % len(value)] if isinstance(value, np.ndarray) and value.ndim == 2 else value for value in poses]
-            rows = self.poses(self.design([each[place] for each in designs]), [listed(value, n) for value in here], n)
+            rows = self.poses(self.design([each[place] for each in designs]), [float_list(value, n) for value in here], n)
             values[:, place] = np.array([row[:count] for row in rows], float).T.reshape(count, n)
             for k in range(len(guards)):
                 guards[k] = least([guards[k], *(row[count + k] for row in rows)])
@@ -75,7 +75,7 @@ def least(values: Sequence[float]) -> float:
     return min(values) if all(value == value for value in values) else math.nan
 
 
-def listed(value: Numbers, count: int) -> list[float]:
+def float_list(value: Numbers, count: int) -> list[float]:
     """Return a number or an array as so many floats."""
     if type(value) is float:
         return [value] * count

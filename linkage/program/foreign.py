@@ -21,7 +21,7 @@ CHOICES = {
 }
 
 
-def number(value: float, infinite: str, nothing: str) -> str:
+def number_text(value: float, infinite: str, nothing: str) -> str:
     """Return a number as a language writes it."""
     if math.isnan(value):
         return nothing
@@ -30,7 +30,7 @@ def number(value: float, infinite: str, nothing: str) -> str:
 
 C = Dialect(
     {**TEMPLATES, **CHOICES, "arctan2": "atan2({}, {})", "absolute": "fabs({})", "power": "pow({}, {})"},
-    lambda value: number(value, "INFINITY", "NAN"),
+    lambda value: number_text(value, "INFINITY", "NAN"),
     "const double {} = {};",
 )
 JAVASCRIPT = Dialect(
@@ -42,7 +42,7 @@ JAVASCRIPT = Dialect(
         "absolute": "Math.abs({})",
         "power": "Math.pow({}, {})",
     },
-    lambda value: number(value, "Infinity", "NaN"),
+    lambda value: number_text(value, "Infinity", "NaN"),
     "const {} = {};",
 )
 

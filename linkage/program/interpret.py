@@ -28,11 +28,11 @@ def interpret(
     with np.errstate(all="ignore"):
         for node in ancestors(outputs, known or {}):
             if node not in values:
-                values[node] = value_of(node, values, inputs, clipped=clipped)
+                values[node] = node_value(node, values, inputs, clipped=clipped)
     return [values[node.origin] for node in outputs]
 
 
-def value_of(node: Node, values: Mapping[Node, Numbers], inputs: Mapping[str, Numbers], *, clipped: bool) -> Numbers:
+def node_value(node: Node, values: Mapping[Node, Numbers], inputs: Mapping[str, Numbers], *, clipped: bool) -> Numbers:
     """Return the value of a node from those of its arguments; `clipped`: the root of a negative number is zero."""
     if node.op in ("constant", "input"):
         return inputs[node.value] if node.op == "input" else float(node.value)
@@ -118,7 +118,7 @@ def shaken(outputs: Sequence[Node], given: Mapping[str, Numbers]) -> list[Number
     changes = noise()
     with np.errstate(all="ignore"):
         for node in ancestors(outputs):
-            found = value_of(node, values, given, clipped=True)
+            found = node_value(node, values, given, clipped=True)
             if node.op == "arctan2":
                 y, x = (np.asarray(values[arg.origin]) for arg in node.args)
                 found = near_first(np.where((y == 0.0) & (x == 0.0), np.nan, found))

@@ -14,7 +14,7 @@ from ..errors import LinkageError
 from ..vectors import FloatArray, Numbers
 from .cache import CompiledFile, compiled_in_file, is_cached
 from .loop import numba_text
-from .numpy_backend import NumpyBlocks, as_floats, is_table, varies
+from .numpy_backend import NumpyBlocks, as_floats, has_many, is_table
 from .schedule import Schedule
 
 #: NaN stays NaN: a pose out of reach is told by it.
@@ -116,7 +116,7 @@ class NumbaLoop:
         """Return the design part as one array, shape (count, designs or 1); that of the last single design is kept."""
         key = as_floats(design)
         if key is None:
-            return constant_table(self.arrays.passed([value[part] if varies(value) else value for value in design]), part)
+            return constant_table(self.arrays.passed([value[part] if has_many(value) else value for value in design]), part)
         last, found = self._last
         if last != key or not found.size:
             found = constant_table(self.arrays.passed(key), part)
@@ -136,7 +136,7 @@ def seen(value: Numbers, part: slice, here: slice) -> Numbers:
     if is_table(value):
         table: FloatArray = value[part if len(value) > 1 else slice(None), here if value.shape[1] > 1 else slice(None)]
         return table
-    return value[here] if varies(value) else value
+    return value[here] if has_many(value) else value
 
 
 def memory(block: FloatArray) -> FloatArray:

@@ -83,7 +83,7 @@ class NumpyBlocks:
         """Fill values, shape (outputs, designs, poses), and the least value of each guard."""
         m, n = values.shape[1:]
         if m == 1 and n <= self.block and not any(map(is_table, poses)):
-            inputs = [np.ascontiguousarray(value, float) if varies(value) else in_block(value, 0) for value in poses]
+            inputs = [np.ascontiguousarray(value, float) if has_many(value) else in_block(value, 0) for value in poses]
             self._pose(self._constants(design), inputs, POOL.registers(self._code.registers, n), list(values[:, 0]), guards)
             return
         turned = self.turns(m, n)
@@ -97,7 +97,7 @@ class NumpyBlocks:
         for left in range(0, length, columns):
             part = slice(left, min(left + columns, length))
             if turned:
-                constants = [in_block(value, 1) for value in self.passed([value[part] if varies(value) else value for value in design])]
+                constants = [in_block(value, 1) for value in self.passed([value[part] if has_many(value) else value for value in design])]
             for top in range(0, rows, height):
                 band = slice(top, min(top + height, rows))
                 here = slice(0, part.stop - part.start) if turned else part
@@ -125,7 +125,7 @@ Windowed: TypeAlias = tuple[Sequence[FloatArray], slice, slice]
 """Values as they stand in a block, and the rows and columns of them that it sees."""
 
 
-def varies(value: Numbers) -> TypeGuard[FloatArray]:
+def has_many(value: Numbers) -> TypeGuard[FloatArray]:
     """Return whether an input is more than one number."""
     return type(value) is not float and np.size(value) != 1
 
@@ -144,12 +144,12 @@ def as_floats(values: Sequence[Numbers]) -> tuple[float, ...] | None:
     """Return inputs that are one number each; None where one of them is not."""
     if set(map(type, values)) <= {float}:
         return tuple(cast(Sequence[float], values))
-    return None if any(map(varies, values)) else tuple(float(np.ravel(value)[0]) for value in values)
+    return None if any(map(has_many, values)) else tuple(float(np.ravel(value)[0]) for value in values)
 
 
 def in_block(value: Numbers, axis: int) -> FloatArray:
     """Return a value as it stands in a block: a number without dimensions, or an array that varies along one axis or both."""
-    if not varies(value):
+    if not has_many(value):
         return np.array(value if type(value) is float else float(np.ravel(value)[0]))
     array = np.ascontiguousarray(value, float)
     return array if array.ndim == 2 else array[None, :] if axis == 1 else array[:, None]

@@ -67,7 +67,7 @@ class Traced(NDArrayOperatorsMixin):
         out = options.pop("out", None)
         if kind != "__call__" or options:
             raise valueless(f"np.{ufunc.__name__}.{kind} with {', '.join(options) or 'a number'}")
-        found = each_of(lambda *numbers: self._applied(ufunc, numbers), inputs)
+        found = elementwise(lambda *numbers: self._applied(ufunc, numbers), inputs)
         if out is None:
             return found
         out[0][...] = found
@@ -150,7 +150,7 @@ class Comparison:
         for truth in [self.truth] * self.thin + [-self.truth] * self.slit:
             self.notes.switches[truth] = self.notes.owner
         graph = self.truth.graph
-        return each_of(lambda a, b: Traced(graph.pick(0.0, self.truth, node_of(a), node_of(b)), self.notes), (x, y))
+        return elementwise(lambda a, b: Traced(graph.pick(0.0, self.truth, node_of(a), node_of(b)), self.notes), (x, y))
 
     def __array_function__(self, function: Any, types: Any, args: Any, options: Any) -> Any:
         known: dict[Any, Callable[..., Any]] = {np.any: Comparison.any, np.all: Comparison.all, np.where: Comparison.choose}
@@ -162,7 +162,7 @@ class Comparison:
         raise valueless("A comparison in an `if`, a loop, or Python's min and max")
 
 
-def each_of(rule: Callable[..., Any], inputs: tuple[Any, ...]) -> Any:
+def elementwise(rule: Callable[..., Any], inputs: tuple[Any, ...]) -> Any:
     """Return a rule's result for numbers, or number by number for arrays."""
     if not any(isinstance(each, np.ndarray) for each in inputs):
         return rule(*inputs)
@@ -234,7 +234,7 @@ RULES: Mapping[str, Callable[..., Any]] = MappingProxyType(
 #: Functions of NumPy that are more than one operation on each number.
 FUNCTIONS: Mapping[Any, Callable[..., Any]] = MappingProxyType(
     {
-        np.where: lambda chosen, x, y: each_of(lambda each, a, b: a if each else b, (chosen, x, y)),
+        np.where: lambda chosen, x, y: elementwise(lambda each, a, b: a if each else b, (chosen, x, y)),
         np.clip: lambda a, low, high: np.minimum(np.maximum(a, low), high),
         np.zeros_like: lambda a: 0.0,
         np.ones_like: lambda a: 1.0,

@@ -18,7 +18,7 @@ from ..quantities import Distance, Quantity, name_of
 from .acting import ActingLoad
 from .bodies import FRAME, Strut
 from .holding import areas
-from .joints import Contact, Structure, Wrench, direction_of, follows_points, wrenches
+from .joints import Contact, Structure, Wrench, follows_points, force_direction, wrenches
 from .poses import FlatPoses, cross
 
 
@@ -165,7 +165,7 @@ class System:
             drives = list(structure.drives(contact))
             for letter in dict.fromkeys(letter for _, letter, _ in drives if contact.is_curve and letter != "c"):
                 if self.follows_curve(contact, stroke):
-                    way = (direction_of(contact, letter, poses) * poses.rate(contact.point, stroke)).sum(axis=0)
+                    way = (force_direction(contact, letter, poses) * poses.rate(contact.point, stroke)).sum(axis=0)
                     yield way, self.unknown(contact, letter, 1.0)
             for quantity, letter, sign in drives:
                 if (letter == "c" or not contact.is_curve) and self.follows(quantity, stroke):

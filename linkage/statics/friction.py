@@ -22,7 +22,7 @@ from ..program import FloatArray
 from .acting import Movement
 from .bodies import FRAME
 from .equilibrium import UnitWrench
-from .joints import Contact, Structure, Wrench, direction_of
+from .joints import Contact, Structure, Wrench, force_direction
 from .poses import FlatPoses, cross, left
 
 STEPS = 16
@@ -204,7 +204,7 @@ def friction_in(contact: Contact, friction: Friction, speeds: Speeds) -> JointFr
         radius = poses.flat(friction.radius)
         wrench = Wrench(place, none, -sign * radius)
         return JointFriction(UnitWrench(contact, wrench), coefficient, radius * np.abs(rate), wrench.couple)
-    t = direction_of(contact, "t", poses)
+    t = force_direction(contact, "t", poses)
     point, by = speeds.point(contact.point), speeds.material(contact.by, place)
     if contact.has_slot:
         point, by = speeds.material(contact.on, place), point
@@ -219,7 +219,7 @@ def unit_friction(contact: Contact, poses: FlatPoses) -> UnitWrench:
     none = np.zeros((2, poses.count))
     if contact.kind == "pin":
         return UnitWrench(contact, Wrench(poses.at(contact.point), none, none[0] + 1.0))
-    return UnitWrench(contact, Wrench(poses.at(contact.point), direction_of(contact, "t", poses), none[0]))
+    return UnitWrench(contact, Wrench(poses.at(contact.point), force_direction(contact, "t", poses), none[0]))
 
 
 @final

@@ -19,7 +19,7 @@ from ..units import kN
 from .acting import ActingLoad, ActingLoads, Case, Loads, acting_loads, movement_of
 from .bodies import FRAME_NAME
 from .force_program import forces_at
-from .joints import Structure, direction_of
+from .joints import Structure, force_direction
 from .poses import FlatPoses
 from .solution import PoseForces, locked_words
 from .work import by_work, poses_held, work_gap
@@ -236,7 +236,7 @@ def lift_off_words(found: PoseForces) -> list[str]:
     for contact, (force, _) in zip(structure.contacts, found.contacts, strict=True):
         if contact.joint is None or not contact.joint.pushes:
             continue
-        push = (poses.flat(force) * direction_of(contact, "n", poses)).sum(axis=0)
+        push = (poses.flat(force) * force_direction(contact, "n", poses)).sum(axis=0)
         mask = poses.mask(push < 0.0)
         if mask.any():
             bodies = f"{structure.name(contact.on)} from {structure.name(contact.by)}"

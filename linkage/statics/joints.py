@@ -345,11 +345,11 @@ def wrenches(contact: Contact, poses: FlatPoses, scale: float) -> list[Wrench]:
     """Return the unit wrenches of a contact's unknowns; all unknowns are in N, a couple is `scale` [m] times its own."""
     none = np.zeros((2, poses.count))
     place = poses.at(contact.point)
-    forces = {letter: none if letter == "c" else direction_of(contact, letter, poses) for letter in contact.holds}
+    forces = {letter: none if letter == "c" else force_direction(contact, letter, poses) for letter in contact.holds}
     return [Wrench(place, force, none[0] + (scale if letter == "c" else 0.0)) for letter, force in forces.items()]
 
 
-def direction_of(contact: Contact, letter: str, poses: FlatPoses) -> FloatArray:
+def force_direction(contact: Contact, letter: str, poses: FlatPoses) -> FloatArray:
     """Return the direction of one of a contact's forces, x, y, n or t, of length one, shape (2, n)."""
     line = contact.joint.line if contact.joint is not None else None
     if letter in "xy" or line is None:

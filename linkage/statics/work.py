@@ -13,18 +13,7 @@ from ..motion import Motion, require_motion
 from ..motion.requests import stroke_of
 from ..program import FloatArray
 from ..quantities import is_number
-from .acting import (
-    ActingLoads,
-    Case,
-    Loads,
-    Movement,
-    acting_elements,
-    acting_loads,
-    member_title,
-    movement_of,
-    path_tangent,
-    sense_of,
-)
+from .acting import ActingLoads, Case, Loads, Movement, acting_elements, acting_loads, member_title, movement_of, path_tangent, sense_of
 from .force_program import forces_at
 from .holding import Levers, PressureLine, holders_of, same, stroke_followed, with_levers
 from .poses import FlatPoses

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from ..errors import DefinitionError
-from ..quantities import (  # fmt: skip
+from ..quantities import (
     FRAME_SIDE,
     Driven,
     Joint,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from linkage import (  # fmt: skip
+from linkage import (
     LEFT,
     RIGHT,
     CosineAngle,

@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
-from linkage import (  # fmt: skip
+from linkage import (
     LEFT,
     AssemblyError,
     Column,

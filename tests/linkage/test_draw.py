@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from matplotlib.figure import Figure
 from numpy.testing import assert_allclose
 
-from linkage import (  # fmt: skip
+from linkage import (
     LEFT,
     RIGHT,
     AssemblyError,

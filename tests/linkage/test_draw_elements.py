@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.testing import assert_allclose
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, LiftCircuit, isothermal
-from linkage import (  # fmt: skip
+from linkage import (
     RIGHT,
     Actuator,
     Between,

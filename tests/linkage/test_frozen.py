@@ -217,6 +217,6 @@ def test_a_mask_over_poses_stays_a_pose_that_is_not_there():
     assert np.isfinite(found[[0, 2]]).all() and np.isnan(found[1])
 
 
-def test_a_mask_that_hides_nothing_is_an_array():
+def test_a_mask_that_hides_nothing_has_many():
     plain = np.array([0.10, 0.11, 0.12])
     assert_array_equal(Hitch().at(S=np.ma.masked_array(plain))["G"], Hitch().at(S=plain)["G"])

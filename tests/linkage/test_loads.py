@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import (  # fmt: skip
+from linkage import (
     RIGHT,
     DefinitionError,
     Dimension,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from linkage.pictures import draw
-from linkage.pictures.film import value_text
+from linkage.pictures.film import column_text
 from linkage.pictures.poses import on_its_way
 from linkage.pictures.scene import Scene
 from linkage.pictures.shapes import segment
@@ -62,4 +62,4 @@ def test_an_animation_follows_what_changes():
     ],
 )
 def test_a_value_has_as_many_decimals_as_its_column_needs(values, texts):
-    assert [value_text(np.array(values), pose) for pose in range(len(values))] == texts
+    assert [column_text(np.array(values), pose) for pose in range(len(values))] == texts

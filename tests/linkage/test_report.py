@@ -11,7 +11,7 @@ from hypothesis.extra.numpy import arrays
 from rich.console import Console
 
 from linkage import Column, Crank, DefinitionError, Dimension, Dyad, Ground, Mechanism, Stroke, deg, kgf, kgf_cm2
-from linkage.reports import (  # fmt: skip
+from linkage.reports import (
     closely,
     design_rows,
     measure,

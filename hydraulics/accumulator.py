@@ -33,17 +33,17 @@ from .gas import Gas, Polytropic, isothermal
 from .inputs import (
     Array,
     above_vacuum,
-    absolute,
-    finite,
+    absolute_pressure,
+    all_finite,
     following,
     follows,
     in_pascals,
     is_traced,
     not_negative,
     one_number,
-    over_poses,
+    pose_values,
     positive,
-    setting,
+    setting_of_designs,
 )
 from .verdict import Verdict
 
@@ -74,7 +74,7 @@ class Accumulator:
             large = f"{np.max(volume):.6g}"
             raise DefinitionError(f"{VOLUME[0]} = {large} m3 is more than any has; write {large} * litre if these are litres.")
         if not follows(self.charge):
-            in_pascals(np.where(volume > 0.0, finite(self.charge, CHARGE), 0.0), CHARGE)
+            in_pascals(np.where(volume > 0.0, all_finite(self.charge, CHARGE), 0.0), CHARGE)
 
     def recharged(self, charge: Any) -> Accumulator:
         """Return the same vessel with another charge [Pa gauge], one that a gas law gives."""
@@ -210,7 +210,7 @@ class AccumulatorBlock:
         if not isinstance(self.gas, Gas):
             raise DefinitionError(f"gas = {cited(self.gas)} is no gas law; take isothermal, adiabatic, polytropic(1.2) or real_nitrogen().")
         unit_or_none(self.unit, "The accumulator block", PRESSURES)
-        if not follows(self.atmosphere) and np.any(single(self.atmosphere) < 0.0):
+        if not follows(self.atmosphere) and np.any(one_atmosphere(self.atmosphere) < 0.0):
             raise DefinitionError(f"Atmosphere = {self.atmosphere:.6g} Pa is below zero; give 101325, or 0 for the paper's way.")
         if not follows(self.atmosphere):
             in_pascals(self.atmosphere, "Atmosphere")
@@ -228,10 +228,12 @@ class AccumulatorBlock:
         if not self.following:
             return self
         filled = [
-            Accumulator(setting(motion, each.volume, "Accumulator volume"), setting(motion, each.charge, "Accumulator charge"))
+            Accumulator(
+                setting_of_designs(motion, each.volume, "Accumulator volume"), setting_of_designs(motion, each.charge, "Accumulator charge")
+            )
             for each in self.accumulators
         ]
-        atmosphere = single(setting(motion, self.atmosphere, "Atmosphere"))[()]
+        atmosphere = one_atmosphere(setting_of_designs(motion, self.atmosphere, "Atmosphere"))[()]
         return replace(self, accumulators=filled, atmosphere=atmosphere, unit=self.unit or self._followed_unit(motion))
 
     def _followed_unit(self, motion: Poses) -> str:
@@ -270,7 +272,7 @@ class AccumulatorBlock:
         With `at` this is what a trapped line does when it warms up: `block.at(T).pressure_holding(block.fluid(p1))`.
         DefinitionError for a negative volume, or one that leaves no gas.
         """
-        held = over_poses(fluid, "Fluid held")
+        held = pose_values(fluid, "Fluid held")
         if np.any(held < 0.0):
             raise DefinitionError(f"Fluid held = {np.nanmin(held) / cm3:.6g} cm3 is below zero; the block cannot hold less than none.")
         return self._pressure_in(self._gas_left(self._bank.total, held))
@@ -292,7 +294,7 @@ class AccumulatorBlock:
         An array `p1` gives one design per element. DefinitionError where the block is rigid or n is outside 1..10.
         """
         bank, pressure = self._bank, self._charged(p1)
-        n = self.gas.fast_exponent(pressure) if exponent is None else finite(exponent, "Exponent of the fast change")
+        n = self.gas.fast_exponent(pressure) if exponent is None else all_finite(exponent, "Exponent of the fast change")
         shares = zip(bank.charges, bank.shares(pressure), strict=True)
         cooled = [np.maximum(pressure, charge) * share**n for charge, share in shares]
         emptied = [one.recharged(charge - self.atmosphere) for one, charge in zip(self.accumulators, cooled, strict=True)]
@@ -345,7 +347,7 @@ class AccumulatorBlock:
         vessels = [not_negative(one.volume, "Accumulator volume") for one in self.accumulators]
         if np.any(reduce(np.add, vessels) <= 0.0):
             raise DefinitionError("Every accumulator of the block has the volume 0, it is absent; give one of them a volume above zero.")
-        given = [finite(one.charge, "Accumulator charge") + self.atmosphere for one in self.accumulators]
+        given = [all_finite(one.charge, "Accumulator charge") + self.atmosphere for one in self.accumulators]
         charges = tuple(above_vacuum(each, self.atmosphere, "Accumulator charge") for each in effective(given, vessels))
         return GasBank(self.gas, charges, tuple(vessels))
 
@@ -366,7 +368,7 @@ class AccumulatorBlock:
 
     def _absolute(self, pressure: ArrayLike) -> Array:
         self._check_sized()
-        return absolute(pressure, self.atmosphere, "Pressure")
+        return absolute_pressure(pressure, self.atmosphere, "Pressure")
 
     def _charged(self, p1: ArrayLike) -> Array:
         """Return `p1` as absolute pressure [Pa]; DefinitionError where the block is rigid."""
@@ -383,7 +385,7 @@ class AccumulatorBlock:
 
     def _gas_after(self, p1: ArrayLike, withdrawn: ArrayLike) -> Array:
         """Return the gas volume [m3] after a withdrawal; beyond the block's total where the line is empty."""
-        return self._gas_left(self._bank.volume(self._charged(p1)), -over_poses(withdrawn, "Withdrawn volume"))
+        return self._gas_left(self._bank.volume(self._charged(p1)), -pose_values(withdrawn, "Withdrawn volume"))
 
     def _gas_left(self, gas: Array, pushed: Array) -> Array:
         """Return the gas volume [m3] after fluid [m3] is pushed in; DefinitionError where it leaves no gas."""
@@ -410,11 +412,11 @@ def there(charge: Array, vessel: Array) -> Array:
     return charge[vessel > 0.0]
 
 
-def single(atmosphere: Any) -> Array:
+def one_atmosphere(atmosphere: Any) -> Array:
     """Return the atmosphere [Pa]; DefinitionError where a batch gives several."""
     if np.ndim(atmosphere):
         raise DefinitionError("atmosphere is one number for all designs of a batch; give a float.")
-    return finite(atmosphere, "Atmosphere")
+    return all_finite(atmosphere, "Atmosphere")
 
 
 # -- the rules an accumulator is chosen by, each with a verdict --------------------------------------------

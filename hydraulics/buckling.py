@@ -27,7 +27,7 @@ from linkage.frozen import refuses_changes
 from linkage.units import MPa, kN, mm
 
 from .cylinder import next_rod
-from .inputs import LONGEST, Array, in_metres, one_number, over_poses, positive
+from .inputs import LONGEST, Array, in_metres, one_number, pose_values, positive
 from .verdict import Verdict
 
 MOUNTINGS = MappingProxyType({"pin-pin": 1.0, "fixed-pin": 0.699156, "fixed-fixed": 0.5, "fixed-free": 2.0})
@@ -90,7 +90,7 @@ class Buckling:
 
         A thrust that pulls (negative) does not buckle. A failing verdict names the standard rod that would hold.
         """
-        push, long = np.broadcast_arrays(over_poses(thrust, "Thrust"), _length(length))
+        push, long = np.broadcast_arrays(pose_values(thrust, "Thrust"), _length(length))
         use = push / self.critical(long)
         if not np.any(use > 0.0):
             return self.judged(1.0, 0.0)
@@ -123,7 +123,7 @@ class Buckling:
 
 
 def _length(length: ArrayLike) -> Array:
-    long = over_poses(length, "Length between the ends")
+    long = pose_values(length, "Length between the ends")
     in_metres(long[~np.isnan(long)] if np.any(~np.isnan(long)) else 1.0, "Length between the ends", 2.0 * LONGEST)
     if not np.all(np.isnan(long)) or not long.size:
         positive(long[~np.isnan(long)], "Length between the ends")

@@ -27,7 +27,7 @@ from linkage.errors import DefinitionError, cited, known_name
 from linkage.frozen import keep_own, refuses_changes
 from linkage.units import kN, mm
 
-from .inputs import Array, in_metres, one_number, over_poses, positive
+from .inputs import Array, in_metres, one_number, pose_values, positive
 
 # Standard cylinder bores and piston rods.
 #
@@ -170,8 +170,8 @@ class CylinderSize:
         Seal friction may be taken off the pressure, so a negative one is not refused. NaN in an array stays NaN.
         DefinitionError for a lone NaN or an infinite pressure.
         """
-        forward = over_poses(pressure, "Cylinder pressure") * self.area
-        thrust: Array = self.sense * (forward - over_poses(back, "Back pressure") * self.back_area)
+        forward = pose_values(pressure, "Cylinder pressure") * self.area
+        thrust: Array = self.sense * (forward - pose_values(back, "Back pressure") * self.back_area)
         return thrust[()]
 
     def pressure_for(self, thrust: ArrayLike, back: ArrayLike = 0.0) -> Array:
@@ -180,7 +180,7 @@ class CylinderSize:
         Negative where the load drives the cylinder: this side is empty and the other one holds. Of both sides it is that in the
         piston side where it pushes, that in the rod side where it pulls. NaN and errors as `thrust`.
         """
-        force, against = over_poses(thrust, "Thrust"), over_poses(back, "Back pressure")
+        force, against = pose_values(thrust, "Thrust"), pose_values(back, "Back pressure")
         if self.works == "both":
             pushing: Array = (force + against * self.pull_area) / self.push_area
             return np.where(force < 0.0, (against * self.push_area - force) / self.pull_area, pushing)[()]
@@ -192,13 +192,13 @@ class CylinderSize:
 
         Of both sides a travel outwards (positive) fills the piston side, one inwards the rod side.
         """
-        way = over_poses(travel, "Travel")
+        way = pose_values(travel, "Travel")
         oil: Array = np.where(way < 0.0, -way * self.pull_area, way * self.push_area) if self.works == "both" else way * self.area
         return oil[()]
 
     def speed(self, flow: ArrayLike) -> Array:
         """Return the speed [m/s] in the working direction (of both sides: outwards) at a flow [m3/s] into all cylinders, same shape."""
-        speed: Array = over_poses(flow, "Flow") / self.area
+        speed: Array = pose_values(flow, "Flow") / self.area
         return speed[()]
 
     def next_size(self) -> CylinderSize:

@@ -26,7 +26,7 @@ from linkage.statics import Case, Loads, plan_of, stroke_followed
 from linkage.vectors import Scalar
 
 from .accumulator import AccumulatorBlock
-from .inputs import Array, finite, follows, in_pascals, is_traced, number_set
+from .inputs import Array, all_finite, follows, in_pascals, is_traced, number_set
 from .member import Circuit, Cylinder, the_cylinder
 
 Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
@@ -62,7 +62,7 @@ class FloatCircuit(Circuit):
         for name in ("charge_pressure", "seal_friction"):
             if not follows(getattr(self, name)):
                 in_pascals(getattr(self, name), name.replace("_", " ").capitalize())
-        if not follows(self.exponent) and np.any(finite(cast(ArrayLike, self.exponent), "Exponent") < 1.0):
+        if not follows(self.exponent) and np.any(all_finite(cast(ArrayLike, self.exponent), "Exponent") < 1.0):
             raise DefinitionError(f"FloatCircuit: exponent={cited(self.exponent)} is below 1; 1 is a slow movement, 1.4 a fast one.")
         if not isinstance(self.block, AccumulatorBlock) and (not callable(self.block) or isinstance(self.block, type)):
             said = f"block={cited(self.block)} is no AccumulatorBlock"
@@ -112,7 +112,7 @@ class FloatCircuit(Circuit):
 
     def pressure(self, motion: Poses) -> Array:
         """Return the block's pressure [Pa gauge], shape (...); 0 where the line is empty."""
-        charge = in_pascals(finite(self.number(motion, "charge_pressure"), "Charge pressure"), "Charge pressure")
+        charge = in_pascals(all_finite(self.number(motion, "charge_pressure"), "Charge pressure"), "Charge pressure")
         left = self.withdrawn(motion)
         block, exponent = self.accumulators(motion), number_set(self, motion, "exponent")
         if not is_traced(exponent) and np.all(exponent == 1.0):
@@ -129,7 +129,7 @@ class FloatCircuit(Circuit):
         free = size.thrust(self.pressure(motion))
         if not rates:
             return np.asarray(free)
-        friction = finite(self.number(motion, "seal_friction"), "Seal friction") * size.area
+        friction = all_finite(self.number(motion, "seal_friction"), "Seal friction") * size.area
         return np.asarray(free - np.sign(ram.growth(motion, rates)) * friction)
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:

@@ -20,7 +20,7 @@ from linkage.errors import DefinitionError
 from linkage.frozen import refuses_changes
 from linkage.quantities.quantity import plain
 
-from .inputs import Array, finite, kelvin, positive
+from .inputs import Array, all_finite, kelvin, positive
 
 ROOM = 293.15
 """The temperature at which charges are stated unless a gas says otherwise, K."""
@@ -97,7 +97,7 @@ class Polytropic(Gas):
     temperature: float = ROOM
 
     def __post_init__(self) -> None:
-        n = finite(self.n, "Polytropic exponent")
+        n = all_finite(self.n, "Polytropic exponent")
         outside = (n < 1.0) | (n > 10.0)
         if np.any(outside):
             raise DefinitionError(f"Polytropic exponent n = {n[outside][0]:.6g} is outside 1..10; 1 is isothermal, 1.4 adiabatic.")

@@ -34,7 +34,7 @@ STRONGEST = 1.0
 """m3/s; a larger flow was given in litres a minute."""
 
 
-def finite(value: ArrayLike, what: str) -> Array:
+def all_finite(value: ArrayLike, what: str) -> Array:
     """Return the value as floats, its shape kept; DefinitionError if it is text, NaN or infinite."""
     array = _floats(value, what)
     if not is_traced(array) and not array.size:
@@ -46,7 +46,7 @@ def finite(value: ArrayLike, what: str) -> Array:
 
 def one_number(value: ArrayLike, what: str) -> float:
     """Return one finite number; DefinitionError for several, and for what is none."""
-    array = finite(value, what)
+    array = all_finite(value, what)
     if array.ndim:
         raise DefinitionError(f"{what} = {cited(value)}: one number is expected, in SI units.")
     return float(array)
@@ -56,7 +56,7 @@ def positive(value: float | ArrayLike, what: str, remedy: str = "give a positive
     """Return the value as floats, its shape kept; DefinitionError unless every one is finite and above zero."""
     if isinstance(value, float) and 0.0 < value < np.inf:
         return np.asarray(value)
-    array = finite(value, what)
+    array = all_finite(value, what)
     if np.any(array <= 0.0):
         raise DefinitionError(f"{what} = {np.min(array):.6g} is not above zero; {remedy}.")
     return array
@@ -64,7 +64,7 @@ def positive(value: float | ArrayLike, what: str, remedy: str = "give a positive
 
 def not_negative(value: ArrayLike, what: str, remedy: str = "give zero or more") -> Array:
     """Return the value as floats, its shape kept; DefinitionError unless every one is finite and not below zero."""
-    array = finite(value, what)
+    array = all_finite(value, what)
     if np.any(array < 0.0):
         raise DefinitionError(f"{what} = {np.min(array):.6g} is below zero; {remedy}.")
     return array
@@ -72,7 +72,7 @@ def not_negative(value: ArrayLike, what: str, remedy: str = "give zero or more")
 
 def in_metres(value: ArrayLike, what: str, most: float = WIDEST) -> Array:
     """Return a length [m], its shape kept; DefinitionError where it is above `most`, so that millimetres were meant."""
-    array = finite(value, what)
+    array = all_finite(value, what)
     if np.any(array > most):
         large = float(np.max(array))
         raise DefinitionError(f"{what} = {large:.6g} m is more than any cylinder has; write {large:.6g} * mm if these are millimetres.")
@@ -86,7 +86,7 @@ def stroke_in_metres(value: ArrayLike, what: str, bore: ArrayLike | None = None)
 
 def in_pascals(value: ArrayLike, what: str) -> Array:
     """Return a pressure [Pa], its shape kept; DefinitionError where it is next to nothing and not none, so that bar were meant."""
-    array = finite(value, what)
+    array = all_finite(value, what)
     size = np.abs(array)
     faint = (size > 0.0) & (size < FAINTEST)
     if np.any(faint):
@@ -97,20 +97,20 @@ def in_pascals(value: ArrayLike, what: str) -> Array:
 
 def in_cubic_metres(value: ArrayLike, what: str) -> Array:
     """Return a flow [m3/s], its shape kept; DefinitionError where no pump gives so much, so that litres a minute were meant."""
-    array = finite(value, what)
+    array = all_finite(value, what)
     if np.any(array > STRONGEST):
         large = f"{np.max(array):.6g}"
         raise DefinitionError(f"{what} = {large} m3/s is more than any pump gives; write {large} * litre / minute if it is in l/min.")
     return array
 
 
-def over_poses(value: ArrayLike, what: str) -> Array:
+def pose_values(value: ArrayLike, what: str) -> Array:
     """Return a value over poses as floats: NaN stays where an array marks an unreached pose, else DefinitionError."""
     array = _floats(value, what)
     if is_traced(array):
         return array
     if array.ndim == 0 or np.any(np.isinf(array)):
-        return finite(value, what)
+        return all_finite(value, what)
     return array
 
 
@@ -122,9 +122,9 @@ def efficient(value: ArrayLike, what: str) -> Array:
     return array
 
 
-def absolute(gauge: ArrayLike, atmosphere: float, what: str) -> Array:
+def absolute_pressure(gauge: ArrayLike, atmosphere: float, what: str) -> Array:
     """Return gauge + atmosphere [Pa]; DefinitionError where that would be below zero."""
-    return above_vacuum(finite(gauge, what) + atmosphere, atmosphere, what)
+    return above_vacuum(all_finite(gauge, what) + atmosphere, atmosphere, what)
 
 
 def above_vacuum(pressure: Array, atmosphere: float, what: str) -> Array:
@@ -137,7 +137,7 @@ def above_vacuum(pressure: Array, atmosphere: float, what: str) -> Array:
 
 def kelvin(value: ArrayLike, what: str, low: float = 200.0, high: float = 400.0) -> Array:
     """Return a gas temperature [K]; DefinitionError outside low..high, where degrees Celsius were meant or the law ends."""
-    array = finite(value, what)
+    array = all_finite(value, what)
     outside = (array < low) | (array > high)
     if np.any(outside):
         raise DefinitionError(f"{what} = {array[outside][0]:.6g} K is outside {low:g}..{high:g} K; give kelvin: 20 deg C is 293.15.")
@@ -174,7 +174,7 @@ def following(*values: Any) -> tuple[Quantity, ...]:
     return tuple(quantity(value) for value in values if follows(value))
 
 
-def setting(motion: Poses, given: Any, what: str) -> Any:
+def setting_of_designs(motion: Poses, given: Any, what: str) -> Any:
     """Return a setting as a motion's designs have it [SI], shaped to broadcast against the motion.
 
     DefinitionError for one that follows a stroke.
@@ -189,4 +189,6 @@ def setting(motion: Poses, given: Any, what: str) -> Any:
 def number_set(element: ForceElement, motion: Poses, name: str) -> Array:
     """Return a parameter of a force element as a motion's designs have it [SI], shaped to broadcast against the motion."""
     given = getattr(element, name)
-    return finite(setting(motion, given, name.capitalize()), name.capitalize()) if follows(given) else element.number(motion, name)
+    if not follows(given):
+        return element.number(motion, name)
+    return all_finite(setting_of_designs(motion, given, name.capitalize()), name.capitalize())

@@ -43,11 +43,11 @@ def lift_verdicts(
     cylinders = [LiftingCylinder(circuit, ram, motion, loads, case, unit) for ram in circuit.rams(motion)]
     nothing = idle(cylinders)
     if nothing is not None:
-        return [nothing, filling(circuit, motion)]
+        return [nothing, oil_verdict(circuit, motion)]
     several = len(cylinders) > 1
     return [
         *(with_name(each.lifting(), each.ram, several) for each in cylinders),
-        filling(circuit, motion),
+        oil_verdict(circuit, motion),
         *(with_name(each.holding(), each.ram, several) for each in cylinders),
         *(with_name(each.lowering(resistance), each.ram, several) for each in cylinders),
     ]
@@ -269,7 +269,7 @@ class LiftingCylinder:
         return Verdict("lowering", False, f"it does not sink by itself {where} {against}: the other side must push with up to {push}.")
 
 
-def filling(circuit: LiftCircuit, motion: Motion) -> Verdict:
+def oil_verdict(circuit: LiftCircuit, motion: Motion) -> Verdict:
     """Return how much oil the motion takes, and how long the pump's flow needs for it."""
     oil, back = float(circuit.oil(motion)), oil_back(circuit, motion)
     says = f"{oil / litre:.2f} l from end to end{f' outwards, {back / litre:.2f} l inwards' if back else ''}"

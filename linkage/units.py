@@ -78,7 +78,7 @@ def parse(text: str, kind: str = "") -> float:
         raise DefinitionError(f"{text!r} is not a value; write a number and a unit, such as 180mm or -75deg.")
     number, unit = match.groups()
     if unit is None:
-        return finite(float(number), text)
+        return finite_value(float(number), text)
     if unit not in UNITS:
         raise unknown("Unit", unit, UNITS, where=repr(text))
     factor, measured = UNITS[unit]
@@ -86,10 +86,10 @@ def parse(text: str, kind: str = "") -> float:
         valid = ", ".join(name for name, (_, what) in UNITS.items() if what == kind)
         article = "an" if measured[0] in "aeiou" else "a"
         raise DefinitionError(f"{text!r} is {article} {measured} where a value of kind {kind} is wanted; use one of: {valid}.")
-    return finite(float(number) * factor, text)
+    return finite_value(float(number) * factor, text)
 
 
-def finite(value: float, text: str) -> float:
+def finite_value(value: float, text: str) -> float:
     """Return the value; raise DefinitionError if it overflowed or is not a number."""
     if not math.isfinite(value):
         raise DefinitionError(f"{text!r} is not a finite number.")

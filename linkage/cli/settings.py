@@ -17,10 +17,10 @@ from ..units import parse
 
 def design(machine: type[Mechanism], texts: Sequence[str]) -> Mechanism:
     """Return a design of a machine under settings such as `OB=180mm`; DefinitionError for what is unknown or unfit."""
-    return machine(**dict(setting(machine.plan, text) for text in texts))
+    return machine(**dict(parsed_setting(machine.plan, text) for text in texts))
 
 
-def setting(plan: Plan, text: str) -> tuple[str, Any]:
+def parsed_setting(plan: Plan, text: str) -> tuple[str, Any]:
     """Return a setting as a name and its SI value; a point's value is a pair."""
     name, value = pair(text, "--set", "OB=180mm")
     if name in plan.table.spellings:

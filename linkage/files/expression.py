@@ -112,7 +112,7 @@ def finite_number(value: Any, text: str) -> Number:
     return Number(float(value))
 
 
-def absolute(argument: Arrow | str | Quantity) -> Quantity:
+def length_or_size(argument: Arrow | str | Quantity) -> Quantity:
     """Return the length of a vector or of the one with that name, the absolute value of a quantity."""
     return applied("absolute")(argument) if isinstance(argument, Quantity) else Length(argument)
 
@@ -122,7 +122,8 @@ ONE, TWO = ("quantity",), ("quantity", "quantity")
 
 CALLS: Mapping[str, Call] = MappingProxyType(
     {"angle": Call(PAIR, angle), "distance": Call(PAIR, distance), "x": Call(("point",), x), "y": Call(("point",), y)}
-    | {"CosineAngle": Call(("quantity",) * 3, CosineAngle), "abs": Call(("any",), absolute), "absolute": Call(("any",), absolute)}
+    | {"CosineAngle": Call(("quantity",) * 3, CosineAngle)}
+    | dict.fromkeys(("abs", "absolute"), Call(("any",), length_or_size))
     | {"Vector": Call(PAIR, Vector), "Turn": Call(("vector", "quantity"), Turn, ("length",))}
     | {name: Call(ONE, applied(name)) for name in ("sqrt", "sin", "cos", "tan", "exp", "log")}
     | {name: Call(TWO, applied(name)) for name in ("arctan2", "minimum", "maximum")}

@@ -373,14 +373,14 @@ class PoseFunction:
         values = [*strokes, *(named[name] for name in names[len(strokes) :])]
         if len(values) != len(names):
             raise DefinitionError(f"{plan.title}: one value for each stroke is expected: {', '.join(names)}.")
-        grid = Grid(plan, self._designs, {name: single(value, name, plan.title) for name, value in zip(names, values, strict=True)})
+        grid = Grid(plan, self._designs, {name: one_value(value, name, plan.title) for name, value in zip(names, values, strict=True)})
         return tuple(float(part) for found in Evaluation(grid, self._bound, QUICKEST).run(None) for part in np.ravel(found))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return PoseFunction, (self._plan, self._designs, self._requests)
 
 
-def single(value: Any, name: str, title: str) -> FloatArray:
+def one_value(value: Any, name: str, title: str) -> FloatArray:
     """Return a stroke's one value, shape (); DefinitionError for several, and for what is no finite number."""
     try:
         found = real(value)

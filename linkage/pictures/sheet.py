@@ -21,7 +21,7 @@ from .scene import Bounds
 
 def sheet(ax: Axes, box: Bounds) -> None:
     """Set up axes for a mechanism within a box [m]; they show more of the plane where their shape is another."""
-    left, right, bottom, top = filling(ax, box)
+    left, right, bottom, top = fitted_to(ax, box)
     in_metres = max(right - left, top - bottom) > 1.0
     ax.set(xlim=(left, right), ylim=(bottom, top))
     ax.set_aspect("equal", adjustable="box")
@@ -53,7 +53,7 @@ def millimetres(value: float, _: int | None = None) -> str:
     return f"{value * 1e3:.6g}".replace("-", "\N{MINUS SIGN}")
 
 
-def filling(ax: Axes, box: Bounds) -> Bounds:
+def fitted_to(ax: Axes, box: Bounds) -> Bounds:
     """Return a box [m] made wider or higher until it has the shape of the axes."""
     figure = ax.figure.figure  # of axes in a subfigure, too
     assert figure is not None

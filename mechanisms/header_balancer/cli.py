@@ -8,7 +8,7 @@ from pathlib import Path
 from linkage import DefinitionError, Motion
 from linkage.cli.command import Command, figure_path, machine_arguments, picture_argument, pose_count
 from linkage.cli.machines import find_like
-from linkage.cli.settings import setting
+from linkage.cli.settings import parsed_setting
 from linkage.cli.table import csv_argument, write_table
 from linkage.plan import Plan
 from linkage.units import kgf, parse, show
@@ -101,7 +101,7 @@ def header_of(options: Namespace) -> HeaderBalancer:
 
 def changes(plan: Plan, options: Namespace) -> dict[str, float]:
     """Return what `--set` changes."""
-    return dict(setting(plan, text) for text in options.settings)
+    return dict(parsed_setting(plan, text) for text in options.settings)
 
 
 def value(text: str, kind: str, option: str) -> float:

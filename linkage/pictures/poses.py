@@ -61,9 +61,12 @@ def draw_pose(motion: Motion, pose: int | tuple[int, ...] = 0, *, ax: Axes | Non
     """Return a motion drawn at a pose: as a figure of its own, or as what can be updated on the axes `ax`."""
     if ax is not None:
         return mechanism(ax, motion, pose, faint=faint)
-    figure, own = empty_page(Scene(motion).box())
+    scene = Scene(motion)
+    figure, own = empty_page(scene.box())
     mechanism(own, motion, pose, faint=faint)
-    title(figure, motion.plan.heading)
+    index = scene.index(pose)
+    where = [stroke_words(motion.plan, name, float(values.ravel()[index])) for name, values in motion.strokes.items()]
+    title(figure, motion.plan.heading, ", ".join(where))
     return figure
 
 

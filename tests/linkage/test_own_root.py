@@ -93,6 +93,11 @@ def test_a_rule_that_compares_is_refused_in_words(rule):
         Other().at(phi=0.1)
 
 
+def test_a_motion_drawn_at_a_pose_says_which():
+    figure = draw(Flap().at(phi=[0.1, -0.2]), pose=1)
+    assert any("phi = \N{MINUS SIGN}11.46°" in text.get_text() for text in figure.texts)
+
+
 @pytest.mark.parametrize("given", [{"path": ["B"]}, {"at": [0.1]}, {"count": 5}])
 def test_what_only_a_machine_is_drawn_with_is_refused_with_a_motion(given):
     with pytest.raises(DefinitionError, match=r"Flap: a motion is drawn at one of its poses, pose=; at=, path= and count="):

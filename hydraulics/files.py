@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import singledispatch
-from typing import Any
+from typing import Any, final
 
 from linkage.errors import DefinitionError, cited, unknown
 from linkage.quantities import is_number
@@ -71,6 +71,7 @@ def gas_number(value: Any) -> Any:
     return plain(value)
 
 
+@final
 class GasLaw:
     """What stands in the place of a gas law: how it is read from a file, and written into one."""
 

@@ -9,7 +9,7 @@ from copy import copy
 from functools import wraps
 from inspect import isfunction
 from types import MethodType
-from typing import Any, ClassVar, NoReturn, Self, TypeVar, cast
+from typing import Any, ClassVar, NoReturn, Self, TypeVar, cast, final
 
 import numpy as np
 import numpy.typing as npt
@@ -33,6 +33,7 @@ def of_a_design(method: Method) -> Method:
     return cast(Method, OfADesign(method))
 
 
+@final
 class OfADesign:
     """A method that is bound to a design as any other; on the class it takes a design as its first argument, or refuses in words."""
 
@@ -70,6 +71,7 @@ def of_own_motion(method: Callable[[Mechanism, Motion], Answer]) -> Callable[[Me
     return checked
 
 
+@final
 class MechanismType(ABCMeta):
     """The class of the classes of mechanism: what a class is made of does not change once it is made."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +22,7 @@ def pick(a: Scalar, b: Scalar, x: Scalar, y: Scalar) -> Scalar:
     return np.where(a <= b, x, y)
 
 
+@final
 class Side(IntEnum):
     """The assembly mode of a point: LEFT or RIGHT of its first parent -> second parent."""
 
@@ -43,6 +44,7 @@ LEFT = Side.LEFT
 RIGHT = Side.RIGHT
 
 
+@final
 @dataclass(frozen=True, slots=True, eq=False)
 class Vec:
     """A vector or a position in the plane [m]; the components are scalars of one reading."""
@@ -87,6 +89,7 @@ class Vec:
         return np.sqrt(self.square())
 
 
+@final
 @dataclass(frozen=True, slots=True, eq=False)
 class Line:
     """A straight line: an origin [m] and a direction of length one."""

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass
 from itertools import combinations
+from typing import final
 
 import numpy as np
 
@@ -50,6 +51,7 @@ def parts_of(member: Member) -> list[tuple[Reference, str]]:
 
 # What no dyad pattern places: the smallest sets of pins whose equations determine them together.
 
+@final
 @dataclass(frozen=True)
 class PinEquation:
     """An equation of the parts list: the loose pins it holds, and what it stands for."""
@@ -231,6 +233,7 @@ def sketched(member: Member) -> bool:
     return isinstance(member, Step) and (member.near is not None or member.drawn_at is not None)
 
 
+@final
 class Assembler:
     """Settles one member after another, numerically at the sketch where positions choose."""
 

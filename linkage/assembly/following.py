@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import pi
 from types import MappingProxyType
-from typing import Any, Self
+from typing import Any, Self, final
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -117,6 +117,7 @@ def piece_length(plan: Plan, name: str) -> float:
     return min(abs(stroke.end - stroke.start), 2.0 * pi) / PIECES
 
 
+@final
 @dataclass(frozen=True)
 class StrokeLines:
     """Lines in stroke space, each with its design, its first strokes, the strokes per unit of place, and its whole length.
@@ -194,6 +195,7 @@ class StrokeLines:
         return AnglePath.of(done, points.taken(points.place == 0.0), begin)
 
 
+@final
 @dataclass(frozen=True)
 class Points:
     """Places on ways with a vector there, shape (2, k), and its derivative by the place."""
@@ -223,6 +225,7 @@ def fits(left: Points, right: Points) -> Mask:
         return np.asarray((np.hypot(*change) <= 0.5 * size) & (size > 0.0) & ((off <= 0.25 * size) | (width <= SHORT)))
 
 
+@final
 @dataclass(frozen=True)
 class AnglePath:
     """An angle along ways: pieces in order, with the angle at their start [rad], NaN behind where it is lost, and its change over each."""
@@ -274,6 +277,7 @@ class AnglePath:
         return np.asarray(self.angle[index] + np.where(share > 0.0, share * self.change[index], 0.0))
 
 
+@final
 @dataclass(frozen=True)
 class Vectors:
     """The vector whose direction is followed, anywhere on ways; `known` are the angles that it may hang on."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +25,7 @@ LINE = 1.0 / 8
 """The largest step of a straight way from the sketch to a pose of several strokes, or from the class's design to another."""
 
 
+@final
 @dataclass(frozen=True)
 class GroupSolution:
     """The inputs that groups' solutions supply, shape (designs, poses), and the group whose branches cross on the way, counted from 1."""
@@ -57,6 +58,7 @@ def solve_groups(plan: Plan, designs: Mapping[str, Any], strokes: Mapping[str, F
     return GroupSolution(inputs, np.broadcast_to(crossed.reshape(shape), shape), stops)
 
 
+@final
 @dataclass
 class Known:
     """What is known of some designs: their groups' pins at the sketch, and the tracks along a stroke, by its name and sense."""
@@ -120,6 +122,7 @@ def group_paths(
 # -- the ways -------------------------------------------------------------------------------------------------
 
 
+@final
 class DesignRoute(InputRoute):
     """From the class's design at place 0 to others at place 1, at the sketch."""
 
@@ -133,6 +136,7 @@ class DesignRoute(InputRoute):
         return {name: (value, 0.0) for name, value in self.fixed.items()} | moved
 
 
+@final
 class StrokeRoute(InputRoute):
     """Along one stroke, a lane for every design: upwards from the sketch, or downwards."""
 
@@ -152,6 +156,7 @@ class StrokeRoute(InputRoute):
         return of_designs(self.designs, lane) | {self.name: (self.sketch, self.sense)}
 
 
+@final
 class LineRoute(InputRoute):
     """To poses of several strokes, each along its own straight line from the sketch: a lane for every design and pose."""
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
@@ -60,6 +60,7 @@ def row_names(letter: str, count: int) -> list[str]:
     return [f"{letter}{k}" for k in range(count)]
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Memory:
     """The rows of the lanes' memory by name, and a node for each."""
@@ -86,6 +87,7 @@ class Memory:
         return lane_loop(rows, [(self.places[name], node) for name, node in zip(results, nodes, strict=True)], width, dialect)
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Program:
     """The loops of a group's continuation: the rows they read and write, and what each row becomes."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from ..vectors import Side
 MOST = 16
 
 
+@final
 @dataclass(frozen=True)
 class Assembly:
     """One way to put the dyads together: the side of each, and where the points are then [m]."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 import numpy.typing as npt
@@ -40,6 +40,7 @@ THRESHOLD = 0.25
 """At the sketch a pivot is at least so large beside the entries it clears away."""
 
 
+@final
 class Newton:
     """The equations of one group of a plan in its pins' coordinates; groups before it are inputs.
 
@@ -181,6 +182,7 @@ def nearness(rows: FloatArray) -> FloatArray:
 # The equations of a group as programs: as the constraints state them, and solved by elimination written out for its own structure.
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class GroupEquations:
     """The residuals of a group, the roots they determine, and the Jacobian by rows; groups before it are held."""
@@ -211,6 +213,7 @@ class GroupEquations:
         return rows
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Programs:
     """Newton's step and the clearance of a group, from its pins and what is known before: inputs `@k0`, `@k1`, ...
@@ -308,6 +311,7 @@ def group_size(equations: GroupEquations, rods: int) -> Node:
     return largest_of(lengths) ** 0.5
 
 
+@final
 class Elimination:
     """The elimination of a group's Jacobian as operations on nodes, its pivots chosen at the sketch: few operations, none too small."""
 

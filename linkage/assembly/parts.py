@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import permutations
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from ..steps import Dyad, Guide, GuideCross, Link, OnLink, Pin, PinSlotDyad, Sli
 
 # The shape of a link: the distances and angles of its points, from its labels or a drawing.
 
+@final
 class Shape:
     """What is known of a link's shape. Lengths in m, angles in rad."""
 
@@ -94,6 +95,7 @@ def labelled(*labels: tuple[str, Quantity]) -> dict[str, Any]:
     return dict(labels)
 
 
+@final
 @dataclass
 class Parts:
     """What is placed so far, and the pins, links and slides that are still to be used."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 import numpy.typing as npt
@@ -37,6 +37,7 @@ class InputRoute(ABC):
         return {name: start if np.ndim(slope) == 0 and slope == 0.0 else start + place * slope for name, (start, slope) in lines}
 
 
+@final
 @dataclass(frozen=True)
 class Lanes:
     """Where ways begin and how far they are to go, arrays (lanes,): u (coordinates, lanes) [m]."""
@@ -56,6 +57,7 @@ class Lanes:
         return np.array([self.goal, self.goal if self.exact else np.full(len(self.goal), np.inf), self.largest])
 
 
+@final
 class GroupPath:
     """One group's way along each lane of a route: the places it was solved at, and the solution at any place between."""
 

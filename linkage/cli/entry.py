@@ -8,7 +8,7 @@ import warnings
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Sequence
 from importlib.metadata import EntryPoint, PackageNotFoundError, entry_points, version
-from typing import Any, NoReturn
+from typing import Any, NoReturn, final
 
 from ..errors import DefinitionError, FileError, LinkageError, SingularWarning, unknown
 from .command import Command
@@ -69,6 +69,7 @@ PROGRAM = "hydrolinkage"
 BAD_INPUT, INTERRUPTED, PIPE_CLOSED = 2, 130, 141
 
 
+@final
 class OneLineParser(ArgumentParser):
     """A parser that reports a mistake in one line."""
 

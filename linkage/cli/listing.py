@@ -12,7 +12,7 @@ from importlib.metadata import EntryPoint, entry_points
 from importlib.util import find_spec, resolve_name
 from inspect import cleandoc
 from pathlib import Path
-from typing import Any
+from typing import Any, final
 
 from ..errors import DefinitionError, LinkageError
 from .command import Command, lined_up
@@ -26,6 +26,7 @@ def registered() -> dict[str, EntryPoint]:
     return {entry.name: entry for entry in sorted(entry_points(group=GROUP), key=lambda entry: entry.name)}
 
 
+@final
 class ListCommand(Command):
     """Prints every installed machine with its first line."""
 

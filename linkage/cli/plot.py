@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
-from typing import Any
+from typing import Any, final
 
 from ..mechanism import Mechanism
 from .command import Command, machine_arguments, motion_arguments, path_argument, picture, picture_argument, pose_count, progress_bar
@@ -11,6 +11,7 @@ from .machines import find
 from .settings import columns_picked, design, motion_along, motion_at, stroke_values, traced_points
 
 
+@final
 class PlotCommand(Command):
     """Draws a picture into a file."""
 
@@ -62,6 +63,7 @@ def poses(machine: Mechanism, options: Namespace) -> Any:
 SUFFIXES = (".gif", ".mp4", ".html")
 
 
+@final
 class AnimateCommand(Command):
     """Writes an animation into a file."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Iterator
 from inspect import cleandoc
-from typing import Any
+from typing import Any, final
 
 from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
@@ -20,6 +20,7 @@ POSES = {0: 1, 1: 101, 2: 21}
 MANY = 7  # poses of each of three or more strokes
 
 
+@final
 class ShowCommand(Command):
     """Prints a machine in sections."""
 
@@ -84,6 +85,7 @@ def print_section(title: str, lines: Iterable[str]) -> None:
 
 # `hydrolinkage save NAME FILE`: a machine as a mechanism file, and what such a file does not hold.
 
+@final
 class SaveCommand(Command):
     """Writes a machine into a file."""
 

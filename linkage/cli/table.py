@@ -7,7 +7,7 @@ import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
 from shutil import get_terminal_size
-from typing import TextIO
+from typing import TextIO, final
 
 from ..disk import replacing_text
 from ..motion import Column
@@ -19,6 +19,7 @@ from .settings import columns_picked, design, motion_at
 RICH_ROWS = 500  # a longer table is printed plain, which takes no time
 
 
+@final
 class TableCommand(Command):
     """Prints or writes the table of results."""
 

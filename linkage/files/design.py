@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from copy import copy
 from itertools import permutations
 from math import isfinite
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from .expression import arrow, expression
 from .names import Names
 
 
+@final
 class Design:
     """The values that a mechanism's members have, as a file holds them: numbers, and expressions as text."""
 

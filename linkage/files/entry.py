@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from inspect import Parameter, signature
-from typing import Any
+from typing import Any, final
 
 from ..errors import DefinitionError, told
 from ..loads import ForceElement
@@ -43,6 +43,7 @@ EXAMPLES = {"point": ("A", "O"), "guide": ("rail", "post"), "vector": ("AB",), "
 # -- the arguments of a class ------------------------------------------------------------------------------
 
 
+@final
 @dataclass(frozen=True)
 class Argument:
     """An argument of a class, its key in a file, and its default, Parameter.empty where it must be given.
@@ -173,6 +174,7 @@ def written_table(member: Any, design: Design, arguments: Iterable[Argument], ow
     return found | inner
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Within(Kind):
     """The kind of an argument that is a value of a class: the arguments of that class stand among those of the member."""
@@ -228,6 +230,7 @@ def worded(cls: type[Any]) -> bool:
     return issubclass(cls, (Point, ForceElement))
 
 
+@final
 class FileEntry:
     """How the members of a class stand in a file: the table of their section, and the `word` that tells them apart there, if any.
 

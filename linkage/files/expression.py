@@ -15,7 +15,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
@@ -40,6 +40,7 @@ _TOKEN = re.compile(
 )
 
 
+@final
 @dataclass(frozen=True, slots=True)
 class Token:
     """A word of an expression: its kind (`number`, `name`, `sign`, `end`), its text, and a number's value [SI] and unit."""
@@ -78,6 +79,7 @@ def one_unit(text: str) -> str:
 # -- what an expression may call, and nothing else ----------------------------------------------------------
 
 
+@final
 @dataclass(frozen=True)
 class Call:
     """A function of the class form: the kinds of its arguments, and what it makes of them."""
@@ -153,6 +155,7 @@ def arrow(text: str, names: Names) -> Arrow | str:
     return found
 
 
+@final
 class Parser:
     """Reads one expression from left to right."""
 

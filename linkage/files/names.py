@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from keyword import iskeyword
+from typing import final
 from unicodedata import normalize
 
 from ..errors import DefinitionError, unknown
@@ -13,6 +14,7 @@ from ..quantities import Member, Quantity, Ref
 NAME_LENGTH = 60
 
 
+@final
 @dataclass(frozen=True)
 class Names:
     """The members of a file by name: the section each stands in, and its kind (`point`, `quantity`, `guide`, ...)."""

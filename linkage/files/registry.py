@@ -14,7 +14,7 @@ from importlib import import_module
 from importlib.metadata import entry_points
 from math import isfinite
 from types import ModuleType
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, final
 
 from .. import loads, steps
 from ..errors import DefinitionError, unknown
@@ -43,6 +43,7 @@ LONGER = 4  # characters that a dimension may be longer in its unit than in SI
 # -- entries that are no tables ----------------------------------------------------------------------------
 
 
+@final
 @dataclass(frozen=True)
 class Bare:
     """How the members of a class stand in a file without keys, such as `A = [0.2, 0.55]`; the only class of its section."""
@@ -158,6 +159,7 @@ OWN: tuple[AnEntry, ...] = (
 # -- all that there are ------------------------------------------------------------------------------------
 
 
+@final
 @dataclass(frozen=True)
 class Registry:
     """The entries there are, by section and word for reading, by class for writing."""

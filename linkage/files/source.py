@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, final
 
 from ..disk import read
 from ..errors import DefinitionError, FileError
@@ -25,6 +25,7 @@ TOML_LINE = 5_000  # characters: a dotted key as long as a file takes the parser
 FAULTS_SHOWN = 20
 
 
+@final
 @dataclass(frozen=True)
 class Source:
     """A file's tables, the name it is spoken of by, and where its keys stand."""
@@ -186,6 +187,7 @@ class Mistakes:
             raise SeveralError(self.found)
 
 
+@final
 @dataclass
 class Faults(Mistakes):
     """The mistakes of a whole file. `source` is its name, `line_of` tells the line of a key, 0 where it is not known."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import singledispatch
-from typing import Any
+from typing import Any, final
 
 import sympy
 
@@ -81,6 +81,7 @@ def _(member: Point, reading: Any) -> Any:
 
 # A line of the listing: what stands for what.
 
+@final
 @dataclass(frozen=True, eq=False)
 class Written:
     """One line: a symbol, what it equals, and what it measures."""
@@ -95,6 +96,7 @@ class Written:
         return str(Text().doprint(self.lhs))
 
 
+@final
 class Listing:
     """A reading (see `linkage.quantities.Where`) whose scalars are terms; asking for a member writes its lines first."""
 

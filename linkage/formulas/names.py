@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Any
+from typing import Any, final
 
 import sympy
 
@@ -13,6 +13,7 @@ from ..steps import Arrow, Guide
 from .words import point_symbol, vector_symbol
 
 
+@final
 class SymbolNames:
     """The symbols of a mechanism, each thing one, and their text and LaTeX. No two things share a text."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from textwrap import wrap
-from typing import Any
+from typing import Any, final
 
 import mpmath
 import numpy as np
@@ -73,6 +73,7 @@ def members_with_lines(listing: Listing) -> dict[str, Any]:
     return {name: symbol for name, symbol in symbols.items() if symbol in lines or name in listing.unknowns}
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Equation:
     """`lhs = rhs`, both SymPy: a scalar symbol, or a matrix symbol of shape (2, 1) for a point or a vector.
@@ -128,6 +129,7 @@ def value_in_equation(value: Any, unit: Unit) -> str:
     return plain_number(float(value) / unit.factor) + (" deg" if unit.text == "deg" else "")
 
 
+@final
 class Equations(Sequence[Equation]):
     """The equations of one design, in the vector method's order; `print` shows them numbered.
 

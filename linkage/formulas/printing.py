@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from math import hypot
-from typing import Any
+from typing import Any, final
 
 from sympy import fraction
 from sympy.printing.latex import LatexPrinter
@@ -45,6 +45,7 @@ def signed_sum(terms: Sequence[str]) -> str:
     return text
 
 
+@final
 class Text(StrPrinter):  # type: ignore[misc]
     """Plain text: `AB = TurnVL(AO, -OAB, L_AB)`. With `values` the numbers stand in the place of the symbols."""
 
@@ -112,6 +113,7 @@ class Text(StrPrinter):  # type: ignore[misc]
         return f"|{self._print(expr.args[0])}|"
 
 
+@final
 class Latex(LatexPrinter):  # type: ignore[misc]
     r"""LaTeX: `\overrightarrow{AB} = \operatorname{TurnV}_{L}\left(...\right)`. `words` holds the symbols' LaTeX."""
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import singledispatchmethod
-from typing import Any
+from typing import Any, final
 
 import sympy
 from sympy.matrices.expressions.matadd import MatAdd
@@ -23,6 +23,7 @@ from .words import Cross, Deg, Direction, Dot, Norm, Tcos, TurnV
 STILL = sympy.ZeroMatrix(2, 1)
 
 
+@final
 class LineDerivatives:
     """Derivatives by one stroke of the lines read so far."""
 

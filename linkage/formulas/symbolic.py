@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import isnan
-from typing import Any, ClassVar
+from typing import Any, ClassVar, final
 
 import sympy
 from sympy.matrices.expressions.matadd import MatAdd
@@ -22,6 +22,7 @@ from .words import Cross, Deg, Dot, Norm, TurnV
 
 # What an expression measures: lengths, angles, and products of them.
 
+@final
 @dataclass(frozen=True)
 class Unit:
     """Powers of metre and radian; not `known` where a formula mixes what it cannot follow."""
@@ -108,6 +109,7 @@ def degrees(value: float) -> Any:
     return Deg(exact_number(shown)) if value else sympy.S.Zero
 
 
+@final
 class Term:
     """An expression and its unit; adds, multiplies and takes NumPy's functions, as the rules of quantities ask."""
 
@@ -218,6 +220,7 @@ FUNCTIONS: dict[str, Callable[..., Term]] = {
 
 # Tabulated functions: a name in the equations, polynomials of its pieces when they are written out.
 
+@final
 class CurveFunction(sympy.Function):  # type: ignore[misc]
     """A tabulated function, or a derivative of it, by its name."""
 
@@ -252,6 +255,7 @@ def within_half_a_turn(angle: Term) -> Term:
 
 # Points and vectors of the symbolic reading: SymPy vectors that obey the plane's algebra, as the rules of steps ask.
 
+@final
 class Place:
     """A point, a vector or a direction. Its expression is asked for when it is first needed, so that nothing idle is written."""
 

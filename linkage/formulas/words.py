@@ -6,7 +6,7 @@ Source: Dyuzhev, Kotov, Chuprynin, "Universality of the hitch of the power vehic
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, final
 
 import sympy
 from sympy.matrices.expressions.matexpr import MatrixElement, MatrixExpr
@@ -17,6 +17,7 @@ def vector_symbol(name: str) -> Any:
     return sympy.MatrixSymbol(name, 2, 1)
 
 
+@final
 class PointSymbol(sympy.MatrixSymbol):  # type: ignore[misc]
     """The symbol of a position: it comes first in a sum."""
 
@@ -55,6 +56,7 @@ class TurnV(MatrixExpr):  # type: ignore[misc]
         return self
 
 
+@final
 class TurnVL(TurnV):
     """The vector V turned by the angle a [rad] and scaled to the length L [m]: TurnV(V, a) L/|V|."""
 
@@ -66,6 +68,7 @@ class TurnVL(TurnV):
         return self.args[2].doit() / Norm(self.args[0]).doit()
 
 
+@final
 class Tcos(sympy.Function):  # type: ignore[misc]
     """The angle between the sides L1 and L2 of a triangle, opposite L3 [rad], 0 to pi: the cosine rule."""
 
@@ -87,6 +90,7 @@ class Word(sympy.Expr):  # type: ignore[misc]
         return super().__new__(cls, *map(sympy.sympify, args))
 
 
+@final
 class Norm(Word):
     """The length |V| [m]."""
 
@@ -97,6 +101,7 @@ class Norm(Word):
         return sympy.sqrt(x**2 + y**2)
 
 
+@final
 class Direction(Word):
     """The direction of V [rad], counter-clockwise from the x axis."""
 
@@ -105,6 +110,7 @@ class Direction(Word):
         return sympy.atan2(y, x)
 
 
+@final
 class Dot(Word):
     """The scalar product of two vectors [m2]."""
 
@@ -113,6 +119,7 @@ class Dot(Word):
         return a * c + b * d
 
 
+@final
 class Cross(Word):
     """The z component of the vector product of two vectors [m2]."""
 
@@ -121,6 +128,7 @@ class Cross(Word):
         return a * d - b * c
 
 
+@final
 class Deg(Word):
     """An angle written in degrees."""
 

@@ -6,7 +6,7 @@ from cmath import exp, phase
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from ..vectors import Vec
 Places = Mapping[str, tuple[float, float]]
 
 
+@final
 @dataclass(frozen=True)
 class ConstraintRows:
     """Constraint rows, each of length one, by the coordinates of the points and the strokes; `owner` names their source."""
@@ -132,6 +133,7 @@ ASIDE = (0.5, 0.37, 0.61)
 """Shares of the strokes at which mobility is looked at again: of whole turns, the middle may be in line, or at rest, as well."""
 
 
+@final
 @dataclass(frozen=True)
 class Mobility:
     """How many independent motions there are, by rank and by count, and which links bring nothing new."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
@@ -22,6 +22,7 @@ STRAIGHT = 1e-9  # of the range of each stroke: poses as near as this to a strai
 LONGEST = 16  # times the samples of one leg: of any way, however often it turns back
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Legs:
     """Legs from corner to corner: the strokes [SI] at the corners (legs + 1,), and in how many intervals each leg is looked at."""
@@ -112,6 +113,7 @@ def values_of(f: Function, motion: Motion) -> FloatArray:
     return np.where(motion.reached, found, np.nan)
 
 
+@final
 class OnLegs:
     """A function of the poses on a motion's way, of K quantities and D designs; `look` is what a search asks.
 

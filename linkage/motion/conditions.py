@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
@@ -36,6 +36,7 @@ LEAST = 1e-3
 """Of a result's natural size: a value that is smaller counts as so large where its relative error is told."""
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Rounding:
     """What rounding leaves of some nodes: their program, the groups' pins in it, and the machine's size."""
@@ -57,6 +58,7 @@ class Rounding:
         return Left(values[:-1], errors[:-1], np.sqrt(values[-1]))
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Left:
     """Values of a program, how far rounding scatters them, shape (rows, n), and the machine's size [m], shape (n,)."""
@@ -76,6 +78,7 @@ class Left:
         return np.where(np.isnan(found), np.inf, found)
 
 
+@final
 @dataclass(frozen=True)
 class Culprit:
     """The member that comes nearest to a singular pose, by what: its loop's condition, or the least span of a direction it takes.
@@ -97,6 +100,7 @@ class Culprit:
         return ""
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Judged:
     """How far poses (n,) are from singular ones for a result.

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
@@ -38,6 +38,7 @@ ON_ARRAYS = Way("numpy")
 INNER = np.arange(1, PARTS) / PARTS
 
 
+@final
 @dataclass(frozen=True)
 class Interruption:
     """What interrupts the way along a stroke: from `low` to `high` [m or rad] a step cannot be assembled; equal at a change point."""
@@ -64,6 +65,7 @@ class Interruption:
         return f"{what} of {self.step} at {self.stroke} = {stroke_text(self.low, self.unit)}"
 
 
+@final
 @dataclass(frozen=True)
 class Clearances:
     """The loops of a plan that move, and the kernels of how clear of their dead points they are, and of the size of rounding there."""
@@ -87,6 +89,7 @@ class Clearances:
         return cls(tuple(own), Kernel(clear), Kernel(size))
 
 
+@final
 class Course:
     """One design along one stroke, the others held: `seen(x)` are the clearances at values of the stroke, shape (loops, n)."""
 

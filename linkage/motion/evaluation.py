@@ -80,6 +80,7 @@ def at_one_pose(
     return [array[first : first + rows] if rows > 1 else array[first] for first, rows in program.rows]
 
 
+@final
 @dataclass(frozen=True)
 class Evaluation:
     """Requests over a grid of poses, and how they are worked out."""

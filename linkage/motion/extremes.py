@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from .motion import Motion
 from .peaks import CLOSE, Index, Mask, bisected, highest, is_pole, missing_lowest, peaks, zoomed
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Extremum:
     """The greatest or the lowest value of a quantity, and where: floats, or arrays over what was asked for and the designs.
@@ -95,6 +96,7 @@ def moving(motion: Motion) -> tuple[str, ...]:
 
 # Where on the way of a motion something is below zero, looked for between its poses, whatever their number.
 
+@final
 @dataclass(frozen=True)
 class Span:
     """A part of a motion's way, from the strokes `start` to the strokes `end` [m or rad, which `units` say], in the order of the way."""
@@ -204,6 +206,7 @@ NARROW, ROUNDS = 1e-11, 300
 SEEN, BORDER = 1e-7, 1e-8  # how near a value must keep growing to be unbounded, and how near its border is known; of the box
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class HighestInBox:
     """The highest value of K functions of D designs, arrays (K, D), NaN where there is none; where (K, D, k); whether it is unbounded."""
@@ -213,6 +216,7 @@ class HighestInBox:
     unbounded: Mask
 
 
+@final
 class InBox:
     """A function of the poses in the box from the least to the greatest value of k strokes that a motion moves; others stand still."""
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import prod
-from typing import Any, Protocol, Self, TypeAlias
+from typing import Any, Protocol, Self, TypeAlias, final
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from ..quantities import Member, Quantity
 from .limits import Mask
 
 
+@final
 class Grid:
     """Designs times strokes. Arrays are component-first, designs before strokes.
 
@@ -189,6 +190,7 @@ def not_joined(grid: Grid, angles: FloatArray, kernel: Kernel) -> FloatArray:
     return angles
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class JoinedTo:
     """Angles within 180 deg of those of poses that are known: of `like`, by their number `near`, an array that fits the grid's poses.
@@ -246,6 +248,7 @@ def _joined(angle: FloatArray) -> FloatArray:
 
 # What follows from directions: nodes worked out again where an angle is continued past half a turn along the stroke.
 
+@final
 @dataclass(frozen=True, eq=False)
 class Angles:
     """Some nodes, the moving angles behind them, and the kernel of these."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from .peaks import last_holding
 SAMPLES = 1441
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True)
 class StrokeLimits:
@@ -73,6 +74,7 @@ class StrokeLimits:
         return [f"  reachable from {low} to {high} {display_unit(UNITS[self.unit][1])}", *stops]
 
 
+@final
 class Limits(FrozenDict[str, StrokeLimits]):
     """The limits of every stroke by name; printed as sentences."""
 
@@ -80,6 +82,7 @@ class Limits(FrozenDict[str, StrokeLimits]):
         return "\n".join(map(str, self.values()))
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True)
 class Interval:
@@ -94,6 +97,7 @@ class Interval:
         return self.low <= value <= self.high
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True)
 class Extreme:
@@ -104,6 +108,7 @@ class Extreme:
     stroke: float
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True)
 class Held:
@@ -117,6 +122,7 @@ class Held:
         return f"{self.stroke} = {stroke_text(self.value, self.unit, 6)}"
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True)
 class Open:
@@ -136,6 +142,7 @@ Scan = Callable[[FloatArray], "Scanned"]
 """A look at some stroke values: which are reached, and what fails."""
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True)
 class Scanned:

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -40,6 +40,7 @@ HALVINGS = 48
 SEEN, REFUSED = 1e-9, 1e-5  # of a leg: how near a value must keep growing, to a border and to a refused pose
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Highest:
     """The highest value of K functions of D designs, arrays (K, D): value, NaN where there is none; leg and t; whether it is unbounded."""
@@ -50,6 +51,7 @@ class Highest:
     unbounded: Mask
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Tops:
     """Places that may be highest, arrays (K, D, c): their values, half the brackets about them, and the most that may hide in these."""

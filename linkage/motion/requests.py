@@ -441,6 +441,7 @@ class Slope(BoundRequest):
         return f"the gradient of {self.what}"
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Slopes:
     """The kernel of a request's derivatives by some dimensions, then of what it assumes, then of its switches by those dimensions."""

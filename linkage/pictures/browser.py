@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from importlib.resources import files
 from itertools import cycle
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
@@ -94,6 +94,7 @@ FONT = 15.0
 RAM = ("aside", "bottom", "mouth", "rod", "least", "most")
 
 
+@final
 class Pixels:
     """The drawing's frame: a scale, and where the origin stands."""
 

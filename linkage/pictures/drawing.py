@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import cycle
+from typing import final
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -42,6 +43,7 @@ def mechanism(ax: Axes, motion: Motion, pose: int | tuple[int, ...] = 0, *, fain
     return drawing
 
 
+@final
 class Drawing:
     """The parts of a mechanism on some axes; `update` moves them to another pose."""
 
@@ -87,6 +89,7 @@ class Drawing:
 
 # Rigid bodies: bars with round ends, plates with round corners.
 
+@final
 class BodyPart(MovingPart):
     """A body as the line around its outermost points, filled."""
 
@@ -109,6 +112,7 @@ class BodyPart(MovingPart):
 
 # Springs, dampers and struts between two points, and the yokes of what stands beside its pins.
 
+@final
 class StraightPart(MovingPart):
     """A straight element from P to Q, or what a step draws of itself, as some lines."""
 
@@ -135,6 +139,7 @@ class StraightPart(MovingPart):
 
 # Points: pins as circles, others as small dots, and the thin lines of a bare construction.
 
+@final
 class CirclePart(MovingPart):
     """A point as a circle."""
 
@@ -158,6 +163,7 @@ def dot(ax: Axes, name: str, size: float, look: Look) -> CirclePart:
     return CirclePart(ax, name, 0.48 * size, look.colour(style.INK), style.PAPER, style.THIN, look.level + 0.8)
 
 
+@final
 class StayPart(MovingPart):
     """Two points that a construction joins: a thin broken line."""
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from shutil import copyfileobj
 from tempfile import TemporaryDirectory, gettempdir
-from typing import Any, TypeAlias, cast
+from typing import Any, TypeAlias, cast, final
 
 import numpy as np
 import numpy.typing as npt
@@ -124,6 +124,7 @@ MOST = 9
 """Decimals that a value is shown with, at most."""
 
 
+@final
 class Stage:
     """A figure with a mechanism on the left and a live curve on the right; `frame` gives it at a pose."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import final
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -19,6 +20,7 @@ WAYS = np.radians(np.arange(60.0, 420.0, 22.5))
 """The places a label tries: distances, as multiples of the nearest, and directions [rad], the preferred one first."""
 
 
+@final
 class LabelPart(MovingPart):
     """A point's name at an offset [points]."""
 

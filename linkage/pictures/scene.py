@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import product
-from typing import TypeAlias
+from typing import TypeAlias, final
 
 import numpy as np
 
@@ -25,6 +25,7 @@ MARGIN = 3.2
 """How far a track goes on beyond the travel, in sizes."""
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class SlideTrack:
     """A straight track: its origin [m] and its direction at every pose, shape (2, n), and the points that slide on it."""
@@ -95,6 +96,7 @@ Places: TypeAlias = dict[str, FloatArray]
 Bounds: TypeAlias = tuple[float, float, float, float]
 
 
+@final
 @dataclass(frozen=True)
 class Hung:
     """A two-force member from P to Q: what it is drawn as, and how far to the left of P -> Q, in sizes, where others share its points."""
@@ -110,6 +112,7 @@ class Hung:
         return HALF[self.drawn_as] + abs(self.aside)
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Straight:
     """Lines from P to Q that stretch with the distance."""
@@ -119,6 +122,7 @@ class Straight:
     lines: tuple[Outline, ...]
 
 
+@final
 @dataclass(frozen=True)
 class Ram:
     """A cylinder from P to Q as it is drawn [m]: its barrel from bottom to mouth, its piston between least and most, moved aside."""
@@ -137,6 +141,7 @@ class Ram:
         return float(np.clip(length - self.rod, self.least, self.most))
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Scene:
     """The things to draw in a motion of one design. Raises DefinitionError for a batch of designs.

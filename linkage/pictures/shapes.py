@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
+from typing import final
 
 import numpy as np
 
@@ -76,6 +77,7 @@ YOKE = 0.38
 """Half the thickness of the piece that holds an element beside its pin, in sizes."""
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Outline:
     """One line of an element: rows of a share of its length, a way along it [m] and one across, to the left [m].

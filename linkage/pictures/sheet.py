@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 from matplotlib import rcParams
@@ -88,6 +88,7 @@ def points_a_metre(ax: Axes) -> float:
 
 # A figure that is saved as every file here is: whole, or what stood there is left as it was.
 
+@final
 class Picture(Figure):
     """A matplotlib figure whose `savefig` replaces a file whole; FileError, in words, where it cannot be written."""
 

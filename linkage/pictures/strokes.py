@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from ..reports import NOTHING, At, Run, results, run_of
 from ..units import factor
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class StrokeAxis:
     """The stroke that a motion runs along, as a picture shows it: its name, its unit, and its values in that unit, shape (n,).
@@ -93,6 +94,7 @@ CLOSED = 1e-6
 """Points that end so near to where they began, compared with the linkage, have gone round."""
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Playback:
     """A motion along one stroke, the poses in reach in the order they are shown, the column to follow."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import final
 
 INK = "#24313f"
 MUTED = "#67737f"
@@ -28,6 +29,7 @@ THIN = 0.8
 DPI = 150
 
 
+@final
 @dataclass(frozen=True)
 class Look:
     """How strongly a mechanism is drawn: `fade` mixes every colour with the paper, 0 to 1; `level` is its layer."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
-from typing import Any, TypeVar
+from typing import Any, TypeVar, final
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -66,6 +66,7 @@ FILL = {"eye": style.PISTON, "barrel": style.BARREL, "rod": style.ROD, "piston":
 """The pieces from the lowest layer up, with their colours."""
 
 
+@final
 class CylinderPart(MovingPart):
     """A cylinder from P to Q: the barrel is pinned at P, the rod at Q."""
 
@@ -141,6 +142,7 @@ LONG, HALF, SLOT = 2.1, 1.25, 0.7
 """Half a block's length and width, and half a slot's width, in sizes."""
 
 
+@final
 class SlotPart(MovingPart):
     """A slot on a moving body, open from end to end."""
 
@@ -153,6 +155,7 @@ class SlotPart(MovingPart):
         self.face.set_xy(rounded(np.array([at[name] for name in self.points]), SLOT * self.size))
 
 
+@final
 class BlockPart(MovingPart):
     """A slider block: a box along its track."""
 

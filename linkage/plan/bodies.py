@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import final
 
 FRAME = "frame"
 
 
+@final
 @dataclass(frozen=True)
 class Body:
     """Points that move as one. The frame holds all fixed points."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from functools import cached_property
-from typing import TypeVar, cast
+from typing import TypeVar, cast, final
 from uuid import uuid4
 from weakref import WeakValueDictionary
 
@@ -27,6 +27,7 @@ MOST_KERNELS = 512
 """The kernels of a plan that are kept: loads with numbers of their own make one for each number."""
 
 
+@final
 class Plan(Members):
     """The ordered members of a mechanism with their program: printable, traceable, the same for every design."""
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property, reduce
+from typing import final
 
 import numpy as np
 
@@ -165,6 +166,7 @@ class Reading:
         return cos, sin
 
 
+@final
 class ArrayReading(Reading):
     """The eager evaluation on NumPy arrays: a dead point is reached to rounding, and every loop tells how near it is.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import isclose
-from typing import TypeAlias, cast
+from typing import TypeAlias, cast, final
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +22,7 @@ Label: TypeAlias = frozenset[str] | tuple[str, frozenset[str]]
 """What a label measures: the two ends of a length, or the corner of an angle and its two sides' ends."""
 
 
+@final
 @dataclass(frozen=True)
 class DesignVariable:
     """One design variable: its default [SI], what it measures, where it stands, and the unit it is shown in, if it has one."""

@@ -6,6 +6,7 @@ from collections.abc import Container, Mapping
 from copy import copy
 from dataclasses import dataclass
 from functools import cached_property, reduce
+from typing import final
 
 import numpy as np
 
@@ -24,6 +25,7 @@ NEAR = 0.01
 AWAY = 1e4
 
 
+@final
 @dataclass(frozen=True)
 class Guard:
     """A node that is above zero where a member can be worked out; a member of "" is all of them."""
@@ -32,6 +34,7 @@ class Guard:
     node: Node
 
 
+@final
 @dataclass(frozen=True)
 class Measure:
     """How far a member is from a singular pose: the square of a loop's sine, or of a distance over the machine's size, over REGULAR's."""
@@ -42,6 +45,7 @@ class Measure:
     """What `node` is a lower bound of, where that costs less."""
 
 
+@final
 @dataclass(frozen=True)
 class Loop:
     """What a step's place hangs on: links that must meet, guides that must cross, a length that must be positive, a direction.
@@ -55,6 +59,7 @@ class Loop:
     terms: tuple[Node, ...]
 
 
+@final
 class Trace(Reading):
     """A reading whose scalars are the nodes of one graph."""
 

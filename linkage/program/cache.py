@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, final
 
 from ..disk import in_words, read, replacing
 from ..errors import FileError
@@ -55,6 +55,7 @@ def is_trusted(folder: Path) -> bool:
     return False
 
 
+@final
 @dataclass
 class CompiledFile:
     """The text of one program in its file, and what was compiled of it: beside the file, in folders that `take` is told."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
+from typing import final
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from .schedule import Schedule
 from .text import GUARDED, PYTHON, Dialect, function
 
 
+@final
 class PlainFloats:
     """A program as two functions of floats: the design part and the pose part."""
 

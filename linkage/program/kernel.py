@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
+from typing import Protocol, final
 
 import numpy as np
 
@@ -40,6 +40,7 @@ def fixed_backend(backend: str) -> Iterator[None]:
         BACKEND.reset(token)
 
 
+@final
 @dataclass(frozen=True)
 class Result:
     """What a kernel returns: values, shape (outputs, designs, poses), and a number a guard, above zero where it is at all poses."""
@@ -48,6 +49,7 @@ class Result:
     guards: FloatArray
 
 
+@final
 @dataclass(frozen=True)
 class Way:
     """How a kernel is run: "floats", "numpy" or "numba", by itself the quickest for the work; and on how many threads."""
@@ -77,6 +79,7 @@ class Backend(Protocol):
         """Fill values and guards."""
 
 
+@final
 class Kernel:
     """Some nodes of a program as a function of designs and poses.
 

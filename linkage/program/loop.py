@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import final
 
 from .node import Node
 from .schedule import Schedule, ancestors
@@ -96,6 +97,7 @@ NUMBA = Dialect(
 )
 
 
+@final
 @dataclass(frozen=True)
 class LoopText:
     """The inside of a loop: one line an operation, and what the results are called."""

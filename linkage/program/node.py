@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from enum import IntEnum
 from threading import Lock
-from typing import Any, NoReturn, TypeAlias
+from typing import Any, NoReturn, TypeAlias, final
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from .operations import OPERATIONS
 Operand: TypeAlias = "Node | float"
 
 
+@final
 class Level(IntEnum):
     """What a node depends on."""
 
@@ -28,6 +29,7 @@ class Level(IntEnum):
     POSE = 2
 
 
+@final
 class Node:
     """One scalar of the program: a constant, an input, or an operation on nodes.
 
@@ -109,6 +111,7 @@ class Node:
         return f"{self.op}({', '.join(f'n{each.number}' for each in self.args)})"
 
 
+@final
 class Closure:
     """Unknowns that close a loop, and the residuals that vanish there.
 
@@ -133,6 +136,7 @@ class Closure:
         self.sources = tuple(found)
 
 
+@final
 class Graph:
     """All nodes of a program, each once."""
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 from threading import local
-from typing import TypeAlias, TypeGuard, cast
+from typing import TypeAlias, TypeGuard, cast, final
 
 import numpy as np
 
@@ -27,6 +27,7 @@ SMALLEST, LARGEST = 8192, 16384
 """The poses of a block."""
 
 
+@final
 class NumpyBlocks:
     """A program over a pool of registers, block by block: the longer of designs and poses along the rows."""
 
@@ -165,6 +166,7 @@ def window(value: FloatArray, band: slice, part: slice, shape: tuple[int, ...]) 
 # 40 ns and a float 170 ns.
 
 
+@final
 @dataclass(frozen=True)
 class BlockCode:
     """A function `pose(c, i, r, o, g)` as text, how many registers it needs, and the numbers in it."""
@@ -174,6 +176,7 @@ class BlockCode:
     numbers: Mapping[str, FloatArray]
 
 
+@final
 class Registers:
     """Names for the operands: constants `c`, inputs `i`, outputs `o`, and a reused pool `r`."""
 
@@ -252,6 +255,7 @@ def statement(op: str, operands: str, target: str) -> str:
     return f"{op}({operands}, {'out=' if op in NAMED else ''}{target})"
 
 
+@final
 class Pool(local):
     """The registers that a thread worked in last: the next block mostly wants as many of the same size."""
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import final
 
 from .node import Node
 from .operations import OPERATIONS
 
 
+@final
 @dataclass(frozen=True)
 class Dialect:
     """How a language writes operations, numbers and assignments."""
@@ -26,6 +28,7 @@ PYTHON = Dialect(TEMPLATES)
 GUARDED = Dialect({**TEMPLATES, "divide": "divide({}, {})", "reciprocal": "reciprocal({})"})
 
 
+@final
 class NodeNames:
     """What the nodes are called in a text: by their place in it, so that equal programs have equal texts."""
 

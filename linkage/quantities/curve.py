@@ -168,6 +168,7 @@ def column(what: str, given: Any) -> Floats:
     return found
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class CurveValue(Quantity):

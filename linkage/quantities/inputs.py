@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, final
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
@@ -43,6 +43,7 @@ class Stroke(Quantity):
         return self.text()
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Variable(Quantity):

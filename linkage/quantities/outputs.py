@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass
+from typing import final
 
 import numpy as np
 
@@ -19,6 +20,7 @@ def label(reference: Reference) -> str:
     return (reference.name or str(reference)) if isinstance(reference, Member) else str(reference)
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Angle(Quantity):
@@ -57,6 +59,7 @@ class Angle(Quantity):
         return f"angle({label(self.P)}, {label(self.Q)})"
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Distance(Quantity):
@@ -84,6 +87,7 @@ class Distance(Quantity):
         return f"distance({label(self.P)}, {label(self.Q)})"
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Coordinate(Quantity):
@@ -108,6 +112,7 @@ class Coordinate(Quantity):
         return f"{self.axis}({label(self.P)})"
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Length(Quantity):

@@ -10,7 +10,7 @@ import operator
 from abc import abstractmethod
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
-from typing import Any, NoReturn, TypeAlias, TypeGuard
+from typing import Any, NoReturn, TypeAlias, TypeGuard, final
 
 import numpy as np
 
@@ -230,6 +230,7 @@ class Number(Quantity):
         return repr(self.number)
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Ref(Quantity):
@@ -258,6 +259,7 @@ def ref(name: str) -> Quantity:
     return Ref(name)
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Sum(Quantity):
@@ -291,6 +293,7 @@ class Sum(Quantity):
         return self.text()
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Negative(Quantity):
@@ -320,6 +323,7 @@ class Negative(Quantity):
         return self.text()
 
 
+@final
 class Operation(Quantity):
     """The product, quotient or power of two quantities."""
 

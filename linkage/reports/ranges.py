@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
@@ -67,6 +67,7 @@ At: TypeAlias = Mapping[str, Any]
 NOTHING: At = MappingProxyType({})
 
 
+@final
 @dataclass(frozen=True)
 class Run:
     """The stroke that moves, its two ends, and the values of the others [m or rad]."""

@@ -94,6 +94,7 @@ class ForceProgram:
     struts: tuple[str, ...]
 
 
+@final
 class AssumptionError(Exception):
     """What the program takes for granted does not hold at some pose: the equations are solved on arrays instead."""
 

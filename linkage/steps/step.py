@@ -8,7 +8,7 @@ from copy import copy
 from dataclasses import dataclass
 from math import pi
 from types import MappingProxyType
-from typing import Any, ClassVar, Self, TypeAlias
+from typing import Any, ClassVar, Self, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +21,7 @@ from ..vectors import Scalar, Side, Vec
 from .labels import DimensionTable, Slot, match, relabelled, written_labels
 
 
+@final
 class Unbound(Number):
     """The place of a dimension that a step has not been given. It takes no name from the classes it stands in."""
 

@@ -11,7 +11,7 @@ from math import ceil
 from pickle import PicklingError
 from queue import SimpleQueue
 from time import perf_counter
-from typing import Any, Protocol, TypeAlias
+from typing import Any, Protocol, TypeAlias, final
 
 import numpy as np
 
@@ -32,6 +32,7 @@ class Executor(Protocol):
         """Return the future of a call."""
 
 
+@final
 class LocalExecutor:
     """An executor that runs everything at once, in this thread."""
 
@@ -45,6 +46,7 @@ class LocalExecutor:
         return future
 
 
+@final
 @dataclass(frozen=True)
 class Submission:
     """A range of designs under way, which try it is, and when it left [s]."""
@@ -55,6 +57,7 @@ class Submission:
     at: float
 
 
+@final
 class SurveyRun:
     """What is done of a study, what is under way, and what is left."""
 
@@ -187,6 +190,7 @@ MOST = 1 << 20
 """The numbers that the inputs of a batch are at most: 8 MB."""
 
 
+@final
 class OpenRanges:
     """The designs that are still to be given out: ranges from start to before stop, on the borders of pieces."""
 
@@ -219,6 +223,7 @@ class OpenRanges:
         return False
 
 
+@final
 class BatchSizes:
     """What is known of the executor: how long a piece takes it, and how many batches keep all of its workers busy."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from .designs import check_once
 MOST = 8
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Box:
     """Settings: `ranges` from low to high [SI] by name, times the `choices`, each a mapping of names to values."""

@@ -16,7 +16,7 @@ from io import BytesIO
 from pathlib import Path
 from textwrap import dedent
 from types import CellType, FunctionType, MethodType
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
@@ -32,6 +32,7 @@ Facts: TypeAlias = Mapping[str, Any]
 """What makes a study the same, by name, as JSON holds it."""
 
 
+@final
 @dataclass(frozen=True)
 class Checkpoint:
     """A folder of batches: `designs-START-STOP-CHECK.npy`, an array with a field for each result.

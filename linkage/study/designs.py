@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from hashlib import blake2b
 from time import perf_counter, thread_time
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +23,7 @@ LOOKED_AT = 1 << 17
 """Designs that are checked at a time."""
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Designs:
     """Dimensions that vary, by name: one array (m,), of a point two, of which one may be a number; `count` is m.
@@ -138,6 +139,7 @@ Measure: TypeAlias = Callable[[Any], Mapping[str, Any]]
 """`measure(machine)`: a mechanism with some designs in arrays, measured: arrays (designs,) by name."""
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Task:
     """What all batches have in common. `measure` is called for `piece` designs at a time, on a back end that does not change."""
@@ -148,6 +150,7 @@ class Task:
     backend: str
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Batch:
     """The results of the designs from start to before stop; what they took by the clock and of a processor [s]; whether from a folder."""

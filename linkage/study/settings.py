@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
@@ -23,6 +23,7 @@ TOUCH = 1e-9  # of the values' span: what comes as near as this to the target to
 Curve: TypeAlias = Callable[[FloatArray], FloatArray]
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Settings:
     """All values [SI] of a dimension that give the target, ascending; `sentence` says so, or why there is none."""
@@ -128,6 +129,7 @@ def is_root(curve: Curve, root: float, off: FloatArray) -> bool:
     return bool(np.abs(curve(np.array([root]))[0]) <= max(TOUCH * span, 1e-13))
 
 
+@final
 @dataclass(frozen=True)
 class SettingWords:
     """How a dimension and a quantity stand in a sentence: names and units, "" for plain SI."""

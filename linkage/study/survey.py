@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, final
 
 from ..errors import DefinitionError, cited, known_name, one_word
 from ..frozen import FrozenDict, read_only, refuses_changes
@@ -19,6 +19,7 @@ from .designs import Array, Batch, Designs, Measure, Task
 SMALLEST, LARGEST, PARTS = 64, 2048, 64
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Survey(Mapping[str, Array]):

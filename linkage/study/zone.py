@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import product
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +24,7 @@ Index: TypeAlias = npt.NDArray[np.intp]
 POSES = 51
 
 
+@final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Zone:
@@ -133,6 +134,7 @@ CLOSE = 2e-8  # of a side of the box: a smooth value is then found to 1e-15 of i
 WHOLE = 4  # dimensions up to which the stencil has all 3**k points
 
 
+@final
 @dataclass(frozen=True, eq=False)
 class Extremes:
     """Of every task the least and the greatest value, shape (2, t), where: unit (2, t, k) and choice (2, t); NaN where it has none.

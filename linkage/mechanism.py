@@ -215,11 +215,14 @@ class Mechanism(metaclass=MechanismType):
         return Motion(self.plan, self._values, sweep_values(count, strokes, self.plan), unreachable)
 
     @of_a_design
-    def at(self, *, unreachable: str = "raise", **strokes: Any) -> Motion:
+    def at(self, *unnamed: object, unreachable: str = "raise", **strokes: Any) -> Motion:
         """Return the motion at chosen strokes [SI]: `at(S=[0.0, 0.1])`. They may lie beyond the declared range.
 
-        The way from the least to the greatest of several is looked at as that of a sweep.
+        The way from the least to the greatest of several is looked at as that of a sweep. DefinitionError for a value without its stroke.
         """
+        if unnamed:
+            text = f"{self.plan.title}: at({cited(unnamed[0])}) does not say which stroke has this value"
+            raise DefinitionError(f"{text}; write {' or '.join(f'at({name}=...)' for name in self.plan.strokes) or 'at()'}.")
         return Motion(self.plan, self._values, at_values(strokes, self.plan), unreachable)
 
     @of_a_design

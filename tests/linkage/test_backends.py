@@ -317,13 +317,21 @@ def alive(order, outputs):
 
 
 @MACHINES
-def test_an_order_is_one_of_dependence_and_of_few_values_alive(machine):
+def test_an_order_is_one_of_dependence(machine):
     plan = everything(machine).plan
     place = {node: k for k, node in enumerate(plan.economical)}
     assert place.keys() == set(plan.pose)
     assert all(place.get(arg, -1) < place[node] for node in plan.pose for arg in node.args)
-    written = alive(plan.pose, set(plan.outputs))
-    assert alive(plan.economical, set(plan.outputs)) <= max(written, 14)  # below that there is nothing to gain
+
+
+def test_in_the_order_taken_few_values_are_alive():
+    """In programs with something to gain; in small ones a value more is no matter."""
+    plans = [everything(machine).plan for machine in SHIPPED.values()]
+    counts = np.array([[alive(order, set(plan.outputs)) for order in (plan.economical, plan.pose)] for plan in plans])
+    taken, written = counts[counts[:, 1] >= 20].T
+    assert len(written) >= 3
+    assert np.all(taken <= written)
+    assert taken.sum() < 0.8 * written.sum()
 
 
 def test_a_kernel_does_not_depend_on_what_was_asked_for_before():

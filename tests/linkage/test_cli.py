@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import textwrap
+from functools import partial
 from importlib.metadata import EntryPoint
 
 import numpy as np
@@ -459,7 +460,9 @@ def test_interrupt_is_130(own):
     (own / "slow.py").write_text(
         "import time\nfrom linkage import *\nprint('ready', flush=True)\ntime.sleep(60)\nclass Slow(Mechanism): pass\n", encoding="utf-8"
     )
-    running = shell("-m", "linkage", "show", "slow.py", env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
+    paths = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    hearing = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)  # ignored where the tests were started in the background
+    running = shell("-m", "linkage", "show", "slow.py", env=paths, preexec_fn=hearing)
     assert running.stdout.readline() == b"ready\n"
     running.send_signal(signal.SIGINT)
     _, err = running.communicate()

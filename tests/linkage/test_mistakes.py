@@ -217,3 +217,9 @@ def test_what_a_link_says_of_points_that_others_place_is_held_against_them(label
 def test_a_direction_needs_two_points(line):
     with pytest.raises(DefinitionError, match=r"a direction leads from one point to another; name two points"):
         made(f"\n    S = Stroke(0, 1)\n    O = Ground(0, 0)\n    {line}\n")
+
+
+@pytest.mark.parametrize("given", [(0.3,), ([0.1, 0.2],), (np.zeros(3), 1.0)])
+def test_a_stroke_is_named_where_it_gets_a_value(given):
+    with pytest.raises(DefinitionError, match=r"Machine: at\(.* does not say which stroke has this value; write at\(phi=\.\.\.\)\."):
+        made(CRANK)().at(*given)

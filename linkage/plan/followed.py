@@ -64,7 +64,7 @@ def pin_nodes(trace: Trace, pin: str) -> Iterator[Node]:
 def angles_that_count(trace: Trace, ends: Sequence[Node]) -> tuple[str, ...]:
     """Return the moving angles of a trace whose whole turns change some nodes, in the order in which they were worked out."""
     nodes = ancestors(ends)
-    behind, wanted = set(nodes), set(ancestors_of(ends))
+    behind, wanted = set(nodes), {end.origin for end in ends}
     found = []
     for name, vector in trace.directions.items():
         angle = trace.graph.node(np.arctan2(vector.y, vector.x))
@@ -75,19 +75,11 @@ def angles_that_count(trace: Trace, ends: Sequence[Node]) -> tuple[str, ...]:
     return tuple(found)
 
 
-def ancestors_of(ends: Sequence[Node]) -> Iterator[Node]:
-    """Yield the nodes that hold the values of some."""
-    for end in ends:
-        while end.op in ("root", "alias"):
-            end = end.args[0]
-        yield end
-
-
 def whole_turns(nodes: Sequence[Node], angle: Node) -> dict[Node, float | None]:
     """Return by how many turns each of some nodes, in order of dependence, changes with a whole turn of an angle; None: in another way."""
     found: dict[Node, float | None] = {}
     for node in nodes:
-        changes = [found[each] for each in ancestors_of(node.args)]
+        changes = [found[each.origin] for each in node.args]
         if node is angle:
             found[node] = 1.0
         elif not any(changes) and None not in changes:
@@ -107,7 +99,7 @@ def turns_of_operation(node: Node, changes: Sequence[float | None]) -> float | N
     if node.op == "negative":
         return -turns[0]
     if node.op == "multiply":
-        factor, other = ancestors_of(node.args)
+        factor, other = (each.origin for each in node.args)
         return factor.value * turns[1] if factor.op == "constant" else turns[0] * other.value if other.op == "constant" else None
     if node.op in ("sin", "cos", "tan") and abs(turns[0] - round(turns[0])) <= WHOLE * abs(turns[0]):
         return 0.0

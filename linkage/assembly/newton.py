@@ -19,12 +19,12 @@ from ..program import (
     Kernel,
     Level,
     Node,
-    Tangent,
     ancestors,
     compiled,
     expanded,
     function,
     is_zero,
+    jacobian,
     solve_arrays,
 )
 from ..steps import Group, Pin
@@ -198,8 +198,7 @@ class GroupEquations:
         roots = tuple(part for place in map(plan.trace.at, group.pins) for part in (place.x, place.y))
         (closure,) = dict.fromkeys(root.closure for root in roots)
         assert closure is not None
-        columns = [Tangent(plan.trace.graph, {each: float(each is root) for each in roots}) for root in roots]
-        rows = tuple(tuple(column.of(residual) for column in columns) for residual in closure.residuals)
+        rows = tuple(map(tuple, jacobian(plan.trace.graph, closure)))
         return cls(closure.residuals, roots, rows, Kernel([*closure.residuals, *(entry for row in rows for entry in row)]))
 
     def at_sketch(self, plan: Plan) -> FloatArray:

@@ -31,9 +31,10 @@ from ..program import (
     lane_loop,
     lowered,
     pays_compiled,
+    replaced,
 )
 from ..steps import Group
-from .newton import ITERATIONS, Programs, largest_of, replaced, size_of
+from .newton import ITERATIONS, Programs, largest_of, size_of
 from .rules import TINY, goes_on, interpolated, newton_ended, predicted, step_judged
 
 WIDTH = 16

@@ -25,6 +25,7 @@ from ..program import (
     function,
     is_zero,
     jacobian,
+    replaced,
     solve_arrays,
 )
 from ..steps import Group, Pin
@@ -266,22 +267,12 @@ def held_inputs(outputs: Sequence[Node], moving: Sequence[Node]) -> list[Node]:
     hangs = set(moving)
     found: dict[Node, None] = {}
     for node in ancestors(outputs):
-        args = list([each.origin for each in node.args])
+        args = [each.origin for each in node.args]
         if any(arg in hangs for arg in args):
             hangs.add(node)
             found |= dict.fromkeys(arg for arg in args if arg not in hangs and arg.op != "constant")
-    found |= dict.fromkeys(node for node in [each.origin for each in outputs] if node not in hangs and node.op != "constant")
+    found |= dict.fromkeys(each.origin for each in outputs if each.origin not in hangs and each.origin.op != "constant")
     return list(found)
-
-
-def replaced(outputs: Sequence[Node], by: Mapping[Node, Node]) -> list[Node]:
-    """Return nodes like some outputs, with others in the place of some they are computed from."""
-    better = dict(by)
-    for node in ancestors(outputs, by):
-        if node not in better:
-            args = tuple(better[arg.origin] for arg in node.args)
-            better[node] = node if args == node.args else node.graph.made(node.op, args)
-    return [better[node.origin] for node in outputs]
 
 
 def largest_of(nodes: Sequence[Node]) -> Node:

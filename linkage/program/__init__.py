@@ -12,6 +12,6 @@ from .loop import HEAD, NUMBA, lane_loop
 from .node import Closure, Graph, Level, Node
 from .numba_backend import compiled_loop, pays_compiled
 from .operations import ARRAYS, FLOATS, NO_VALUE
-from .schedule import ancestors, lowered
+from .schedule import ancestors, lowered, replaced
 from .text import GUARDED, Dialect, function
 from .traced import Notes, Traced, node_of

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Container, Iterable, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from heapq import heapify, heappop, heappush
@@ -87,13 +87,24 @@ def lowered(outputs: Sequence[Node]) -> list[Node]:
     return rewritten(outputs, cheaper)
 
 
-def rewritten(outputs: Sequence[Node], rule: Callable[[Node, tuple[Node, ...]], Node | None]) -> list[Node]:
-    """Return nodes of the same values as some outputs: `rule(node, arguments)` gives another node for an operation, or None."""
-    better: dict[Node, Node] = {}
-    for node in ancestors(outputs):
-        args = tuple([better[arg.origin] for arg in node.args])
-        better[node] = rule(node, args) or (node if args == node.args else node.graph.made(node.op, args))
+def rewritten(
+    outputs: Sequence[Node], rule: Callable[[Node, tuple[Node, ...]], Node | None], known: Mapping[Node, Node] | None = None
+) -> list[Node]:
+    """Return nodes of the same values as some outputs: `rule(node, arguments)` gives another node for an operation, or None.
+
+    `known` holds those that are settled already.
+    """
+    better = dict(known or {})
+    for node in ancestors(outputs, better):
+        if node not in better:
+            args = tuple([better[arg.origin] for arg in node.args])
+            better[node] = rule(node, args) or (node if args == node.args else node.graph.made(node.op, args))
     return [better[each.origin] for each in outputs]
+
+
+def replaced(outputs: Sequence[Node], by: Mapping[Node, Node]) -> list[Node]:
+    """Return nodes like some outputs, with others in the place of some they are computed from."""
+    return rewritten(outputs, lambda node, args: None, by)
 
 
 def few_alive(nodes: Sequence[Node], outputs: Container[Node]) -> list[Node]:

@@ -11,6 +11,7 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError, about, unknown
+from ..plan import needed_names
 from ..quantities import Member, Quantity, Reference, name_of, needs
 from ..steps import Group, Guide, Link, OnLink, Pin, Slide, Step
 from ..vectors import Side
@@ -32,14 +33,6 @@ def check_names(members: Mapping[str, Member], title: str) -> None:
         if isinstance(member, Link):
             with about(name):
                 member.fitted()
-
-
-def needed_names(name: str, member: Member, title: str) -> tuple[str, ...]:
-    """Return the names that a member needs; DefinitionError, with the place, where a part of it cannot be one."""
-    try:
-        return tuple(needs(member))
-    except DefinitionError as error:
-        raise DefinitionError(f"{title}.{name}: {error}", member=name) from None
 
 
 def parts_of(member: Member) -> list[tuple[Reference, str]]:

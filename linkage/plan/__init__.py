@@ -1,7 +1,7 @@
 """The ordered steps, their dimensions, and their program."""
 
 from .bodies import Body, gruebler, merged
-from .members import construction_order, printed, strokes_text
+from .members import construction_order, needed_names, printed, strokes_text
 from .missing import Mask, called, failures, missing_words, negative, opening
 from .plan import Plan
 from .reading import ArrayReading, Reading

@@ -52,7 +52,7 @@ class Members:
     def __init__(self, members: Mapping[str, Member], title: str) -> None:
         self.title = title
         self._behind: dict[str, frozenset[str]] = {}
-        order = construction_order({name: self._needs(name, member) for name, member in members.items()}, title)
+        order = construction_order({name: needed_names(name, member, title) for name, member in members.items()}, title)
         self.table = Table(title)
         self.members: dict[str, Member] = {}
         for name in order:
@@ -64,13 +64,6 @@ class Members:
         for name, member in self.members.items():
             with about(name):
                 self._check_kinds(name, member)
-
-    def _needs(self, name: str, member: Member) -> list[str]:
-        """Return the names that a member needs; DefinitionError, with the place, where a part of it cannot be one."""
-        try:
-            return list(needs(member))
-        except DefinitionError as error:
-            raise DefinitionError(f"{self.title}.{name}: {error}", member=name) from None
 
     def _bound(self, name: str, member: Member) -> Member:
         """Return a member with its dimensions entered in the table."""
@@ -285,6 +278,14 @@ class Members:
         return "\n".join(f"{name} = {text}" for name, text in printed(self).items())
 
     __repr__ = __str__
+
+
+def needed_names(name: str, member: Member, title: str) -> list[str]:
+    """Return the names that a member needs; DefinitionError, with the place, where a part of it cannot be one."""
+    try:
+        return list(needs(member))
+    except DefinitionError as error:
+        raise DefinitionError(f"{title}.{name}: {error}", member=name) from None
 
 
 def construction_order(needs: Mapping[str, Iterable[str]], title: str) -> list[str]:

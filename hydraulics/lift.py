@@ -22,7 +22,7 @@ from linkage.errors import DefinitionError, cited, known_name, one_word
 from linkage.frozen import refuses_changes
 from linkage.loads import Force, ForceElement, Load, Parameter, Poses
 from linkage.motion import Motion, require_motion
-from linkage.motion.limits import Mask
+from linkage.plan import Mask
 from linkage.quantities import Member, Reference, label, name_of, real
 from linkage.statics import Case, Loads, elements_of
 

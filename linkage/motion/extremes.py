@@ -15,12 +15,13 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError
+from ..plan import Mask
 from ..program import FloatArray
 from .between import Function, OnLegs, require_function, values_of
 from .grid import JoinedTo, joined_in_order
 from .limits import place_text, stroke_unit
 from .motion import Motion
-from .peaks import CLOSE, Index, Mask, bisected, highest, is_pole, missing_lowest, peaks, zoomed
+from .peaks import CLOSE, Index, bisected, highest, is_pole, missing_lowest, peaks, zoomed
 
 
 @final

@@ -13,10 +13,9 @@ import numpy as np
 from ..assembly import NONE_SOLVED, GroupSolution, solve_groups, with_angles
 from ..errors import DefinitionError
 from ..frozen import FrozenDict, read_only
-from ..plan import ArrayReading, Plan
+from ..plan import ArrayReading, Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node, Way, ancestors, interpret
 from ..quantities import Member, Quantity
-from .limits import Mask
 
 
 @final

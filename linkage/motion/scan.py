@@ -9,31 +9,27 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, unwarned
 from ..loads import TwoPoint
+from ..plan import Mask, called, failures, missing_words, opening
 from ..program import FloatArray
 from ..quantities import Distance
 from ..steps import Point
 from ..units import deg
-from .course import Course
-from .course import Interruption as Interruption
+from .course import Course, Interruption
 from .grid import MotionLike
 from .limits import (
     Extreme,
     Held,
     Interval,
+    Limits,
     Open,
     Scanned,
     StrokeLimits,
-    called,
-    failures,
     intervals,
-    missing_words,
-    opening,
     search,
     stroke_unit,
     where_words,
 )
-from .limits import Limits as Limits
-from .peaks import SAMPLES, Index, Mask, bisected, highest, samples
+from .peaks import SAMPLES, Index, bisected, highest, samples
 from .strokes import check_any
 
 KEPT = 64

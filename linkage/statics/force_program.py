@@ -19,8 +19,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..motion import Motion
 from ..motion.evaluation import part_of_input, pieces
-from ..motion.limits import Mask
-from ..plan import Plan
+from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, Level, Node, Tangent
 from .acting import ActingLoads, Case, Loads, Movement
 from .equilibrium import System

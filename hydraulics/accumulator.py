@@ -1,4 +1,4 @@
-"""Gas accumulators on one line. Every pressure in this file is gauge [Pa]; the gas law works on gauge + atmosphere.
+"""Gas accumulators on one line. Pressures are gauge [Pa] unless said to be absolute: the gas law works on gauge + atmosphere.
 
 >>> from linkage.units import cm3, kgf_cm2, litre
 >>> pair = [Accumulator(volume=4 * litre, charge=50 * kgf_cm2), Accumulator(volume=4 * litre, charge=25 * kgf_cm2)]

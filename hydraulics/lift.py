@@ -400,9 +400,10 @@ class Holding:
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Lowering:
-    """Going back: the gauge pressure [Pa] that the load alone makes in the working side, the one the other side must
+    """Going back against a load, gauge pressures [Pa].
 
-    push with where that does not do, and whether it sinks `by_itself` (a mask).
+    `working` is what the load alone makes in the working side, `push` what the other side must give where that does not do,
+    `by_itself` whether it sinks without it (a mask).
     """
 
     working: Array

@@ -81,6 +81,11 @@ class Grid:
             groups = self._each() if self.per_design else solve_groups(self.plan, self.flat_designs, self.flat_strokes)
         return with_angles(groups, self.plan, self.flat_designs, self.flat_strokes)
 
+    @property
+    def crossed(self) -> FloatArray:
+        """The number, from 1 on, of a group whose pins reach a pose only through a change point; 0 where none does."""
+        return self.full(self.solved.crossed[None].astype(float))[0]
+
     def _each(self) -> GroupSolution:
         """Return the pins of groups where each design has strokes of its own: followed design by design."""
         m, n = self.size

@@ -358,7 +358,7 @@ class Motion:
     @property
     def _crossed(self) -> Mask:
         """The poses that a group's pins reach only through a change point."""
-        return np.asarray(np.broadcast_to(self._grid.full(self._grid.solved.crossed[None].astype(float))[0] > 0.0, self.shape))
+        return np.asarray(self._grid.crossed > 0.0)
 
     # -- values through the program ----------------------------------------------------------------------
 

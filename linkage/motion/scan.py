@@ -349,7 +349,7 @@ def change_point_error(motion: MotionLike, found: Interruption) -> SingularError
 
 def group_change_point_error(motion: MotionLike, crossed: Mask) -> SingularError:
     """Return the error for poses that a group's pins reach only through a change point."""
-    numbers = np.unique(motion._grid.full(motion._grid.solved.crossed[None].astype(float))[0][crossed])
+    numbers = np.unique(motion._grid.crossed[crossed])
     named = list(motion.plan.groups.items())
     groups = ", ".join(f"{name} = {group}" for name, group in (named[int(number) - 1] for number in numbers))
     where = where_words(motion.plan, crossed, motion.strokes)

@@ -29,7 +29,6 @@ from linkage.statics import Case, Loads, elements_of
 from .cylinder import CylinderSize
 from .inputs import (
     Array,
-    all_finite,
     efficient,
     follows,
     in_cubic_metres,
@@ -163,7 +162,7 @@ class LiftCircuit(Circuit):
 
     def back(self, motion: Poses) -> Array:
         """Return the pressure of the returning oil [Pa]; DefinitionError where it is negative."""
-        value = in_pascals(all_finite(self.number(motion, "back_pressure"), "Back pressure"), "Back pressure")
+        value = in_pascals(self.number(motion, "back_pressure"), "Back pressure")
         if np.any(value < 0.0):
             raise DefinitionError(f"Back pressure = {np.min(value):.6g} Pa is below zero; give zero or more.")
         return value

@@ -30,7 +30,7 @@ from .limits import (
     where_words,
 )
 from .peaks import SAMPLES, Index, bisected, highest, samples
-from .strokes import check_any
+from .strokes import TURN, check_any
 
 KEPT = 64
 """The designs of a plan whose clear stretches are kept."""
@@ -125,7 +125,6 @@ def folded(motion: MotionLike, joint: str) -> FloatArray:
 # drive, and a full turn may lead from one to another. Source: T. R. Chase, J. A. Mirth, Circuits and branches of
 # single-degree-of-freedom planar linkages, J. Mech. Design 115 (1993) 223-230.
 
-TURN = 2.0 * np.pi
 MOST = 6
 CLOSED = 1e-6
 """Pins that are so near to where they began, compared with the linkage, have returned."""

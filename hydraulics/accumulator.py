@@ -1,4 +1,4 @@
-"""Gas accumulators on one line. Every pressure in this file is gauge [Pa]; the gas law works on gauge + atmosphere.
+"""Gas accumulators on one line. Pressures are gauge [Pa] unless said to be absolute: the gas law works on gauge + atmosphere.
 
 >>> from linkage.units import cm3, kgf_cm2, litre
 >>> pair = [Accumulator(volume=4 * litre, charge=50 * kgf_cm2), Accumulator(volume=4 * litre, charge=25 * kgf_cm2)]
@@ -47,7 +47,7 @@ from .inputs import (
 )
 from .verdict import Verdict
 
-VOLUME = ("Accumulator volume", "give 0 for a vessel that is absent")
+VOLUME = "Accumulator volume"
 LARGEST = 10.0
 """m3; the volume of a larger accumulator was given in litres."""
 CHARGE = "Accumulator charge"
@@ -69,10 +69,10 @@ class Accumulator:
 
     def __post_init__(self) -> None:
         keep_own(self)
-        volume = np.ones(()) if follows(self.volume) else not_negative(self.volume, *VOLUME)
+        volume = np.ones(()) if follows(self.volume) else not_negative(self.volume, VOLUME, "give 0 for a vessel that is absent")
         if np.any(volume > LARGEST):
             large = f"{np.max(volume):.6g}"
-            raise DefinitionError(f"{VOLUME[0]} = {large} m3 is more than any has; write {large} * litre if these are litres.")
+            raise DefinitionError(f"{VOLUME} = {large} m3 is more than any has; write {large} * litre if these are litres.")
         if not follows(self.charge):
             in_pascals(np.where(volume > 0.0, all_finite(self.charge, CHARGE), 0.0), CHARGE)
 
@@ -228,9 +228,7 @@ class AccumulatorBlock:
         if not self.following:
             return self
         filled = [
-            Accumulator(
-                setting_of_designs(motion, each.volume, "Accumulator volume"), setting_of_designs(motion, each.charge, "Accumulator charge")
-            )
+            Accumulator(setting_of_designs(motion, each.volume, VOLUME), setting_of_designs(motion, each.charge, CHARGE))
             for each in self.accumulators
         ]
         atmosphere = one_atmosphere(setting_of_designs(motion, self.atmosphere, "Atmosphere"))[()]
@@ -344,11 +342,11 @@ class AccumulatorBlock:
     @cached_property
     def _bank(self) -> GasBank:
         self._check_sized()
-        vessels = [not_negative(one.volume, "Accumulator volume") for one in self.accumulators]
+        vessels = [not_negative(one.volume, VOLUME) for one in self.accumulators]
         if np.any(reduce(np.add, vessels) <= 0.0):
             raise DefinitionError("Every accumulator of the block has the volume 0, it is absent; give one of them a volume above zero.")
-        given = [all_finite(one.charge, "Accumulator charge") + self.atmosphere for one in self.accumulators]
-        charges = tuple(above_vacuum(each, self.atmosphere, "Accumulator charge") for each in effective(given, vessels))
+        given = [all_finite(one.charge, CHARGE) + self.atmosphere for one in self.accumulators]
+        charges = tuple(above_vacuum(each, self.atmosphere, CHARGE) for each in effective(given, vessels))
         return GasBank(self.gas, charges, tuple(vessels))
 
     @property

@@ -112,7 +112,7 @@ class FloatCircuit(Circuit):
 
     def pressure(self, motion: Poses) -> Array:
         """Return the block's pressure [Pa gauge], shape (...); 0 where the line is empty."""
-        charge = in_pascals(all_finite(self.number(motion, "charge_pressure"), "Charge pressure"), "Charge pressure")
+        charge = in_pascals(self.number(motion, "charge_pressure"), "Charge pressure")
         left = self.withdrawn(motion)
         block, exponent = self.accumulators(motion), number_set(self, motion, "exponent")
         if not is_traced(exponent) and np.all(exponent == 1.0):

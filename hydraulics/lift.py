@@ -22,14 +22,13 @@ from linkage.errors import DefinitionError, cited, known_name, one_word
 from linkage.frozen import refuses_changes
 from linkage.loads import Force, ForceElement, Load, Parameter, Poses
 from linkage.motion import Motion, require_motion
-from linkage.motion.limits import Mask
+from linkage.plan import Mask
 from linkage.quantities import Member, Reference, label, name_of, real
 from linkage.statics import Case, Loads, elements_of
 
 from .cylinder import CylinderSize
 from .inputs import (
     Array,
-    all_finite,
     efficient,
     follows,
     in_cubic_metres,
@@ -163,7 +162,7 @@ class LiftCircuit(Circuit):
 
     def back(self, motion: Poses) -> Array:
         """Return the pressure of the returning oil [Pa]; DefinitionError where it is negative."""
-        value = in_pascals(all_finite(self.number(motion, "back_pressure"), "Back pressure"), "Back pressure")
+        value = in_pascals(self.number(motion, "back_pressure"), "Back pressure")
         if np.any(value < 0.0):
             raise DefinitionError(f"Back pressure = {np.min(value):.6g} Pa is below zero; give zero or more.")
         return value
@@ -400,9 +399,10 @@ class Holding:
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Lowering:
-    """Going back: the gauge pressure [Pa] that the load alone makes in the working side, the one the other side must
+    """Going back against a load, gauge pressures [Pa].
 
-    push with where that does not do, and whether it sinks `by_itself` (a mask).
+    `working` is what the load alone makes in the working side, `push` what the other side must give where that does not do,
+    `by_itself` whether it sinks without it (a mask).
     """
 
     working: Array

@@ -10,10 +10,11 @@ from typing import Any, TypeAlias, final
 import numpy as np
 
 from ..errors import DefinitionError, cited, told, unwarned
+from ..plan import Mask
 from ..program import FloatArray
 from .grid import JoinedTo, joined_in_order
 from .motion import Motion, require_motion
-from .peaks import SAMPLES, Index, Mask, samples
+from .peaks import SAMPLES, Index, samples
 from .strokes import check_any
 
 # The way that the poses of a motion cover, as legs: straight lines in stroke space.

@@ -16,11 +16,11 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import SingularError, SingularWarning, warn
-from ..plan import ArrayReading, Plan
+from ..plan import ArrayReading, Mask, Plan, called, opening
 from ..program import FloatArray, Iterated, Node, scatter
 from ..steps import Point
 from .grid import MotionLike
-from .limits import Mask, called, opening, where_words
+from .limits import where_words
 
 WARN = 1e4
 REFUSE = 1e6

@@ -12,14 +12,12 @@ from typing import Any, TypeAlias, final
 import numpy as np
 
 from ..errors import DefinitionError, SingularError, one_word
-from ..plan import ArrayReading, Plan
+from ..plan import ArrayReading, Mask, Plan, failures, negative
 from ..program import NO_VALUE, QUICKEST, FloatArray, Kernel, Node, Way, c_text, javascript_text
 from ..quantities import real
 from . import conditions
-from . import limits as reach
 from .conditions import Judged
 from .grid import Angles, Grid, angles_of, to_rounding, varies
-from .limits import Mask
 from .motion import Motion
 from .requests import BoundRequest, RequestLike, all_bound, examined, identities_of, other_law_error
 from .strokes import at_values, float_array, known_strokes
@@ -197,7 +195,7 @@ class Evaluation:
         plan, shape = self.grid.plan, (int(bad.sum()),)
         with np.errstate(all="ignore"):
             lengths = ArrayReading(plan.members, plan.table.lengths, inputs)
-            lost = ~np.isfinite(block[:, bad]).all(axis=0) | reach.negative(plan, lengths, shape)
+            lost = ~np.isfinite(block[:, bad]).all(axis=0) | negative(plan, lengths, shape)
             if lost.any():
                 lost[lost] = self._failed({name: value[lost] for name, value in inputs.items()}, int(lost.sum()))
         refused = [np.zeros(shape, bool) for _ in self.requests]
@@ -219,7 +217,7 @@ class Evaluation:
     def _failed(self, inputs: Mapping[str, Any], count: int) -> Mask:
         """Return the mask of poses, shape (count,), at which something that the requests are built from cannot be placed."""
         plan, names, failed = self.grid.plan, self.names, np.zeros(count, bool)
-        for name, mask in reach.failures(plan, plan.read(inputs), failed.shape):
+        for name, mask in failures(plan, plan.read(inputs), failed.shape):
             if name in names:
                 failed |= mask
         return failed

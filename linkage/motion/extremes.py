@@ -2,7 +2,7 @@
 
 What is looked at is the range that the poses cover: of a single stroke from its least to its greatest value; of several strokes in arrays
 of one axis the path through the poses in their order; of a grid the box from the least to the greatest value of each. See `peaks` for
-how and how closely it is looked at, and `boxes` for grids.
+how and how closely it is looked at; grids are looked at by `highest_in`, at the end of this file.
 """
 
 from __future__ import annotations
@@ -15,12 +15,13 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError
+from ..plan import Mask
 from ..program import FloatArray
 from .between import Function, OnLegs, require_function, values_of
 from .grid import JoinedTo, joined_in_order
 from .limits import place_text, stroke_unit
 from .motion import Motion
-from .peaks import CLOSE, Index, Mask, bisected, highest, is_pole, missing_lowest, peaks, zoomed
+from .peaks import CLOSE, Index, bisected, highest, is_pole, missing_lowest, peaks, zoomed
 
 
 @final

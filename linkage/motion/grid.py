@@ -13,10 +13,9 @@ import numpy as np
 from ..assembly import NONE_SOLVED, GroupSolution, solve_groups, with_angles
 from ..errors import DefinitionError
 from ..frozen import FrozenDict, read_only
-from ..plan import ArrayReading, Plan
+from ..plan import ArrayReading, Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level, Node, Way, ancestors, interpret
 from ..quantities import Member, Quantity
-from .limits import Mask
 
 
 @final
@@ -81,6 +80,11 @@ class Grid:
         if self.plan.groups:
             groups = self._each() if self.per_design else solve_groups(self.plan, self.flat_designs, self.flat_strokes)
         return with_angles(groups, self.plan, self.flat_designs, self.flat_strokes)
+
+    @property
+    def crossed(self) -> FloatArray:
+        """The number, from 1 on, of a group whose pins reach a pose only through a change point; 0 where none does."""
+        return self.full(self.solved.crossed[None].astype(float))[0]
 
     def _each(self) -> GroupSolution:
         """Return the pins of groups where each design has strokes of its own: followed design by design."""

@@ -10,13 +10,7 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError
 from ..frozen import FrozenDict, refuses_changes
-from ..plan import ArrayReading, Plan
-from ..plan import Mask as Mask
-from ..plan import called as called
-from ..plan import failures as failures
-from ..plan import missing_words as missing_words
-from ..plan import negative as negative
-from ..plan import opening as opening
+from ..plan import ArrayReading, Mask, Plan, failures, missing_words, opening
 from ..program import FloatArray
 from ..units import UNITS, deg, display_unit, factor
 from .peaks import last_holding

@@ -10,17 +10,16 @@ import numpy as np
 
 from ..assembly import ambiguous_angle
 from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarning, cited, one_word, unwarned, warn
-from ..plan import ArrayReading, Plan
+from ..plan import ArrayReading, Mask, Plan, failures, negative
 from ..program import FloatArray, Kernel
 from ..quantities import Angle, Distance, Member, Quantity, needs
 from ..steps import Arrow, Point
 from ..vectors import Vec
-from . import conditions, scan
-from . import differences as numeric
-from . import limits as reach
+from . import conditions, differences, scan
 from .conditions import Judged
+from .course import Interruption
 from .grid import Grid, JoinedTo, Joining, angles_of, joined_in_order, not_joined, to_rounding
-from .limits import Mask
+from .limits import Limits, assembly_error, no_joint, span_text, stroke_unit, where_words
 from .requests import (
     BoundRequest,
     Places,
@@ -108,7 +107,7 @@ class Motion:
         return self._grid.stroke_shape
 
     def __repr__(self) -> str:
-        spans = [f"{name} = {reach.span_text(values, reach.stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
+        spans = [f"{name} = {span_text(values, stroke_unit(self.plan, name))}" for name, values in self.strokes.items()]
         poses = f"{', '.join(spans) or 'no stroke'}; shape {self.shape}"
         reached = "all reached" if self.reached.all() else f"{int(self.reached.sum())} of {self.reached.size} reached"
         return f"<Motion of {self.plan.title}: {poses}, {reached}{scan.between_words(self.interruptions)}>"
@@ -173,7 +172,7 @@ class Motion:
         name = checked_name("Point", point, self.plan.points, self.plan.title)
         directions = self._meeting(name)
         if not directions:
-            raise reach.no_joint(self.plan, name, self._joints)
+            raise no_joint(self.plan, name, self._joints)
         u, w = directions
         with np.errstate(all="ignore"):
             angle = np.arctan2(np.abs(u.cross(w)), u.dot(w))
@@ -274,7 +273,7 @@ class Motion:
 
     # -- how far it goes, and other strokes --------------------------------------------------------------
 
-    def limits(self) -> scan.Limits:
+    def limits(self) -> Limits:
         """Return, for every stroke, how far it can go and what stops it; printed as sentences.
 
         Reachable intervals, dead points and the steps that stop there, change points, least transmission angles.
@@ -283,7 +282,7 @@ class Motion:
         return scan.limits(self)
 
     @cached_property
-    def interruptions(self) -> tuple[scan.Interruption, ...] | None:
+    def interruptions(self) -> tuple[Interruption, ...] | None:
         """What interrupts the way between the least and the greatest stroke, in order: stretches out of reach and change points.
 
         Empty where nothing does; it then leads from every pose to every other. None where it is not looked for: of batches and
@@ -317,12 +316,12 @@ class Motion:
         """Place the poses at a dead point, to rounding; refuse or mask those out of reach."""
         failed: Mask = np.asarray(~np.isfinite(self._places).all(axis=0)) if len(self._places) else np.ones(self.shape, bool)
         with np.errstate(all="ignore"):
-            failed |= reach.negative(self.plan, ArrayReading(self.plan.members, self.plan.table.lengths, self.inputs), self.shape)
+            failed |= negative(self.plan, ArrayReading(self.plan.members, self.plan.table.lengths, self.inputs), self.shape)
         if not failed.any():
             return
         reading = self._grid.read_at(failed)
         lost = np.zeros(int(failed.sum()), bool)
-        for _, mask in reach.failures(self.plan, reading, lost.shape):
+        for _, mask in failures(self.plan, reading, lost.shape):
             lost |= mask
         self._places = np.array(self._places)
         for index, name in enumerate(self.plan.moving):
@@ -359,7 +358,7 @@ class Motion:
     @property
     def _crossed(self) -> Mask:
         """The poses that a group's pins reach only through a change point."""
-        return np.asarray(np.broadcast_to(self._grid.full(self._grid.solved.crossed[None].astype(float))[0] > 0.0, self.shape))
+        return np.asarray(self._grid.crossed > 0.0)
 
     # -- values through the program ----------------------------------------------------------------------
 
@@ -424,16 +423,16 @@ class Motion:
 
         declared = self.plan.strokes[stroke]
         least = 1.0 if isinstance(member, Quantity) else 0.0  # an output may be a difference of what is much larger: rad
-        found, error, still = numeric.derivative(values, abs(declared.end - declared.start), order, step, least)
-        most = numeric.USELESS if step is None else numeric.COARSE
-        useless, lost = numeric.losses(found, np.where(self.reached, error, 0.0), still, len(self.shape), most)
+        found, error, still = differences.derivative(values, abs(declared.end - declared.start), order, step, least)
+        most = differences.USELESS if step is None else differences.COARSE
+        useless, lost = differences.losses(found, np.where(self.reached, error, 0.0), still, len(self.shape), most)
         what = f"The numerical ratio of {member.name or member}{'' if step is None else f' with step={step:.6g}'}"
         if step is not None:
             useless |= self.reached & ~np.isfinite(found).all(axis=tuple(range(found.ndim - len(self.shape))))
         if useless.any() and self.unreachable == "raise":
-            where = reach.where_words(self.plan, useless, self.strokes)
-            raise SingularError(f"{what} is refused {where}: {numeric.why_refused(step)}", mask=useless, motion=self)
-        if lost > numeric.WARN[order]:
+            where = where_words(self.plan, useless, self.strokes)
+            raise SingularError(f"{what} is refused {where}: {differences.why_refused(step)}", mask=useless, motion=self)
+        if lost > differences.WARN[order]:
             other = "the exact one is not" if step is None else "without a step it is chosen at every pose"
             text = f"{what} is off by up to about {lost:.0e} of its greatest value; {other}."
             warn(SingularWarning(text, estimate=lost))
@@ -452,7 +451,7 @@ class Motion:
         good: Mask = np.asarray(finite if finite.ndim == len(self.shape) else finite.all(axis=0))
         missing = ~good & self.reached & ~excused
         if missing.any() and self.unreachable == "raise":
-            where = reach.where_words(self.plan, missing, self.strokes)
+            where = where_words(self.plan, missing, self.strokes)
             text = f'{what} has no finite value {where}. Leave these poses out, or ask with unreachable="nan".'
             raise SingularError(text, mask=missing, motion=self)
         return np.where(good, values, np.nan)
@@ -491,7 +490,7 @@ class Motion:
         if refused.any() and self.unreachable == "raise":
             raise error(found.at(found.refused), refused)
         if doubtful.any():
-            conditions.warn_near(found.at(found.doubtful), f"{words} {reach.where_words(self.plan, doubtful, self.strokes)}")
+            conditions.warn_near(found.at(found.doubtful), f"{words} {where_words(self.plan, doubtful, self.strokes)}")
         return refused
 
     def _is_near(self, what: BoundRequest) -> bool:
@@ -556,7 +555,7 @@ def out_of_reach(motion: Motion) -> AssemblyError:
     if motion._crossed.any():
         return scan.group_change_point_error(motion, motion._crossed)
     missing = ~motion.reached
-    return reach.assembly_error(motion.plan, motion._grid.read_at(missing), missing, motion.strokes, scan.stop_words(motion))
+    return assembly_error(motion.plan, motion._grid.read_at(missing), missing, motion.strokes, scan.stop_words(motion))
 
 
 def require_motion(given: object) -> Motion:

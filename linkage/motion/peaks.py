@@ -21,10 +21,10 @@ from typing import TypeAlias, final
 import numpy as np
 import numpy.typing as npt
 
+from ..plan import Mask
 from ..program import FloatArray
 
 Index: TypeAlias = npt.NDArray[np.intp]
-Mask: TypeAlias = npt.NDArray[np.bool_]
 Look: TypeAlias = Callable[[Index, FloatArray], tuple[FloatArray, Mask]]
 """`look(leg, t)` at places (n,) of all D designs, or (D, n) of each its own: the values of K functions (K, D, n), NaN where there is none,
 and whether each pose (D, n) is reached."""

@@ -14,13 +14,12 @@ from typing import Any, TypeAlias, final
 import numpy as np
 
 from ..errors import DefinitionError, cited
-from ..plan import NEAR, REGULAR, ArrayReading, Plan
+from ..plan import NEAR, REGULAR, ArrayReading, Mask, Plan
 from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
 from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Judged, Left, Rounding, judged
 from .grid import Angles, Grid, MotionLike, angles_of
-from .limits import Mask
 from .strokes import checked_name, order_of
 
 

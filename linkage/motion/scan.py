@@ -9,32 +9,28 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, unwarned
 from ..loads import TwoPoint
+from ..plan import Mask, called, failures, missing_words, opening
 from ..program import FloatArray
 from ..quantities import Distance
 from ..steps import Point
 from ..units import deg
-from .course import Course
-from .course import Interruption as Interruption
+from .course import Course, Interruption
 from .grid import MotionLike
 from .limits import (
     Extreme,
     Held,
     Interval,
+    Limits,
     Open,
     Scanned,
     StrokeLimits,
-    called,
-    failures,
     intervals,
-    missing_words,
-    opening,
     search,
     stroke_unit,
     where_words,
 )
-from .limits import Limits as Limits
-from .peaks import SAMPLES, Index, Mask, bisected, highest, samples
-from .strokes import check_any
+from .peaks import SAMPLES, Index, bisected, highest, samples
+from .strokes import TURN, check_any
 
 KEPT = 64
 """The designs of a plan whose clear stretches are kept."""
@@ -129,7 +125,6 @@ def folded(motion: MotionLike, joint: str) -> FloatArray:
 # drive, and a full turn may lead from one to another. Source: T. R. Chase, J. A. Mirth, Circuits and branches of
 # single-degree-of-freedom planar linkages, J. Mech. Design 115 (1993) 223-230.
 
-TURN = 2.0 * np.pi
 MOST = 6
 CLOSED = 1e-6
 """Pins that are so near to where they began, compared with the linkage, have returned."""
@@ -353,7 +348,7 @@ def change_point_error(motion: MotionLike, found: Interruption) -> SingularError
 
 def group_change_point_error(motion: MotionLike, crossed: Mask) -> SingularError:
     """Return the error for poses that a group's pins reach only through a change point."""
-    numbers = np.unique(motion._grid.full(motion._grid.solved.crossed[None].astype(float))[0][crossed])
+    numbers = np.unique(motion._grid.crossed[crossed])
     named = list(motion.plan.groups.items())
     groups = ", ".join(f"{name} = {group}" for name, group in (named[int(number) - 1] for number in numbers))
     where = where_words(motion.plan, crossed, motion.strokes)

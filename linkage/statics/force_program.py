@@ -19,8 +19,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..motion import Motion
 from ..motion.evaluation import part_of_input, pieces
-from ..motion.limits import Mask
-from ..plan import Plan
+from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, Level, Node, Tangent
 from .acting import ActingLoads, Case, Loads, Movement
 from .equilibrium import System
@@ -196,7 +195,7 @@ def run_at(
         inputs |= {friction_name(place): np.nan_to_num(each) for place, each in enumerate(couples)}
     result = program.whole(inputs, size=size)
     values = result.values.reshape(len(result.values), *motion.shape)
-    good = poses.good & (poses.full(locked.astype(float)) != 1.0)
+    good = poses.good & ~poses.mask(locked)
     whole = bool(good.all())
     if not np.all(result.guards > 0.0) or not np.isfinite(values if whole else values[:, good]).all():
         return None

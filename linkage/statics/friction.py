@@ -17,7 +17,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..loads import Friction
-from ..motion.limits import Mask
+from ..plan import Mask
 from ..program import FloatArray
 from .acting import Movement
 from .bodies import FRAME

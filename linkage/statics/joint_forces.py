@@ -12,8 +12,9 @@ from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, known_name, unknown
 from ..motion import Motion, require_motion, stroke_unit
-from ..motion.limits import Mask, where_words
+from ..motion.limits import where_words
 from ..motion.requests import stroke_of
+from ..plan import Mask
 from ..program import FloatArray
 from ..units import kN
 from .acting import ActingLoad, ActingLoads, Case, Loads, acting_loads, movement_of

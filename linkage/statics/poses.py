@@ -12,9 +12,8 @@ from numpy.typing import ArrayLike
 from ..errors import DefinitionError, cited, unwarned
 from ..loads import Poses, require_poses
 from ..motion import BoundRequest
-from ..motion.limits import Mask
 from ..motion.requests import Ratios
-from ..plan import Plan, Reading
+from ..plan import Mask, Plan, Reading
 from ..program import FloatArray
 from ..quantities import Reference
 from ..vectors import Scalar

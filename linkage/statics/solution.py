@@ -10,7 +10,8 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError, SingularError
-from ..motion.limits import Mask, where_words
+from ..motion.limits import where_words
+from ..plan import Mask
 from ..program import FloatArray
 from .acting import ActingLoads
 from .equilibrium import LinearForm, System

@@ -13,10 +13,9 @@ from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, unwarned
 from ..motion import BoundRequest, Motion
-from ..motion.limits import Mask
 from ..motion.requests import stroke_of
 from ..motion.strokes import checked_name
-from ..plan import ArrayReading, Plan, Trace
+from ..plan import ArrayReading, Mask, Plan, Trace
 from ..program import FloatArray, Level, Node, Notes, Traced, eliminated, node_of
 from ..quantities import Angle, Distance, Member, Quantity, Reference
 from ..steps import Arrow, Point

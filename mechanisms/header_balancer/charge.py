@@ -14,7 +14,7 @@ from hydraulics.gas import Gas
 from linkage import DefinitionError, Motion
 from linkage.errors import cited
 from linkage.motion import last_holding, lowest
-from linkage.motion.limits import Mask
+from linkage.plan import Mask
 from linkage.program import FloatArray
 from linkage.quantities import is_number
 from linkage.units import deg, kgf_cm2, mm, show

@@ -84,7 +84,7 @@ class Grid:
     @property
     def crossed(self) -> FloatArray:
         """The number, from 1 on, of a group whose pins reach a pose only through a change point; 0 where none does."""
-        return self.full(self.solved.crossed[None].astype(float))[0]
+        return np.asarray(self.full(self.solved.crossed[None].astype(float))[0])
 
     def _each(self) -> GroupSolution:
         """Return the pins of groups where each design has strokes of its own: followed design by design."""

@@ -34,6 +34,10 @@ class Request(ABC):
     def bound(self, plan: Plan) -> BoundRequest:
         """Return the request bound to a plan; DefinitionError where there is no such thing."""
 
+    def in_case(self, case: object) -> Request:
+        """Return the request with the forces of a load case, where it is of forces and names no case itself."""
+        return self
+
 
 RequestLike: TypeAlias = str | Member | Request
 

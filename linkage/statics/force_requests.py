@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import TypeVar, final
+from typing import TypeVar, cast, final
 from weakref import ref
 
 import numpy as np
@@ -45,6 +45,12 @@ def bound_once(plan: Plan, request: Request, bound: Callable[[Plan], Bound]) -> 
     return bound(plan) if identity is None else plan.made(("bound", identity), lambda _: bound(plan))
 
 
+def said_of(first: str | None, case: Case, second: str = "") -> str:
+    """Return the arguments of a request as text."""
+    names = [each for each in (first, second) if each]
+    return ", ".join([*names, *([] if case is None else [f"case={case if isinstance(case, str) else case.name or 'a load case'}"])])
+
+
 def is_unchanging(thing: object) -> bool:
     """Return whether loads or a load case cannot change: members of a class, and frozen dataclasses."""
     if not isinstance(thing, (ForceElement, LoadCase)):
@@ -65,6 +71,12 @@ class DriveForce(Request):
     def identity(self, plan: Plan) -> Hashable:
         loads = loads_identity(self.loads, self.case)
         return None if loads is None else ("drive force", self.drive, loads)
+
+    def in_case(self, case: object) -> DriveForce:
+        return self if self.case is not None else replace(self, case=cast(Case, case))
+
+    def __str__(self) -> str:
+        return f"drive_force({said_of(self.drive, self.case)})"
 
     def bound(self, plan: Plan) -> DriveForceOf:
         return bound_once(plan, self, self._bound) if self.loads is None else self._bound(plan)
@@ -163,6 +175,13 @@ class PinForce(Request):
     def identity(self, plan: Plan) -> Hashable:
         loads = loads_identity(self.loads, self.case)
         return None if loads is None else ("pin force", self.point, self.on, self.component, loads)
+
+    def in_case(self, case: object) -> PinForce:
+        return self if self.case is not None else replace(self, case=cast(Case, case))
+
+    def __str__(self) -> str:
+        what = f"pin_force({said_of(self.point, self.case, self.on)})"
+        return what if self.component == "size" else f"{what}, its {self.component} part"
 
     def bound(self, plan: Plan) -> PinForceOf:
         return bound_once(plan, self, self._bound) if self.loads is None else self._bound(plan)

@@ -19,4 +19,6 @@ from .lift import LiftCircuit as LiftCircuit
 from .lift import Lowering as Lowering
 from .member import Cylinder as Cylinder
 from .nitrogen import real_nitrogen as real_nitrogen
+from .requests import pressure as pressure
+from .requests import thrust as thrust
 from .verdict import Verdict as Verdict

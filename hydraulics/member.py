@@ -21,10 +21,10 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, unknown, unwarned
 from linkage.frozen import refuses_changes
-from linkage.loads import AT_REST, DrawnAs, ForceElement, LoadCase, Parameter, Poses, Push, Rates, TwoPoint, require_poses
+from linkage.loads import AT_REST, Declared, DrawnAs, ForceElement, LoadCase, Parameter, Poses, Push, Rates, TwoPoint, require_poses
 from linkage.motion import Column, Motion, Tabled, greatest, lowest, require_motion
 from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import Case, Loads, elements_of, member_thrust, same
+from linkage.statics import AnyMotion, Case, Loads, elements_of, member_thrust, same
 from linkage.units import mm
 
 from .buckling import Buckling
@@ -89,7 +89,7 @@ class Cylinder(TwoPoint, Tabled):
     def area_in(self, motion: Poses, sense: Array) -> Array:
         size = self.sized(motion)
         if self.works == "both":
-            return np.asarray(np.where(sense < 0.0, -size.pull_area, size.push_area))
+            return np.asarray(np.where(sense[()] < 0.0, -size.pull_area, size.push_area))
         return np.asarray(size.sense * size.area + 0.0 * sense)
 
     # -- its size ------------------------------------------------------------------------------------------
@@ -141,7 +141,7 @@ class Cylinder(TwoPoint, Tabled):
 
     def thrust(
         self,
-        motion: Motion,
+        motion: AnyMotion,
         loads: Loads = None,
         *,
         case: Case = None,
@@ -157,7 +157,7 @@ class Cylinder(TwoPoint, Tabled):
         """
         return member_thrust(motion, self, loads, case=case, direction=direction, rates=rates)
 
-    def pressure(self, motion: Motion, loads: Loads = None, *, case: Case = None, direction: str | None = None) -> Array:
+    def pressure(self, motion: AnyMotion, loads: Loads = None, *, case: Case = None, direction: str | None = None) -> Array:
         """Return the pressure on the side that works, shape (...) [Pa gauge]; 0 where the other side holds.
 
         While it moves in its working direction, or the one named, with what its one LiftCircuit says: efficiencies and back pressure.
@@ -168,7 +168,7 @@ class Cylinder(TwoPoint, Tabled):
 
     def columns(self, motion: Motion) -> list[Column]:
         """Return its thrust without friction and, unless several circuits have it, its pressure, for the table of results."""
-        pressed = len(circuits_of(self, motion)) <= 1
+        pressed = len(circuits_of(self, motion.plan)) <= 1
         thrust = Column("thrust", self.thrust(motion), "kN")
         return [thrust, Column("pressure", self.pressure(motion), "bar", 2)] if pressed else [thrust]
 
@@ -258,28 +258,30 @@ class Cylinder(TwoPoint, Tabled):
         return "".join(label(end) for end in (self.A, self.B))
 
 
-def pressure_of(cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
+def pressure_of(cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
     """Return a cylinder's pressure by the circuit that has it; without one, of a pump without losses."""
     require_poses(motion)
-    members, mine = motion.plan.members, circuits_of(cylinder, motion)
-    feeding = [each for each in mine if any(same(cylinder, one) for one in each.feeds(members))]
-    if feeding:
-        return feeding[0].pressure_in(cylinder, motion, loads, case, direction)
-    if len(mine) > 1:
-        names = ", ".join(each.name for each in mine)
-        remedy = f"name one: {mine[0].name}.pressure_for(motion)"
-        raise DefinitionError(f"{motion.plan.title}: {cylinder.name} is on {len(mine)} circuits, {names}; {remedy}.")
-    if mine:
-        return mine[0].pressure_in(cylinder, motion, loads, case, direction)
+    circuit = circuit_having(cylinder, motion.plan)
+    if circuit is not None:
+        return circuit.pressure_in(cylinder, motion, loads, case, direction)
     thrust = cylinder.thrust(motion, loads, case=case, direction=direction or "frictionless")
     return np.maximum(cylinder.sized(motion).pressure_for(thrust), 0.0)
 
 
-def circuits_of(cylinder: Cylinder, motion: Motion) -> list[Circuit]:
+def circuit_having(cylinder: Cylinder, plan: Declared) -> Circuit | None:
+    """Return the circuit that gives a cylinder its pressure, the one that feeds it first; DefinitionError where several have it."""
+    members, mine = plan.members, circuits_of(cylinder, plan)
+    feeding = [each for each in mine if any(same(cylinder, one) for one in each.feeds(members))]
+    if len(mine) > 1 and not feeding:
+        names = ", ".join(each.name for each in mine)
+        remedy = f"name one: {mine[0].name}.pressure_for(motion)"
+        raise DefinitionError(f"{plan.title}: {cylinder.name} is on {len(mine)} circuits, {names}; {remedy}.")
+    return next(iter((*feeding, *mine)), None)
+
+
+def circuits_of(cylinder: Cylinder, plan: Declared) -> list[Circuit]:
     """Return the circuits of a class that have a cylinder."""
-    require_poses(motion)
-    members = motion.plan.members
-    return [each for each in motion.plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(members))]
+    return [each for each in plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(plan.members))]
 
 
 class Circuit(ForceElement):
@@ -315,7 +317,7 @@ class Circuit(ForceElement):
         return tuple(each for each in found if isinstance(each, Cylinder))
 
     @abstractmethod
-    def pressure_in(self, cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
+    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
         """Return the pressure on the working side of one of its cylinders, shape (...) [Pa gauge]."""
 
 

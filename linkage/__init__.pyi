@@ -33,6 +33,7 @@ from .motion import Column as Column
 from .motion import Motion as Motion
 from .motion import condition as condition
 from .motion import ratio as ratio
+from .motion import transmission as transmission
 from .quantities import Curve as Curve
 from .quantities import Dimension as Dimension
 from .quantities import Stroke as Stroke

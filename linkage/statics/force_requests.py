@@ -16,7 +16,7 @@ from ..motion import BoundRequest, Request, require_motion
 from ..motion.grid import MotionLike
 from ..motion.requests import identity_of, stroke_of
 from ..plan import Plan
-from ..program import Node, Notes
+from ..program import FloatArray, Node, Notes
 from ..vectors import Scalar
 from .acting import Case, Loads
 from .equilibrium import System
@@ -39,16 +39,15 @@ def loads_identity(loads: Loads, case: Case) -> Hashable:
     return None if ... in parts else (loads is None, *parts)
 
 
+def case_words(case: Case) -> list[str]:
+    """Return a load case as an argument in words; nothing of none."""
+    return [] if case is None else [f"case={case if isinstance(case, str) else case.name or case.label}"]
+
+
 def bound_once(plan: Plan, request: Request, bound: Callable[[Plan], Bound]) -> Bound:
     """Return a request of the machine's own loads as `bound` binds it, kept with the plan."""
     identity = identity_of(plan, request)
     return bound(plan) if identity is None else plan.made(("bound", identity), lambda _: bound(plan))
-
-
-def said_of(first: str | None, case: Case, second: str = "") -> str:
-    """Return the arguments of a request as text."""
-    names = [each for each in (first, second) if each]
-    return ", ".join([*names, *([] if case is None else [f"case={case if isinstance(case, str) else case.name or 'a load case'}"])])
 
 
 def is_unchanging(thing: object) -> bool:
@@ -75,8 +74,11 @@ class DriveForce(Request):
     def in_case(self, case: object) -> DriveForce:
         return self if self.case is not None else replace(self, case=cast(Case, case))
 
+    def of(self, motion: MotionLike) -> FloatArray:
+        return driving_force(require_motion(motion), self.loads, self.drive, case=self.case)
+
     def __str__(self) -> str:
-        return f"drive_force({said_of(self.drive, self.case)})"
+        return f"drive_force({', '.join([*([self.drive] if self.drive else []), *case_words(self.case)])})"
 
     def bound(self, plan: Plan) -> DriveForceOf:
         return bound_once(plan, self, self._bound) if self.loads is None else self._bound(plan)
@@ -179,9 +181,14 @@ class PinForce(Request):
     def in_case(self, case: object) -> PinForce:
         return self if self.case is not None else replace(self, case=cast(Case, case))
 
+    def of(self, motion: MotionLike) -> FloatArray:
+        known_name("Component", self.component, COMPONENTS, where=f"{motion.plan.title}: the force at {self.point}")
+        force = pin_forces(require_motion(motion), self.loads, case=self.case).force(self.point, self.on)
+        return np.asarray(COMPONENTS[self.component](force[0], force[1]))
+
     def __str__(self) -> str:
-        what = f"pin_force({said_of(self.point, self.case, self.on)})"
-        return what if self.component == "size" else f"{what}, its {self.component} part"
+        component = [] if self.component == "size" else [f"component={self.component}"]
+        return f"pin_force({', '.join([self.point, *([self.on] if self.on else []), *component, *case_words(self.case)])})"
 
     def bound(self, plan: Plan) -> PinForceOf:
         return bound_once(plan, self, self._bound) if self.loads is None else self._bound(plan)

@@ -51,34 +51,34 @@ class Measure(ABC):
         return 9
 
     def __add__(self, other: Operand) -> Measure:
-        return Combined("+", self, as_measure(other))
+        return CombinedMeasure("+", self, as_measure(other))
 
     def __radd__(self, other: Operand) -> Measure:
-        return Combined("+", as_measure(other), self)
+        return CombinedMeasure("+", as_measure(other), self)
 
     def __sub__(self, other: Operand) -> Measure:
-        return Combined("-", self, as_measure(other))
+        return CombinedMeasure("-", self, as_measure(other))
 
     def __rsub__(self, other: Operand) -> Measure:
-        return Combined("-", as_measure(other), self)
+        return CombinedMeasure("-", as_measure(other), self)
 
     def __mul__(self, other: Operand) -> Measure:
-        return Combined("*", self, as_measure(other))
+        return CombinedMeasure("*", self, as_measure(other))
 
     def __rmul__(self, other: Operand) -> Measure:
-        return Combined("*", as_measure(other), self)
+        return CombinedMeasure("*", as_measure(other), self)
 
     def __truediv__(self, other: Operand) -> Measure:
-        return Combined("/", self, as_measure(other))
+        return CombinedMeasure("/", self, as_measure(other))
 
     def __rtruediv__(self, other: Operand) -> Measure:
-        return Combined("/", as_measure(other), self)
+        return CombinedMeasure("/", as_measure(other), self)
 
     def __pow__(self, other: float) -> Measure:
-        return Combined("**", self, as_measure(other))
+        return CombinedMeasure("**", self, as_measure(other))
 
     def __neg__(self) -> Measure:
-        return Combined("*", Given(-1.0), self)
+        return CombinedMeasure("*", Given(-1.0), self)
 
     def __ge__(self, other: Operand) -> Constraint:
         return Constraint(self, ">=", as_measure(other))
@@ -135,7 +135,7 @@ class Given(Measure):
 
 @final
 @dataclass(frozen=True, eq=False)
-class Combined(Measure):
+class CombinedMeasure(Measure):
     """Two measures joined by an operator."""
 
     symbol: str
@@ -310,7 +310,7 @@ class Constraint(Condition):
     def margin(self) -> Measure:
         """What is zero or above where the condition is kept; zero where it is an equation."""
         swapped = self.symbol == "<="
-        return Combined("-", *((self.right, self.left) if swapped else (self.left, self.right)))
+        return CombinedMeasure("-", *((self.right, self.left) if swapped else (self.left, self.right)))
 
     def constraints(self, machine: Any) -> tuple[Constraint, ...]:
         return (self,)

@@ -23,7 +23,7 @@ from .batching import Progress, progress_told
 from .box import unit_points
 from .checks import check_one_design
 from .infeasible import infeasible_error
-from .measures import At, Combined, Constraint, Leaf, Measure, Worst, conditions_of, require_quantity, words_of
+from .measures import At, CombinedMeasure, Constraint, Leaf, Measure, Worst, conditions_of, require_quantity, words_of
 from .optimum import Optimum, polished
 from .problem import COARSE, Problem
 from .solver import Found, Local
@@ -108,7 +108,7 @@ def in_case(measure: Measure, case: Case) -> Measure:
     """Return a measure with the forces of a load case, where it names none itself."""
     if case is None:
         return measure
-    if isinstance(measure, Combined):
+    if isinstance(measure, CombinedMeasure):
         return replace(measure, left=in_case(measure.left, case), right=in_case(measure.right, case))
     if isinstance(measure, Leaf):
         return replace(measure, quantity=quantity_in_case(measure.quantity, case))

@@ -9,8 +9,8 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, unwarned
-from ..motion import BoundRequest, Grid, Motion, Request, evaluate_grid
+from ..errors import DefinitionError, UntracedError, unwarned
+from ..motion import BoundRequest, Grid, Motion, Request
 from ..motion.evaluation import Evaluation
 from ..motion.grid import Angles, angles_of
 from ..motion.requests import Slope, bound
@@ -76,7 +76,7 @@ class Sampling:
             if self._eager:
                 motion = motion_of(grid)
                 for place in self._eager:
-                    values[place] = np.broadcast_to(quantity_values(motion, self.quantities[place]), grid.shape).reshape(m, n)
+                    values[place] = eager(motion, self.quantities[place]).reshape(m, n)
         return Seen(np.where(reached, values, np.nan), margins, reached)
 
     def _margins(self, grid: Grid) -> tuple[FloatArray, Mask]:
@@ -140,7 +140,7 @@ class Sampling:
                 designs = dict(grid.designs) | (moved if given is grid.designs else {})
                 strokes = dict(grid.strokes) | (moved if given is grid.strokes else {})
                 near = Grid(grid.plan, designs, strokes, per_design=grid.per_design)
-                ends.append(np.broadcast_to(quantity_values(motion_of(near), quantity), grid.shape).reshape(-1))
+                ends.append(eager(motion_of(near), quantity).reshape(-1))
             found.append((ends[0] - ends[1]) / (2.0 * step))
         return np.array(found)
 
@@ -149,15 +149,16 @@ def traced(plan: Plan, quantity: Any) -> BoundRequest | None:
     """Return a quantity bound to a plan as nodes of its program; None where it has none; DefinitionError for what is no number."""
     if not isinstance(quantity, (str, Quantity, Request)):
         return None
-    request = bound(plan, quantity)
+    try:
+        request = bound(plan, quantity)
+    except UntracedError:
+        return None
     if request.rows > 1:
         name = words_of(quantity)
         raise DefinitionError(f'{plan.title}: {name} has two components; say which, x("{name}") or y("{name}").')
     try:
         plan.made(("traced", request.key), lambda twin: len(request.nodes(twin)))
-    except DefinitionError:
-        if isinstance(quantity, Request) and not hasattr(quantity, "of"):
-            raise
+    except UntracedError:
         return None
     return request
 
@@ -166,7 +167,10 @@ def strokes_behind(plan: Plan, quantity: Any) -> tuple[str, ...]:
     """Return the strokes that a quantity depends on; all of them for a function of a motion."""
     if not isinstance(quantity, (str, Quantity, Request)):
         return tuple(plan.strokes)
-    names = bound(plan, quantity).names(plan)
+    try:
+        names = bound(plan, quantity).names(plan)
+    except UntracedError:
+        return tuple(plan.strokes)
     return tuple(name for name in plan.strokes if name in names or name in plan.reaches(*(each for each in names if each in plan.members)))
 
 
@@ -175,14 +179,17 @@ def motion_of(grid: Grid) -> Motion:
     return Motion(grid.plan, grid.designs, grid.strokes, "nan", per_design=grid.per_design)
 
 
+def eager(motion: Motion, quantity: Any) -> FloatArray:
+    """Return a quantity at every pose of a motion, NaN where it has no value."""
+    found = quantity.of(motion) if isinstance(quantity, Request) else quantity_values(motion, quantity)
+    return np.asarray(np.broadcast_to(found, motion.shape))
+
+
 def value_on(quantity: Any) -> Callable[[Motion], FloatArray]:
     """Return a quantity as a function of a motion, as the search for extremes between poses takes it."""
 
     def value(motion: Motion) -> FloatArray:
-        if isinstance(quantity, Request):
-            (found,) = evaluate_grid(motion._grid, [quantity], None, QUICKEST, "nan")
-            return np.asarray(np.broadcast_to(found, motion.shape))
-        return quantity_values(motion, quantity)
+        return eager(motion, quantity)
 
     value.__name__ = title_of(quantity).replace(" ", "_") if callable(quantity) or isinstance(quantity, (str, Quantity)) else "request"
     return value

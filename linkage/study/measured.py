@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from math import prod
 from typing import Any, TypeAlias, final
 
 import numpy as np
@@ -98,10 +99,10 @@ class Poses:
             said.append(f"{name} = {' to '.join(dict.fromkeys(ends))}")
         return ", ".join(said) + (f", {self.count} poses" if self.count > 1 else "")
 
-    def traced(self, machine: Mechanism, requests: Sequence[Any], way: Way, poses: slice = slice(None)) -> FloatArray:
-        """Return requests of m designs at n of the poses, shape (requests, m, n), NaN where they have no value."""
+    def traced(self, machine: Mechanism, requests: Sequence[Any], way: Way, poses: slice = slice(None)) -> list[FloatArray]:
+        """Return requests of m designs at n of the poses, an array (m, n) each, NaN where they have no value."""
         found = evaluate_grid(self._grid(machine, poses), requests, None, way, "nan")
-        return np.array(found).reshape(len(requests), -1, found[0].shape[-1])
+        return [each.reshape(-1, each.shape[-1]) for each in found]
 
     def motion(self, machine: Mechanism) -> Motion:
         """Return the motion of m designs at all poses, NaN out of reach."""
@@ -122,7 +123,7 @@ class Poses:
 
     def shaped(self, values: FloatArray) -> FloatArray:
         """Return values (..., n) in the shape of the strokes; numbers for each design, (..., 1), without it."""
-        return values.reshape(*values.shape[:-1], *(self.shape if values.shape[-1] == self.count else ()))
+        return values.reshape((*values.shape[:-1], *(self.shape if values.shape[-1] == self.count else ())))
 
     def _grid(self, machine: Mechanism, poses: slice) -> Grid:
         places = np.arange(self.count)[poses]
@@ -132,16 +133,16 @@ class Poses:
 
 def function_array(function: Callable[[Motion], Any], motion: Motion) -> FloatArray:
     """Return what a function of a motion of m designs gives, shape (m, n) or (m, 1); DefinitionError for anything else."""
-    found, (m,) = function_value(function, motion), motion._design_shape
-    title, what = motion.plan.title, measured_title(motion.plan, function)
+    found, designs = function_value(function, motion), motion._design_shape
+    title, what, m = motion.plan.title, measured_title(motion.plan, function), prod(motion._design_shape)
     try:
         result = np.asarray(found, float)
     except (TypeError, ValueError):
         raise DefinitionError(f"{title}: {what} gives {cited(found)}; a number for each pose or each design is expected.") from None
     if result.shape == motion.shape:
         return np.where(motion.reached & np.isfinite(result), result, np.nan).reshape(m, -1)
-    if result.shape != (m,):
-        text = f"{title}: {what} has the shape {result.shape} where {motion.shape} or {(m,)} is expected"
+    if result.shape != designs:
+        text = f"{title}: {what} has the shape {result.shape} where {motion.shape} or {designs} is expected"
         raise DefinitionError(f"{text}; return a number for each pose, or one for each design.")
     lost = ~motion.reached.reshape(m, -1).all(axis=1)
-    return np.where(lost | ~np.isfinite(result), np.nan, result)[:, None]
+    return np.where(lost | ~np.isfinite(result.ravel()), np.nan, result.ravel())[:, None]

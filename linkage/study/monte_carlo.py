@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, TypeAlias, TypeVar, final
+from typing import Any, TypeVar, final
 
 import numpy as np
 
@@ -142,15 +142,12 @@ def share_words(share: float) -> str:
     return f"{100.0 * share:.4g} %" if 0.0 < share < 1e-3 or 0.999 < share < 1.0 else f"{100.0 * share:.1f} %"
 
 
-Limits: TypeAlias = Sequence[Within]
-
-
 def monte_carlo(
     machine: Mechanism,
-    of: Sequence[Measured],
+    of: Sequence[Measured] | Mapping[str, Measured],
     tolerances: Mapping[str, ToleranceLike],
     *,
-    keep: Limits = (),
+    keep: Sequence[Within] = (),
     count: int = DESIGNS,
     percentiles: Sequence[float] = (5.0, 50.0, 95.0),
     method: str = "sobol",
@@ -161,8 +158,8 @@ def monte_carlo(
 ) -> MonteCarlo:
     """Return the bands of quantities over machines with tolerances, and how many of them keep limits.
 
-    `monte_carlo(hitch, ["tilt", drive_force()], {"OB": 0.1 * mm, "M": 0.5 * mm}, keep=[Within("tilt", high=18 * deg)])`. Quantities are
-    outputs, requests, or functions of a motion of many designs, which give a number for each pose or for each design. Dimensions are
+    `monte_carlo(hitch, ["tilt", drive_force()], {"OB": 0.1 * mm, "M": 0.5 * mm}, keep=[Within("tilt", high=18 * deg)])`. Quantities, in a list
+    or by names of your own, are outputs, requests, or functions of a motion of many designs, which give a number for each pose or for each design. Dimensions are
     independent of each other; a tolerance's law is normal with three sigmas to its limit unless `Tolerance` says another. `method` is
     "sobol", "latin" or "random", `count` the number of designs; strokes as in `machine.at`, by default 21 over a single one. A design that
     cannot be assembled at one of the strokes is lost, and no good machine; percentiles are of the others there.
@@ -176,7 +173,7 @@ def monte_carlo(
     asked, limits = quantities_listed(plan, of), limits_listed(plan, keep)
     order = percentages(percentiles)
     way = Way(one_word("backend", backend, ("numpy", "numba")), threads)
-    designs = sampled_designs(machine, named, count, method, seed)
+    designs = sampled_designs(machine, named, count, method, seed, threads)
     with unwarned(), np.errstate(all="ignore"):
         run = Run(poses, machine.replaced(**designs), count, way, order)
         run.measure(asked, limits)
@@ -193,12 +190,16 @@ def monte_carlo(
 
 
 def quantities_listed(plan: Plan, of: Any) -> dict[str, Measured]:
-    """Return quantities by their words; DefinitionError for what is no list of them, and for one that stands there twice."""
-    if isinstance(of, str) or not isinstance(of, (list, tuple)) or not of:
-        raise DefinitionError(f'{plan.title}: {cited(of)}: a list of quantities is expected, such as ["tilt"].')
+    """Return quantities by their words, or the names they are given; DefinitionError for what is no list of them, or one name for two."""
+    if isinstance(of, Mapping) and of and all(isinstance(name, str) for name in of):
+        _ = [measured_title(plan, quantity) for quantity in of.values()]  # raises for what is none
+        return dict(of)
+    if not isinstance(of, (list, tuple)) or not of:
+        raise DefinitionError(f'{plan.title}: {cited(of)}: a list of quantities is expected, such as ["tilt"], or a dictionary by name.')
     found = {measured_title(plan, quantity): quantity for quantity in of}
     if len(found) < len(of):
-        raise DefinitionError(f"{plan.title}: {', '.join(measured_title(plan, each) for each in of)}: one of them stands there twice.")
+        said = ", ".join(measured_title(plan, each) for each in of)
+        raise DefinitionError(f'{plan.title}: {said}: two of them go by one name; give names of your own, {{"full": ..., "empty": ...}}.')
     return found
 
 
@@ -230,6 +231,7 @@ def band_of(
 
 # The designs, block by block, and what is kept of them: of the results themselves nothing.
 
+
 @final
 class Run:
     """The designs of a Monte Carlo: `moments` of each quantity, `lost` and `kept` designs."""
@@ -244,31 +246,37 @@ class Run:
     def measure(self, asked: Mapping[str, Measured], limits: Sequence[Within]) -> None:
         """Measure quantities and limits of all designs."""
         self.kept = [np.ones(self.count, bool) for _ in limits]
-        every = list(dict.fromkeys([*asked.values(), *(limit.quantity for limit in limits)]))
-        traced = [quantity for quantity in every if is_traced(quantity)]
-        found: dict[int, list[FloatArray]] = {id(quantity): [] for quantity in every}
+        every = {self._key(each): each for each in (*asked.values(), *(limit.quantity for limit in limits))}
+        traced = {key: each for key, each in every.items() if is_traced(each)}
+        found: dict[Hashable, list[FloatArray]] = {key: [] for key in every}
         if traced:
-            width = max(1, MEMORY // (8 * len(traced) * self.count))
+            width = min(max(1, MEMORY // (8 * len(traced) * self.count)), self.poses.count)
+            store = np.empty((len(traced), width, self.count))
             for first in range(0, self.poses.count, width):
                 part = slice(first, min(first + width, self.poses.count))
-                self._take(traced, self._traced(traced, part), limits, found)
-        for quantity in every:
-            if not is_traced(quantity):
-                self._take([quantity], self._of_function(quantity)[None], limits, found)
-        self.moments = {title: np.concatenate(found[id(quantity)], axis=1) for title, quantity in asked.items()}
+                self._take([*traced], self._traced([*traced.values()], part, store), limits, found)
+        for key, quantity in every.items():
+            if key not in traced:
+                self._take([key], self._of_function(quantity)[None], limits, found)
+        self.moments = {title: np.concatenate(found[self._key(each)], axis=1) for title, each in asked.items()}
 
-    def _traced(self, traced: Sequence[Any], part: slice) -> FloatArray:
-        """Return quantities at some of the poses, shape (quantities, poses, designs)."""
-        store = np.empty((len(traced), part.stop - part.start, self.count))
+    def _key(self, quantity: Measured) -> Hashable:
+        """Return what tells a quantity from others."""
+        return number_bound(self.poses.base.plan, quantity).key if is_traced(quantity) else id(quantity)
+
+    def _traced(self, traced: Sequence[Any], part: slice, store: FloatArray) -> FloatArray:
+        """Return quantities at some of the poses, shape (quantities, poses, designs), in the array that is there for them."""
+        place = store[:, : part.stop - part.start]
 
         def fill(block: slice) -> None:
             with np.errstate(all="ignore"):
-                store[:, :, block] = self.poses.traced(self._block(block), traced, self.way, part).transpose(0, 2, 1)
+                for row, found in zip(place, self.poses.traced(self._block(block), traced, self.way, part), strict=True):
+                    row[:, block] = found.T
 
         self._on_threads(fill, blocks(self.count, part.stop - part.start))
-        return store
+        return place
 
-    def _of_function(self, function: Callable[..., Any]) -> FloatArray:
+    def _of_function(self, function: Any) -> FloatArray:
         """Return a function of motions, shape (poses, designs), or (1, designs)."""
         found = [self.poses.of_function(self._block(block), function).T for block in blocks(self.count, self.poses.count)]
         return np.concatenate(found, axis=1)
@@ -276,27 +284,32 @@ class Run:
     def _block(self, block: slice) -> Mechanism:
         return self.designs._part(block.start, block.stop)
 
-    def _take(self, quantities: Sequence[Any], store: FloatArray, limits: Sequence[Within], found: dict[int, list[FloatArray]]) -> None:
-        """Take in the results of some quantities, shape (quantities, poses, designs); their order is lost."""
+    def _take(
+        self, keys: Sequence[Hashable], store: FloatArray, limits: Sequence[Within], found: Mapping[Hashable, list[FloatArray]]
+    ) -> None:
+        """Take in the results of some quantities, shape (quantities, poses, designs), which are used up."""
         for limit, kept in zip(limits, self.kept, strict=True):
-            if limit.quantity in quantities:
-                for column in store[quantities.index(limit.quantity)]:
-                    kept &= limit.holds(column)
-        for column in store.reshape(-1, self.count):
+            key = self._key(limit.quantity)
+            for column in store[keys.index(key)] if key in keys else ():
+                kept &= limit.holds(column)
+        columns = [column for row in store for column in row]
+        for column in columns:
             self.lost |= np.isnan(column)
-        moments = np.array(self._on_threads(self._moments, list(store.reshape(-1, self.count)))).reshape(*store.shape[:2], -1)
-        for quantity, each in zip(quantities, moments, strict=True):
-            found[id(quantity)].append(each.T)
+        moments = np.array(self._on_threads(self._moments, columns)).reshape(*store.shape[:2], -1)
+        for key, each in zip(keys, moments, strict=True):
+            found[key].append(each.T)
 
     def _moments(self, column: FloatArray) -> list[float]:
-        """Return the share of designs that have a value, then their mean, sigma and percentiles; the column is sorted."""
+        """Return the share of designs that have a value, then their mean, sigma and percentiles; the column is used up."""
         column.sort()
-        known = column[: self.count - int(np.isnan(column).sum())]
+        known = column[: int(np.searchsorted(column, np.nan))]  # NaN stands behind all numbers
         if not known.size:
             return [0.0] + [np.nan] * (2 + len(self.order))
+        cuts = [quantile(known, percentage) for percentage in self.order]
         mean = float(known.mean())
-        sigma = float(np.sqrt(np.dot(known - mean, known - mean) / max(known.size - 1, 1)))
-        return [known.size / self.count, mean, sigma, *(quantile(known, percentage) for percentage in self.order)]
+        known -= mean
+        known *= known
+        return [known.size / self.count, mean, float(np.sqrt(known.sum() / max(known.size - 1, 1))), *cuts]
 
     def _on_threads(self, work: Callable[[Task], Found], tasks: Sequence[Task]) -> list[Found]:
         """Return what a function gives for each task; the first by itself, so that kernels are made once."""
@@ -369,4 +382,3 @@ def neighbours(level: FloatArray) -> FloatArray:
     for place in range(k):
         found[2 * place : 2 * place + 2, place] = [each for each in (-1.0, 0.0, 1.0) if each != level[place]][:2]
     return found
-

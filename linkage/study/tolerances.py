@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from math import exp, pi, sqrt
 from typing import Any, TypeAlias, final
@@ -52,12 +53,12 @@ class Tolerance:
     @property
     def low(self) -> float:
         """The least deviation [SI]; of a normal law three sigmas below the middle."""
-        return -float(self.limits) if is_number(self.limits) else float(self.limits[0])  # type: ignore[arg-type,index]
+        return float(self.limits[0]) if isinstance(self.limits, (tuple, list)) else -float(self.limits)
 
     @property
     def high(self) -> float:
         """The greatest deviation [SI]; of a normal law three sigmas above the middle."""
-        return float(self.limits) if is_number(self.limits) else float(self.limits[1])  # type: ignore[arg-type,index]
+        return float(self.limits[1] if isinstance(self.limits, (tuple, list)) else self.limits)
 
     @property
     def sigma(self) -> float:
@@ -75,6 +76,7 @@ class Tolerance:
             return np.asarray(middle + half * (2.0 * unit - 1.0))
         from scipy.special import ndtri
 
+        unit = np.clip(unit, 2.0**-54, 1.0 - 2.0**-53)
         share = unit if self.law == "normal" else 0.5 + WITHIN * (unit - 0.5)
         return np.asarray(middle + half / SIGMAS * ndtri(share))
 
@@ -135,17 +137,21 @@ HALF_CELL = 2.0**-31
 """Half the distance of the numbers of a Sobol sequence, which begin with zero."""
 
 
-def sampled_designs(machine: Mechanism, tolerances: Mapping[str, Tolerance], count: int, method: str, seed: int) -> dict[str, FloatArray]:
+def sampled_designs(
+    machine: Mechanism, tolerances: Mapping[str, Tolerance], count: int, method: str, seed: int, threads: int = 1
+) -> dict[str, FloatArray]:
     """Return dimensions (count,) by name, every one spread by the law of its tolerance and independent of the others.
 
     By a scrambled Sobol sequence, "sobol", a Latin hypercube, "latin", or pseudo-random numbers, "random"; the same for the same seed.
     """
     unit = unit_points(count, len(tolerances), method, seed)
-    found = {}
-    for column, (name, tolerance) in enumerate(tolerances.items()):
-        even = np.clip(unit[:, column] + (HALF_CELL if method == "sobol" else 0.0), 2.0**-54, 1.0 - 2.0**-53)
-        found[name] = machine[name] + tolerance.deviations(even)
-    return found
+    shift = HALF_CELL if method == "sobol" else 0.0
+
+    def column(place: int, name: str) -> FloatArray:
+        return np.asarray(machine[name] + tolerances[name].deviations(unit[:, place] + shift))
+
+    with ThreadPoolExecutor(threads) as pool:
+        return dict(zip(tolerances, pool.map(column, range(len(tolerances)), tolerances), strict=True))
 
 
 def shifted_designs(machine: Mechanism, tolerances: Mapping[str, Tolerance], level: FloatArray) -> dict[str, FloatArray]:

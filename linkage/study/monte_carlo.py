@@ -36,13 +36,14 @@ MEMORY = 1 << 28
 class Within:
     """A limit that a good machine keeps at every stroke looked at: a quantity from `low` to `high` [SI], None where it has no such end.
 
-    `Within(drive_force(), high=40 * kN, unit="kN")`; `unit` is that of the words.
+    `Within(drive_force(), high=40 * kN, unit="kN")`; `unit` is that of the words, `name` stands for the quantity in them.
     """
 
     quantity: Measured
     low: float | None = None
     high: float | None = None
     unit: str = ""
+    name: str = ""
 
     def __post_init__(self) -> None:
         unit_or_none(self.unit, where="Within(unit=...)")
@@ -58,7 +59,7 @@ class Within:
 
     def words(self, plan: Plan) -> str:
         """Return the limit in words: `tilt from -2 deg to 2 deg`, `the driving force of S at most 40 kN`."""
-        title = measured_title(plan, self.quantity)
+        title = self.name or measured_title(plan, self.quantity)
         if self.low is None or self.high is None:
             end, side = (self.low, "at least") if self.high is None else (self.high, "at most")
             return f"{title} {side} {show(float(end), self.unit)}"  # type: ignore[arg-type]
@@ -158,11 +159,12 @@ def monte_carlo(
 ) -> MonteCarlo:
     """Return the bands of quantities over machines with tolerances, and how many of them keep limits.
 
-    `monte_carlo(hitch, ["tilt", drive_force()], {"OB": 0.1 * mm, "M": 0.5 * mm}, keep=[Within("tilt", high=18 * deg)])`. Quantities, in a list
-    or by names of your own, are outputs, requests, or functions of a motion of many designs, which give a number for each pose or for each design. Dimensions are
-    independent of each other; a tolerance's law is normal with three sigmas to its limit unless `Tolerance` says another. `method` is
-    "sobol", "latin" or "random", `count` the number of designs; strokes as in `machine.at`, by default 21 over a single one. A design that
-    cannot be assembled at one of the strokes is lost, and no good machine; percentiles are of the others there.
+    `monte_carlo(hitch, ["tilt", drive_force()], {"OB": 0.1 * mm, "M": 0.5 * mm}, keep=[Within("tilt", high=18 * deg)])`. Quantities, in a
+    list or by names of your own, are outputs, requests, or functions of a motion of many designs, which give a number for each pose or
+    for each design. Dimensions are independent of each other; a tolerance's law is normal with three sigmas to its limit unless
+    `Tolerance` says another. `method` is "sobol", "latin" or "random", `count` the number of designs; strokes as in `machine.at`, by
+    default 21 over a single one. A design that cannot be assembled at one of the strokes is lost, and no good machine; percentiles
+    are of the others there. Limits are looked at at the strokes alone.
 
     The worst case begins at the corner of the tolerances where each dimension's own effect is the worst, and is bettered by true
     evaluation of the neighbouring corners and middles until none is worse. Beside the results it needs the dimensions of all designs, and
@@ -207,9 +209,10 @@ def limits_listed(plan: Plan, keep: Any) -> tuple[Within, ...]:
     """Return limits; DefinitionError for what is no list of them."""
     if not isinstance(keep, (list, tuple)) or not all(isinstance(each, Within) for each in keep):
         raise DefinitionError(f'{plan.title}: keep={cited(keep)}: a list of limits is expected, such as [Within("tilt", high=18 * deg)].')
-    for each in keep:
-        if is_traced(each.quantity):
-            number_bound(plan, each.quantity)
+    words = [each.words(plan) for each in keep]
+    for each in words:
+        if words.count(each) > 1:
+            raise DefinitionError(f'{plan.title}: keep= says "{each}" twice; leave one out, or give them names, Within(..., name="...").')
     return tuple(keep)
 
 

@@ -8,7 +8,10 @@ from __future__ import annotations
 import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import Crank, Dimension, Ground, Mechanism, Moment, MPa, OnLink, Stroke, deg, distance, mm
+from linkage import Column, Crank, Dimension, Ground, Mechanism, Moment, Motion, MPa, OnLink, Stroke, deg, distance, mm
+
+from .drive_duty import clipped
+from .drive_report import drive_columns, drive_verdicts
 
 
 class BoomDrive(Mechanism):
@@ -22,34 +25,48 @@ class BoomDrive(Mechanism):
 
     phi = Stroke(15 * deg, 99.9262455066517 * deg)
 
-    D = Dimension(125 * mm, unit="mm")                                  # bore
-    d = Dimension(70 * mm, unit="mm")                                   # rod
-    S = Dimension(0.8850545905614509, unit="mm")                        # stroke of the cylinder
-    p = Dimension(22 * MPa, unit="bar")                                 # gauge
-    n = Dimension(0.95)                                                 # efficiency
-    f_0 = Dimension(200 * mm, unit="mm")                                # closed length less stroke, of a bore of none
-    f_1 = Dimension(1.6)                                                # and by how much of the bore it grows
-    l = S + f_0 + f_1 * D                                               # length of the closed cylinder
+    D = Dimension(125 * mm, unit="mm")  # bore
+    d = Dimension(70 * mm, unit="mm")  # rod
+    S = Dimension(0.8850545905614509, unit="mm")  # stroke of the cylinder
+    p = Dimension(22 * MPa, unit="bar")  # gauge
+    n = Dimension(0.95)  # efficiency
+    f_0 = Dimension(200 * mm, unit="mm")  # closed length less stroke, of a bore of none
+    f_1 = Dimension(1.6)  # and by how much of the bore it grows
+    l = S + f_0 + f_1 * D  # length of the closed cylinder
 
     r_1 = Dimension(0.2618294, unit="mm")
     r_2 = Dimension(1.6706883884436237, unit="mm")
     r_3 = Dimension(0.5925163333637224, unit="mm")
     r_4 = Dimension(0.31633579788198307, unit="mm")
-    l_c = Dimension(4.454601406907623, unit="mm")                       # length of the boom
+    l_c = Dimension(4.454601406907623, unit="mm")  # length of the boom
 
     O = Ground(0.0, 0.0)
     A = Ground(r_1, -r_2)
-    P = Crank(O, OP=l_c, angle=90 * deg - phi)                          # the arm's hinge
-    N = OnLink(O, P, ON=r_3)                                            # foot of the lug
+    P = Crank(O, OP=l_c, angle=90 * deg - phi)  # the arm's hinge
+    N = OnLink(O, P, ON=r_3)  # foot of the lug
     B = OnLink(N, O, NB=r_4, ONB=90 * deg)
 
     length = distance(A, B)
 
     K_B = Dimension(85260.01232735414, unit="Nm")
     K_A = Dimension(71905.17119002105, unit="Nm")
-    psi_k = Dimension(180 * deg, unit="deg")                            # greatest angle between boom and arm
-    M_l = K_B * np.sin(phi) + K_A * np.sin(psi_k - np.maximum(phi, psi_k - 90 * deg))
+    phi_0 = Dimension(15 * deg, unit="deg")  # the range it works in
+    phi_k = Dimension(99.9262455066517 * deg, unit="deg")
+    psi_k = Dimension(180 * deg, unit="deg")  # greatest angle between boom and arm
+    M_l = K_B * np.sin(phi) + K_A * np.sin(psi_k - clipped(phi, psi_k - 90 * deg))
 
-    load = Moment("O P", M=-M_l)                                        # it turns the boom down, clockwise
+    load = Moment("O P", M=-M_l)  # it turns the boom down, clockwise
     lift = Cylinder(A, B, bore=D, rod=d)
     circuit = LiftCircuit(lift, pressure=p, mechanical_efficiency=n)
+
+    def working(self, count: int = 101) -> Motion:
+        """Return the motion from phi_0 to phi_k, at `count` poses."""
+        return self.at(phi=np.linspace(self["phi_0"], self["phi_k"], count))
+
+    def columns(self, motion: Motion) -> list[Column]:
+        """Return angle, length, lever, and the moments asked for and given."""
+        return drive_columns(motion)
+
+    def verdicts(self, motion: Motion) -> list[str]:
+        """Return whether the drive carries the boom over a motion, and whether the cylinder is as long as that takes."""
+        return drive_verdicts(motion)

@@ -33,6 +33,7 @@ class BoomDrive(Mechanism):
     f_0 = Dimension(200 * mm, unit="mm")  # closed length less stroke, of a bore of none
     f_1 = Dimension(1.6)  # and by how much of the bore it grows
     l = S + f_0 + f_1 * D  # length of the closed cylinder
+    lifts = 0.25 * np.pi * p * n * D**2  # what it gives, F p n, N
 
     r_1 = Dimension(0.2618294, unit="mm")
     r_2 = Dimension(1.6706883884436237, unit="mm")

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import pi
 from typing import final
 
 import numpy as np
@@ -36,38 +35,38 @@ class Movement:
         return np.asarray(self.given(motion) - self.asked(motion))
 
 
-def thrust_given(motion: Motion, side: str) -> FloatArray:
-    """Return what a side of the drive's cylinder gives, F p n [N]: "piston" or "rod"; one value a design."""
-    bore, rod = motion.inputs["D"], motion.inputs["d"] if side == "rod" else 0.0
-    return np.asarray(pi / 4.0 * (bore**2 - rod**2) * motion.inputs["p"] * motion.inputs["n"])
+def moment_given(motion: Motion, force: str) -> FloatArray:
+    """Return the moment that the drive gives about its joint, shape (...) [N m], positive where the angle grows.
 
-
-def moment_given(motion: Motion, side: str) -> FloatArray:
-    """Return the moment that a side of the drive's cylinder gives, F p n h, shape (...) [N m]; below zero past a dead point.
-
-    The lever h = -d(length)/d(angle) of the boom, h I of the arm. (2.29); (2.44), (2.52)
+    `force` names what its cylinder then gives, F p n [N], positive where it pushes: by virtual work that force times
+    d(length)/d(angle), which is the boom's lever h and the arm's h I. (2.29); (2.44), (2.52)
     """
-    return np.asarray(-thrust_given(motion, side) * motion.ratio("length"))
+    return np.asarray(motion[force] * motion.ratio("length", wrt=angle_of(motion)))
 
 
-LIFTING = Movement("lifting", lambda motion: moment_given(motion, "piston"), lambda motion: motion["M_l"])
-FOLDING = Movement("folding", lambda motion: moment_given(motion, "piston"), lambda motion: -motion["M_l1"])
-OPENING = Movement("opening", lambda motion: moment_given(motion, "rod"), lambda motion: motion["M_l2"])
+def angle_of(motion: Motion) -> str:
+    """Return the stroke that a drive's joint turns by; DefinitionError where it is driven by its cylinder."""
+    for name in ("phi", "psi"):
+        if name in motion.strokes and "length" in motion.plan.members:
+            return name
+    raise DefinitionError(f"{motion.plan.title} is no drive that its angle drives; give a motion of a BoomDrive or an ArmDrive.")
+
+
+LIFTING = Movement("lifting", lambda motion: -moment_given(motion, "lifts"), lambda motion: motion["M_l"])
+FOLDING = Movement("folding", lambda motion: -moment_given(motion, "folds"), lambda motion: -motion["M_l1"])
+OPENING = Movement("opening", lambda motion: moment_given(motion, "opens"), lambda motion: motion["M_l2"])
 
 
 def movements_of(motion: Motion) -> tuple[Movement, ...]:
     """Return the movements that the drive of a motion is for; DefinitionError for another machine."""
-    for name, found in (("M_l", (LIFTING,)), ("M_l2", (FOLDING, OPENING))):
-        if name in motion.plan.members and "length" in motion.plan.members:
-            return found
-    raise DefinitionError(f"{motion.plan.title} is no drive of a crane; give a motion of a BoomDrive or an ArmDrive.")
+    return (LIFTING,) if angle_of(motion) == "phi" else (FOLDING, OPENING)
 
 
 def drive_columns(motion: Motion) -> list[Column]:
     """Return the angle, the cylinder's length and lever, and for every movement the moments asked for and given, and what is over."""
-    (angle,) = motion.strokes
+    angle = angle_of(motion)
     found = [Column(angle, motion.strokes[angle], "deg", 2), Column("length", motion["length"], "mm", 1)]
-    found.append(Column("lever", -motion.ratio("length"), "mm", 1))
+    found.append(Column("lever", np.abs(motion.ratio("length")), "mm", 1))
     for each in movements_of(motion):
         asked, given = each.asked(motion), each.given(motion)
         found += [Column(f"{each.name}: asked", asked, "kNm", 2), Column("given", given, "kNm", 2), Column("over", given - asked, "kNm", 2)]
@@ -130,6 +129,7 @@ def length_verdict(motion: Motion) -> Verdict:
 
 def lever_verdict(motion: Motion) -> Verdict:
     """Return the least lever of the cylinder about the driven joint; not above zero past a dead point."""
-    least = lowest(motion, lambda each: -each.ratio("length"))
+    sense = np.sign(np.ravel(motion.ratio("length"))[0])
+    least = lowest(motion, lambda each: sense * each.ratio("length"))
     beyond = "" if least.value > 0.0 else "; the cylinder passes its dead point: move its pins"
     return Verdict("lever", bool(least.value > 0.0), f"at least {float(least.value) / mm:.1f} mm, {least.where}{beyond}.")

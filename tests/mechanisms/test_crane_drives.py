@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from scipy.integrate import simpson
 from scipy.optimize import minimize
 
-from linkage import deg, ratio
+from linkage import RIGHT, Dyad, deg, ratio
 from linkage.motion import lowest
-from mechanisms.crane.arm_drive import ArmDrive
+from mechanisms.crane.arm_drive import ArmDrive, BellCrankArmDrive, BellCrankArmDriveByCylinder, DirectArmDrive, DirectArmDriveAbove
 from mechanisms.crane.boom_drive import BoomDrive
-from mechanisms.crane.drive_report import OPENING
+from mechanisms.crane.drive_report import OPENING, movements_of
 
 # Source: Syunyov et al., (2.19) to (2.66), as reconstructed; numbers of its examples 2, 3a and 3b, computed independently.
 
@@ -62,13 +63,182 @@ def test_boom_by_the_closed_formulas():
     rng = np.random.default_rng(2)
     r = {f"r_{i}": rng.uniform(*ends, 200) for i, ends in enumerate([(0.1, 0.4), (0.6, 1.8), (0.3, 1.5), (0.1, 0.5)], 1)}
     motion = BoomDrive(**r).at(phi=np.linspace(0.1, 2.0, 9))
-    r_1, r_2, r_3, r_4 = (each[:, None] for each in r.values())
-    phi = np.linspace(0.1, 2.0, 9)
+    length, lever = boom_formulas(np.linspace(0.1, 2.0, 9), *(each[:, None] for each in r.values()))
+    assert_allclose(motion["length"], length, rtol=1e-13)
+    assert_allclose(-motion.ratio("length"), lever, rtol=1e-10, atol=1e-12)
+
+
+def boom_formulas(phi, r_1, r_2, r_3, r_4):
+    """Return the length AB and the lever h by (2.30)."""
     X, Y = r_3 * np.sin(phi) + r_4 * np.cos(phi), r_3 * np.cos(phi) - r_4 * np.sin(phi)
     length = np.hypot(X - r_1, Y + r_2)
-    assert_allclose(motion["B"], np.stack([X, Y]), atol=1e-14)
-    assert_allclose(motion["length"], length, rtol=1e-13)
-    assert_allclose(-motion.ratio("length"), (r_1 * Y + r_2 * X) / length, rtol=1e-10, atol=1e-12)
+    return length, (r_1 * Y + r_2 * X) / length
+
+
+ROWS_3B = [  # k, gamma, alpha_1, alpha_2 [deg], h, I, M_g2, and the pins Z, 1, 2
+    (1.0, 140.85967064191908, 21.546609540792947, -82.2365727085356, 0.279956911508449, 0.5566553679416626, 33766.62803847461,
+     (0.39859368465897166, 0.3933485408006292), (0.4650595575455656, 0.18362899535618765), (0.18106912137964554, -0.22789188159453336)),
+    (0.75, 107.0948481867672, 55.31143199594485, -20.993789757481697, 0.4716360480700518, 0.5730706765073665, 58563.26440242404,
+     (0.11274389382675765, 0.5485333302587736), (0.2845577365067744, 0.4111288053568385), (0.36473243077085526, -0.08240135420756055)),
+    (0.5, 82.162183653013, 80.24409652969905, 20.172186845607765, 0.5508255533370527, 0.6427112470750627, 76707.89727112453,
+     (-0.12899919585062875, 0.5449396365377464), (0.08472552485629836, 0.49276930245077644), (0.3658919220539735, 0.07931379446124782)),
+    (0.25, 58.97786252096023, 103.42841766175181, 54.29869257167299, 0.5457041184896381, 0.719012920310431, 85016.65717477823,
+     (-0.33311911158006413, 0.45014626234159577), (-0.11611517703249197, 0.4863304079149412), (0.28421874067852987, 0.18677614850582386)),
+    (0.0, 32.53693420799573, 129.8693459747163, 88.69605686463125, 0.4006928493722661, 0.8268800584337606, 71790.04230332548,
+     (-0.49871165832710546, 0.2547286435574697), (-0.3205195479705375, 0.383754113162012), (0.15523391139505316, 0.22994044048733298)),
+]  # fmt: skip
+
+
+def test_analysis_3b():
+    """The bell crank driven by its cylinder, and the same poses driven by the arm."""
+    k, gamma, alpha_1, alpha_2, h, transfer, moment, *pins = (np.array(column).T for column in zip(*ROWS_3B, strict=True))
+    by_cylinder = BellCrankArmDriveByCylinder().at(k=k)
+    motion = BellCrankArmDrive().at(psi=by_cylinder["psi"])
+    for found in (by_cylinder, motion):
+        for name, expected in (("gamma", gamma), ("alpha_1", alpha_1), ("alpha_2", alpha_2)):
+            assert_allclose(found[name] / deg, expected, rtol=0, atol=1e-9)
+        for name, pin in zip("ZLN", pins, strict=True):
+            assert_allclose(found[name], pin, rtol=0, atol=1e-11)
+    assert_allclose(motion["C"][:, 0], [-1.7533406394477118, -0.16821593878431768], atol=1e-14)
+    assert_allclose(motion["length"], 1.324 + 0.9 * k, rtol=1e-12)
+    assert_allclose(motion.ratio("alpha_1"), transfer, rtol=1e-10)
+    assert_allclose(motion.ratio("length") / motion.ratio("gamma"), h, rtol=1e-10)
+    assert_allclose(OPENING.given(motion), moment, rtol=1e-10)
+    assert_allclose(by_cylinder.ratio("psi") * motion.ratio("length"), 0.9, rtol=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("alpha_1", "alpha_2", "other", "transfer"),
+    [
+        (30.0, -66.83088229745665, 149.74258814063197, 0.5436721260531041),
+        (60.0, -12.89180267423534, 166.88397878858967, 0.5845369598162999),
+        (90.0, 34.999726238964726, 178.3987622290225, 0.673694833106222),
+        (120.0, 76.41657449501926, 189.04448108177732, 0.7821810897446668),
+        (140.0, 100.56927102842779, 197.25370659870876, 0.8821087304772562),
+    ],
+)
+def test_unit_vectors_of_the_four_bar(alpha_1, alpha_2, other, transfer):
+    arm = ArmDrive(r_1=0.5, r_2=0.5, r_3=0.23, r_4=0.15, alpha_20=alpha_2 * deg)
+    motion = arm.at(psi=0.0)
+    assert_allclose(motion["alpha_1"] / deg, alpha_1, rtol=1e-12)
+    assert_allclose(motion.ratio("alpha_1"), transfer, rtol=1e-12)
+    modes = [each.at(psi=0.0)["alpha_1"] for each in (arm, ArmOtherAssembly(**{**arm.dimensions, "alpha_20": other * deg}))]
+    assert_allclose(np.array(modes) / deg, alpha_1, rtol=1e-12)
+
+
+class ArmOtherAssembly(ArmDrive):
+    """The other assembly of the four-bar: the lever on the other side of the line from O to the lug's pin."""
+
+    L = Dyad("O", "N", OL="r_1", NL="r_2", side=RIGHT)
+
+
+def alpha_2_of(alpha_1, r_1, r_2, r_3, r_4):
+    """Return the lug's angle by (2.51) with the corrected signs, [rad]."""
+    x, y = r_1 * np.cos(alpha_1), r_1 * np.sin(alpha_1)
+    a = np.hypot(x - r_4, y)
+    return np.arcsin((r_1**2 - r_2**2 + r_3**2 + r_4**2 - 2 * r_1 * r_4 * np.cos(alpha_1)) / (2 * r_3 * a)) - np.arctan2(x - r_4, y)
+
+
+def transfer_of(alpha_1, alpha_2, r_1, r_3, r_4):
+    """Return I by (2.49) in the form without 0/0."""
+    x_1, y_1 = r_1 * np.cos(alpha_1), r_1 * np.sin(alpha_1)
+    x_2, y_2 = r_4 + r_3 * np.cos(alpha_2), r_3 * np.sin(alpha_2)
+    return ((x_1 - r_4) * y_2 - y_1 * (x_2 - r_4)) / (x_1 * y_2 - y_1 * x_2)
+
+
+def test_four_bar_and_cylinder_by_the_closed_formulas():
+    """(2.45) to (2.59) at random, both variants: the angles, the levers, and |h I| = |d(length)/d(psi)| (virtual work)."""
+    rng = np.random.default_rng(7)
+    checked = 0
+    while checked < 60:
+        r_1, r_2, r_3, r_4, r_5, r_6 = rng.uniform([0.4, 0.35, 0.15, 0.08, 1.0, -0.2], [0.8, 0.8, 0.3, 0.2, 2.2, 0.3])
+        r_8, delta, alpha_1 = rng.uniform(0.4, 0.7), rng.uniform(-0.2, 0.2), rng.uniform(0.4, 2.2)
+        r_7 = rng.uniform(abs(r_1 - r_8) + 0.05, 0.5)
+        with np.errstate(invalid="ignore"):
+            alpha_2 = alpha_2_of(alpha_1, r_1, r_2, r_3, r_4)
+        transfer = transfer_of(alpha_1, alpha_2, r_1, r_3, r_4)
+        if not (0.2 < transfer < 3.0):
+            continue
+        checked += 1
+        common = {"r_1": r_1, "r_2": r_2, "r_3": r_3, "r_4": r_4, "r_5": r_5, "r_6": r_6, "delta": delta, "alpha_20": alpha_2}
+        epsilon = np.arccos((r_8**2 + r_1**2 - r_7**2) / (2 * r_8 * r_1))
+        for machine, arm, turned in (
+            (ArmDrive(**common), r_1, 0.0),
+            (BellCrankArmDrive(r_7=r_7, r_8=r_8, **common), r_8, epsilon),
+        ):
+            motion, R = machine.at(psi=0.0), np.hypot(r_5, r_6)
+            gamma = np.pi - alpha_1 - np.arctan2(r_6, r_5) - turned + delta  # (2.56), (2.59)
+            length = np.sqrt(R**2 + arm**2 - 2 * R * arm * np.cos(gamma))
+            lever = arm * R * np.sin(gamma) / length  # (2.53), (2.57)
+            assert_allclose(motion["alpha_1"], alpha_1, rtol=1e-10)
+            assert_allclose(motion.ratio("alpha_1"), transfer, rtol=1e-8)
+            assert_allclose(motion["length"], length, rtol=1e-10)
+            assert_allclose(motion.ratio("length"), -lever * transfer, rtol=1e-8, atol=1e-12)
+
+
+def test_printed_plus_of_the_errata_breaks_the_coupler():
+    """(2.63), (2.66) print r_1^2 + r_2^2: with the plus the coupler has another length."""
+    r_1, r_2, r_3, r_4, alpha_1 = 0.5, 0.5, 0.23, 0.15, 75 * deg
+    x, y = r_1 * np.cos(alpha_1), r_1 * np.sin(alpha_1)
+
+    def coupler(sign):
+        a = np.hypot(x - r_4, y)
+        K = (r_1**2 + sign * r_2**2 + r_3**2 + r_4**2 - 2 * r_1 * r_4 * np.cos(alpha_1)) / (2 * r_3 * a)
+        alpha_2 = np.arcsin(np.clip(K, -1.0, 1.0)) - np.arctan2(x - r_4, y)
+        return np.hypot(r_4 + r_3 * np.cos(alpha_2) - x, r_3 * np.sin(alpha_2) - y)
+
+    assert_allclose(coupler(-1.0), r_2, rtol=1e-14)
+    assert abs(coupler(1.0) - r_2) > 0.05
+
+
+@pytest.mark.parametrize(("machine", "side"), [(DirectArmDrive, 1.0), (DirectArmDriveAbove, -1.0)])
+def test_direct_drive_is_the_booms(machine, side):
+    """Without a four-bar the boom's formulas hold with phi = 180 deg - psi; above the boom r_1 and r_4 change their signs."""
+    psi, arm = np.linspace(60.0, 180.0, 7) * deg, machine()
+    motion = arm.at(psi=psi)
+    length, lever = boom_formulas(np.pi - psi, side * arm["r_1"], arm["r_2"], arm["r_3"], side * arm["r_4"])
+    assert_allclose(motion["length"], length, rtol=1e-12)
+    assert_allclose(motion.ratio("length"), lever, rtol=1e-10)
+    assert all(sentence.startswith("ok") for sentence in arm.verdicts(motion))
+
+
+@pytest.mark.parametrize("machine", [ArmDrive, BellCrankArmDrive, DirectArmDrive, DirectArmDriveAbove, BoomDrive])
+def test_moments_are_those_of_the_cylinder_in_equilibrium(machine):
+    """The framework's reserve, pump over need, is the moment given over the one asked for."""
+    drive = machine()
+    motion = drive.working(5)
+    cases = {"folding": "case_1", "opening": "case_2", "lifting": None}
+    for movement in movements_of(motion):
+        with np.errstate(divide="ignore", invalid="ignore"):
+            expected = movement.given(motion) / movement.asked(motion)
+        found = drive.circuit.reserve(motion, case=cases[movement.name])
+        asked = movement.asked(motion) > 1.0
+        assert asked.sum() >= 2
+        assert_allclose(found[asked], expected[asked], rtol=1e-10)
+
+
+def test_swallowed_oil_is_the_area_under_the_curve():
+    """The identity: the integral of M_g is F p n times the change of length."""
+    for motion, force in ((boom_of(125).working(2001), "lifts"), (arm_of(140).working(2001), "pull")):
+        (angle,) = motion.strokes.values()
+        given = motion[force] * np.abs(motion.ratio("length"))
+        assert_allclose(simpson(given, x=angle), float(motion[force][0]) * float(np.ptp(motion["length"])), rtol=1e-11)
+
+
+def test_volume_of_the_arm_drive():
+    """(2.60), the unit vector; and with both eyes."""
+    arm = ArmDrive(r_1=0.6, r_2=0.5, S=0.9, D=0.125, d=0.070)
+    assert_allclose(arm.at(psi=0.0)["steel"], 9128549.368163878e-9, rtol=1e-14)
+    eye = np.pi / 4 * 0.0625 * (4 * 0.0625**2 - 0.05625**2)
+    assert_allclose(arm.replaced(eyes=2).at(psi=0.0)["steel"], 9128549.368163878e-9 + eye, rtol=1e-14)
+    assert_allclose(arm_of(125).at(psi=0.0)["mass"], 86.94174353820085, rtol=1e-12)
+
+
+def test_transmission_angle_at_the_reference():
+    """45.0 and 45.5 deg at the least, taken as 180 deg less where it is obtuse."""
+    for bore, expected in ((125, 44.992335148106406), (140, 45.53520755914545)):
+        mu = arm_of(bore).working(1801)["mu"] / deg
+        assert_allclose(np.minimum(mu, 180 - mu).min(), expected, atol=1e-3)
 
 
 # -- the reference optima: multipliers, and a search of its own ------------------------------------------------

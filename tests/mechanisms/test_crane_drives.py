@@ -334,3 +334,77 @@ def test_a_search_through_the_machine_finds_the_reference(bore):
     assert_allclose(found.at(psi=0.0)["steel"], ARMS[bore][8], rtol=1e-8)
     for name in ARM_NAMES:
         assert_allclose(found[name], arm_of(bore)[name], rtol=1e-5)
+
+
+BOOM_NAMES = ["S", "r_2", "r_3"]
+
+
+def boom_slack(machine, phi=(PHI_0, PHI_K)):
+    """Return the two lengths at the ends and M_g - M_l over K_B at poses phi, with their gradients as rows."""
+    ends, motion = machine.at(phi=np.array([PHI_0, PHI_K])), machine.at(phi=np.array(phi))
+    is_S = np.array([name == "S" for name in BOOM_NAMES], float)[:, None]
+    equal = ends["length"] - machine.at(phi=0.5)["l"] - np.array([float(machine["S"]), 0.0])
+    d_equal = ends.gradient("length", wrt=BOOM_NAMES) - is_S * np.array([2.0, 1.0])
+    force = float(machine.at(phi=0.5)["lifts"])
+    slack = (-force * motion.ratio("length") - motion["M_l"]) / K_B
+    return equal, d_equal.T, slack, -force * motion.gradient(ratio("length"), wrt=BOOM_NAMES).T / K_B
+
+
+HALF = BoomDrive(  # r_1 and r_4 by the other reading of (2.35)
+    D=0.14, d=0.08, S=0.7189915934859773, r_1=0.2068294, r_2=1.4616717840599718, r_3=0.4765076180753317, r_4=0.261335797881983
+)
+
+
+@pytest.mark.parametrize(
+    ("machine", "surplus", "most"),
+    [
+        (boom_of(125), BOOMS[125][6], BOOMS[125][7]),
+        (boom_of(140), BOOMS[140][6], BOOMS[140][7]),
+        (HALF, 27750.84417828263, 1.1767489017126695),
+    ],
+)
+def test_reference_optimum_of_the_boom(machine, surplus, most):
+    """Nothing is left to choose where M_g = M_l at phi_k; its multiplier is above zero, by both readings of (2.35)."""
+    equal, d_equal, slack, d_slack = boom_slack(machine)
+    assert_allclose(equal, 0.0, atol=1e-13)
+    assert_allclose(slack[1], 0.0, atol=1e-12)
+    target = np.array([1.0, 0.0, 0.0])  # the surplus is F p n S less what the load asks
+    multipliers = np.linalg.solve(np.vstack([d_equal, d_slack[1:]]).T, target)
+    assert multipliers[2] > 0.1
+    motion = machine.working(2001)
+    (phi,) = motion.strokes.values()
+    over = simpson(-motion["lifts"] * motion.ratio("length") - motion["M_l"], x=phi)
+    assert_allclose(over, surplus, rtol=1e-9)
+    asked = K_B * (np.cos(PHI_0) - np.cos(PHI_K)) + K_A * (np.pi / 2 - PHI_0 - np.cos(PHI_K))
+    assert_allclose(asked, 203570.68331704653, rtol=1e-13)
+    assert_allclose(over, float(motion["lifts"][0]) * float(machine["S"]) - asked, rtol=1e-9)
+    given, needed = -motion["lifts"] * motion.ratio("length"), motion["M_l"]
+    assert_allclose((given / needed).max(), most, rtol=1e-6)
+    assert_allclose((given / needed).min(), 1.0, rtol=1e-10)
+
+
+@pytest.mark.parametrize("bore", BOOMS)
+def test_lever_at_the_reference(bore):
+    motion = boom_of(bore).at(phi=np.array([PHI_0, np.pi / 2, PHI_K]))
+    assert_allclose(-motion.ratio("length"), BOOMS[bore][8], rtol=1e-10)
+
+
+@pytest.mark.parametrize("bore", BOOMS)
+def test_a_search_through_the_boom_finds_the_reference(bore):
+    start = boom_of(bore).replaced(S=0.9, r_2=1.5, r_3=0.65)
+    phi = np.linspace(PHI_0, PHI_K, 21)
+
+    def at(x):
+        return start.replaced(**dict(zip(BOOM_NAMES, x, strict=True)))
+
+    result = minimize(
+        lambda x: x[0], [float(start[name]) for name in BOOM_NAMES], jac=lambda x: np.array([1.0, 0.0, 0.0]), method="SLSQP",
+        bounds=[(0.3, bore / 100), (0.3, 1.85), (0.3, 4.45)],
+        constraints=[
+            {"type": "eq", "fun": lambda x: boom_slack(at(x))[0], "jac": lambda x: boom_slack(at(x))[1]},
+            {"type": "ineq", "fun": lambda x: boom_slack(at(x), phi)[2], "jac": lambda x: boom_slack(at(x), phi)[3]},
+        ],
+        options={"maxiter": 200, "ftol": 1e-14},
+    )  # fmt: skip
+    for name in BOOM_NAMES:
+        assert_allclose(at(result.x)[name], boom_of(bore)[name], rtol=1e-7)

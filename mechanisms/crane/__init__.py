@@ -1,0 +1,1 @@
+"""A forestry crane: its skeleton, its drives, what it lifts."""

@@ -60,6 +60,7 @@ class Thrust(CylinderRequest):
 
     direction: str = "frictionless"
     word = "thrust"
+    measures = "force"
 
     @property
     def options(self) -> tuple[Hashable, ...]:
@@ -113,6 +114,7 @@ class Pressure(CircuitRequest):
 
     direction: str | None = None
     word = "pressure"
+    measures = "pressure"
 
     @property
     def options(self) -> tuple[Hashable, ...]:
@@ -183,6 +185,7 @@ class Capacity(CircuitRequest):
     along: tuple[float, float] = (0.0, 1.0)
     share: float = 1.0
     word = "capacity"
+    measures = "force"
 
     @property
     def options(self) -> tuple[Hashable, ...]:

@@ -3,6 +3,9 @@
 from .accumulator import Accumulator as Accumulator
 from .accumulator import AccumulatorBlock as AccumulatorBlock
 from .buckling import Buckling as Buckling
+from .catalogue import CatalogueRow as CatalogueRow
+from .catalogue import catalogue as catalogue
+from .catalogue import standard_strokes as standard_strokes
 from .cylinder import CylinderSize as CylinderSize
 from .cylinder import next_bore as next_bore
 from .cylinder import next_rod as next_rod

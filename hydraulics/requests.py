@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Hashable
-from dataclasses import dataclass
-from typing import final
+from dataclasses import dataclass, replace
+from typing import Self, cast, final
 
 from linkage.errors import DefinitionError, known_name, unknown
 from linkage.plan import Plan
@@ -35,6 +35,9 @@ class CylinderRequest(LawRequest):
     def options(self) -> tuple[Hashable, ...]:
         """What it is asked with, beside the load case."""
         return ()
+
+    def in_case(self, case: object) -> Self:
+        return self if self.case is not None else replace(self, case=cast(Case, case))
 
     def examine(self, plan: Plan) -> None:
         self.ram(plan)

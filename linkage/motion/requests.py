@@ -56,6 +56,10 @@ class Request(Arithmetic):
 
     __lt__ = __le__ = __gt__ = __ge__ = _compared
 
+    def in_case(self, case: object) -> Request:
+        """Return the request with the forces of a load case, where it is of forces and names no case itself."""
+        return self
+
 
 RequestLike: TypeAlias = str | Member | Request
 
@@ -352,6 +356,10 @@ class Combined(Request):
         for each in map(np.isnan, given):
             empty |= each if each.ndim <= len(motion.shape) else each.any(axis=0)
         return motion._finite(np.where(empty, np.nan, found), empty, str(self))
+
+    def in_case(self, case: object) -> Combined:
+        parts = tuple(each.in_case(case) if isinstance(each, Request) else each for each in self.parts)
+        return self if all(a is b for a, b in zip(parts, self.parts, strict=True)) else Combined(self.function, parts)
 
     def bound(self, plan: Plan) -> CombinedOf:
         return CombinedOf(self, tuple(each if isinstance(each, float) else bound(plan, each) for each in self.parts))

@@ -358,6 +358,11 @@ class Function(Quantity):
     def __init__(self, function: str, *arguments: Quantity) -> None:
         self.function, self.arguments = function, arguments
 
+    @property
+    def measures(self) -> str:
+        kinds = {each.measures for each in self.arguments}
+        return kinds.pop() if self.function in ("absolute", "minimum", "maximum") and len(kinds) == 1 else ""
+
     def parts(self) -> tuple[Reference, ...]:
         return self.arguments
 

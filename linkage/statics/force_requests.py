@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import TypeVar, final
+from typing import TypeVar, cast, final
 from weakref import ref
 
 import numpy as np
@@ -70,6 +70,9 @@ class DriveForce(Request):
     def identity(self, plan: Plan) -> Hashable:
         loads = loads_identity(self.loads, self.case)
         return None if loads is None else ("drive force", self.drive, loads)
+
+    def in_case(self, case: object) -> DriveForce:
+        return self if self.case is not None else replace(self, case=cast(Case, case))
 
     def of(self, motion: MotionLike) -> FloatArray:
         return driving_force(require_motion(motion), self.loads, self.drive, case=self.case)
@@ -174,6 +177,9 @@ class PinForce(Request):
     def identity(self, plan: Plan) -> Hashable:
         loads = loads_identity(self.loads, self.case)
         return None if loads is None else ("pin force", self.point, self.on, self.component, loads)
+
+    def in_case(self, case: object) -> PinForce:
+        return self if self.case is not None else replace(self, case=cast(Case, case))
 
     def of(self, motion: MotionLike) -> FloatArray:
         known_name("Component", self.component, COMPONENTS, where=f"{motion.plan.title}: the force at {self.point}")

@@ -13,13 +13,13 @@ from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import BoundRequest, Motion, RequestLike, evaluate_grid, stroke_display_unit
 from ..motion.grid import Grid, JoinedTo
-from ..motion.requests import Value, dimensions_of, slopes_of
+from ..motion.requests import dimensions_of, slopes_of
 from ..program import FloatArray, Way
-from ..quantities import Quantity, is_number
-from ..units import deg, mm, show, unit_or_none
+from ..quantities import is_number
+from ..units import deg, display_unit, mm, show, unit_or_none
 from .box import Box, setting_words, unit_points
 from .checks import check_one_design, is_one
-from .measured import number_bound
+from .measured import measure_of, number_bound
 
 
 @final
@@ -172,14 +172,7 @@ class Aim:
 
     def unit(self, place: int) -> str:
         """Return the unit that a target is told in."""
-        kind = measure_of(self.bound[place])
-        return self.targets[place].unit or {"length": "mm", "angle": "deg"}.get(kind, "")
-
-
-def measure_of(request: BoundRequest) -> str:
-    """Return what a request measures: "length", "angle", or "" where that is not known."""
-    member = request.member if isinstance(request, Value) and not request.along else None
-    return str(member.measures or "") if isinstance(member, Quantity) else ""
+        return self.targets[place].unit or display_unit(measure_of(self.bound[place]), "mm")
 
 
 def usual_miss(request: BoundRequest, target: Target) -> float:

@@ -3,6 +3,9 @@
 from .accumulator import Accumulator as Accumulator
 from .accumulator import AccumulatorBlock as AccumulatorBlock
 from .buckling import Buckling as Buckling
+from .catalogue import CatalogueRow as CatalogueRow
+from .catalogue import catalogue as catalogue
+from .catalogue import standard_strokes as standard_strokes
 from .cylinder import CylinderSize as CylinderSize
 from .cylinder import next_bore as next_bore
 from .cylinder import next_rod as next_rod
@@ -19,4 +22,6 @@ from .lift import LiftCircuit as LiftCircuit
 from .lift import Lowering as Lowering
 from .member import Cylinder as Cylinder
 from .nitrogen import real_nitrogen as real_nitrogen
+from .requests import pressure as pressure
+from .requests import thrust as thrust
 from .verdict import Verdict as Verdict

@@ -57,7 +57,12 @@ def standard_rods(bore: float) -> tuple[float, ...]:
     DefinitionError for a bore not above zero.
     """
     in_metres(positive(one_number(bore, "Bore"), "Bore"), "Bore")
-    return tuple(rod * mm for rod in RODS_MM if rod * mm < bore and RATIOS[0] <= bore**2 / (bore**2 - (rod * mm) ** 2) <= RATIOS[1])
+    return tuple(rod * mm for rod in RODS_MM if is_pair(bore, rod * mm))
+
+
+def is_pair(bore: float, rod: float) -> bool:
+    """Return whether a rod suits a bore [m]: piston area 1.06 to 5 times the annulus, the ratios of ISO 3320."""
+    return rod < bore and RATIOS[0] <= bore**2 / (bore**2 - rod**2) <= RATIOS[1]
 
 
 def next_bore(bore: float) -> float:

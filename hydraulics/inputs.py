@@ -17,7 +17,7 @@ from linkage.frozen import unmasked
 from linkage.loads import ForceElement, Poses
 from linkage.loads.element import value_text
 from linkage.plan import ArrayReading
-from linkage.program import Traced
+from linkage.program import is_traced
 from linkage.quantities import Quantity, quantity
 
 Array: TypeAlias = NDArray[np.float64]
@@ -142,11 +142,6 @@ def kelvin(value: ArrayLike, what: str, low: float = 200.0, high: float = 400.0)
     if np.any(outside):
         raise DefinitionError(f"{what} = {array[outside][0]:.6g} K is outside {low:g}..{high:g} K; give kelvin: 20 deg C is 293.15.")
     return array
-
-
-def is_traced(value: Any) -> bool:
-    """Return whether a value is a number of a law that is being traced: it has no value yet; what has none later is told then."""
-    return isinstance(value, Traced)
 
 
 def _floats(value: ArrayLike, what: str) -> Array:

@@ -1,11 +1,11 @@
 """A cylinder between two points of a mechanism: declared like them, checked against its stroke. Pressures are gauge [Pa].
 
-    >>> from linkage.units import bar, kN, mm
-    >>> lift = Cylinder("A", "B", bore=110 * mm, rod=60 * mm, count=2)
-    >>> print(f"{lift.size.thrust(160 * bar) / kN:.1f} kN; {lift.size.pressure_for(200 * kN) / bar:.1f} bar")
-    304.1 kN; 105.2 bar
-    >>> print(lift.standard())
-    FAIL standard size: bore 110 mm and rod 60 mm; the rod is not of ISO 3320, next to it are 56 and 63 mm.
+>>> from linkage.units import bar, kN, mm
+>>> lift = Cylinder("A", "B", bore=110 * mm, rod=60 * mm, count=2)
+>>> print(f"{lift.size.thrust(160 * bar) / kN:.1f} kN; {lift.size.pressure_for(200 * kN) / bar:.1f} bar")
+304.1 kN; 105.2 bar
+>>> print(lift.standard())
+FAIL standard size: bore 110 mm and rod 60 mm; the rod is not of ISO 3320, next to it are 56 and 63 mm.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, unknown, unwarned
 from linkage.frozen import refuses_changes
-from linkage.loads import AT_REST, DrawnAs, ForceElement, LoadCase, Parameter, Poses, Push, Rates, TwoPoint, require_poses
+from linkage.loads import AT_REST, Declared, DrawnAs, ForceElement, LoadCase, Parameter, Poses, Push, Rates, TwoPoint, require_poses
 from linkage.motion import Column, Motion, Tabled, greatest, lowest, require_motion
 from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import Case, Loads, elements_of, member_thrust, same
+from linkage.statics import AnyMotion, Case, Loads, elements_of, member_thrust, same
 from linkage.units import mm
 
 from .buckling import Buckling
@@ -32,6 +32,8 @@ from .cylinder import BORES_MM, RODS_MM, CylinderSize, standard_rods
 from .inputs import Array, follows, number_set, one_number, positive, stroke_in_metres
 from .verdict import Verdict
 
+LENGTHS: Mapping[str, str] = MappingProxyType({"stroke": "Stroke of the cylinder", "closed": "Closed length of the cylinder"})
+"""What its lengths are called in words."""
 DIRECTIONS = ("frictionless", "extending", "retracting")
 
 
@@ -43,8 +45,8 @@ class Cylinder(TwoPoint, Tabled):
 
     In a class bore and rod [m] are the design variables `lift.bore` and `lift.rod`. `works` is the side the pressure acts
     on: "piston" pushes, "rod" pulls, "both" does what the load asks for. `closed` is the distance of its pins drawn in, `stroke` how
-    far it comes out [m]; `mounting` and `safety` are for buckling. It holds what the mechanism needs, in the place of the drive of one
-    stroke; one that a FloatCircuit feeds has the gas's force instead.
+    far it comes out [m], design variables as well where they are given; `mounting` and `safety` are for buckling. It holds what the
+    mechanism needs, in the place of the drive of one stroke; one that a FloatCircuit feeds has the gas's force instead.
     """
 
     A: Reference
@@ -53,23 +55,28 @@ class Cylinder(TwoPoint, Tabled):
     rod: Parameter
     count: int = 1
     works: Literal["piston", "rod", "both"] = "piston"
-    stroke: float | None = None
-    closed: float | None = None
+    stroke: Parameter | None = None
+    closed: Parameter | None = None
     mounting: str = "pin-pin"
     safety: float = 3.5
     drawn_as: ClassVar[DrawnAs] = "cylinder"
     file_section: ClassVar[str] = "hydraulics"
-    argument_kinds: ClassVar[Mapping[str, object]] = MappingProxyType({"stroke": "length", "closed": "length"})
-    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm"})
-    not_negative: ClassVar[frozenset[str]] = frozenset({"bore", "rod"})
+    parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"bore": "mm", "rod": "mm", "stroke": "mm", "closed": "mm"})
+    not_negative: ClassVar[frozenset[str]] = frozenset({"bore", "rod", "stroke", "closed"})
+    optional: ClassVar[frozenset[str]] = frozenset({"stroke", "closed"})
 
     def __post_init__(self) -> None:
         super().__post_init__()
         size = CylinderSize(2.0, 1.0, self.count, self.works) if self._follows else self.size
         Buckling(1.0, self.mounting, self.safety)
-        for value, what in ((self.stroke, "Stroke of the cylinder"), (self.closed, "Closed length of the cylinder")):
-            if value is not None:
+        for name, what in LENGTHS.items():
+            value = getattr(self, name)
+            if value is not None and not follows(value):
                 positive(stroke_in_metres(one_number(value, what), what, None if self._follows else size.bore), what)
+
+    def _check_number(self, name: str) -> None:
+        if name not in LENGTHS:  # those are looked at beside the bore, in words of their own
+            super()._check_number(name)
 
     def push(self, motion: Poses, length: Array, rate: Array) -> Array:
         """Return nothing: it has no law of its own."""
@@ -89,7 +96,7 @@ class Cylinder(TwoPoint, Tabled):
     def area_in(self, motion: Poses, sense: Array) -> Array:
         size = self.sized(motion)
         if self.works == "both":
-            return np.asarray(np.where(sense < 0.0, -size.pull_area, size.push_area))
+            return np.asarray(np.where(sense[()] < 0.0, -size.pull_area, size.push_area))
         return np.asarray(size.sense * size.area + 0.0 * sense)
 
     # -- its size ------------------------------------------------------------------------------------------
@@ -110,6 +117,21 @@ class Cylinder(TwoPoint, Tabled):
         """Return the size that a motion's designs have; bore and rod [m] broadcast against the motion."""
         bore, rod = number_set(self, motion, "bore"), number_set(self, motion, "rod")
         return CylinderSize(bore[()], rod[()], self.count, self.works)
+
+    def closed_and_stroke(self, motion: Poses) -> tuple[Array | None, Array | None]:
+        """Return its closed length and its stroke as a motion's designs have them [m], to broadcast against it; None where not given.
+
+        DefinitionError for one that is not above zero, that is given in millimetres, or that follows a stroke of the machine.
+        """
+        bore = self.sized(motion).bore
+        closed, stroke = (self._length(motion, name, bore) for name in ("closed", "stroke"))
+        return closed, stroke
+
+    def _length(self, motion: Poses, name: str, bore: ArrayLike) -> Array | None:
+        if getattr(self, name) is None:
+            return None
+        what = LENGTHS[name]
+        return positive(stroke_in_metres(number_set(self, motion, name), what, bore), what)
 
     def offers(self, thrust: float, pressure: float, length: float | None = None) -> list[CylinderSize]:
         """Return the standard sizes (ISO 3320) that give a thrust [N] at a pressure: the smallest bore, each rod that suits.
@@ -141,7 +163,7 @@ class Cylinder(TwoPoint, Tabled):
 
     def thrust(
         self,
-        motion: Motion,
+        motion: AnyMotion,
         loads: Loads = None,
         *,
         case: Case = None,
@@ -157,7 +179,7 @@ class Cylinder(TwoPoint, Tabled):
         """
         return member_thrust(motion, self, loads, case=case, direction=direction, rates=rates)
 
-    def pressure(self, motion: Motion, loads: Loads = None, *, case: Case = None, direction: str | None = None) -> Array:
+    def pressure(self, motion: AnyMotion, loads: Loads = None, *, case: Case = None, direction: str | None = None) -> Array:
         """Return the pressure on the side that works, shape (...) [Pa gauge]; 0 where the other side holds.
 
         While it moves in its working direction, or the one named, with what its one LiftCircuit says: efficiencies and back pressure.
@@ -168,7 +190,7 @@ class Cylinder(TwoPoint, Tabled):
 
     def columns(self, motion: Motion) -> list[Column]:
         """Return its thrust without friction and, unless several circuits have it, its pressure, for the table of results."""
-        pressed = len(circuits_of(self, motion)) <= 1
+        pressed = len(circuits_of(self, motion.plan)) <= 1
         thrust = Column("thrust", self.thrust(motion), "kN")
         return [thrust, Column("pressure", self.pressure(motion), "bar", 2)] if pressed else [thrust]
 
@@ -187,9 +209,10 @@ class Cylinder(TwoPoint, Tabled):
         if not motion.reached.any():
             raise DefinitionError(f"{self}: no pose of this motion can be assembled, so that there is no length to check.")
         low, high = map(float, self.extent(motion))
-        if self.closed is not None:
-            return [self._reaches(low, high, self.closed, self.closed + self.stroke if self.stroke is not None else np.inf)]
-        return [] if self.stroke is None else [self._travels(high - low, self.stroke)]
+        closed, stroke = (None if each is None else one_number(np.squeeze(each), "Length") for each in self.closed_and_stroke(motion))
+        if closed is not None:
+            return [self._reaches(low, high, closed, closed + stroke if stroke is not None else np.inf)]
+        return [] if stroke is None else [self._travels(high - low, stroke)]
 
     def _reaches(self, low: float, high: float, closed: float, opened: float) -> Verdict:
         out = f" and {opened / mm:.1f} mm open" if np.isfinite(opened) else ""
@@ -258,28 +281,30 @@ class Cylinder(TwoPoint, Tabled):
         return "".join(label(end) for end in (self.A, self.B))
 
 
-def pressure_of(cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
+def pressure_of(cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
     """Return a cylinder's pressure by the circuit that has it; without one, of a pump without losses."""
     require_poses(motion)
-    members, mine = motion.plan.members, circuits_of(cylinder, motion)
-    feeding = [each for each in mine if any(same(cylinder, one) for one in each.feeds(members))]
-    if feeding:
-        return feeding[0].pressure_in(cylinder, motion, loads, case, direction)
-    if len(mine) > 1:
-        names = ", ".join(each.name for each in mine)
-        remedy = f"name one: {mine[0].name}.pressure_for(motion)"
-        raise DefinitionError(f"{motion.plan.title}: {cylinder.name} is on {len(mine)} circuits, {names}; {remedy}.")
-    if mine:
-        return mine[0].pressure_in(cylinder, motion, loads, case, direction)
+    circuit = circuit_having(cylinder, motion.plan)
+    if circuit is not None:
+        return circuit.pressure_in(cylinder, motion, loads, case, direction)
     thrust = cylinder.thrust(motion, loads, case=case, direction=direction or "frictionless")
     return np.maximum(cylinder.sized(motion).pressure_for(thrust), 0.0)
 
 
-def circuits_of(cylinder: Cylinder, motion: Motion) -> list[Circuit]:
+def circuit_having(cylinder: Cylinder, plan: Declared) -> Circuit | None:
+    """Return the circuit that gives a cylinder its pressure, the one that feeds it first; DefinitionError where several have it."""
+    members, mine = plan.members, circuits_of(cylinder, plan)
+    feeding = [each for each in mine if any(same(cylinder, one) for one in each.feeds(members))]
+    if len(mine) > 1 and not feeding:
+        names = ", ".join(each.name for each in mine)
+        remedy = f"name one: {mine[0].name}.pressure_for(motion)"
+        raise DefinitionError(f"{plan.title}: {cylinder.name} is on {len(mine)} circuits, {names}; {remedy}.")
+    return next(iter((*feeding, *mine)), None)
+
+
+def circuits_of(cylinder: Cylinder, plan: Declared) -> list[Circuit]:
     """Return the circuits of a class that have a cylinder."""
-    require_poses(motion)
-    members = motion.plan.members
-    return [each for each in motion.plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(members))]
+    return [each for each in plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(plan.members))]
 
 
 class Circuit(ForceElement):
@@ -315,7 +340,7 @@ class Circuit(ForceElement):
         return tuple(each for each in found if isinstance(each, Cylinder))
 
     @abstractmethod
-    def pressure_in(self, cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
+    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
         """Return the pressure on the working side of one of its cylinders, shape (...) [Pa gauge]."""
 
 

@@ -12,7 +12,7 @@ from ..mechanism import Mechanism
 from ..motion import Motion, each_at_its_stroke
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import Quantity
+from ..quantities import Quantity, is_number
 
 QuantityLike: TypeAlias = str | Quantity | Callable[[Motion], FloatArray]
 """A named output, a quantity, or a function of a motion that returns a number for each pose, NaN where it has none."""
@@ -30,6 +30,11 @@ def unit_of(plan: Plan, name: str) -> str:
     """Return the unit a dimension is shown in: its own, mm for lengths, deg for angles, "" where nothing says."""
     found = plan.table.entries[plan.table.spellings[name][0]]
     return found.unit or {"length": "mm", "coordinate": "mm", "angle": "deg"}.get(found.kind, "")
+
+
+def is_one(value: Any) -> bool:
+    """Return whether a value is one finite number."""
+    return is_number(value.item() if isinstance(value, np.ndarray) and value.ndim == 0 and not np.ma.is_masked(value) else value)
 
 
 def check_mechanism(machine: Any) -> None:

@@ -76,6 +76,61 @@ def test_a_cylinder_that_fits(closed, stroke):
     assert verdict
 
 
+@pytest.mark.parametrize(
+    ("design", "missing"),
+    [
+        ({}, None), ({"lift.stroke": 0.26}, "10.0 mm are missing open"), ({"lift.closed": 0.53}, "30.0 mm too long closed"),
+        ({"lift.stroke": 0.25, "lift.closed": 0.50}, None), ({"lift.closed": 0.47}, "10.0 mm are missing open"),
+    ],
+    ids=str,
+)  # fmt: skip
+def test_stroke_and_closed_length_are_design_variables(design, missing):
+    motion = Arm(**design).sweep(5)
+    (verdict,) = Arm.lift.fits(motion)
+    assert bool(verdict) is (missing is None)
+    assert missing is None or missing in verdict.sentence
+    assert {"lift.stroke": 0.27, "lift.closed": 0.48} | design == {name: Arm(**design)[name] for name in ("lift.stroke", "lift.closed")}
+
+
+def test_lengths_of_a_batch():
+    strokes = np.array([0.20, 0.25, 0.32])
+    closed, stroke = Arm.lift.closed_and_stroke(Arm(**{"lift.stroke": strokes}).sweep(5))
+    assert_allclose(np.ravel(stroke), strokes)
+    assert float(closed) == 0.48
+    assert Cylinder("A", "B", bore=0.1, rod=0.05, stroke=0.3).closed_and_stroke(Arm().sweep(3)) == (None, 0.3)
+
+
+class Built(Arm):
+    """Its closed length follows its stroke, and that a dimension."""
+
+    out = Dimension(0.25)
+    lift = Cylinder("A", "B", bore=0.1, rod=0.05, stroke="out", closed=out + 0.25)
+
+
+@pytest.mark.parametrize(("out", "missing"), [(0.25, ""), (0.24, "20.0 mm are missing open"), (0.27, "20.0 mm too long closed")])
+def test_lengths_follow_dimensions(out, missing):
+    (verdict,) = Built(out=out).lift.fits(Built(out=out).sweep(5))
+    assert ("lift.stroke" in Built().dimensions, "lift.closed" in Built().dimensions) == (False, False)
+    assert bool(verdict) is (not missing)
+    assert missing in verdict.sentence
+
+
+@pytest.mark.parametrize(
+    ("machine", "words"),
+    [
+        (lambda: Arm(**{"lift.stroke": 0.0}), "Stroke of the cylinder = 0 is not above zero; give a positive number"),
+        (lambda: Arm(**{"lift.closed": 500.0}), r"Closed length of the cylinder = 500 m .* write 500 \* mm"),
+        (lambda: Arm(**{"lift.stroke": -0.1}), r"lift\.stroke=-0\.1 is negative; give zero or more"),
+        (lambda: Built(out=300), r"Closed length of the cylinder = 300\.25 m .* write 300\.25 \* mm"),
+        (lambda: type("Moved", (Arm,), {"lift": Cylinder("A", "B", bore=0.1, rod=0.05, stroke="S")})(), "Stroke = S follows a stroke"),
+        (lambda: Built(**{"lift.stroke": 0.2}), "lift.stroke"),
+    ],
+)  # fmt: skip
+def test_lengths_of_a_design_that_cannot_be_are_refused(machine, words):
+    with pytest.raises(DefinitionError, match=words):
+        _ = machine().lift.fits(machine().sweep(3))
+
+
 def test_without_lengths_there_is_nothing_to_say():
     assert Cylinder("A", "B", bore=0.1, rod=0.05).fits(Arm().sweep(3)) == []
 
@@ -141,7 +196,7 @@ def test_a_design_that_cannot_be_is_refused_when_asked():
 
 
 def test_it_is_written_as_it_can_be_pasted_back():
-    assert str(Arm.lift) == "Cylinder(A, B, bore=0.11, rod=0.063, count=2, stroke=0.27, closed=0.48)"
+    assert str(Arm.lift) == "Cylinder(A, B, bore=0.11, rod=0.063, stroke=0.27, closed=0.48, count=2)"
 
 
 def test_sizes_of_a_batch_are_not_judged():

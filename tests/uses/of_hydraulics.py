@@ -37,7 +37,7 @@ USES = [
     ),
     (
         'Cylinder("A", "B", bore=0.08, rod=0.045, stroke=@)',
-        '0; -0.3; nan; "a"; [0.3]; masked',
+        '0; -0.3; nan; "8 cm"; [0.3]; masked',
         ("Stroke of the cylinder =", "in SI units."),
     ),
     (
@@ -50,7 +50,11 @@ USES = [
         "500",
         ("Closed length of the cylinder = 500 m", "write 500 * mm if these are millimetres."),
     ),
-    ('Cylinder("A", "B", bore=0.08, rod=0.045, closed=@)', '0; -0.3; nan; "a"; [0.3]', ("Closed length of the cylinder =", "in SI units.")),
+    (
+        'Cylinder("A", "B", bore=0.08, rod=0.045, closed=@)',
+        '0; -0.3; nan; "8 cm"; [0.3]',
+        ("Closed length of the cylinder =", "in SI units."),
+    ),
     (
         'Cylinder("A", "B", bore=0.08, rod=0.045, @)',
         'mounting="loose"; mounting=3; mounting=[]',

@@ -1,0 +1,101 @@
+"""A catalogue of single-stage cylinders, row by row, for a search to choose from. Lengths in m.
+
+    >>> from linkage.units import mm
+    >>> rows = catalogue(bores=[80 * mm], rods=[45 * mm, 50 * mm], strokes=[250 * mm], dead=(120 * mm, 1.5))
+    >>> rows[0]
+    CatalogueRow(bore=0.08, rod=0.045, stroke=0.25, closed=0.49)
+    >>> print(*rows, sep="; ")
+    cylinder 80/45 x 250 mm, 490 mm closed; cylinder 80/50 x 250 mm, 490 mm closed
+
+What is standard here: the bores, the rods and the ratio of their areas (ISO 3320), and the strokes (ISO 4393). No standard says how long a
+cylinder is closed: that follows from its head, its piston, its guide and its eyes, and is the maker's; give it as a dead length.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import product
+from typing import NamedTuple
+
+from linkage.errors import DefinitionError, cited
+from linkage.units import mm
+
+from .cylinder import BORES_MM, RODS_MM, is_pair
+from .inputs import all_finite, in_metres, not_negative, one_number, positive, stroke_in_metres
+
+# Basic series of piston strokes, mm.
+#
+# Source: ISO 4393, as makers' catalogues reproduce it, to 500 mm. Above it makers go on with the preferred numbers R10 (ISO 3); mobile
+# cylinders are made in any stroke, so that a list of one's own is often the better one.
+
+STROKES_MM = (25, 40, 50, 80, 100, 125, 160, 200, 250, 320, 400, 500)
+LONGER_MM = (630, 800, 1000, 1250, 1600, 2000)
+
+MOST_ROWS = 1_000_000
+
+
+class CatalogueRow(NamedTuple):
+    """A cylinder of a catalogue: bore, rod, stroke and the closed distance of its pins [m]."""
+
+    bore: float
+    rod: float
+    stroke: float
+    closed: float
+
+    def __str__(self) -> str:
+        return f"cylinder {self.bore / mm:.4g}/{self.rod / mm:.4g} x {self.stroke / mm:.4g} mm, {self.closed / mm:.4g} mm closed"
+
+
+def standard_strokes(longer: bool = False) -> tuple[float, ...]:
+    """Return the basic strokes of ISO 4393 [m], ascending; `longer` goes on with the preferred numbers R10 to 2 m."""
+    return tuple(stroke * mm for stroke in (*STROKES_MM, *(LONGER_MM if longer else ())))
+
+
+def catalogue(
+    bores: Sequence[float] | None = None,
+    rods: Sequence[float] | None = None,
+    strokes: Sequence[float] | None = None,
+    *,
+    dead: float | tuple[float, float],
+) -> list[CatalogueRow]:
+    """Return the cylinders of all pairs of bore and rod, in all strokes, by bore, rod and stroke: rows that `optimise` varies.
+
+    Without `bores` and `rods` those of ISO 3320, without `strokes` those of ISO 4393 [m]; of the pairs the ones whose areas are in the
+    ratios of ISO 3320. `dead` is what a cylinder is longer between its pins, drawn in, than its stroke: a length [m], or (length, factor)
+    for length + factor x bore. DefinitionError for no row, for numbers that are not above zero, or that were given in millimetres.
+    """
+    constant, factor = dead_length(dead)
+    rows = []
+    sizes = [series(bores, BORES_MM, "Bore"), series(rods, RODS_MM, "Rod"), series(strokes, STROKES_MM, "Stroke")]
+    if len(sizes[0]) * len(sizes[1]) * len(sizes[2]) > MOST_ROWS:
+        raise DefinitionError(f"The catalogue would have more than {MOST_ROWS} rows; give fewer bores, rods or strokes.")
+    for bore, rod, stroke in product(*sizes):
+        if is_pair(bore, rod):
+            stroke_in_metres(stroke, "Stroke", bore)
+            rows.append(CatalogueRow(bore, rod, stroke, round(stroke + constant + factor * bore, 9)))
+    if not rows:
+        raise DefinitionError("The catalogue has no row: no rod suits a bore by the ratios of ISO 3320; give others, or leave rods= out.")
+    return rows
+
+
+def series(given: Sequence[float] | None, standard: Sequence[int], what: str) -> list[float]:
+    """Return sizes [m], ascending, each once: those given, else those of a standard [mm]."""
+    if given is None:
+        return [each * mm for each in standard]
+    sizes = positive(given, what)
+    if sizes.ndim != 1:
+        raise DefinitionError(f"{what} = {cited(given)}: a list is expected, such as [{standard[-4]} * mm].")
+    in_metres(sizes, what) if what != "Stroke" else stroke_in_metres(sizes, what)
+    return sorted({float(each) for each in sizes})
+
+
+def dead_length(given: float | tuple[float, float]) -> tuple[float, float]:
+    """Return a dead length's constant [m] and its factor of the bore; DefinitionError where it is not above zero."""
+    parts = all_finite(given, "Dead length")
+    if parts.shape not in ((), (2,)):
+        raise DefinitionError(f"Dead length = {cited(given)}: give a length [m], or (length, factor of the bore) such as (0.12, 1.5).")
+    constant, factor = (one_number(given, "Dead length"), 0.0) if parts.ndim == 0 else map(float, parts)
+    in_metres(not_negative(constant, "Dead length"), "Dead length")
+    in_metres(not_negative(factor, "Factor of the bore"), "Factor of the bore", 100.0)
+    positive(constant + factor, "Dead length")
+    return constant, factor

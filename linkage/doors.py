@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 from .mechanism import Mechanism
-from .motion import Column, Motion
+from .motion import Column, Motion, RequestLike
 from .reports import NOTHING
 
 if TYPE_CHECKING:
@@ -61,10 +61,10 @@ def draw(
     return draw(machine, at, path, count, ax=ax, pose=pose, faint=faint)
 
 
-def plot(motion: Motion, columns: Sequence[Column | str], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
+def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
     """Return a figure of columns over the stroke, a panel each; a column that is the stroke itself is left out.
 
-    A column may go by its name: a named output, or a point's coordinate such as "G_y". `limits` are, by the column's name,
+    A column may go by its name: a named output, or a point's coordinate such as "G_y"; or be a request, `drive_force()`. `limits` are, by the column's name,
     `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the side that fails, above unless said, is shaded.
     Raises DefinitionError for a batch, a grid, or an unknown name.
     """

@@ -3,7 +3,7 @@
 from .box import Box
 from .infeasible import InfeasibleError
 from .measures import at, integral, least, most, reachable, worst
-from .monte_carlo import Band, MonteCarlo, Within, monte_carlo
+from .monte_carlo import Band, MonteCarlo, monte_carlo
 from .optimum import Optimum
 from .sensitivity import Bar, SobolIndices, Tornado, sobol, tornado
 from .settings import Settings, settings_for

@@ -15,8 +15,8 @@ from ..mechanism import Mechanism
 from ..plan import Plan
 from ..program import FloatArray, Way
 from ..quantities import is_whole
-from ..units import show, unit_or_none
-from .measured import Measured, Poses, is_traced, measured_title, number_bound
+from ..units import display_unit, show, unit_or_none
+from .measured import Measured, Poses, measure_of, measured_title, number_bound
 from .tolerances import Tolerance, ToleranceLike, shifted_designs, tolerance_words, tolerances_of
 
 POSES = 21
@@ -93,9 +93,9 @@ class Tornado:
 def tornado(machine: Mechanism, quantity: Measured, tolerances: Mapping[str, ToleranceLike], *, unit: str = "", **strokes: Any) -> Tornado:
     """Return what every tolerance by itself does to a quantity at one pose, the dimension that does most first.
 
-    `tornado(hitch, "tilt", {"OB": 0.1 * mm, "CD": 0.2 * mm}, unit="deg", S=0.1)`. Gradients are exact; of a function of a motion, which may
-    return one number for each design over the strokes, they are central differences over a thousandth of the tolerance. `unit` is
-    that of the words. Raises AssemblyError where the machine as it is set cannot be assembled.
+    `tornado(hitch, "tilt", {"OB": 0.1 * mm, "CD": 0.2 * mm}, unit="deg", S=0.1)`. Gradients are exact; those of a measure over the strokes
+    looked at, `most("tilt")`, and of a function of a motion are central differences over a thousandth of the tolerance. `unit` is that
+    of the words, by default the quantity's own. Raises AssemblyError where the machine as it is set cannot be assembled.
     """
     poses, plan = Poses.of(machine, strokes, POSES), machine.plan
     unit_or_none(unit, where="tornado(unit=...)")
@@ -104,7 +104,7 @@ def tornado(machine: Mechanism, quantity: Measured, tolerances: Mapping[str, Tol
     levels = np.concatenate([np.zeros((1, k)), -np.eye(k), np.eye(k)])
     values = poses.values(machine.replaced(**shifted_designs(machine, named, levels)), quantity, Way())
     if values.shape[1] != 1:
-        said = "say one pose, or give a function of a motion that returns one number for each design"
+        said = "say one pose, or give a measure such as most(...)"
         raise DefinitionError(f"{plan.title}: {measured_title(plan, quantity)} at {poses.count} poses; {said}.")
     nominal = float(values[0, 0])
     low, high = values[1 : 1 + k, 0] - nominal, values[1 + k :, 0] - nominal
@@ -115,7 +115,8 @@ def tornado(machine: Mechanism, quantity: Measured, tolerances: Mapping[str, Tol
     rows = np.stack([slopes, low, high, shares], axis=1).tolist()
     bars = [Bar(name, each, *row) for (name, each), row in zip(named.items(), rows, strict=True)]
     ordered = tuple(sorted(bars, key=lambda bar: -bar.length))
-    return Tornado(plan, measured_title(plan, quantity), unit, poses.words(), nominal, float(np.sqrt(total)), ordered)
+    shown = unit or display_unit(measure_of(plan, quantity), "mm")
+    return Tornado(plan, measured_title(plan, quantity), shown, poses.words(), nominal, float(np.sqrt(total)), ordered)
 
 
 STEP = 1e-3
@@ -124,8 +125,7 @@ STEP = 1e-3
 
 def gradient_at(machine: Mechanism, poses: Poses, quantity: Measured, tolerances: Mapping[str, Tolerance]) -> FloatArray:
     """Return the derivatives of a quantity at one pose by dimensions, shape (k,): exact, or of a function differences."""
-    if is_traced(quantity):
-        number_bound(machine.plan, quantity)
+    if number_bound(machine.plan, quantity) is not None:
         return poses.base.gradient(quantity, wrt=list(tolerances)).reshape(-1)  # type: ignore[arg-type]
     k = len(tolerances)
     steps = {name: Tolerance(STEP * max(each.high, -each.low)) for name, each in tolerances.items()}
@@ -176,8 +176,8 @@ def sobol(
 ) -> SobolIndices:
     """Return the Sobol indices of a quantity over tolerances, at every stroke looked at; by default 21 over a single one.
 
-    `sobol(hitch, "tilt", {"OB": 5 * mm, "CD": 5 * mm}, S=0.1)`; a function of a motion may return one number for each design. The number of
-    designs is `count`, a power of two, times two more than there are dimensions. Source: Saltelli and others, Computer Physics
+    `sobol(hitch, "tilt", {"OB": 5 * mm, "CD": 5 * mm}, S=0.1)`; a measure such as `most("tilt")` is one number over the strokes. The
+    number of designs is `count`, a power of two, times two more than there are dimensions. Source: Saltelli and others, Computer Physics
     Communications 181 (2010), 259-270, by `scipy.stats.sobol_indices`.
 
     Raises DefinitionError where designs cannot be assembled, so that the variance is not known, or where nothing varies.

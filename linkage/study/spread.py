@@ -15,9 +15,9 @@ from ..motion.grid import MotionLike
 from ..motion.requests import dimensions_of, identity_of
 from ..plan import Plan
 from ..program import FloatArray, Node, Notes, gradient
-from ..quantities import Quantity
 from .checks import check_mechanism
 from .measured import number_bound
+from .measures import words_of
 from .tolerances import ToleranceLike, tolerances_of
 
 
@@ -34,7 +34,10 @@ class Sigma(Request):
         return None if of is None else ("sigma", of, deviations_of(plan, self.tolerances))
 
     def bound(self, plan: Plan) -> SigmaOf:
-        return SigmaOf(number_bound(plan, self.quantity), self.quantity, deviations_of(plan, self.tolerances))
+        return SigmaOf(traced_number(plan, self.quantity), self.quantity, deviations_of(plan, self.tolerances))
+
+    def __str__(self) -> str:
+        return f"sigma({words_of(self.quantity)})"
 
 
 def sigma(quantity: RequestLike, tolerances: Mapping[str, ToleranceLike]) -> Sigma:
@@ -44,6 +47,15 @@ def sigma(quantity: RequestLike, tolerances: Mapping[str, ToleranceLike]) -> Sig
     are independent of each other. Source: the law of propagation of uncertainty, ISO/IEC Guide 98-3 (GUM), 5.1.2.
     """
     return Sigma(quantity, tolerances)
+
+
+def traced_number(plan: Plan, quantity: Any) -> BoundRequest:
+    """Return a quantity bound to a plan; DefinitionError for what has no gradient in the program."""
+    found = number_bound(plan, quantity)
+    if found is None:
+        what = f"{plan.title}: {words_of(quantity)} is no part of the program, so that its gradient is not known"
+        raise DefinitionError(f"{what}; give an output, a quantity or a request.")
+    return found
 
 
 def deviations_of(plan: Plan, tolerances: Any) -> tuple[tuple[str, float], ...]:
@@ -111,7 +123,6 @@ def spread(
     its gradient has no value. It is `evaluate([sigma(...)])` of these designs.
     """
     check_mechanism(machine)
-    if not isinstance(quantity, (str, Quantity, Request)):
-        raise DefinitionError(f"{machine.plan.title}: a spread is of an output, a quantity or a request, whose gradient is known.")
+    traced_number(machine.plan, quantity)
     with unwarned(), np.errstate(all="ignore"):
         return machine.replaced(**designs).evaluate([sigma(quantity, tolerances)], unreachable="nan", **strokes)[0]

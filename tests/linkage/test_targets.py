@@ -208,8 +208,8 @@ TILT = [Target("tilt", 0.0, S=0.1)]
         ({"MK": (0.5, 1.3)}, [], "a list of targets is expected"),
         ({"MK": (0.5, 1.3)}, TILT[0], "a list of targets is expected"),
         ({"MK": (0.5, 1.3)}, [Target("tilt", 0.0)], "say the pose, S=..."),
-        ({"MK": (0.5, 1.3)}, [Target("F", 0.0, S=0.1)], "F has two coordinates; ask for a number, such as y('F')"),
-        ({"MK": (0.5, 1.3)}, [Target(len, 0.0, S=0.1)], "is no output, quantity, request"),
+        ({"MK": (0.5, 1.3)}, [Target("F", 0.0, S=0.1)], 'F has two components; say which, x("F") or y("F")'),
+        ({"MK": (0.5, 1.3)}, [Target(len, 0.0, S=0.1)], "len is no part of the program"),
         ({"XY": (0.5, 1.3)}, TILT, "Dimension 'XY' is unknown"),
     ],
 )

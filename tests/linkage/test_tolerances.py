@@ -194,7 +194,7 @@ def test_a_million_samples_have_the_sigma_of_the_gradient(machine):
 
 
 def test_results_do_not_depend_on_threads_blocks_and_memory(monkeypatch):
-    conditions = [most("tilt") <= 25 * deg, least(drive_force()) >= 59.5 * kN, integral(drive_force()) <= 1.6e4]
+    conditions = [most("tilt") <= 25 * deg, least(drive_force()) >= 59.5 * kN, integral(drive_force()) <= 16149.0]
     one = monte_carlo(ThreePointHitch(), ["tilt", drive_force()], HITCH, subject_to=conditions, count=3000, S=S)
     room = import_module("linkage.study.monte_carlo")
     assert 0.0 < one.yield_rate < 1.0

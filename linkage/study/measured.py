@@ -58,7 +58,7 @@ def measure_of(plan: Plan, quantity: Any) -> str:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Poses:
+class StudyPoses:
     """The poses that a study looks at: the motion of the machine as it is set, which can be assembled at all of them.
 
     Angles of other designs lie within 180 deg of those of this one.
@@ -67,7 +67,7 @@ class Poses:
     base: Motion
 
     @classmethod
-    def of(cls, machine: Mechanism, strokes: Mapping[str, Any], count: int) -> Poses:
+    def of(cls, machine: Mechanism, strokes: Mapping[str, Any], count: int) -> StudyPoses:
         """Return the poses at strokes [SI], by default `count` of them over a single stroke.
 
         Raises DefinitionError for no poses, AssemblyError where the machine as it is set cannot be assembled.
@@ -135,7 +135,7 @@ class Poses:
             total = fold(leaf, total, column, self.weight(leaf, place))
         return np.asarray(total)
 
-    def at(self, leaf: At) -> Poses:
+    def at(self, leaf: At) -> StudyPoses:
         """Return the pose of a value at one pose; DefinitionError where a stroke is not said."""
         plan = self.base.plan
         only = next(iter(self.flat)) if len(self.flat) == 1 else ""
@@ -143,7 +143,7 @@ class Poses:
         if missing or (only and not leaf.strokes and only in strokes_behind(plan, leaf.quantity)):
             raise DefinitionError(f"{plan.title}: {leaf}: say the pose, {', '.join(f'{name}=...' for name in missing or [only])}.")
         strokes = {name: leaf.strokes.get(name, float(value[0])) for name, value in self.flat.items()}
-        return Poses(Motion(plan, self.base.designs, at_values(strokes, plan), "raise"))
+        return StudyPoses(Motion(plan, self.base.designs, at_values(strokes, plan), "raise"))
 
     def weight(self, leaf: Leaf, place: int) -> float:
         """Return what one pose counts in an integral over a row of poses, by trapezia; 1 of anything else."""

@@ -16,7 +16,7 @@ from ..plan import Mask, Plan
 from ..program import FloatArray, Way
 from ..quantities import is_number
 from ..units import display_unit
-from .measured import Measured, Poses, fold, fold_start, measure_of, measured_title, number_bound
+from .measured import Measured, StudyPoses, fold, fold_start, measure_of, measured_title, number_bound
 from .measures import At, Condition, Constraint, Leaf, Measure, conditions_of
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, shifted_designs, tolerance_words, tolerances_of
 
@@ -26,7 +26,7 @@ Found = TypeVar("Found")
 DESIGNS = 1 << 14
 POSES = 21
 BLOCK = 1 << 17
-"""Poses that are worked out at a time: their results fit a processor's cache."""
+"""StudyPoses that are worked out at a time: their results fit a processor's cache."""
 MEMORY = 1 << 28
 """Bytes of results that are kept at a time: of so many strokes as fit all designs are looked at together."""
 
@@ -138,14 +138,14 @@ def monte_carlo(
     evaluation of the neighbouring corners and middles until none is worse. Beside the results it needs the dimensions of all designs, and
     256 MB. The results are the same for the same seed, whatever the number of threads.
     """
-    poses, plan = Poses.of(machine, strokes, POSES), machine.plan
+    poses, plan = StudyPoses.of(machine, strokes, POSES), machine.plan
     named = tolerances_of(plan, tolerances)
     asked, conditions = quantities_listed(plan, of), limits_listed(machine, subject_to)
     order = percentages(percentiles)
     way = Way(one_word("backend", backend, ("numpy", "numba")), threads)
     designs = sampled_designs(machine, named, count, method, seed, threads)
     with unwarned(), np.errstate(all="ignore"):
-        run = Run(poses, machine.replaced(**designs), count, way, order)
+        run = MonteCarloRun(poses, machine.replaced(**designs), count, way, order)
         run.measure(asked, conditions)
         ends = {title: worst_case(machine, poses, quantity, named) for title, quantity in asked.items()}
         nominal = {title: poses.values(machine, quantity, Way())[0] for title, quantity in asked.items()}
@@ -193,7 +193,7 @@ def percentages(given: Any) -> tuple[float, ...]:
 def band_of(
     title: str,
     unit: str,
-    poses: Poses,
+    poses: StudyPoses,
     nominal: FloatArray,
     moments: FloatArray,
     order: Sequence[float],
@@ -212,10 +212,10 @@ Stored: TypeAlias = Mapping[Hashable, list[FloatArray]]
 
 
 @final
-class Run:
+class MonteCarloRun:
     """The designs of a Monte Carlo: `moments` of each quantity, `lost` and `kept` designs."""
 
-    def __init__(self, poses: Poses, designs: Mechanism, count: int, way: Way, order: Sequence[float]) -> None:
+    def __init__(self, poses: StudyPoses, designs: Mechanism, count: int, way: Way, order: Sequence[float]) -> None:
         self.poses, self.designs, self.count, self.order = poses, designs, count, order
         self.threads, self.way = way.threads, Way(way.backend)
         self.moments: dict[str, FloatArray] = {}
@@ -338,7 +338,9 @@ def blocks(count: int, poses: int) -> list[slice]:
 ROUNDS = 20
 
 
-def worst_case(machine: Mechanism, poses: Poses, quantity: Measured, tolerances: Mapping[str, Tolerance]) -> tuple[FloatArray, FloatArray]:
+def worst_case(
+    machine: Mechanism, poses: StudyPoses, quantity: Measured, tolerances: Mapping[str, Tolerance]
+) -> tuple[FloatArray, FloatArray]:
     """Return the least and the greatest value at every pose, shapes (n,), with every deviation at a limit or in the middle of them."""
     k = len(tolerances)
     steps = np.concatenate([-np.eye(k), np.eye(k)])
@@ -355,14 +357,14 @@ def worst_case(machine: Mechanism, poses: Poses, quantity: Measured, tolerances:
         ends = extreme_rows(values)
         near = np.unique(np.concatenate([neighbours(levels[row]) for row in ends]), axis=0) if k else levels
         found = at(near)
-        better = (lowest(found) < lowest(values)) | (-lowest(-found) > -lowest(-values))
+        better = (least_by_column(found) < least_by_column(values)) | (-least_by_column(-found) > -least_by_column(-values))
         if not better.any():
             break
         levels, values = np.concatenate([levels, near]), np.concatenate([values, found])
-    return lowest(values), -lowest(-values)
+    return least_by_column(values), -least_by_column(-values)
 
 
-def lowest(values: FloatArray) -> FloatArray:
+def least_by_column(values: FloatArray) -> FloatArray:
     """Return the least value of each column that has one, else NaN."""
     least = np.min(np.where(np.isnan(values), np.inf, values), axis=0)
     return np.where(np.isinf(least), np.nan, least)

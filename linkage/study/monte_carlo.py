@@ -26,7 +26,7 @@ Found = TypeVar("Found")
 DESIGNS = 1 << 14
 POSES = 21
 BLOCK = 1 << 17
-"""StudyPoses that are worked out at a time: their results fit a processor's cache."""
+"""Poses that are worked out at a time: their results fit a processor's cache."""
 MEMORY = 1 << 28
 """Bytes of results that are kept at a time: of so many strokes as fit all designs are looked at together."""
 

@@ -9,7 +9,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, one_word, unwarned
+from ..errors import DefinitionError, cited, one_word, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..plan import Plan
@@ -185,7 +185,9 @@ def sobol(
     poses, plan = StudyPoses.of(machine, strokes, POSES), machine.plan
     named, title = tolerances_of(plan, tolerances), measured_title(plan, quantity)
     if not is_whole(count) or count < 2 or count & (count - 1):
-        raise DefinitionError(f"count={count!r}: a power of two is expected, such as {SAMPLES}.")
+        raise DefinitionError(f"count={cited(count)}: a power of two is expected, such as {SAMPLES}.")
+    if not is_whole(seed) or seed < 0:
+        raise DefinitionError(f"seed={cited(seed)}: a whole number is expected, at least 0.")
     way, sigmas = Way(one_word("backend", backend, ("numpy", "numba")), threads), []
 
     def values(x: FloatArray) -> FloatArray:

@@ -8,7 +8,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, unwarned
+from ..errors import DefinitionError, cited, unwarned
 from ..mechanism import Mechanism
 from ..motion import BoundRequest, Request, RequestLike, require_motion
 from ..motion.grid import MotionLike
@@ -124,5 +124,10 @@ def spread(
     """
     check_mechanism(machine)
     traced_number(machine.plan, quantity)
+    for what, given in (("designs", designs), ("strokes", strokes)):
+        if not isinstance(given, Mapping):
+            raise DefinitionError(
+                f"{machine.plan.title}: {what}={cited(given)}: a dictionary of {what} by name is expected, such as {{...: 0.1}}."
+            )
     with unwarned(), np.errstate(all="ignore"):
         return machine.replaced(**designs).evaluate([sigma(quantity, tolerances)], unreachable="nan", **strokes)[0]

@@ -234,6 +234,15 @@ def test_a_target_that_cannot_be_is_refused(given, words):
     assert words in str(refused.value)
 
 
+def test_what_belongs_to_one_setting_is_refused_for_several():
+    for given, words in (({"S": 0.1}, "S=..."), ({"between": (0.1, 0.2)}, "between=..."), ({"target": 0.1}, "target=0.1")):
+        with pytest.raises(DefinitionError, match=words) as refused:
+            settings_for(ThreePointHitch(), HITCH, TILT * 2, **given)
+        assert "every target says it itself" in str(refused.value)
+    with pytest.raises(DefinitionError, match="leave it out"):
+        settings_for(ThreePointHitch(), "MK", "tilt", between=(0.5, 1.3), points=3, S=0.1)
+
+
 def test_points_are_a_whole_number():
     with pytest.raises(DefinitionError, match="whole number of points"):
         settings_for(ThreePointHitch(), HITCH, TILT * 2, points=2.5)

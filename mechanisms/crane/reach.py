@@ -6,6 +6,7 @@ The reach is what the tip, T, covers in the crane's plane; what stands in the wa
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TypeAlias, final
 
 import numpy as np
@@ -108,14 +109,14 @@ class Reach:
         return found.reshape(np.broadcast_shapes(np.shape(x), np.shape(y)))
 
 
-RAYS, SAMPLES, HALVINGS = 721, 161, 40
+RAYS, SAMPLES, HALVINGS = 361, 401, 40
 """Rays from O over the full circle, places on each, and how often an edge between two of them is halved."""
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Envelope:
-    """All that a crane's tip reaches: places (n, 2) [m] on its edges, and its area [m2].
+    """All that a crane's tip reaches, with its border and its area.
 
     `spans` are the parts of every ray that lie within, (ray, nearest, farthest) with the rays' directions in `angles` [rad], from `centre`.
     """
@@ -132,11 +133,18 @@ class Envelope:
         return float(swept * (self.angles[1] - self.angles[0]))
 
     @property
-    def edges(self) -> FloatArray:
-        """The places on the edges, shape (n, 2) [m], by ray, from the nearest to the farthest of each."""
-        found = [(at, self.angles[ray]) for ray, near, far in self.spans for at in (near, far)]
-        radius, angle = np.array(found).T.reshape(2, -1)
-        return np.column_stack([self.centre[0] + radius * np.cos(angle), self.centre[1] + radius * np.sin(angle)])
+    def border(self) -> FloatArray:
+        """The border in straight pieces, shape (n, 2, 2) [m]: pieces, their two ends, x and y.
+
+        Of two neighbouring rays the parts that only one of them has within are pairs of ends in order of distance: a piece each.
+        """
+        ends: list[list[tuple[float, int]]] = [[] for _ in self.angles]
+        for ray, near, far in self.spans:
+            ends[ray] += [(near, ray), (far, ray)]
+        joined = [sorted(one + other) for one, other in pairwise(ends)]
+        pieces = [pair for row in joined for pair in zip(row[::2], row[1::2], strict=True)]
+        radius, angle = np.array([[end[0] for end in piece] for piece in pieces]), self.angles[[[end[1] for end in piece] for piece in pieces]]
+        return np.stack([self.centre[0] + radius * np.cos(angle), self.centre[1] + radius * np.sin(angle)], axis=-1)
 
 
 def envelope(crane: Crane) -> Envelope:

@@ -17,6 +17,7 @@ from linkage import DefinitionError, Mechanism, StudyError, at, integral, least,
 from linkage.errors import cited, one_word
 from linkage.quantities import is_number
 from linkage.study import InfeasibleError, Optimum
+from linkage.study.measures import Measure
 from linkage.units import deg, kN, mm
 
 from .arm_drive import ArmDrive
@@ -115,8 +116,8 @@ def too_small(sizes: Sequence[JudgedSize]) -> str:
     """Return the energy bound in words: `63 to 100 mm cannot: they would have to swallow ...`."""
     bores = " to ".join(f"{each.bore / mm:.0f}" for each in ends_of(sizes))
     could = " to ".join(f"{each.could:.0f}" for each in ends_of(sizes))
-    many = "they would" if len(sizes) > 1 else "it would"
-    return f"{bores} mm cannot: {many} have to swallow the {sizes[0].asked:.0f} J the load asks; their longest strokes take {could} J."
+    many, longest = ("they would", "their longest strokes take") if len(sizes) > 1 else ("it would", "its longest stroke takes")
+    return f"{bores} mm cannot: {many} have to swallow the {sizes[0].asked:.0f} J the load asks; {longest} {could} J."
 
 
 def ends_of(sizes: Sequence[JudgedSize]) -> Sequence[JudgedSize]:
@@ -151,6 +152,13 @@ def judged(
                 size = replace(size, reason=in_symbols(error))
         found.append(size)
     return tuple(found)
+
+
+def found_by(machine: Mechanism, **options: Any) -> Optimum:
+    """Return what `optimise` finds for one objective."""
+    found = optimise(machine, **options)
+    assert isinstance(found, Optimum)
+    return found
 
 
 def in_symbols(error: StudyError) -> str:
@@ -203,7 +211,7 @@ def design_boom_drive(
 
     def search(bore: float, rod: float) -> Optimum:
         longest = cylinders.longest * bore
-        return optimise(
+        return found_by(
             drive(bore, rod),
             minimise=least_of[objective],
             vary={"S": (0.1 * longest, longest), "r_2": (0.05 * duty.h_0, duty.h_0), "r_3": (r_3_min, duty.l_c)},
@@ -245,6 +253,8 @@ ARM_BOUNDS: Mapping[str, tuple[float, float]] = MappingProxyType(
 """The source's bounds of the lengths [m]; of the lug's direction on the folded arm [rad]."""
 
 TRAVELS = ("free", "travels", "angles")
+FINE = 1.0 * kN
+"""N m, added to both sides of what would be compared with zero: conditions are met to a small part of their size."""
 STEP = 1e-6
 """rad: over which a condition sets in."""
 LEAST_TRANSMISSION = 25 * deg
@@ -285,14 +295,13 @@ class ArmRules:
         """Return the conditions (2.61) to (2.65) of a duty, those that are kept."""
         psi_0, psi_k = duty.psi_0, duty.psi_k
         counts = clipped(1.0 + (ref("psi") - duty.phi_0) / STEP, 0.0, 1.0) if self.excess_from == "phi_0" else 1.0
-        fold = x("L") + (ref("r_2") - ref("r_3")) * np.cos(ref("alpha_20")) - ref("r_4")
         found = [
             at("length", psi=psi_k) == at("l"),
             at("length", psi=psi_0) == at(ref("l") + ref("S")),
-            least(OPENS - ref("M_l2")) >= 0.0,
-            least(FOLDS + ref("M_l1")) >= 0.0,
+            least(OPENS - ref("M_l2") + FINE) >= FINE,
+            least(FOLDS + ref("M_l1") + FINE) >= FINE,
             most((OPENS - ref("M_l2")) * counts) <= (self.excess - 1.0) * duty.K_A,
-            at(fold, psi=psi_0) >= 0.0,
+            at(x("L") + (ref("r_2") - ref("r_3")) * np.cos(ref("alpha_20")), psi=psi_0) >= at("r_4"),
             at("r_2") <= at(ref("r_1") + ref("r_3") - ref("r_4")),
             at(ref("r_4") + ref("r_5")) <= duty.l_c,
             at("alpha_1", psi=psi_0) >= self.delta,
@@ -313,8 +322,13 @@ class ArmRules:
         return [end <= 90 * deg, last <= 100 * deg] if self.angles == "angles" else []
 
 
-AREA = integral(OPENS - ref("M_l2"))
-"""What the rod side gives over what is asked, over the angle [N m rad]: the arm drive's second criterion."""
+def area_of_duty(duty: DriveDuty, asked: float) -> Measure:
+    """Return the arm drive's second criterion, what is given over what is asked [N m rad], where something is asked: from phi_0 on.
+
+    By virtual work the integral of M_g2 is the force times the way of the cylinder; `asked` is that of M_l2 [J].
+    """
+    way = at("length", psi=max(duty.phi_0, duty.psi_0)) - at("length", psi=duty.psi_k)
+    return at("pull") * way - asked
 
 
 def design_arm_drive(
@@ -339,13 +353,16 @@ def design_arm_drive(
     check_bounds(bounds, duty)
     if most_area is not None and (not is_number(most_area) or most_area <= 0.0):
         raise DefinitionError(f"most_area={cited(most_area)}: a number above zero is expected, in N m rad.")
-    conditions = rules.conditions(duty) + ([] if most_area is None else [most_area >= AREA])
+    bound = arm_drive(duty, cylinders, rules, *cylinders.sizes[-1])
+    asked = work_of(lambda psi: bound.at(psi=psi)["M_l2"], max(duty.phi_0, duty.psi_0), duty.psi_k)
+    area = area_of_duty(duty, asked)
+    conditions = rules.conditions(duty) + ([] if most_area is None else [area <= most_area])
 
     def search(bore: float, rod: float) -> Optimum:
         longest = cylinders.longest * bore
-        return optimise(
+        return found_by(
             arm_drive(duty, cylinders, rules, bore, rod),
-            minimise="steel" if objective == "weight" else AREA,
+            minimise="steel" if objective == "weight" else area,
             vary={**bounds, "S": (0.2 * longest, longest)},
             subject_to=conditions,
             over={"psi": (duty.psi_0, duty.psi_k)},
@@ -353,8 +370,6 @@ def design_arm_drive(
             seed=seed,
         )
 
-    bound = arm_drive(duty, cylinders, rules, *cylinders.sizes[-1])
-    asked = work_of(lambda psi: bound.at(psi=psi)["M_l2"], duty.psi_0, duty.psi_k)
     return DriveDesign("arm", objective, judged(cylinders, cylinders.swallowed, asked, search))
 
 
@@ -407,10 +422,10 @@ def arm_drive_front(
 
 
 def area_of(drive: Mechanism) -> float:
-    """Return an arm drive's area between M_g2 and M_l2 [N m rad]."""
+    """Return an arm drive's area between M_g2 and M_l2 [N m rad], from phi_0 on."""
 
     def surplus(psi: Any) -> Any:
         motion = drive.at(psi=psi)
         return motion["opens"] * motion.ratio("length") - motion["M_l2"]
 
-    return work_of(surplus, float(drive["psi_0"]), float(drive["psi_k"]))
+    return work_of(surplus, max(float(drive["phi_0"]), float(drive["psi_0"])), float(drive["psi_k"]))

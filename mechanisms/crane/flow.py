@@ -1,13 +1,15 @@
 """From a duty to a crane: each stage takes what the one before found, or what the user gives instead.
 
-Skeleton by `design_skeleton`, what it asks of its drives by `asked_of_drives`, the whole crane by `with_drives`.
+`design_crane` is the whole way; its stages are `design_skeleton`, `duty_of` what it asks of its drives, `design_boom_drive`,
+`design_arm_drive`, and `with_drives`, the whole crane.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
+from typing import Any, final
 
 from linkage import DefinitionError, least, optimise, ref
 from linkage.study import Optimum
@@ -15,10 +17,10 @@ from linkage.units import deg
 
 from .arm_drive import ArmDrive, BellCrankArmDrive
 from .boom_drive import BoomDrive
-from .drive_duty import DriveDuty
+from .drive_design import DriveDesign, design_arm_drive, design_boom_drive
+from .drive_duty import DriveCylinders, duty_of
 from .duty import Duty
 from .machine import BellCrankCrane, Crane
-from .moments import LIFTING, moments
 from .skeleton import BackBrokenSkeleton, CraneSkeleton
 
 SKELETON: Mapping[str, tuple[float, float]] = MappingProxyType(
@@ -69,21 +71,43 @@ def design_skeleton(
     return found
 
 
-def asked_of_drives(crane: CraneSkeleton) -> DriveDuty:
-    """Return what a skeleton of one design asks of its drives: lengths, angles and the coefficients of the bound of moments.
+@final
+@dataclass(frozen=True, eq=False)
+class CraneDesign:
+    """A crane designed from its duty: what each stage found, None where the user gave its result, and the whole crane."""
 
-    The coefficients are driving forces of the machine in three poses: K_A and K_A1 with the boom up and the arm level, the telescope out
-    and in; K_B with the boom level and the arm hanging down.
+    skeleton: Optimum | None
+    boom: DriveDesign | None
+    arm: DriveDesign | None
+    crane: Crane
+
+
+def design_crane(
+    duty: Duty | None = None,
+    *,
+    skeleton: CraneSkeleton | None = None,
+    boom: BoomDrive | None = None,
+    arm: ArmDrive | None = None,
+    cylinders: DriveCylinders | None = None,
+    reading: str = ">=",
+    cab: float | None = None,
+    progress: Any = False,
+) -> CraneDesign:
+    """Return a crane for a duty, by default the source's: skeleton, boom drive, arm drive, each from what the stage before found.
+
+    `skeleton`, `boom` or `arm` stand in the place of a stage's result. `cylinders` are those the drives are chosen from; `reading`
+    and `cab` go to `design_skeleton`. DefinitionError, with all reasons, where no cylinder serves a drive.
     """
-    limits = crane.limits_of()
-    (phi_0, phi_k), (psi_0, psi_k) = limits["phi"], limits["psi"]
-    arm = [float(moments(crane, "psi", 0.0, 90 * deg, t, LIFTING)) for t in limits["t"]]
-    boom = -float(moments(crane, "phi", 90 * deg, 90 * deg, 0.0, LIFTING))
-    lengths = {name: float(crane[name]) for name in ("l_c", "l_p", "l_t", "h_0")}
-    return DriveDuty(
-        **lengths, b_0=crane.output("b_0"), b_c=crane.output("b_c"), phi_0=phi_0, phi_k=phi_k, psi_0=psi_0, psi_k=psi_k,
-        K_A=arm[1], K_A1=arm[0], K_B=boom,
-    )  # fmt: skip
+    found = None if skeleton is not None else design_skeleton(duty, reading=reading, cab=cab, progress=progress)
+    bare = skeleton if found is None else found.machine
+    assert isinstance(bare, CraneSkeleton)
+    asked = duty_of(bare)
+    lifting = None if boom is not None else design_boom_drive(asked, cylinders)
+    folding = None if arm is not None else design_arm_drive(asked, cylinders)
+    chosen_boom = boom if lifting is None else lifting.machine
+    chosen_arm = arm if folding is None else folding.machine
+    assert isinstance(chosen_boom, BoomDrive) and isinstance(chosen_arm, ArmDrive)
+    return CraneDesign(found, lifting, folding, with_drives(bare, chosen_boom, chosen_arm))
 
 
 def with_drives(skeleton: CraneSkeleton, boom: BoomDrive, arm: ArmDrive) -> Crane:
@@ -119,14 +143,14 @@ def cylinder_numbers(name: str, drive: BoomDrive | ArmDrive) -> dict[str, float]
 
 def boom_drive_of(crane: Crane) -> BoomDrive:
     """Return the boom's drive of a whole crane of one design on its own, with what the crane asks of it."""
-    duty = asked_of_drives(crane)
+    duty = duty_of(crane)
     asked = {name: getattr(duty, name) for name in ("l_c", "K_B", "K_A", "phi_0", "phi_k", "psi_k")}
     return BoomDrive(**asked, **own_numbers(crane, "lift"), **{f"r_{k}": float(crane[f"boom_r{k}"]) for k in range(1, 5)})
 
 
 def arm_drive_of(crane: Crane) -> ArmDrive:
     """Return the arm's drive of a whole crane of one design on its own, with what the crane asks of it."""
-    duty, is_bell_crank = asked_of_drives(crane), isinstance(crane, BellCrankCrane)
+    duty, is_bell_crank = duty_of(crane), isinstance(crane, BellCrankCrane)
     asked = {name: getattr(duty, name) for name in ("l_p", "K_A", "K_A1", "phi_0", "phi_k", "psi_0", "psi_k")}
     bars = {f"r_{k}": float(crane[f"arm_r{k}"]) for k in range(1, 9 if is_bell_crank else 7)}
     turned = {"alpha_20": float(crane["lug"]) - 180 * deg + duty.psi_0, "delta": float(crane["bend"])}

@@ -143,7 +143,8 @@ class Envelope:
             ends[ray] += [(near, ray), (far, ray)]
         joined = [sorted(one + other) for one, other in pairwise(ends)]
         pieces = [pair for row in joined for pair in zip(row[::2], row[1::2], strict=True)]
-        radius, angle = np.array([[end[0] for end in piece] for piece in pieces]), self.angles[[[end[1] for end in piece] for piece in pieces]]
+        radius = np.array([[end[0] for end in piece] for piece in pieces])
+        angle = self.angles[[[end[1] for end in piece] for piece in pieces]]
         return np.stack([self.centre[0] + radius * np.cos(angle), self.centre[1] + radius * np.sin(angle)], axis=-1)
 
 

@@ -34,8 +34,12 @@ from linkage.errors import cited
 from linkage.program import FloatArray
 from linkage.units import deg, kN, mm
 
-from .drive_duty import AT_ARM, AT_BOOM, AT_DRIVE, GRAVITY, JOINT, OF_DRIVE
-
+GRAVITY = 9.81
+"""m/s2, the source's."""
+JOINT = 300.0
+"""Weight of the parts at the joint of boom and arm, G_m [N] (2.24)."""
+OF_DRIVE, AT_BOOM, AT_DRIVE, AT_ARM = 0.025, 0.4, 0.7, 0.45
+"""The boom drive's share of the crane's mass; where the centres of gravity lie: of boom and drive in l_c, of the arm in its length."""
 DOWNWARDS = (0.0, -GRAVITY)
 """m/s2, the source's gravity as load cases take it."""
 

@@ -20,8 +20,8 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, known_name, one_word
 from linkage.frozen import refuses_changes
-from linkage.loads import Force, ForceElement, Load, Parameter, Poses
-from linkage.motion import Motion, require_motion
+from linkage.loads import Force, ForceElement, Load, Parameter, Poses, require_poses
+from linkage.motion import Motion
 from linkage.plan import Mask
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of, real
@@ -37,6 +37,7 @@ from .inputs import (
     not_negative,
     number_set,
     one_number,
+    only_where,
     positive,
 )
 from .member import DIRECTIONS, Circuit, Cylinder, the_cylinder
@@ -234,7 +235,7 @@ class LiftCircuit(Circuit):
         """
         with np.errstate(invalid="ignore"):
             works = self.works(motion, loads, choice)
-            return least_of([np.asarray(self.most(motion, work) / np.where(work.force > 0.0, work.force, np.nan)) for work in works])
+            return least_of([self.most(motion, work) / only_where(work.force > 0.0, work.force) for work in works])
 
     def capacity(
         self,
@@ -253,7 +254,7 @@ class LiftCircuit(Circuit):
         none). NaN where the load drives or does nothing: not limited by this cylinder; 0 where the machine alone is too heavy. Declared
         friction counts with the load's own share. Source: Dyuzhev, Kotov, Chuprynin (2008), (28).
         """
-        require_motion(motion)
+        require_poses(motion)
         proper_share(share)
         unit = direction_of(along)
         own = [element for _, element in elements_of(motion.plan, loads)]
@@ -281,7 +282,7 @@ class LiftCircuit(Circuit):
                 guess = np.where(lifts & (found > 0.0), found, 1.0)
                 slope = (carried(guess) - alone) / guess
                 found = (force * k_m - alone) / np.where(slope > 0.0, slope, safe)
-        return np.where(lifts, np.maximum(found, 0.0), np.nan)
+        return only_where(lifts, np.maximum(found, 0.0))
 
     # -- oil and time --------------------------------------------------------------------------------------
 
@@ -455,6 +456,8 @@ def both_ways(ram: Cylinder, motion: AnyMotion, loads: Loads, case: Case) -> tup
 
 def least_of(each: Sequence[Array]) -> Array:
     """Return the least of what each cylinder allows; NaN where none limits it."""
+    if len(each) == 1:
+        return each[0]
     least = np.min(np.where(np.isnan(each), np.inf, each), axis=0)
     return np.where(np.isfinite(least), least, np.nan)
 

@@ -11,8 +11,9 @@ FAIL standard size: bore 110 mm and rod 60 mm; the rod is not of ISO 3320, next 
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import reduce
 from types import MappingProxyType
 from typing import ClassVar, Literal, cast, final
 
@@ -252,11 +253,15 @@ class Cylinder(TwoPoint, Tabled):
         """
         one_design(motion, str(self))
         rod = Buckling(one_size(self.sized(motion)).rod, self.mounting, self.safety)
+
+        def use(at: Motion) -> Array:
+            return self.buckling_use(at, loads, case=each, direction=direction)
+
         cases: Iterable[Case] = [case] if case is not None else [None, *motion.plan.of_kind(LoadCase).values()]
         worst: tuple[float, float, float, str] | None = None
         for each in cases:
             for direction in DIRECTIONS if changes_in_motion(motion, loads) else DIRECTIONS[:1]:
-                found = greatest(motion, self._use(rod, loads, each, direction))
+                found = greatest(motion, use)
                 if np.isnan(found.value) or (worst is not None and found.value <= worst[0]):
                     continue
                 place = motion.moved(found.strokes)
@@ -267,14 +272,21 @@ class Cylinder(TwoPoint, Tabled):
             return [Verdict("buckling", True, "the rod is never pushed.")]
         return [rod.judged(worst[1], worst[2], worst[3], unbounded=not np.isfinite(worst[0]))]
 
-    def _use(self, rod: Buckling, loads: Loads, case: Case, direction: str) -> Callable[[Motion], Array]:
-        """Return the utilisation of a rod, of a motion: one cylinder's push times the safety over the force at which it buckles."""
+    def buckling_use(self, motion: AnyMotion, loads: Loads = None, *, case: Case = None, direction: str | None = None) -> Array:
+        """Return the utilisation of a rod, shape (...): a cylinder's push times the safety over the force at which it buckles; 0 in a pull.
 
-        def use(motion: Motion) -> Array:
-            push = self.thrust(motion, loads, case=case, direction=direction) / self.count
-            return np.where(push > 0.0, push / rod.allowed(motion.distance(self.A, self.B)), 0.0) + 0.0 * push
+        Without a direction it is the greatest of all in which something acts otherwise, as friction does; see `buckling` for the verdict.
+        """
+        ways = DIRECTIONS if changes_in_motion(motion, loads) else DIRECTIONS[:1]
+        each_of = [self._use(motion, loads, case, way) for way in ([direction] if direction is not None else ways)]
+        return reduce(np.maximum, each_of)
 
-        return use
+    def _use(self, motion: AnyMotion, loads: Loads, case: Case, direction: str) -> Array:
+        """Return the utilisation in one direction."""
+        push = self.thrust(motion, loads, case=case, direction=direction) / self.count
+        bar = Buckling(1.0, self.mounting, self.safety)
+        allowed = bar.critical_of(self.sized(motion).rod, motion.distance(self.A, self.B)) / self.safety
+        return np.where(push > 0.0, push / allowed, 0.0) + 0.0 * push
 
     @property
     def _pins(self) -> str:
@@ -344,7 +356,7 @@ class Circuit(ForceElement):
         """Return the pressure on the working side of one of its cylinders, shape (...) [Pa gauge]."""
 
 
-def changes_in_motion(motion: Motion, loads: Loads) -> bool:
+def changes_in_motion(motion: AnyMotion, loads: Loads) -> bool:
     """Return whether there is friction among some loads, or an element that acts otherwise while it moves."""
     return any(each.frictions(motion) or each.feeds(motion.plan.members) for _, each in elements_of(motion.plan, loads))
 

@@ -11,12 +11,15 @@ from dataclasses import dataclass, replace
 from typing import Self, cast, final
 
 from linkage.errors import DefinitionError, known_name, unknown
+from linkage.mechanism import Mechanism
 from linkage.plan import Plan
-from linkage.quantities import Reference, name_of
+from linkage.quantities import Reference, distance, name_of
 from linkage.statics import AnyMotion, Case, LawRequest, case_words, loads_identity, same
+from linkage.study import at, least, most
+from linkage.study.measures import Condition, Constraint
 
 from .inputs import Array
-from .lift import LiftCircuit
+from .lift import LiftCircuit, direction_of, proper_share
 from .member import DIRECTIONS, Cylinder, circuit_having, found_in
 
 
@@ -63,6 +66,7 @@ class Thrust(CylinderRequest):
 
     direction: str = "frictionless"
     word = "thrust"
+    measures = "force"
 
     @property
     def options(self) -> tuple[Hashable, ...]:
@@ -116,6 +120,7 @@ class Pressure(CircuitRequest):
 
     direction: str | None = None
     word = "pressure"
+    measures = "pressure"
 
     @property
     def options(self) -> tuple[Hashable, ...]:
@@ -150,3 +155,124 @@ def known_direction(direction: str | None) -> str | None:
 def circuit_name(circuit: Reference | None) -> str:
     """Return the name of a circuit; "" where none is named."""
     return "" if circuit is None else name_of(circuit)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Reserve(CircuitRequest):
+    """The greatest rod force over the needed one."""
+
+    direction: str | None = None
+    word = "reserve"
+
+    @property
+    def options(self) -> tuple[Hashable, ...]:
+        return *super().options, self.direction
+
+    def law(self, motion: AnyMotion) -> Array:
+        circuit, ram = self.circuit_of(motion.plan), self.ram(motion.plan)
+        return circuit.reserve(motion, cylinder=ram, case=self.case, direction=self.direction)
+
+
+def reserve(cylinder: Reference, *, case: Case = None, circuit: Reference | None = None, direction: str | None = None) -> Reserve:
+    """Return the request for the greatest rod force over the needed one: `circuit.reserve(motion, cylinder=lift, case=..., direction=...)`.
+
+    NaN where the load drives, which is not limited by this cylinder and counts in no least value.
+    """
+    return Reserve(name_of(cylinder), case, circuit_name(circuit), known_direction(direction))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Capacity(CircuitRequest):
+    """The largest load at a point that the pump lifts."""
+
+    point: str = ""
+    along: tuple[float, float] = (0.0, 1.0)
+    share: float = 1.0
+    word = "capacity"
+    measures = "force"
+
+    @property
+    def options(self) -> tuple[Hashable, ...]:
+        along = None if self.along == (0.0, 1.0) else f"along=({self.along[0]:g}, {self.along[1]:g})"
+        return self.point, *super().options, along, None if self.share == 1.0 else f"share={self.share:g}"
+
+    def examine(self, plan: Plan) -> None:
+        super().examine(plan)
+        known_name("Point", self.point, plan.points, where=plan.title)
+
+    def law(self, motion: AnyMotion) -> Array:
+        circuit, ram = self.circuit_of(motion.plan), self.ram(motion.plan)
+        return circuit.capacity(motion, self.point, along=self.along, share=self.share, cylinder=ram, case=self.case)
+
+
+def capacity(
+    cylinder: Reference,
+    point: Reference,
+    *,
+    along: tuple[float, float] = (0.0, 1.0),
+    share: float = 1.0,
+    case: Case = None,
+    circuit: Reference | None = None,
+) -> Capacity:
+    """Return the request for the largest load [N] at a point that the pump lifts beside the machine's own: `circuit.capacity(motion, "G")`.
+
+    NaN where the load drives or does nothing, which is not limited by this cylinder and counts in no least value.
+    """
+    proper_share(share)
+    x, y = direction_of(along)
+    return Capacity(name_of(cylinder), case, circuit_name(circuit), name_of(point), (float(x) + 0.0, float(y) + 0.0), float(share))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class BucklingUse(CylinderRequest):
+    """How far a cylinder's rod is used against buckling."""
+
+    direction: str | None = None
+    word = "buckling"
+
+    @property
+    def options(self) -> tuple[Hashable, ...]:
+        return (self.direction,)
+
+    def law(self, motion: AnyMotion) -> Array:
+        return self.ram(motion.plan).buckling_use(motion, case=self.case, direction=self.direction)
+
+
+def buckling(cylinder: Reference, *, case: Case = None, direction: str | None = None) -> BucklingUse:
+    """Return the request for the utilisation of a rod: `lift.buckling_use(motion, case=..., direction=...)`, at most 1 where it holds."""
+    return BucklingUse(name_of(cylinder), case, known_direction(direction))
+
+
+# A condition of a search.
+
+@final
+@dataclass(frozen=True)
+class Fits(Condition):
+    """A cylinder's closed and open length serve the whole stroke."""
+
+    cylinder: str
+
+    def constraints(self, machine: Mechanism) -> tuple[Constraint, ...]:
+        plan = machine.plan
+        ram = found_in(plan.members, self.cylinder, plan.title)
+        length, name = distance(ram.A, ram.B), ram.name
+        if ram.stroke is None:
+            raise DefinitionError(f"{plan.title}: fits({name}): {name} says no stroke; declare it, Cylinder(..., closed=0.5, stroke=0.25).")
+        if ram.closed is None:
+            return (most(length) - least(length) <= at(f"{name}.stroke"),)
+        closed, stroke = at(f"{name}.closed"), at(f"{name}.stroke")
+        return least(length) >= closed, most(length) <= closed + stroke
+
+    def __str__(self) -> str:
+        return f"fits({self.cylinder})"
+
+
+def fits(cylinder: Reference) -> Fits:
+    """Return the condition that a cylinder's closed and open length serve the whole stroke of a machine; `Cylinder.fits` tells by how much.
+
+    With its stroke alone declared that is compared with the travel. Its `closed` and `stroke` may be varied: `"lift.closed"`.
+    """
+    return Fits(name_of(cylinder))

@@ -32,6 +32,7 @@ from .mobility import grashof as grashof
 from .motion import Column as Column
 from .motion import Motion as Motion
 from .motion import condition as condition
+from .motion import gap as gap
 from .motion import ratio as ratio
 from .motion import transmission as transmission
 from .quantities import Curve as Curve

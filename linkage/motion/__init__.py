@@ -2,6 +2,7 @@
 
 from .evaluation import PoseFunction, evaluate, evaluate_grid, source_of
 from .extremes import Extremum, Span, below_zero, greatest, lowest, reached
+from .gaps import gap
 from .grid import Grid
 from .limits import stroke_display_unit, stroke_unit
 from .motion import Motion, Target, each_at_its_stroke, out_of_reach, require_motion

@@ -29,6 +29,10 @@ class TransmissionAngle(Request):
     def identity(self, plan: Plan) -> Hashable:
         return "transmission", self.point
 
+    @property
+    def measures(self) -> str:
+        return "angle"
+
     def of(self, motion: MotionLike) -> FloatArray:
         angle = motion.transmission_angle(self.point)
         return np.minimum(angle, np.pi - angle)

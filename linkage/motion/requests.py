@@ -36,6 +36,11 @@ class Request(Arithmetic):
     def bound(self, plan: Plan) -> BoundRequest:
         """Return the request bound to a plan; DefinitionError where there is no such thing, UntracedError where no program gives it."""
 
+    @property
+    def measures(self) -> str:
+        """What it measures where that is plain: `angle`, `length`, `force`, `pressure`, or "" for a plain number."""
+        return ""
+
     def of(self, motion: MotionLike) -> FloatArray:
         """Return its values over a motion's poses [SI], shape (...), of a point's (2, ...); by the program unless a subclass says."""
         return motion._requested(self)
@@ -335,6 +340,13 @@ class Combined(Request):
     def identity(self, plan: Plan) -> Hashable:
         found = [each if isinstance(each, float) else identity_of(plan, each) for each in self.parts]
         return None if None in found else ("combined", self.function, *found)
+
+    @property
+    def measures(self) -> str:
+        known = [each.measures for each in self.parts if not isinstance(each, float)]
+        scaled = self.function == "multiply" or (self.function == "divide" and isinstance(self.parts[1], float))
+        same = self.function in ("add", "subtract", "negative", "absolute", "minimum", "maximum", "hypot")
+        return known[0] if (same or (scaled and len(known) == 1)) and len(set(known)) == 1 else ""
 
     def of(self, motion: MotionLike) -> FloatArray:
         given = [each if isinstance(each, float) else motion[each] for each in self.parts]

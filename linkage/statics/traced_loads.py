@@ -23,7 +23,7 @@ from ..vectors import Scalar
 from .acting import AT_REST, ActingElement, ActingLoads, Case, Loads, Movement, Parts, acting_elements, all_acting, case_of, element_parts
 from .equilibrium import System
 from .joints import Structure
-from .poses import FlatPoses
+from .poses import AnyMotion, FlatPoses
 from .solution import Equilibrium
 
 TRACING = RLock()
@@ -100,15 +100,21 @@ def traced_parts(motion: TracedMotion, movement: Movement, each: ActingElement) 
 
 
 def traced_acting(motion: TracedMotion, loads: Loads, case: Case, movement: Movement) -> ActingLoads:
-    """Return what acts, as nodes; UntracedError where there is dry friction, whose forces press the joints that they follow from."""
+    """Return what acts, as nodes, with the dry friction as it is declared."""
     elements, label = acting_elements(motion.plan, loads, case), case_of(motion.plan, case).label
-    rubbing = [each.name for each in elements if movement.has_friction and each.element.frictions(motion)]
-    if rubbing:
+    found = all_acting(motion.plan, elements, label, movement, partial(traced_parts, motion, movement))
+    frictions = tuple(friction for each in elements if movement.has_friction for friction in each.element.frictions(motion))
+    return replace(found, frictions=frictions)
+
+
+def refuse_friction(motion: AnyMotion, acting: ActingLoads) -> None:
+    """Raise UntracedError where a program is asked for what dry friction has a part in: it follows from the forces that it changes."""
+    if isinstance(motion, TracedMotion) and acting.frictions:
+        rubbing = [each.name or str(each) for each in acting.elements if each.frictions(motion)]
         raise UntracedError(
             f"{motion.plan.title}: the friction of {', '.join(rubbing)} follows from the forces that it changes and has no program: there "
             f"are values, and no derivatives. Ask while nothing rubs, direction=\"frictionless\", or leave {rubbing[0]} out by a LoadCase."
         )
-    return all_acting(motion.plan, elements, label, movement, partial(traced_parts, motion, movement))
 
 
 @final

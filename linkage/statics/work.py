@@ -30,7 +30,7 @@ from .force_program import forces_at
 from .holding import Levers, PressureLine, holders_of, same, stroke_followed, where_negative, with_levers
 from .poses import AnyMotion, FlatPoses, plan_of
 from .solution import locked_words
-from .traced_loads import TracedMotion, traced_acting
+from .traced_loads import TracedMotion, refuse_friction, traced_acting
 
 
 def driving_force(
@@ -146,6 +146,7 @@ def member_thrust(
             raise DefinitionError(f"{plan.title}: {member.name or member} carries nothing here: {why}.")
         return np.where(motion.reached, sum(own, np.zeros(motion.shape)), np.nan)
     what = f"The thrust of {member.name or member}"
+    refuse_friction(motion, acting)
     if acting.frictions:
         found = forces_at(poses_held(require_motion(motion), acting, what), acting, loads, case)
         locked_words(found, direction)

@@ -150,7 +150,7 @@ def traced(plan: Plan, quantity: Any) -> BoundRequest | None:
     if not isinstance(quantity, (str, Quantity, Request)):
         return None
     try:
-        request = bound(plan, quantity)
+        request = bound_quantity(plan, quantity)
     except UntracedError:
         return None
     if request.rows > 1:
@@ -163,12 +163,19 @@ def traced(plan: Plan, quantity: Any) -> BoundRequest | None:
     return request
 
 
+def bound_quantity(plan: Plan, quantity: str | Quantity | Request) -> BoundRequest:
+    """Return a quantity bound to a plan; a dimension by its name too, `"lift.closed"`."""
+    if isinstance(quantity, str) and quantity not in plan.members and quantity in plan.table.spellings:
+        return DimensionValue(*plan.table.spellings[quantity])
+    return bound(plan, quantity)
+
+
 def strokes_behind(plan: Plan, quantity: Any) -> tuple[str, ...]:
     """Return the strokes that a quantity depends on; all of them for a function of a motion."""
     if not isinstance(quantity, (str, Quantity, Request)):
         return tuple(plan.strokes)
     try:
-        names = bound(plan, quantity).names(plan)
+        names = bound_quantity(plan, quantity).names(plan)
     except UntracedError:
         return tuple(plan.strokes)
     return tuple(name for name in plan.strokes if name in names or name in plan.reaches(*(each for each in names if each in plan.members)))
@@ -181,6 +188,9 @@ def motion_of(grid: Grid) -> Motion:
 
 def eager(motion: Motion, quantity: Any) -> FloatArray:
     """Return a quantity at every pose of a motion, NaN where it has no value."""
+    if isinstance(quantity, str) and quantity not in motion.plan.members and quantity in motion.plan.table.spellings:
+        owner, sign = motion.plan.table.spellings[quantity]
+        return np.asarray(np.broadcast_to(sign * motion.inputs[owner], motion.shape))
     found = quantity.of(motion) if isinstance(quantity, Request) else quantity_values(motion, quantity)
     return np.asarray(np.broadcast_to(found, motion.shape))
 
@@ -227,6 +237,28 @@ class Margin(BoundRequest):
 
     def __str__(self) -> str:
         return f"margin {self.place}"
+
+
+@final
+@dataclass(frozen=True)
+class DimensionValue(BoundRequest):
+    """A dimension itself, by its owner and sign."""
+
+    owner: str
+    sign: int
+
+    @property
+    def key(self) -> Any:
+        return "dimension", self.owner, self.sign
+
+    def nodes(self, plan: Plan) -> tuple[Any, ...]:
+        return (plan.trace.inputs[self.owner] * float(self.sign),)
+
+    def names(self, plan: Plan) -> set[str]:
+        return set()
+
+    def __str__(self) -> str:
+        return self.owner
 
 
 def margin_kernel(plan: Plan) -> Kernel:

@@ -142,8 +142,10 @@ def searched(duty: Duty, machine: Grapple, objective: str, start: Combination) -
     begun = machine.replaced(bore=start.bore, rod=start.rod, S=start.S, side_E=start.side_E, rho=start.rho)
     greatest, arm = most(share_of(duty)), at(abs(ratio("EC")), theta=0.0)
     least_rho = max(start.low - ROOM, shortest(machine, start.S) + PLACES[0])
-    return optimise(
+    found = optimise(
         begun, minimise=greatest if objective == "even" else None, maximise=arm if objective == "arm" else None,
         vary={"rho": (float(least_rho), start.high + ROOM)}, subject_to=conditions(duty, machine),
         over={"theta": (0.0, machine.strokes["theta"].end)}, method="local",
     )  # fmt: skip
+    assert isinstance(found, Optimum)
+    return found

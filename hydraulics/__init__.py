@@ -22,4 +22,10 @@ from .lift import LiftCircuit as LiftCircuit
 from .lift import Lowering as Lowering
 from .member import Cylinder as Cylinder
 from .nitrogen import real_nitrogen as real_nitrogen
+from .requests import buckling as buckling
+from .requests import capacity as capacity
+from .requests import fits as fits
+from .requests import pressure as pressure
+from .requests import reserve as reserve
+from .requests import thrust as thrust
 from .verdict import Verdict as Verdict

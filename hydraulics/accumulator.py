@@ -25,6 +25,7 @@ from linkage.errors import DefinitionError, cited
 from linkage.frozen import keep_own, refuses_changes
 from linkage.loads import Poses
 from linkage.loads.element import value_text
+from linkage.program import is_traced
 from linkage.quantities import Dimension, Quantity, spelled
 from linkage.units import UNITS, cm3, litre, show, unit_or_none
 
@@ -38,7 +39,6 @@ from .inputs import (
     following,
     follows,
     in_pascals,
-    is_traced,
     not_negative,
     one_number,
     pose_values,

@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, known_name
 from linkage.frozen import refuses_changes
+from linkage.program import is_traced
 from linkage.units import MPa, kN, mm
 
 from .cylinder import next_rod
@@ -76,10 +77,14 @@ class Buckling:
 
         NaN in an array stays NaN. DefinitionError for a length not above zero.
         """
-        slender = self.slenderness(length)
+        return self.critical_of(self.rod, length)
+
+    def critical_of(self, rod: float | Array, length: ArrayLike) -> Array:
+        """Return the same of another rod [m], or of the rods of many designs; the two broadcast."""
+        slender = MOUNTINGS[self.mounting] * _length(length) / (rod / 4.0)
         euler = pi**2 * self.modulus / slender**2
         johnson = self.yield_strength * (1.0 - self.yield_strength * slender**2 / (4.0 * pi**2 * self.modulus))
-        return (self.area * np.where(slender >= self.transition, euler, johnson))[()]
+        return (pi / 4.0 * rod**2 * np.where(slender >= self.transition, euler, johnson))[()]
 
     def allowed(self, length: ArrayLike) -> Array:
         """Return the thrust [N] with the safety asked for, at a length between the ends [m], same shape."""
@@ -124,6 +129,8 @@ class Buckling:
 
 def _length(length: ArrayLike) -> Array:
     long = pose_values(length, "Length between the ends")
+    if is_traced(long):
+        return positive(in_metres(long, "Length between the ends", 2.0 * LONGEST), "Length between the ends")
     in_metres(long[~np.isnan(long)] if np.any(~np.isnan(long)) else 1.0, "Length between the ends", 2.0 * LONGEST)
     if not np.all(np.isnan(long)) or not long.size:
         positive(long[~np.isnan(long)], "Length between the ends")

@@ -22,12 +22,13 @@ from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
 from linkage.motion import Motion
 from linkage.plan import ArrayReading
+from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import Case, Loads, plan_of, stroke_followed
+from linkage.statics import AnyMotion, Case, Loads, plan_of, stroke_followed
 from linkage.vectors import Scalar
 
 from .accumulator import AccumulatorBlock
-from .inputs import Array, all_finite, follows, in_pascals, is_traced, number_set
+from .inputs import Array, all_finite, follows, in_pascals, number_set
 from .member import Circuit, Cylinder, the_cylinder
 
 Block: TypeAlias = "AccumulatorBlock | Callable[[Poses], AccumulatorBlock]"
@@ -90,7 +91,7 @@ class FloatCircuit(Circuit):
     def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         return self.members(members)
 
-    def pressure_in(self, cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
+    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
         return self.pressure(motion)
 
     def ram(self, motion: Poses) -> Cylinder:

@@ -17,7 +17,7 @@ from linkage.frozen import unmasked
 from linkage.loads import ForceElement, Poses
 from linkage.loads.element import value_text
 from linkage.plan import ArrayReading
-from linkage.program import Traced
+from linkage.program import Comparison, is_traced
 from linkage.quantities import Quantity, quantity
 
 Array: TypeAlias = NDArray[np.float64]
@@ -144,11 +144,6 @@ def kelvin(value: ArrayLike, what: str, low: float = 200.0, high: float = 400.0)
     return array
 
 
-def is_traced(value: Any) -> bool:
-    """Return whether a value is a number of a law that is being traced: it has no value yet; what has none later is told then."""
-    return isinstance(value, Traced)
-
-
 def _floats(value: ArrayLike, what: str) -> Array:
     try:
         array = np.asarray(unmasked(value))
@@ -159,6 +154,14 @@ def _floats(value: ArrayLike, what: str) -> Array:
     if array.dtype.kind not in "iuf":
         raise DefinitionError(f"{what} = {cited(value)} is not a number; give a number in SI units.")
     return array.astype(np.float64)
+
+
+def only_where(truth: Any, value: Array) -> Array:
+    """Return a value where something holds, NaN elsewhere; of a program it is noted that there is none, which is no error."""
+    if not isinstance(truth, Comparison):
+        return np.where(truth, value, np.nan)
+    truth.needed()
+    return np.where(truth, value, 1.0)  # type: ignore[call-overload, no-any-return]
 
 
 # -- settings that may follow the design --------------------------------------------------------------------

@@ -21,12 +21,13 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, known_name, one_word
 from linkage.frozen import refuses_changes
-from linkage.loads import Force, ForceElement, Load, Parameter, Poses
+from linkage.loads import Force, ForceElement, Load, Parameter, Poses, require_poses
 from linkage.loads.element import Formulas
-from linkage.motion import Motion, require_motion
+from linkage.motion import Motion
 from linkage.plan import Mask
+from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of, real
-from linkage.statics import Case, Loads, elements_of
+from linkage.statics import AnyMotion, Case, Loads, elements_of
 
 from .cylinder import CylinderSize
 from .inputs import (
@@ -35,10 +36,10 @@ from .inputs import (
     follows,
     in_cubic_metres,
     in_pascals,
-    is_traced,
     not_negative,
     number_set,
     one_number,
+    only_where,
     positive,
 )
 from .member import DIRECTIONS, Circuit, Cylinder, the_cylinder, thrust_along
@@ -192,7 +193,7 @@ class LiftCircuit(Circuit):
 
     # -- lifting -------------------------------------------------------------------------------------------
 
-    def work(self, motion: Motion, loads: Loads = None, **choice: Unpack[Choice]) -> Work:
+    def work(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Work:
         """Return what a cylinder has to do while it moves in its working direction, or in the one named."""
         direction, case = choice.get("direction"), choice.get("case")
         if direction is not None:
@@ -208,16 +209,16 @@ class LiftCircuit(Circuit):
         sense = np.sign(thrust) if way == "frictionless" else np.full(np.shape(thrust), 1.0 if way == "extending" else -1.0)
         return Work(thrust, sense, size, k_m)
 
-    def works(self, motion: Motion, loads: Loads, choice: Choice) -> list[Work]:
+    def works(self, motion: AnyMotion, loads: Loads, choice: Choice) -> list[Work]:
         """Return what the cylinder that is named has to do, or each of them."""
         each_of: list[Choice] = [{**choice, "cylinder": ram} for ram in self.meant(motion, choice.get("cylinder"))]
         return [self.work(motion, loads, **each) for each in each_of]
 
-    def rod_force(self, motion: Motion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
+    def rod_force(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the rod force in the working direction [N], shape (...): T / k_m against a load, T k_m under one that drives."""
         return self.work(motion, loads, **choice).force
 
-    def pressure_for(self, motion: Motion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
+    def pressure_for(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the pressure on the side that works [Pa gauge], shape (...): the pump's while it lifts; 0 where the load drives.
 
         `choice`: `case=`, `direction=` of the cylinder where it is not its working direction, `cylinder=` of a line of several (else
@@ -225,43 +226,43 @@ class LiftCircuit(Circuit):
         """
         return np.asarray(np.max([self._pressure(motion, work) for work in self.works(motion, loads, choice)], axis=0))
 
-    def _pressure(self, motion: Motion, work: Work) -> Array:
+    def _pressure(self, motion: AnyMotion, work: Work) -> Array:
         back = np.where(work.supplied, self.back(motion) * work.other_area, 0.0)
         share = np.where(work.supplied, self.efficiency(motion, "hydraulic"), 1.0)
-        return np.asarray(np.maximum(work.force + back, 0.0) / (work.area * share))
+        return np.asarray(np.maximum(work.force + back, 0.0) / (work.area * share))[()]
 
-    def pressure_in(self, cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
+    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
         return self._pressure(motion, self.work(motion, loads, cylinder=cylinder, case=case, direction=direction))
 
-    def largest(self, motion: Motion, loads: Loads = None, *, share: float = 1.0, **choice: Unpack[Choice]) -> Array:
+    def largest(self, motion: AnyMotion, loads: Loads = None, *, share: float = 1.0, **choice: Unpack[Choice]) -> Array:
         """Return the greatest rod force in the working direction [N]: k_h p area, less the back pressure's share."""
         proper_share(share)
         return self.most(motion, self.work(motion, loads, **choice), share)
 
-    def most(self, motion: Motion, work: Work, share: float = 1.0) -> Array:
+    def most(self, motion: AnyMotion, work: Work, share: float = 1.0) -> Array:
         """Return the greatest rod force [N] with the areas of a work, at a share of the pump's pressure."""
         force = self._given(motion, work, share)
         if np.any(force <= 0.0):
             raise DefinitionError(f"{self}: the back pressure eats up the pump's; lower it or raise the pressure.")
         return force
 
-    def _given(self, motion: Motion, work: Work, share: float) -> Array:
+    def _given(self, motion: AnyMotion, work: Work, share: float) -> Array:
         """Return what the pressures on both sides give with the areas of a work [N], below zero where the back pressure is the stronger."""
         pushes = share * self.efficiency(motion, "hydraulic") * self.supply(motion) * work.area
-        return np.asarray(pushes - self.back(motion) * work.other_area)
+        return np.asarray(pushes - self.back(motion) * work.other_area)[()]
 
-    def reserve(self, motion: Motion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
+    def reserve(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
         """Return the greatest rod force over the needed one, shape (...); NaN where it is not limited by this cylinder.
 
         Of a line of several cylinders the least, unless one is named.
         """
         with np.errstate(invalid="ignore"):
             works = self.works(motion, loads, choice)
-            return least_of([np.asarray(self.most(motion, work) / np.where(work.force > 0.0, work.force, np.nan)) for work in works])
+            return least_of([self.most(motion, work) / only_where(work.force > 0.0, work.force) for work in works])
 
     def capacity(
         self,
-        motion: Motion,
+        motion: AnyMotion,
         point: str,
         loads: Loads = None,
         *,
@@ -276,13 +277,15 @@ class LiftCircuit(Circuit):
         none). NaN where the load drives or does nothing: not limited by this cylinder; 0 where the machine alone is too heavy. Declared
         friction counts with the load's own share. Source: Dyuzhev, Kotov, Chuprynin (2008), (28).
         """
-        require_motion(motion)
+        require_poses(motion)
         proper_share(share)
         unit = direction_of(along)
         own = [element for _, element in elements_of(motion.plan, loads)]
         return least_of([self._capacity(motion, point, own, unit, share, ram, case) for ram in self.meant(motion, cylinder)])
 
-    def _capacity(self, motion: Motion, point: str, own: list[ForceElement], unit: Array, share: float, ram: Cylinder, case: Case) -> Array:
+    def _capacity(
+        self, motion: AnyMotion, point: str, own: list[ForceElement], unit: Array, share: float, ram: Cylinder, case: Case
+    ) -> Array:
         size, k_m = ram.sized(motion), self.efficiency(motion, "mechanical")
         lever = ram.thrust(motion, [Force(point, (-unit[0], -unit[1]))])  # what one newton there asks of it
         sense = np.sign(lever) if size.works == "both" else np.full(np.shape(lever), float(size.sense))
@@ -302,7 +305,7 @@ class LiftCircuit(Circuit):
                 guess = np.where(lifts & (found > 0.0), found, 1.0)
                 slope = (carried(guess) - alone) / guess
                 found = (force * k_m - alone) / np.where(slope > 0.0, slope, safe)
-        return np.where(lifts, np.maximum(found, 0.0), np.nan)
+        return only_where(lifts, np.maximum(found, 0.0))
 
     # -- oil and time --------------------------------------------------------------------------------------
 
@@ -378,18 +381,18 @@ class Work:
     def pulls(self) -> Mask:
         """Where the rod side works: of both sides where the thrust pulls."""
         if self.size.works == "both":
-            return np.asarray(self.thrust < 0.0)
+            return np.asarray(self.thrust < 0.0)[()]
         return np.full(np.shape(self.thrust), self.size.works == "rod")
 
     @property
     def area(self) -> Array:
         """The area of the side that works [m2]."""
-        return np.asarray(np.where(self.pulls, self.size.pull_area, self.size.push_area))
+        return np.asarray(np.where(self.pulls, self.size.pull_area, self.size.push_area))[()]
 
     @property
     def other_area(self) -> Array:
         """The area of the other side [m2]."""
-        return np.asarray(np.where(self.pulls, self.size.push_area, self.size.pull_area))
+        return np.asarray(np.where(self.pulls, self.size.push_area, self.size.pull_area))[()]
 
     @property
     def along(self) -> Array:
@@ -399,7 +402,7 @@ class Work:
     @property
     def supplied(self) -> Mask:
         """Where the working side is filled by the pump: it moves the way it pushes or pulls."""
-        return np.asarray(self.sense * np.where(self.pulls, -1.0, 1.0) >= 0.0)
+        return np.asarray(self.sense * np.where(self.pulls, -1.0, 1.0) >= 0.0)[()]
 
     @property
     def force(self) -> Array:
@@ -473,7 +476,7 @@ def fitted(motion: Motion, value: Array) -> Array:
     return value
 
 
-def both_ways(ram: Cylinder, motion: Motion, loads: Loads, case: Case) -> tuple[Array, Array]:
+def both_ways(ram: Cylinder, motion: AnyMotion, loads: Loads, case: Case) -> tuple[Array, Array]:
     """Return what a cylinder carries while it grows and while it shrinks [N]."""
     out, back = (ram.thrust(motion, loads, case=case, direction=way) for way in ("extending", "retracting"))
     return out, back
@@ -481,6 +484,8 @@ def both_ways(ram: Cylinder, motion: Motion, loads: Loads, case: Case) -> tuple[
 
 def least_of(each: Sequence[Array]) -> Array:
     """Return the least of what each cylinder allows; NaN where none limits it."""
+    if len(each) == 1:
+        return each[0]
     least = np.min(np.where(np.isnan(each), np.inf, each), axis=0)
     return np.where(np.isfinite(least), least, np.nan)
 

@@ -11,8 +11,9 @@ FAIL standard size: bore 110 mm and rod 60 mm; the rod is not of ISO 3320, next 
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import reduce
 from types import MappingProxyType
 from typing import ClassVar, Literal, cast, final
 
@@ -21,11 +22,11 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, unknown, unwarned
 from linkage.frozen import refuses_changes
-from linkage.loads import AT_REST, DrawnAs, ForceElement, LoadCase, Parameter, Poses, Push, Rates, TwoPoint, require_poses
+from linkage.loads import AT_REST, Declared, DrawnAs, ForceElement, LoadCase, Parameter, Poses, Push, Rates, TwoPoint, require_poses
 from linkage.loads.element import Formulas
 from linkage.motion import Column, Motion, Tabled, greatest, lowest, require_motion
 from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import Case, Loads, elements_of, member_thrust, same
+from linkage.statics import AnyMotion, Case, Loads, elements_of, member_thrust, same
 from linkage.units import mm
 
 from .buckling import Buckling
@@ -97,7 +98,7 @@ class Cylinder(TwoPoint, Tabled):
     def area_in(self, motion: Poses, sense: Array) -> Array:
         size = self.sized(motion)
         if self.works == "both":
-            return np.asarray(np.where(sense < 0.0, -size.pull_area, size.push_area))
+            return np.asarray(np.where(sense[()] < 0.0, -size.pull_area, size.push_area))
         return np.asarray(size.sense * size.area + 0.0 * sense)
 
     # -- its size ------------------------------------------------------------------------------------------
@@ -164,7 +165,7 @@ class Cylinder(TwoPoint, Tabled):
 
     def thrust(
         self,
-        motion: Motion,
+        motion: AnyMotion,
         loads: Loads = None,
         *,
         case: Case = None,
@@ -180,7 +181,7 @@ class Cylinder(TwoPoint, Tabled):
         """
         return member_thrust(motion, self, loads, case=case, direction=direction, rates=rates)
 
-    def pressure(self, motion: Motion, loads: Loads = None, *, case: Case = None, direction: str | None = None) -> Array:
+    def pressure(self, motion: AnyMotion, loads: Loads = None, *, case: Case = None, direction: str | None = None) -> Array:
         """Return the pressure on the side that works, shape (...) [Pa gauge]; 0 where the other side holds.
 
         While it moves in its working direction, or the one named, with what its one LiftCircuit says: efficiencies and back pressure.
@@ -191,7 +192,7 @@ class Cylinder(TwoPoint, Tabled):
 
     def columns(self, motion: Motion) -> list[Column]:
         """Return its thrust without friction and, unless several circuits have it, its pressure, for the table of results."""
-        pressed = len(circuits_of(self, motion)) <= 1
+        pressed = len(circuits_of(self, motion.plan)) <= 1
         thrust = Column("thrust", self.thrust(motion), "kN")
         return [thrust, Column("pressure", self.pressure(motion), "bar", 2)] if pressed else [thrust]
 
@@ -277,11 +278,15 @@ class Cylinder(TwoPoint, Tabled):
         """
         one_design(motion, str(self))
         rod = Buckling(one_size(self.sized(motion)).rod, self.mounting, self.safety)
+
+        def use(at: Motion) -> Array:
+            return self.buckling_use(at, loads, case=each, direction=direction)
+
         cases: Iterable[Case] = [case] if case is not None else [None, *motion.plan.of_kind(LoadCase).values()]
         worst: tuple[float, float, float, str] | None = None
         for each in cases:
             for direction in DIRECTIONS if changes_in_motion(motion, loads) else DIRECTIONS[:1]:
-                found = greatest(motion, self._use(rod, loads, each, direction))
+                found = greatest(motion, use)
                 if np.isnan(found.value) or (worst is not None and found.value <= worst[0]):
                     continue
                 place = motion.moved(found.strokes)
@@ -292,14 +297,21 @@ class Cylinder(TwoPoint, Tabled):
             return [Verdict("buckling", True, "the rod is never pushed.")]
         return [rod.judged(worst[1], worst[2], worst[3], unbounded=not np.isfinite(worst[0]))]
 
-    def _use(self, rod: Buckling, loads: Loads, case: Case, direction: str) -> Callable[[Motion], Array]:
-        """Return the utilisation of a rod, of a motion: one cylinder's push times the safety over the force at which it buckles."""
+    def buckling_use(self, motion: AnyMotion, loads: Loads = None, *, case: Case = None, direction: str | None = None) -> Array:
+        """Return the utilisation of a rod, shape (...): a cylinder's push times the safety over the force at which it buckles; 0 in a pull.
 
-        def use(motion: Motion) -> Array:
-            push = self.thrust(motion, loads, case=case, direction=direction) / self.count
-            return np.where(push > 0.0, push / rod.allowed(motion.distance(self.A, self.B)), 0.0) + 0.0 * push
+        Without a direction it is the greatest of all in which something acts otherwise, as friction does; see `buckling` for the verdict.
+        """
+        ways = DIRECTIONS if changes_in_motion(motion, loads) else DIRECTIONS[:1]
+        each_of = [self._use(motion, loads, case, way) for way in ([direction] if direction is not None else ways)]
+        return reduce(np.maximum, each_of)
 
-        return use
+    def _use(self, motion: AnyMotion, loads: Loads, case: Case, direction: str) -> Array:
+        """Return the utilisation in one direction."""
+        push = self.thrust(motion, loads, case=case, direction=direction) / self.count
+        bar = Buckling(1.0, self.mounting, self.safety)
+        allowed = bar.critical_of(self.sized(motion).rod, motion.distance(self.A, self.B)) / self.safety
+        return np.where(push > 0.0, push / allowed, 0.0) + 0.0 * push
 
     @property
     def _pins(self) -> str:
@@ -311,28 +323,30 @@ def thrust_along(cylinder: Cylinder, thrust: Array) -> Array:
     return np.abs(thrust) if cylinder.works == "both" else -thrust if cylinder.works == "rod" else thrust
 
 
-def pressure_of(cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
+def pressure_of(cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
     """Return a cylinder's pressure by the circuit that has it; without one, of a pump without losses."""
     require_poses(motion)
-    members, mine = motion.plan.members, circuits_of(cylinder, motion)
-    feeding = [each for each in mine if any(same(cylinder, one) for one in each.feeds(members))]
-    if feeding:
-        return feeding[0].pressure_in(cylinder, motion, loads, case, direction)
-    if len(mine) > 1:
-        names = ", ".join(each.name for each in mine)
-        remedy = f"name one: {mine[0].name}.pressure_for(motion)"
-        raise DefinitionError(f"{motion.plan.title}: {cylinder.name} is on {len(mine)} circuits, {names}; {remedy}.")
-    if mine:
-        return mine[0].pressure_in(cylinder, motion, loads, case, direction)
+    circuit = circuit_having(cylinder, motion.plan)
+    if circuit is not None:
+        return circuit.pressure_in(cylinder, motion, loads, case, direction)
     thrust = cylinder.thrust(motion, loads, case=case, direction=direction or "frictionless")
     return np.maximum(cylinder.sized(motion).pressure_for(thrust), 0.0)
 
 
-def circuits_of(cylinder: Cylinder, motion: Motion) -> list[Circuit]:
+def circuit_having(cylinder: Cylinder, plan: Declared) -> Circuit | None:
+    """Return the circuit that gives a cylinder its pressure, the one that feeds it first; DefinitionError where several have it."""
+    members, mine = plan.members, circuits_of(cylinder, plan)
+    feeding = [each for each in mine if any(same(cylinder, one) for one in each.feeds(members))]
+    if len(mine) > 1 and not feeding:
+        names = ", ".join(each.name for each in mine)
+        remedy = f"name one: {mine[0].name}.pressure_for(motion)"
+        raise DefinitionError(f"{plan.title}: {cylinder.name} is on {len(mine)} circuits, {names}; {remedy}.")
+    return next(iter((*feeding, *mine)), None)
+
+
+def circuits_of(cylinder: Cylinder, plan: Declared) -> list[Circuit]:
     """Return the circuits of a class that have a cylinder."""
-    require_poses(motion)
-    members = motion.plan.members
-    return [each for each in motion.plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(members))]
+    return [each for each in plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(plan.members))]
 
 
 class Circuit(ForceElement):
@@ -368,11 +382,11 @@ class Circuit(ForceElement):
         return tuple(each for each in found if isinstance(each, Cylinder))
 
     @abstractmethod
-    def pressure_in(self, cylinder: Cylinder, motion: Motion, loads: Loads, case: Case, direction: str | None) -> Array:
+    def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
         """Return the pressure on the working side of one of its cylinders, shape (...) [Pa gauge]."""
 
 
-def changes_in_motion(motion: Motion, loads: Loads) -> bool:
+def changes_in_motion(motion: AnyMotion, loads: Loads) -> bool:
     """Return whether there is friction among some loads, or an element that acts otherwise while it moves."""
     return any(each.frictions(motion) or each.feeds(motion.plan.members) for _, each in elements_of(motion.plan, loads))
 

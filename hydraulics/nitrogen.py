@@ -19,11 +19,12 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError
 from linkage.frozen import refuses_changes
+from linkage.program import is_traced
 from linkage.quantities.quantity import plain
 from linkage.units import bar
 
 from .gas import ROOM, Gas
-from .inputs import Array, is_traced, kelvin, positive
+from .inputs import Array, kelvin, positive
 
 R = 8.314462618  # J/(mol K)
 HIGHEST = 500 * bar

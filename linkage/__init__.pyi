@@ -3,6 +3,7 @@
 from .doors import animate as animate
 from .doors import draw as draw
 from .doors import equations as equations
+from .doors import optimise as optimise
 from .doors import page as page
 from .doors import plot as plot
 from .errors import AssemblyError as AssemblyError
@@ -31,7 +32,9 @@ from .mobility import grashof as grashof
 from .motion import Column as Column
 from .motion import Motion as Motion
 from .motion import condition as condition
+from .motion import gap as gap
 from .motion import ratio as ratio
+from .motion import transmission as transmission
 from .quantities import Curve as Curve
 from .quantities import Dimension as Dimension
 from .quantities import Stroke as Stroke
@@ -66,6 +69,13 @@ from .steps import Turn as Turn
 from .steps import Vector as Vector
 from .steps import YokeDyad as YokeDyad
 from .steps import drawn as drawn
+from .study import around as around
+from .study import at as at
+from .study import integral as integral
+from .study import least as least
+from .study import most as most
+from .study import reachable as reachable
+from .study import worst as worst
 from .units import MPa as MPa
 from .units import bar as bar
 from .units import cm as cm

@@ -7,16 +7,20 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
 from .mechanism import Mechanism
-from .motion import Column, Motion
+from .motion import Column, Motion, RequestLike
 from .reports import NOTHING
 
 if TYPE_CHECKING:
+    from os import PathLike
+
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from .formulas import Equations
     from .pictures import Drawing
     from .pictures.film import Progress
+    from .study import Optimum
+    from .study.pareto import Front
 
 
 @overload
@@ -58,11 +62,12 @@ def draw(
     return draw(machine, at, path, count, ax=ax, pose=pose, faint=faint)
 
 
-def plot(motion: Motion, columns: Sequence[Column | str], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
+def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
     """Return a figure of columns over the stroke, a panel each; a column that is the stroke itself is left out.
 
-    A column may go by its name: a named output, or a point's coordinate such as "G_y". `limits` are, by the column's name,
-    `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the side that fails, above unless said, is shaded.
+    A column may go by its name: a named output, or a point's coordinate such as "G_y"; or be a request, `drive_force()`. `limits` are,
+    by the column's name, `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the side that fails, above unless
+    said, is shaded.
     Raises DefinitionError for a batch, a grid, or an unknown name.
     """
     from .pictures import plot
@@ -134,3 +139,51 @@ def equations(
     from .formulas import equations
 
     return equations(machine, start=start, numbers=numbers, at=at, ratio=ratio, wrt=wrt, forces=forces)
+
+
+def optimise(
+    machine: Mechanism,
+    *,
+    minimise: Any = None,
+    maximise: Any = None,
+    vary: Mapping[Any, Any],
+    subject_to: Any = (),
+    case: Any = None,
+    over: Mapping[str, Any] | None = None,
+    robust: Mapping[str, Any] | None = None,
+    sigmas: float = 3.0,
+    method: str = "auto",
+    solver: str = "slsqp",
+    starts: int | None = None,
+    seed: int = 0,
+    folder: str | PathLike[str] | None = None,
+    progress: Any = False,
+) -> Optimum | Front:
+    """Return the best design of a machine: `optimise(hitch, maximise=least(capacity("lift", "G")), vary={"OB": (0.27, 0.33)})`.
+
+    What is to be least or greatest is one number of a design: `least(q)`, `most(q)`, `integral(q)`, `at(q, S=...)` of a quantity q (an
+    output, `drive_force()`, `pin_force("O")`, ...) and arithmetic of them; `subject_to` are comparisons of such, `most(abs(ref("tilt"))) <=
+    8 * deg`. They hold over the whole stroke, between the poses too; that every pose is assembled is always kept.
+
+    `vary` says what may change: `"OB": (low, high)` [SI], with a third number in steps; `"M": around(60 * mm)`, of a point both
+    coordinates; a list of choices; and for several names at once rows of a catalogue, `("lift.bore", "lift.rod"): [(0.1, 0.056), ...]`.
+    `over={"S": (0.0, 0.2)}` looks at a part of the stroke; an end may be a quantity that follows the design. `case` names a load case or
+    several, all of which are kept and the worst of which counts.
+
+    Of several objectives, given as lists, the front comes back: designs of which none is better in all (extra `pareto`). With
+    `robust={"OB": 0.2 * mm}` every number counts as bad as `sigmas` standard deviations make it, by tolerances as in `tolerance`.
+
+    From the best of some hundred designs spread over the box, `starts` of them for each combination of choices, a `solver` ("slsqp" or
+    "trust-constr") goes on with exact derivatives. `method="local"` begins with the machine as it is, "evolution" with the best of a
+    differential evolution. The same seed gives the same result. With `folder` finished searches are kept there, and the same call goes
+    on where another one stopped; `progress=True` shows a bar.
+
+    Raises DefinitionError for what cannot be asked, StudyError where no design can be assembled over the whole stroke, and its
+    InfeasibleError, with the conflict and the least relaxation, where none keeps all conditions.
+    """
+    from .study.optimise import optimise
+
+    return optimise(
+        machine, minimise=minimise, maximise=maximise, vary=vary, subject_to=subject_to, case=case, over=over, robust=robust,
+        sigmas=sigmas, method=method, solver=solver, starts=starts, seed=seed, folder=folder, progress=progress,
+    )  # fmt: skip

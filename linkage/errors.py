@@ -36,6 +36,10 @@ class DefinitionError(LinkageError, ValueError):
     """What a class, a file or a setting says cannot be. `member` is the name of the member at fault, "" where it is no single one."""
 
 
+class UntracedError(DefinitionError):
+    """What is asked for has values over a motion, and no program that gives them pose by pose, with derivatives."""
+
+
 class AssemblyError(LinkageError):
     """The mechanism cannot be assembled at some strokes.
 

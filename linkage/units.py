@@ -55,8 +55,8 @@ def factor(unit: str) -> float:
 
 
 def display_unit(measure: str, length: str = "m") -> str:
-    """Return the unit that an "angle" or a "length" is shown in, this one in that which is said; "" for anything else."""
-    return {"angle": "deg", "length": length}.get(measure, "")
+    """Return the unit that an "angle", a "length", a "force" or a "pressure" is shown in, a length in that which is said; else ""."""
+    return {"angle": "deg", "length": length, "force": "kN", "pressure": "bar"}.get(measure, "")
 
 
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\s\d]\S*)?\s*\Z")

@@ -37,10 +37,10 @@ from linkage.motion import Span, lowest, reached
 from linkage.reports import reached_span
 from linkage.units import cm, deg, g0, kgf, kgf_cm2, litre, minute, mm
 
-G_FROM_O = (1.07, -0.37)                    # centre of gravity from O at S = 0.55 m, as the input says, m
-BELOW = atan2(G_FROM_O[1], G_FROM_O[0])     # its direction from O, rad
-DELFI = 129.5 * deg                         # lever and x axis at S = 0.55 m: what the printed tables are computed with
-DELFI_OF_INPUT = 126.665 * deg              # the same angle as the input data give it
+G_FROM_O = (1.07, -0.37)  # centre of gravity from O at S = 0.55 m, as the input says, m
+BELOW = atan2(G_FROM_O[1], G_FROM_O[0])  # its direction from O, rad
+DELFI = 129.5 * deg  # lever and x axis at S = 0.55 m: what the printed tables are computed with
+DELFI_OF_INPUT = 126.665 * deg  # the same angle as the input data give it
 
 
 class MowerLift(Mechanism):
@@ -61,13 +61,13 @@ class MowerLift(Mechanism):
     stands either way: kz = 0.963 at S = 0.55 m, short up to S = 0.5660 m, as printed; 0.978, short up to 0.5604 m, else.
     """
 
-    S = Stroke(0.55, 0.80)                                      # distance of the cylinder's pins, m
+    S = Stroke(0.55, 0.80)  # distance of the cylinder's pins, m
 
     A = Ground(0.0, 0.242)
     O = Ground(0.652, 0.330)
 
-    B = Dyad(A, O, AB=S, OB=0.175, side=RIGHT)                  # cylinder and turning lever
-    G = OnLink(O, B, OG=hypot(*G_FROM_O), BOG=DELFI + BELOW)    # centre of gravity; BOG is the worksheet's FIS3
+    B = Dyad(A, O, AB=S, OB=0.175, side=RIGHT)  # cylinder and turning lever
+    G = OnLink(O, B, OG=hypot(*G_FROM_O), BOG=DELFI + BELOW)  # centre of gravity; BOG is the worksheet's FIS3
 
     FI0 = angle(A, O)
     FIS = CosineAngle(distance(A, O), distance(O, B), S)
@@ -75,14 +75,14 @@ class MowerLift(Mechanism):
     FI = CosineAngle(distance(A, O), S, distance(O, B))
     FIS1 = FI - FI0
 
-    weight = Dimension(900 * kgf, unit="kgf")                   # P
-    p_max = Dimension(155 * kgf_cm2, unit="kgf/cm2")            # gauge
-    bore = Dimension(8 * cm, unit="mm")                         # D
-    k_m = Dimension(0.85)                                       # mechanical efficiency
-    k_g = Dimension(0.95)                                       # hydraulic efficiency
+    weight = Dimension(900 * kgf, unit="kgf")  # P
+    p_max = Dimension(155 * kgf_cm2, unit="kgf/cm2")  # gauge
+    bore = Dimension(8 * cm, unit="mm")  # D
+    k_m = Dimension(0.85)  # mechanical efficiency
+    k_g = Dimension(0.95)  # hydraulic efficiency
 
     load = Weight(G, mass=weight / g0)
-    lift = Cylinder(A, B, bore=bore, rod=45 * mm)               # of the rods that ISO 3320 has for this bore
+    lift = Cylinder(A, B, bore=bore, rod=45 * mm)  # of the rods that ISO 3320 has for this bore
     circuit = LiftCircuit(lift, pressure=p_max, mechanical_efficiency=k_m, hydraulic_efficiency=k_g)
 
     def __init__(self, **dimensions: Any) -> None:

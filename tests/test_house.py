@@ -271,7 +271,7 @@ def test_the_door_loads_numpy_only():
     assert (HEAVY | OPTIONAL).isdisjoint(loaded), sorted((HEAVY | OPTIONAL).intersection(loaded))
 
 
-DOORS = {"animate", "draw", "equations", "page", "plot"}  # thin functions of the package in front of those of a room
+DOORS = {"animate", "draw", "equations", "optimise", "page", "plot"}  # thin functions of the package in front of those of a room
 
 
 def defined(path: str) -> set[str]:

@@ -57,7 +57,7 @@ class TwoPoint(ForceElement):
         A, B = self.ends
         parts = [(motion.ratio(B, wrt=name) - motion.ratio(A, wrt=name)) * rate for name, rate in rates.items()]
         arm, moved = motion[B] - motion[A], sum(parts[1:], parts[0])
-        return np.asarray((arm[0] * moved[0] + arm[1] * moved[1]) / motion.distance(A, B))
+        return np.asarray((arm[0] * moved[0] + arm[1] * moved[1]) / motion.distance(A, B))[()]
 
     def area_in(self, motion: Poses, sense: Array) -> Array:
         """Return, for what holds, its thrust at one unit of pressure [m2], where `sense` is 1 while it pushes and -1 while it pulls."""

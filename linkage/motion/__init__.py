@@ -2,10 +2,12 @@
 
 from .evaluation import PoseFunction, evaluate, evaluate_grid, source_of
 from .extremes import Extremum, Span, below_zero, greatest, lowest, reached
+from .gaps import gap
 from .grid import Grid
 from .limits import stroke_display_unit, stroke_unit
 from .motion import Motion, Target, each_at_its_stroke, out_of_reach, require_motion
 from .peaks import highest, last_holding
-from .requests import BoundRequest, Ratio, Request, RequestLike, Value, condition, ratio
+from .pose_requests import condition, transmission
+from .requests import BoundRequest, Ratio, Request, RequestLike, Value, ratio
 from .strokes import at_values, check_any, float_array, rates_of, sweep_values
 from .table import Column, Tabled, columns_of

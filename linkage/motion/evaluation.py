@@ -11,7 +11,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError, one_word
+from ..errors import DefinitionError, SingularError, UntracedError, one_word
 from ..plan import ArrayReading, Mask, Plan, failures, negative
 from ..program import NO_VALUE, QUICKEST, FloatArray, Kernel, Node, Way, c_text, javascript_text
 from ..quantities import real
@@ -46,7 +46,30 @@ def evaluate(
 def evaluate_grid(grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: Way, unreachable: str) -> list[FloatArray]:
     """Return the values of requests over a grid; see Mechanism.evaluate."""
     one_word("unreachable", unreachable, ("raise", "nan"))
-    return Evaluation(grid, all_bound(grid.plan, requests), way, unreachable).run(out)
+    try:
+        found = all_bound(grid.plan, requests)
+    except UntracedError:
+        return evaluate_apart(grid, requests, out, way, unreachable)
+    return Evaluation(grid, found, way, unreachable).run(out)
+
+
+def evaluate_apart(
+    grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: Way, unreachable: str
+) -> list[FloatArray]:
+    """Return the same of requests some of which have no program: these as a motion of the same poses gives them."""
+    motion = Motion(grid.plan, grid.designs, grid.strokes, unreachable, per_design=grid.per_design)
+    found = []
+    for each in requests:
+        try:
+            found += Evaluation(grid, all_bound(grid.plan, [each]), way, unreachable).run(None)
+        except UntracedError:
+            found.append(motion[each])
+    rows = [np.reshape(each, (-1, *grid.shape)) for each in found]
+    if out is not None:
+        whole = checked_out(grid, sum(map(len, rows)), out)
+        np.concatenate(rows, out=whole)
+        rows = np.split(whole, np.cumsum([len(each) for each in rows])[:-1])
+    return [part if each.ndim > len(grid.shape) else part[0] for part, each in zip(rows, found, strict=True)]
 
 
 def at_one_pose(
@@ -128,7 +151,8 @@ class Evaluation:
 
     def _make(self, plan: Plan) -> tuple[Kernel, list[Angles | None]]:
         nodes = [each.nodes(plan) for each in self.requests]
-        kernel = Kernel([node for each in nodes for node in each], [*self._assumed(plan), *self._guards(plan)])
+        guards = [*self._assumed(plan), *(node for each in self._gaps(plan) for node in each), *self._guards(plan)]
+        kernel = Kernel([node for each in nodes for node in each], guards)
         return kernel, [angles_of(plan, own) if each.follows_angles else None for each, own in zip(self.requests, nodes, strict=True)]
 
     def _guards(self, plan: Plan) -> list[Node]:
@@ -139,49 +163,54 @@ class Evaluation:
         """Return what the requests take to be above zero."""
         return [node for each in self.requests for node in each.notes(plan).assumed]
 
-    def _watch(self, plan: Plan) -> tuple[int, Kernel]:
-        """Return how many of its outputs are assumptions, and the kernel of these, of the guards, then of how near each request is."""
+    def _gaps(self, plan: Plan) -> list[tuple[Node, ...]]:
+        """Return, for each request, the nodes that are above zero where it has a value."""
+        return [each.gaps(plan) for each in self.requests]
+
+    def _watch(self, plan: Plan) -> tuple[int, list[int], Kernel]:
+        """Return how many of its outputs are assumptions, and gaps of each request; and the kernel.
+
+        Its outputs are the assumptions, the guards, how near each request is, and the gaps of each.
+        """
         for each in self.requests:
             each.nodes(plan)  # directions of its own are noted then
         assumed = self._assumed(plan)
         near = [plan.trace.nearness(each.names(plan)) - each.regular for each in self.requests]
-        return len(assumed), Kernel([*assumed, *self._guards(plan), *near])
+        gaps = self._gaps(plan)
+        kernel = Kernel([*assumed, *self._guards(plan), *near, *(node for each in gaps for node in each)])
+        return len(assumed), list(map(len, gaps)), kernel
 
     def _target(self, rows: int, out: FloatArray | None) -> FloatArray | None:
         """Return where the caller wants the results, shape (rows, designs, poses)."""
         grid = self.grid
         if out is None:
             return None
-        shape = (rows, *grid.shape)
-        if not isinstance(out, np.ndarray) or out.dtype != np.float64 or out.shape != shape or not out.flags.c_contiguous:
-            given = f"{out.dtype} {out.shape}" if isinstance(out, np.ndarray) else repr(out)
-            raise DefinitionError(
-                f"{grid.plan.title}: out= is {given}; expected is a contiguous float64 array of the shape {shape}: "
-                "one row a component of what is asked for."
-            )
-        if not out.flags.writeable:
-            raise DefinitionError(f"{grid.plan.title}: out= cannot be written into; give an array of your own, np.empty({shape}).")
-        return out.reshape(rows, *grid.size)
+        return checked_out(grid, rows, out).reshape(rows, *grid.size)
 
     # -- poses at a dead point or out of reach ---------------------------------------------------------
 
     def _settle(self, place: FloatArray) -> None:
         """Put right the poses where a guard tells: place them to rounding, refuse or mask those out of reach or singular."""
         plan = self.grid.plan
-        assumed, kernel = plan.made(("guards", tuple(each.key for each in self.requests)), self._watch)
+        assumed, gaps, kernel = plan.made(("guards", tuple(each.key for each in self.requests)), self._watch)
         worst: dict[int, Judged] = {}
         for band, part in pieces(*self.grid.size):
             inputs = {name: part_of_input(value, band, part, name in plan.table.entries) for name, value in self.grid.flat.items()}
             block = place[:, band, part]
             least = np.broadcast_to(kernel(inputs, way=self.way).values, (len(kernel.plan.outputs), *block.shape[1:]))
             with np.errstate(invalid="ignore"):
-                above = least > 0.0
+                above, present = np.split(least > 0.0, [len(least) - sum(gaps)])
+                empty = [np.asarray(~each.all(axis=0)) for each in np.split(present, np.cumsum(gaps)[:-1])]
+                for (first, each), gap in zip(self._starts(), empty, strict=True):
+                    block[first : first + each.rows, gap] = 0.0
                 bad = ~np.all(above[: len(above) - len(self.requests)], axis=0) | ~np.isfinite(block).all(axis=0)
             if bad.any():
                 at_bad = {name: input_at(value, name in plan.table.entries, bad) for name, value in inputs.items()}
                 flagged = above[:, bad]
                 near = ~flagged[len(above) - len(self.requests) :]
                 self._put_right(block, bad, at_bad, worst, ~flagged[:assumed].all(axis=0), near)
+            for (first, each), gap in zip(self._starts(), empty, strict=True):
+                block[first : first + each.rows, gap] = np.nan
         for k, found in worst.items():
             conditions.warn_near(found, f"{plan.title}: {self.requests[k]}", "comes")
 
@@ -266,6 +295,20 @@ class Evaluation:
             continued = angles.continued(self.grid, np.asarray(reached), self.way)
             if continued is not None:
                 values[...] = np.where(reached, continued, np.nan)
+
+
+def checked_out(grid: Grid, rows: int, out: FloatArray) -> FloatArray:
+    """Return the array that takes so many rows of results; DefinitionError for what cannot."""
+    shape = (rows, *grid.shape)
+    if not isinstance(out, np.ndarray) or out.dtype != np.float64 or out.shape != shape or not out.flags.c_contiguous:
+        given = f"{out.dtype} {out.shape}" if isinstance(out, np.ndarray) else repr(out)
+        raise DefinitionError(
+            f"{grid.plan.title}: out= is {given}; expected is a contiguous float64 array of the shape {shape}: "
+            "one row a component of what is asked for."
+        )
+    if not out.flags.writeable:
+        raise DefinitionError(f"{grid.plan.title}: out= cannot be written into; give an array of your own, np.empty({shape}).")
+    return out
 
 
 def pieces(m: int, n: int, most: int = PIECE) -> Iterator[tuple[slice, slice]]:
@@ -357,8 +400,11 @@ class PoseFunction:
             raise DefinitionError(f"{plan.title}: a function of floats is of one design; use evaluate for several.")
         self._plan, self._designs = plan, dict(designs)
         self._requests = tuple(requests) if isinstance(requests, Iterator) else requests
-        self._bound = all_bound(plan, self._requests)
-        self._pose = None if plan.solved else PoseProgram.of(plan, self._bound).of_design(self._designs)
+        try:
+            found = all_bound(plan, self._requests)
+            self._pose = None if plan.solved else PoseProgram.of(plan, found).of_design(self._designs)
+        except UntracedError:
+            self._pose = None
 
     def __call__(self, *strokes: float, **named: float) -> tuple[float, ...]:
         """Return all components one after the other at strokes [SI], in their order or by name."""
@@ -373,7 +419,7 @@ class PoseFunction:
         if len(values) != len(names):
             raise DefinitionError(f"{plan.title}: one value for each stroke is expected: {', '.join(names)}.")
         grid = Grid(plan, self._designs, {name: one_value(value, name, plan.title) for name, value in zip(names, values, strict=True)})
-        return tuple(float(part) for found in Evaluation(grid, self._bound, QUICKEST).run(None) for part in np.ravel(found))
+        return tuple(float(part) for found in evaluate_grid(grid, self._requests, None, QUICKEST, "raise") for part in np.ravel(found))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return PoseFunction, (self._plan, self._designs, self._requests)
@@ -429,7 +475,7 @@ def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request
 def true_nodes(plan: Plan, what: BoundRequest) -> list[Node]:
     """Return a request's nodes, NaN where what they are true under does not hold: the text can look nothing up."""
     nodes = list(what.nodes(plan))
-    for truth in what.notes(plan).assumed:
+    for truth in (*what.notes(plan).assumed, *what.gaps(plan)):
         nodes = [node.graph.pick(0.0, truth, node, math.nan) for node in nodes]
     return nodes
 

@@ -23,6 +23,7 @@ from .limits import Limits, assembly_error, no_joint, span_text, stroke_unit, wh
 from .requests import (
     BoundRequest,
     Places,
+    Request,
     RequestLike,
     Slope,
     Value,
@@ -31,6 +32,7 @@ from .requests import (
     examined,
     near_singular,
     other_law_error,
+    requested_of,
     slopes_of,
     stroke_of,
     watched,
@@ -131,9 +133,14 @@ class Motion:
 
     # -- what is read off --------------------------------------------------------------------------------
 
-    def __getitem__(self, name: str) -> FloatArray:
-        """Return a point's position or a vector, shape (2, ...) [m], or a quantity, shape (...) [SI]."""
-        member = self._known(name)
+    def __getitem__(self, name: RequestLike) -> FloatArray:
+        """Return a point's position or a vector, shape (2, ...) [m], or a quantity, shape (...) [SI]; or a request, by its own function.
+
+        `motion[drive_force() * ratio("G_y")]` is what `driving_force(motion)` and `motion.ratio("G_y")` give, multiplied.
+        """
+        if isinstance(name, Request):
+            return name.of(self)
+        member = self._member(name)
         if isinstance(member, Point):
             return self._place(member.name)
         if isinstance(member, Quantity):
@@ -178,8 +185,10 @@ class Motion:
             angle = np.arctan2(np.abs(u.cross(w)), u.dot(w))
         return np.where(self.reached, np.broadcast_to(angle, self.shape), np.nan)
 
-    def value(self, quantity: Quantity) -> FloatArray:
-        """Return a quantity over all poses [SI]; angles without jumps along the stroke."""
+    def value(self, quantity: Quantity | Request) -> FloatArray:
+        """Return a quantity or a request over all poses [SI]; angles without jumps along the stroke."""
+        if isinstance(quantity, Request):
+            return quantity.of(self)
         member = self._member(quantity)
         if not isinstance(member, Quantity):
             raise DefinitionError(f'{self.plan.title}: {member.name} is no quantity; ask for motion["{member.name}"].')
@@ -260,8 +269,11 @@ class Motion:
         refused = self._refused(Slope(what, names), title)
         good = self.reached & ~refused
         slopes = plan.made(("gradient", what.key, names), lambda plan: slopes_of(plan, what, names))
-        rest = what.rows * len(names)
-        values, assumed, switches = np.split(self._grid.full(slopes.kernel(self._grid.flat).values), [rest, rest + slopes.assumed])
+        ends = np.cumsum([what.rows * len(names), slopes.assumed, slopes.gaps])
+        values, assumed, gaps, switches = np.split(self._grid.full(slopes.kernel(self._grid.flat).values), ends)
+        if slopes.gaps:
+            refused = refused | ~np.all(gaps > 0.0, axis=0)
+            good &= ~refused
         self._check_laws(what, good, assumed, zip(slopes.touched, switches, strict=True))
         continued = slopes.angles.continued(self._grid, self.reached)
         signs = np.tile([float(sign) for _, sign in dimensions], what.rows).reshape(-1, *(1,) * len(self.shape))
@@ -270,6 +282,23 @@ class Motion:
             found = np.where(good, found * signs, np.nan)
         rows = self._finite(found, refused, title)
         return np.stack(np.split(rows, what.rows), axis=1) if what.rows > 1 else rows
+
+    def _requested(self, request: Request) -> FloatArray:
+        """Return a request's values over all poses [SI], by its program; see `Request.of`."""
+        what = bound(self.plan, request)
+        program = self.plan.made(("requested", what.key), lambda twin: requested_of(twin, what))
+        result = program.kernel(self._grid.flat, size=self._grid.size)
+        values = self._grid.full(result.values)
+        continued = None if program.angles is None else program.angles.continued(self._grid, self.reached)
+        values = values if continued is None else continued
+        refused = np.zeros(self.shape, bool)
+        if not np.all(result.guards > 0.0):
+            checks = self._grid.full(program.checks(self._grid.flat, size=self._grid.size).values)
+            refused = self._refused_near(what, str(what), lambda found, mask: self._singular(found, mask, str(what)))
+            refused = refused | ~np.all(checks[program.assumed :] > 0.0, axis=0)
+            self._check_laws(what, self.reached & ~refused, checks[: program.assumed], ())
+        found = self._finite(np.where(self.reached & ~refused, values, np.nan), refused, str(what))
+        return found if what.rows > 1 else found[0]
 
     # -- how far it goes, and other strokes --------------------------------------------------------------
 
@@ -474,7 +503,11 @@ class Motion:
         """Return the mask of poses where a result is refused; raise or warn as asked. `words` begin a sentence about it."""
         if not self._is_near(what):
             return np.zeros(self.shape, bool)
-        return self._refused_near(what, words, lambda found, mask: conditions.singular_error(found, mask, self.strokes, words, self))
+        return self._refused_near(what, words, lambda found, mask: self._singular(found, mask, words))
+
+    def _singular(self, found: Judged, mask: Mask, words: str) -> SingularError:
+        """Return the error for a result asked at singular poses."""
+        return conditions.singular_error(found, mask, self.strokes, words, self)
 
     def _refused_near(self, what: BoundRequest, words: str, error: Callable[[Judged, Mask], SingularError]) -> Mask:
         """Return the mask of poses where a result is refused, all that are near singular ones looked at; raise or warn as asked.

@@ -7,24 +7,26 @@ where it has no value, and the error that rounding leaves of it. Kernels, functi
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Hashable, Iterable, Mapping, Sequence, Set
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
-from typing import Any, TypeAlias, final
+from types import MappingProxyType
+from typing import Any, NoReturn, TypeAlias, final
 
 import numpy as np
 
 from ..errors import DefinitionError, cited
-from ..plan import NEAR, REGULAR, ArrayReading, Mask, Plan
+from ..plan import NEAR, ArrayReading, Mask, Plan
 from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
-from ..quantities import Member, Quantity
+from ..quantities import TAKEN, Arithmetic, Member, Number, Quantity, label, quantity, spelled
+from ..quantities.quantity import COMPARED
 from ..steps import Arrow, Point
 from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Judged, Left, Rounding, judged
 from .grid import Angles, Grid, MotionLike, angles_of
 from .strokes import checked_name, order_of
 
 
-class Request(ABC):
-    """Something to ask of a mechanism that is no member of it: a ratio, a thrust, a pin force."""
+class Request(Arithmetic):
+    """Something to ask of a mechanism at its poses that is no member of it: a ratio, a thrust, a pin force; sums and products of such."""
 
     def identity(self, plan: Plan) -> Hashable:
         """Return what tells it from others of the same plan as long as what it holds lives; None where what it holds may change."""
@@ -32,7 +34,31 @@ class Request(ABC):
 
     @abstractmethod
     def bound(self, plan: Plan) -> BoundRequest:
-        """Return the request bound to a plan; DefinitionError where there is no such thing."""
+        """Return the request bound to a plan; DefinitionError where there is no such thing, UntracedError where no program gives it."""
+
+    @property
+    def measures(self) -> str:
+        """What it measures where that is plain: `angle`, `length`, `force`, `pressure`, or "" for a plain number."""
+        return ""
+
+    def of(self, motion: MotionLike) -> FloatArray:
+        """Return its values over a motion's poses [SI], shape (...), of a point's (2, ...); by the program unless a subclass says."""
+        return motion._requested(self)
+
+    def applied(self, function: str, *operands: Any) -> Any:
+        """Return what NumPy's function of that name makes of requests, quantities and numbers; a point's two parts go each for itself."""
+        if any(isinstance(each, Arithmetic) and not isinstance(each, Request) for each in operands):
+            return NotImplemented
+        return Combined(function, tuple(map(operand, operands)))
+
+    def _compared(self, other: object) -> NoReturn:
+        raise DefinitionError(f"{self} has a value at every pose, so that it cannot be compared. {COMPARED}")
+
+    __lt__ = __le__ = __gt__ = __ge__ = _compared
+
+    def in_case(self, case: object) -> Request:
+        """Return the request with the forces of a load case, where it is of forces and names no case itself."""
+        return self
 
 
 RequestLike: TypeAlias = str | Member | Request
@@ -84,6 +110,10 @@ class BoundRequest(ABC):
         """Whether results that are not nodes go through it, so that what its loops lose counts even where it happens to be exact itself."""
         return False
 
+    def gaps(self, plan: Plan) -> tuple[Node, ...]:
+        """Return the nodes that are above zero where it has a value: elsewhere it is NaN, which is no error, as a load that is no limit."""
+        return ()
+
     def read_own(self, reading: ArrayReading) -> None:  # noqa: B027
         """Work out in an eager reading what is its own, so that its directions are noted; of most there is nothing."""
 
@@ -92,9 +122,17 @@ class BoundRequest(ABC):
         """The product of squared parts (Trace.nearness) above which rounding leaves at least nine digits of it."""
         return NEAR**2 if self.order else PLACES
 
+    def rounded(self, plan: Plan) -> tuple[Node, ...]:
+        """Return the nodes whose rounding tells its error: its own, and what these are compared with."""
+        return self.nodes(plan)
+
+    def scale(self, plan: Plan, left: Left) -> FloatArray:
+        """Return what its error is compared with where it is smaller [SI], shape (n,), from what rounding leaves of its nodes."""
+        return np.full(left.size.shape, SMALL)
+
     def error(self, plan: Plan, left: Left) -> FloatArray:
-        """Return the relative error to expect, shape (n,), from what rounding leaves of its nodes."""
-        return left.over(SMALL)
+        """Return the relative error to expect, shape (n,), from what rounding leaves of those nodes."""
+        return left.over(self.scale(plan, left))
 
     @property
     def may_fail(self) -> bool:
@@ -181,6 +219,13 @@ class Ratio(Request):
         target = identity_of(plan, self.target)
         return None if target is None else ("ratio", target, self.wrt, self.order)
 
+    def of(self, motion: MotionLike) -> FloatArray:
+        return motion.ratio(self.target, wrt=self.wrt, order=self.order) if self.order else motion[self.target]
+
+    def __str__(self) -> str:
+        said = [label(self.target), *([f"wrt={self.wrt}"] if self.wrt else ()), *([f"order={self.order}"] if self.order != 1 else ())]
+        return f"ratio({', '.join(said)})" if self.order else label(self.target)
+
     def bound(self, plan: Plan) -> Value:
         along = (stroke_of(plan, self.wrt),) * self.order if self.order else ()
         if isinstance(self.target, Quantity) and not self.target.name:
@@ -255,13 +300,13 @@ class Value(BoundRequest):
             with np.errstate(all="ignore"):
                 reading.value(self.member)
 
-    def error(self, plan: Plan, left: Left) -> FloatArray:
+    def scale(self, plan: Plan, left: Left) -> FloatArray:
         scale = natural_size(self.member, left.size)
         if scale is None:
-            return left.over(SMALL)
+            return super().scale(plan, left)
         for name in self.along:
             scale = scale / (abs(plan.strokes[name].end - plan.strokes[name].start) or 1.0)
-        return left.over(LEAST * scale if self.along else scale)
+        return LEAST * scale if self.along else scale
 
     def __str__(self) -> str:
         what = self.member.name or str(self.member)
@@ -274,67 +319,196 @@ def natural_size(member: Member, size: FloatArray) -> FloatArray | None:
     return size if measures == "length" else np.ones_like(size) if measures == "angle" else None
 
 
-# Conditions: how near poses are to singular ones.
+# Sums, products and functions of requests.
 
-WORST = 1e16
-"""The largest condition over 2 / 0.3 that is told."""
+SIGNS: Mapping[str, tuple[str, int, int, int]] = MappingProxyType(
+    {"add": ("+", 1, 1, 1), "subtract": ("-", 1, 1, 2), "multiply": ("*", 2, 2, 3), "divide": ("/", 2, 2, 3), "power": ("**", 3, 4, 4)}
+)
+"""How a function of two is written: its sign, how strongly it binds, and how strongly its sides must to stand without brackets."""
+UNIT_SIZE = frozenset({"sin", "cos", "arctan2"})
+"""The functions whose values are compared with 1."""
 
 
 @final
 @dataclass(frozen=True)
-class PoseCondition(Request):
-    """How near a pose is to a singular one for what is built from a point or a quantity, as something to ask for."""
+class Combined(Request):
+    """What one of NumPy's functions makes of requests, quantities and numbers at every pose."""
 
-    target: str | Member | None = None
+    function: str
+    parts: tuple[Request | Quantity | float, ...]
 
     def identity(self, plan: Plan) -> Hashable:
-        target = None if self.target is None else identity_of(plan, self.target)
-        return None if target is None and self.target is not None else ("condition", target)
+        found = [each if isinstance(each, float) else identity_of(plan, each) for each in self.parts]
+        return None if None in found else ("combined", self.function, *found)
 
-    def bound(self, plan: Plan) -> ConditionOf:
-        if self.target is None:
-            return ConditionOf(None, frozenset(set[str]().union(*map(plan.reaches, plan.points))), plan.title)
-        value = Ratio(self.target, order=0).bound(plan)
-        return ConditionOf(value, frozenset(value.names(plan)), str(value))
+    @property
+    def measures(self) -> str:
+        known = [each.measures for each in self.parts if not isinstance(each, float)]
+        scaled = self.function == "multiply" or (self.function == "divide" and isinstance(self.parts[1], float))
+        same = self.function in ("add", "subtract", "negative", "absolute", "minimum", "maximum", "hypot")
+        return known[0] if (same or (scaled and len(known) == 1)) and len(set(known)) == 1 else ""
+
+    def of(self, motion: MotionLike) -> FloatArray:
+        given = [each if isinstance(each, float) else motion[each] for each in self.parts]
+        with np.errstate(all="ignore"):
+            found = np.asarray(NUMPY[self.function](*given))
+        empty = np.zeros(motion.shape, bool)
+        for each in map(np.isnan, given):
+            empty |= each if each.ndim <= len(motion.shape) else each.any(axis=0)
+        return motion._finite(np.where(empty, np.nan, found), empty, str(self))
+
+    def in_case(self, case: object) -> Combined:
+        parts = tuple(each.in_case(case) if isinstance(each, Request) else each for each in self.parts)
+        return self if all(a is b for a, b in zip(parts, self.parts, strict=True)) else Combined(self.function, parts)
+
+    def bound(self, plan: Plan) -> CombinedOf:
+        return CombinedOf(self, tuple(each if isinstance(each, float) else bound(plan, each) for each in self.parts))
+
+    @property
+    def binds(self) -> int:
+        """How strongly its sign binds, to stand without brackets."""
+        return SIGNS[self.function][1] if self.function in SIGNS else 1 if self.function == "negative" else 9
+
+    def __str__(self) -> str:
+        if self.function == "negative":
+            return f"-{bracketed(self.parts[0], 3)}"
+        if self.function not in SIGNS:
+            name = "abs" if self.function == "absolute" else self.function
+            return f"{name}({', '.join(bracketed(each, 0) for each in self.parts)})"
+        (sign, _, left, right), (a, b) = SIGNS[self.function], self.parts
+        return f"{bracketed(a, left)} {sign} {bracketed(b, right)}"
 
 
-def condition(target: str | Member | None = None) -> PoseCondition:
-    """Return the request for the condition of a pose, in `evaluate`, `function` and `source`: a number, 2 / 0.3 at regular poses.
+NUMPY: Mapping[str, Callable[..., Any]] = MappingProxyType({name: getattr(np, name) for name in TAKEN})
 
-    Next to a singular pose it is 2 over the sine of the loop in line, and the product of such where several follow one another or a
-    direction is taken between points that come close: above 1e4 a ratio is off by some 0.3 eps cond^2, above 1e6 it is refused.
-    `condition("G")` is of what G is built from, `condition(angle("A", "P"))` of what the angle is built from and of its own direction,
-    `condition()` of all points of the machine. What else is asked beside it makes no difference.
-    """
-    return PoseCondition(target)
+
+def operand(given: Any) -> Request | Quantity | float:
+    """Return what a request is calculated with: a request, a quantity or its name, or a number."""
+    if isinstance(given, Request):
+        return given
+    found = quantity(given.item() if isinstance(given, np.ndarray) and given.ndim == 0 else given)
+    return found.number if type(found) is Number and not found.name else found
+
+
+def bracketed(part: Request | Quantity | float, binding: int) -> str:
+    """Return a part of a sum or a product as text, in brackets where it binds more loosely than its surroundings."""
+    if isinstance(part, float):
+        text, binds = repr(part), 3 if part < 0.0 else 9
+    elif isinstance(part, Quantity):
+        return spelled(part, binding)
+    else:
+        text, binds = str(part), part.binds if isinstance(part, Combined) else 9
+    return f"({text})" if binds < binding else text
 
 
 @final
-@dataclass(frozen=True)
-class ConditionOf(BoundRequest):
-    """The condition of a value, or of all points where it is None, bound to a plan with the members behind it; never refused."""
+@dataclass(frozen=True, eq=False)
+class CombinedOf(BoundRequest):
+    """A combination bound to a plan, from its parts."""
 
-    value: Value | None
-    members: frozenset[str]
-    of: str
+    request: Combined
+    parts: tuple[BoundRequest | float, ...]
+
+    @property
+    def bound_parts(self) -> list[BoundRequest]:
+        """The parts that are no numbers."""
+        return [each for each in self.parts if not isinstance(each, float)]
 
     @property
     def key(self) -> Hashable:
-        return "condition", self.value and self.value.key
+        return "combined", self.request.function, *(each if isinstance(each, float) else each.key for each in self.parts)
+
+    @property
+    def rows(self) -> int:
+        return max(each.rows for each in self.bound_parts)
+
+    @property
+    def order(self) -> int:
+        return max(each.order for each in self.bound_parts)
+
+    def nodes(self, plan: Plan) -> tuple[Node, ...]:
+        given = [(each,) if isinstance(each, float) else each.nodes(plan) for each in self.parts]
+        rows = zip(*(each * (self.rows // len(each)) for each in given), strict=True)
+        return tuple(plan.trace.graph.node(NUMPY[self.request.function](*row)) for row in rows)
+
+    def names(self, plan: Plan) -> set[str]:
+        return set().union(*(each.names(plan) for each in self.bound_parts))
+
+    def differentiated(self, plan: Plan) -> set[str]:
+        return set().union(*(each.differentiated(plan) for each in self.bound_parts))
+
+    def gaps(self, plan: Plan) -> tuple[Node, ...]:
+        return tuple(dict.fromkeys(node for each in self.bound_parts for node in each.gaps(plan)))
+
+    def notes(self, plan: Plan) -> Notes:
+        found = Notes()
+        for each in self.bound_parts:
+            notes = each.notes(plan)
+            found.assumed.update(notes.assumed)
+            found.switches.update(notes.switches)
+        return found
+
+    def refuse(self, motion: MotionLike) -> None:
+        for each in self.bound_parts:
+            each.refuse(motion)
+        self.request.of(motion)
+
+    def read_own(self, reading: ArrayReading) -> None:
+        for each in self.bound_parts:
+            each.read_own(reading)
 
     @property
     def regular(self) -> float:
-        return -1.0
+        return max(each.regular for each in self.bound_parts)
 
-    def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        near = plan.trace.alone(self.value and self.value.member).nearness(self.members, exact=True)
-        return ((2.0 / REGULAR) / np.sqrt(near.graph.apply("maximum", near, WORST**-2)),)
+    @property
+    def stands_for_others(self) -> bool:
+        return any(each.stands_for_others for each in self.bound_parts)
 
-    def names(self, plan: Plan) -> set[str]:
-        return set(self.members)
+    @property
+    def may_fail(self) -> bool:
+        return True
+
+    @property
+    def follows_angles(self) -> bool:
+        return any(each.follows_angles for each in self.bound_parts)
+
+    def rounded(self, plan: Plan) -> tuple[Node, ...]:
+        return *self.nodes(plan), *(node for each in self.bound_parts for node in each.rounded(plan))
+
+    def error(self, plan: Plan, left: Left) -> FloatArray:
+        return left.part(slice(0, self.rows)).over(self.scale(plan, left))
+
+    def scale(self, plan: Plan, left: Left) -> FloatArray:
+        values, sizes, first = [], [], self.rows
+        for each in self.parts:
+            if isinstance(each, float):
+                values.append(np.full(left.size.shape, abs(each)))
+                sizes.append(values[-1])
+                continue
+            count = len(each.rounded(plan))
+            own = left.part(slice(first, first + count))
+            values.append(np.hypot.reduce(own.values[: each.rows], axis=0))
+            sizes.append(np.maximum(values[-1], each.scale(plan, own)))
+            first += count
+        with np.errstate(all="ignore"):
+            return np.nan_to_num(np.maximum(combined_size(self.request.function, values, sizes), SMALL), nan=SMALL)
 
     def __str__(self) -> str:
-        return f"the condition of {self.of}"
+        return str(self.request)
+
+
+def combined_size(function: str, values: Sequence[FloatArray], sizes: Sequence[FloatArray]) -> FloatArray:
+    """Return the size that a combination's error is compared with, from the values and sizes of its parts, shape (n,) each."""
+    if function == "multiply":
+        return sizes[0] * sizes[1]
+    if function == "divide":
+        return sizes[0] / values[1]
+    if function in UNIT_SIZE:
+        return np.ones_like(sizes[0])
+    if function in ("add", "subtract", "negative", "absolute", "minimum", "maximum", "hypot"):
+        return np.asarray(np.max(sizes, axis=0))
+    return np.full(sizes[0].shape, SMALL)
 
 
 # What forces go through, and what a motion works out first.
@@ -443,11 +617,12 @@ class Slope(BoundRequest):
 @final
 @dataclass(frozen=True, eq=False)
 class Slopes:
-    """The kernel of a request's derivatives by some dimensions, then of what it assumes, then of its switches by those dimensions."""
+    """The kernel of a request's derivatives by some dimensions, then of what it assumes, of its gaps, and of its switches by them."""
 
     kernel: Kernel
     angles: Angles
     assumed: int
+    gaps: int
     touched: tuple[str, ...]
 
 
@@ -461,8 +636,29 @@ def slopes_of(plan: Plan, what: BoundRequest, names: Sequence[str]) -> Slopes:
         for name, each in zip(names, inputs, strict=True)
         if each in ancestors([switch])
     ]
-    kernel = Kernel([*shares, *notes.assumed, *(switch for switch, _ in touched)])
-    return Slopes(kernel, angles_of(plan, shares), len(notes.assumed), tuple(words for _, words in touched))
+    gaps = what.gaps(plan)
+    kernel = Kernel([*shares, *notes.assumed, *gaps, *(switch for switch, _ in touched)])
+    return Slopes(kernel, angles_of(plan, shares), len(notes.assumed), len(gaps), tuple(words for _, words in touched))
+
+
+# Values of requests over a motion.
+
+@final
+@dataclass(frozen=True, eq=False)
+class Requested:
+    """The kernel of a request's nodes, watched by what it assumes, its gaps and how near it is; and the kernel of the two first."""
+
+    kernel: Kernel
+    angles: Angles | None
+    checks: Kernel
+    assumed: int
+
+
+def requested_of(plan: Plan, what: BoundRequest) -> Requested:
+    """Return the program of a request's values over a motion."""
+    nodes, assumed, gaps = what.nodes(plan), [*what.notes(plan).assumed], what.gaps(plan)
+    angles = angles_of(plan, nodes) if what.follows_angles else None
+    return Requested(Kernel(nodes, [*assumed, *gaps, *watched(plan, what)]), angles, Kernel([*assumed, *gaps]), len(assumed))
 
 
 # Near singular poses.
@@ -485,7 +681,7 @@ def near_singular(grid: Grid, what: BoundRequest) -> Mask:
 def examined(plan: Plan, what: BoundRequest, inputs: Mapping[str, Any], reading: ArrayReading) -> Judged:
     """Return how far poses are from singular ones for a request: inputs as floats or (n,), and the eager reading there."""
     what.read_own(reading)
-    rounding = plan.made(("rounding", what.key), lambda twin: Rounding.of(twin, what.nodes(twin)))
+    rounding = plan.made(("rounding", what.key), lambda twin: Rounding.of(twin, what.rounded(twin)))
     error = what.error(plan, rounding.at(inputs))
     found = judged(plan, reading, what.differentiated(plan), what.names(plan), error, DOUBTFUL if what.order else ROUGH)
     return found.as_loops() if what.stands_for_others else found

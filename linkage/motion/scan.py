@@ -30,6 +30,7 @@ from .limits import (
     where_words,
 )
 from .peaks import SAMPLES, Index, bisected, highest, samples
+from .pose_requests import transmission
 from .strokes import TURN, check_any
 
 KEPT = 64
@@ -60,7 +61,7 @@ def stroke_limits(motion: MotionLike, name: str, held: Mapping[str, float]) -> S
     found = search(scanner(motion.moved, name, held), low, high, [each.deepest for each in between if each.is_gap])
     crossings = tuple((each.deepest, called(motion.plan, each.step)) for each in between if not each.is_gap)
     others = tuple(Held(each, value, stroke_unit(motion.plan, each)) for each, value in held.items() if each != name)
-    least = transmission(motion, name, held, found)
+    least = least_transmission(motion, name, held, found)
     turns = open_turn(motion, name, held, found) if unit == "rad" else None
     still = dead_points(motion, name, held, [(each.low, each.high) for each in found])
     return StrokeLimits(name, unit, stroke.start, stroke.end, tuple(found), crossings, least, others, turns, tuple(still))
@@ -87,7 +88,7 @@ UNCHANGED = 1e-9
 """A transmission angle that changes by less [rad] does not follow the stroke."""
 
 
-def transmission(motion: MotionLike, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> tuple[Extreme, ...]:
+def least_transmission(motion: MotionLike, name: str, held: Mapping[str, float], found: Sequence[Interval]) -> tuple[Extreme, ...]:
     """Return the least transmission angle of every dyad that moves with a stroke, over its declared and reachable part."""
     ends = sorted((motion.plan.strokes[name].start, motion.plan.strokes[name].end))
     parts = np.array([(max(each.low, ends[0]), min(each.high, ends[1])) for each in found if each.low < ends[1] and each.high > ends[0]])
@@ -101,7 +102,7 @@ def transmission(motion: MotionLike, name: str, held: Mapping[str, float], found
 
     def look(leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
         wide = motion.moved({**held, name: stroke(leg, t).ravel()})
-        return -np.array([[folded(wide, joint)] for joint in moving]), wide.reached[None]
+        return -np.array([[transmission(joint).of(wide)] for joint in moving]), wide.reached[None]
 
     wide = motion.moved({**held, name: stroke(*samples(counts))})
     angles = {joint: wide.transmission_angle(joint) for joint in wide._joints}
@@ -111,12 +112,6 @@ def transmission(motion: MotionLike, name: str, held: Mapping[str, float], found
     least = highest(look, counts)
     strokes = stroke(least.leg, least.t)
     return tuple(Extreme(joint, -float(least.value[row, 0]), float(strokes[row, 0])) for row, joint in enumerate(moving))
-
-
-def folded(motion: MotionLike, joint: str) -> FloatArray:
-    """Return a joint's transmission angle folded to 0 ... pi/2 [rad]; NaN where it is not reached."""
-    angle = motion.transmission_angle(joint)
-    return np.minimum(angle, np.pi - angle)
 
 
 # How many turns a crank makes until the pins of a group stand where they began.

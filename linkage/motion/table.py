@@ -15,6 +15,7 @@ from ..quantities import Dimension, Member, Quantity, Stroke
 from ..units import display_unit, factor, unit_or_none
 from .limits import stroke_display_unit
 from .motion import Motion, require_motion
+from .requests import Request, RequestLike
 
 # A column of results: a name, values over the poses, and the unit to show them in.
 
@@ -40,6 +41,21 @@ class Column:
             what = f"Column {self.name}: {cited(self.values)} holds no numbers"
             raise DefinitionError(f"{what}; give one for each pose, NaN where it has none.")
         unit_or_none(self.unit, where=f"the column {self.name}")
+
+    @classmethod
+    def of(cls, motion: Motion, request: RequestLike, unit: str | None = None, name: str = "", digits: int = 4) -> Column:
+        """Return what is asked of a motion as a column, one number a pose: `Column.of(motion, pressure("lift"), "bar")`.
+
+        Without a unit it is in the one that its kind is shown in, deg, m, kN or bar, without a name under what was asked.
+        """
+        values = motion[request]
+        if values.shape != motion.shape:
+            what = f"{motion.plan.title}: {request} has two parts at every pose"
+            raise DefinitionError(f'{what}, and a column one number; ask for y("G"), ratio(x("G")), or np.hypot of the two.')
+        kind = motion.plan.members.get(request) if isinstance(request, str) else request
+        measures = kind.measures if isinstance(kind, (Quantity, Request)) else ""
+        title = name or (kind.name if isinstance(kind, Member) else "") or str(request)
+        return cls(title, values, display_unit(measures) if unit is None else unit, digits)
 
     @property
     def shown(self) -> FloatArray:

@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..errors import DefinitionError, cited, unknown
-from ..motion import Column, Motion, columns_of
+from ..motion import Column, Motion, Request, RequestLike, columns_of
 from ..program import FloatArray
-from ..quantities import is_number
+from ..quantities import Quantity, is_number
 from ..units import factor
 from . import style
 from .sheet import panels, quiet
@@ -24,7 +24,7 @@ PANEL = (4.6, 3.0)
 """The size of a panel with its share of the margins [inch]."""
 
 
-def plot(motion: Motion, columns: Sequence[Column | str], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
+def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
     """Return a figure of columns over the stroke, a panel each; see `linkage.plot`."""
     along, columns = StrokeAxis.of(motion), columns_named(motion, columns)
     if limits is not None and not isinstance(limits, Mapping):
@@ -44,16 +44,16 @@ def plot(motion: Motion, columns: Sequence[Column | str], *, limits: Mapping[str
     return figure
 
 
-def columns_named(motion: Motion, columns: Sequence[Column | str]) -> list[Column]:
-    """Return columns, those that go by their names from the motion's own table; DefinitionError for an unknown name."""
-    if not isinstance(columns, (list, tuple)) or not all(isinstance(each, (str, Column)) for each in columns):
+def columns_named(motion: Motion, columns: Sequence[Column | RequestLike]) -> list[Column]:
+    """Return columns, those that go by their names from the motion's own table, and what is asked; DefinitionError for an unknown name."""
+    if not isinstance(columns, (list, tuple)) or not all(isinstance(each, (str, Column, Quantity, Request)) for each in columns):
         raise DefinitionError(f'{motion.plan.title}: {cited(columns)}: a list of columns or their names is expected, such as ["tilt"].')
     names = [each for each in columns if isinstance(each, str)]
     own = {column.name: column for column in columns_of(motion)} if names else {}
     for name in names:
         if name not in own:
             raise unknown("Column", name, own, where=motion.plan.title)
-    return [own[each] if isinstance(each, str) else each for each in columns]
+    return [own[each] if isinstance(each, str) else each if isinstance(each, Column) else Column.of(motion, each) for each in columns]
 
 
 def panel_grid(count: int) -> tuple[Figure, list[Axes]]:

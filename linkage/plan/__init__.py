@@ -6,5 +6,4 @@ from .missing import Mask, called, failures, missing_words, negative, opening
 from .plan import Plan
 from .reading import ArrayReading, Reading
 from .table import DesignVariable, Table
-from .trace import NEAR, REGULAR, Guard, Loop, Measure, Trace
-
+from .trace import NEAR, REGULAR, Guard, Loop, Nearness, Trace

@@ -36,7 +36,7 @@ class Guard:
 
 @final
 @dataclass(frozen=True)
-class Measure:
+class Nearness:
     """How far a member is from a singular pose: the square of a loop's sine, or of a distance over the machine's size, over REGULAR's."""
 
     member: str
@@ -68,7 +68,7 @@ class Trace(Reading):
         inputs = {name: self.graph.input(name, level) for name, level in levels.items()}
         super().__init__(members, lengths, inputs)
         self.guards: list[Guard] = []
-        self.measures: dict[Measure, None] = {}
+        self.measures: dict[Nearness, None] = {}
         self.loops: list[Loop] = []
         self.noted: dict[str, Node] = {}
         self.angles: list[Node] = []
@@ -154,7 +154,7 @@ class Trace(Reading):
         return curve.value(at, order, self.graph.pick)
 
     def _measure(self, node: Node, exact: Node | None = None) -> None:
-        found = Measure(self.owner, node, node if exact is None else exact)
+        found = Nearness(self.owner, node, node if exact is None else exact)
         self.measures.setdefault(found)
 
     def stays(self, value: Scalar) -> bool:

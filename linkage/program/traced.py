@@ -39,13 +39,15 @@ def method(ufunc: Any) -> Callable[..., Any]:
 class Notes:
     """What laws are true under: nodes `assumed` above zero, and `switches` above zero where it is another law than next to it.
 
-    Both are kept with the name of the law that is being traced, `owner`; `tests` counts what it asked for.
+    `gaps` are nodes that are above zero where a law has a value. All are kept with the name of the law that is being traced, `owner`;
+    `tests` counts what it asked for.
     """
 
     owner: str = ""
     tests: int = 0
     assumed: dict[Node, str] = field(default_factory=dict)
     switches: dict[Node, str] = field(default_factory=dict)
+    gaps: dict[Node, str] = field(default_factory=dict)
 
     def counted(self) -> None:
         """Count a test; DefinitionError where a law does not come to an end of them."""
@@ -145,6 +147,11 @@ class Comparison:
             self.notes.switches[self.truth] = self.notes.owner
         return True
 
+    def needed(self) -> None:
+        """Note that the law has no value where it is false, and that this is no error."""
+        if self.truth.op != "constant" or not self.truth.value > 0.0:
+            self.notes.gaps[self.truth] = self.notes.owner
+
     def choose(self, x: Any, y: Any) -> Any:
         """Return x where it is true, else y."""
         for truth in [self.truth] * self.thin + [-self.truth] * self.slit:
@@ -160,6 +167,11 @@ class Comparison:
 
     def __bool__(self) -> bool:
         raise valueless("A comparison in an `if`, a loop, or Python's min and max")
+
+
+def is_traced(value: Any) -> bool:
+    """Return whether a value is a number of a law that is being traced: it has no value yet; what has none later is told then."""
+    return isinstance(value, Traced)
 
 
 def elementwise(rule: Callable[..., Any], inputs: tuple[Any, ...]) -> Any:

@@ -1,5 +1,6 @@
 """Scalars of a mechanism: strokes, dimensions, outputs, and arithmetic of them."""
 
+from .arithmetic import TAKEN, Arithmetic
 from .curve import Curve, CurveValue
 from .inputs import Dimension, Stroke, Variable
 from .joint import FRAME_SIDE, Driven, Joint, Jointed, JointSide, guided, pinned

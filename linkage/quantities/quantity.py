@@ -18,6 +18,7 @@ from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes, unmasked
 from ..units import deg
 from ..vectors import FloatArray, Scalar, Vec
+from .arithmetic import Arithmetic
 from .member import Member, Reference, Turning, Where
 
 # The operators and functions that quantities know: what they compute, and how they are written.
@@ -101,7 +102,14 @@ Operator: TypeAlias = "Callable[[Quantity, Operand], Quantity]"
 
 def both(symbol: str) -> tuple[Operator, Operator]:
     """Return an operator as a quantity's two methods: with the quantity on its left, and on its right."""
-    return lambda self, other: joined(symbol, self, quantity(other)), lambda self, other: joined(symbol, quantity(other), self)
+
+    def left(self: Quantity, other: Operand) -> Any:
+        return NotImplemented if isinstance(other, Arithmetic) else joined(symbol, self, quantity(other))
+
+    def right(self: Quantity, other: Operand) -> Quantity:
+        return joined(symbol, quantity(other), self)
+
+    return left, right
 
 
 def joined(symbol: str, a: Quantity, b: Quantity) -> Quantity:
@@ -111,6 +119,7 @@ def joined(symbol: str, a: Quantity, b: Quantity) -> Quantity:
     return Operation(symbol, a, b)
 
 
+COMPARED = "What holds over a stroke is said of one number of it: least(q) >= ..., most(q) <= ..., at(q, S=...) == ...."
 CHOICE = "choose by np.maximum or np.minimum, or make two classes of it"
 
 
@@ -157,7 +166,7 @@ class Quantity(Member):
         raise DefinitionError(f"{self}: a quantity has no value in a class, so that `if`, `and`, `or` cannot choose by it; {CHOICE}.")
 
     def _compared(self, other: object) -> NoReturn:
-        raise DefinitionError(f"{self}: a quantity has no value in a class, so that it cannot be compared; {CHOICE}.")
+        raise DefinitionError(f"{self}: a quantity has no value in a class, so that it cannot be compared; {CHOICE}. {COMPARED}")
 
     __lt__ = __le__ = __gt__ = __ge__ = _compared
 
@@ -181,6 +190,8 @@ class Quantity(Member):
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Operand, **options: object) -> Quantity:
         """Return what NumPy's numbers and functions make of quantities: np.sqrt(L), np.float64(2) * L."""
         name = ufunc.__name__
+        if any(isinstance(each, Arithmetic) for each in inputs):
+            return NotImplemented  # type: ignore[no-any-return]
         if method != "__call__" or options:
             raise DefinitionError(f"{name} of a quantity is not provided in this form.")
         if name not in UFUNCS and name not in FUNCTIONS:
@@ -346,6 +357,11 @@ class Function(Quantity):
 
     def __init__(self, function: str, *arguments: Quantity) -> None:
         self.function, self.arguments = function, arguments
+
+    @property
+    def measures(self) -> str:
+        kinds = {each.measures for each in self.arguments}
+        return kinds.pop() if self.function in ("absolute", "minimum", "maximum") and len(kinds) == 1 else ""
 
     def parts(self) -> tuple[Reference, ...]:
         return self.arguments

@@ -301,12 +301,19 @@ def movement_of(motion: Motion, direction: str, rates: Mapping[str, ArrayLike] |
     return Movement(direction, {name: sense * rate for name, rate in tangent.items()}, True)
 
 
+class OnPath(Protocol):
+    """What tells how its strokes go on along a path."""
+
+    @property
+    def tangent(self) -> Mapping[str, FloatArray] | None: ...
+
+
 def sense_of(direction: str) -> int:
     """Return 1, -1 or 0 for a direction of motion."""
     return SENSES[known_name("Direction", direction, SENSES)]
 
 
-def path_tangent(motion: Motion) -> dict[str, FloatArray]:
+def path_tangent(motion: OnPath) -> dict[str, FloatArray]:
     """Return how strokes change along a path on which several of them move, shaped as the poses; empty where it is none."""
     moving = {name: rate for name, rate in (motion.tangent or {}).items() if np.any(rate != 0.0)}
     return moving if len(moving) > 1 else {}

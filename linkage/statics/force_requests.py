@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import TypeVar, final
+from typing import TypeVar, cast, final
 from weakref import ref
 
 import numpy as np
@@ -16,7 +16,7 @@ from ..motion import BoundRequest, Request, require_motion
 from ..motion.grid import MotionLike
 from ..motion.requests import identity_of, stroke_of
 from ..plan import Plan
-from ..program import Node, Notes
+from ..program import FloatArray, Node, Notes
 from ..vectors import Scalar
 from .acting import Case, Loads
 from .equilibrium import System
@@ -37,6 +37,11 @@ def loads_identity(loads: Loads, case: Case) -> Hashable:
     listed = () if loads is None else loads if isinstance(loads, (list, tuple)) else (loads,)
     parts = [each if each is None or isinstance(each, str) else ref(each) if is_unchanging(each) else ... for each in (case, *listed)]
     return None if ... in parts else (loads is None, *parts)
+
+
+def case_words(case: Case) -> list[str]:
+    """Return a load case as an argument in words; nothing of none."""
+    return [] if case is None else [f"case={case if isinstance(case, str) else case.name or case.label}"]
 
 
 def bound_once(plan: Plan, request: Request, bound: Callable[[Plan], Bound]) -> Bound:
@@ -65,6 +70,15 @@ class DriveForce(Request):
     def identity(self, plan: Plan) -> Hashable:
         loads = loads_identity(self.loads, self.case)
         return None if loads is None else ("drive force", self.drive, loads)
+
+    def in_case(self, case: object) -> DriveForce:
+        return self if self.case is not None else replace(self, case=cast(Case, case))
+
+    def of(self, motion: MotionLike) -> FloatArray:
+        return driving_force(require_motion(motion), self.loads, self.drive, case=self.case)
+
+    def __str__(self) -> str:
+        return f"drive_force({', '.join([*([self.drive] if self.drive else []), *case_words(self.case)])})"
 
     def bound(self, plan: Plan) -> DriveForceOf:
         return bound_once(plan, self, self._bound) if self.loads is None else self._bound(plan)
@@ -163,6 +177,18 @@ class PinForce(Request):
     def identity(self, plan: Plan) -> Hashable:
         loads = loads_identity(self.loads, self.case)
         return None if loads is None else ("pin force", self.point, self.on, self.component, loads)
+
+    def in_case(self, case: object) -> PinForce:
+        return self if self.case is not None else replace(self, case=cast(Case, case))
+
+    def of(self, motion: MotionLike) -> FloatArray:
+        known_name("Component", self.component, COMPONENTS, where=f"{motion.plan.title}: the force at {self.point}")
+        force = pin_forces(require_motion(motion), self.loads, case=self.case).force(self.point, self.on)
+        return np.asarray(COMPONENTS[self.component](force[0], force[1]))
+
+    def __str__(self) -> str:
+        component = [] if self.component == "size" else [f"component={self.component}"]
+        return f"pin_force({', '.join([self.point, *([self.on] if self.on else []), *component, *case_words(self.case)])})"
 
     def bound(self, plan: Plan) -> PinForceOf:
         return bound_once(plan, self, self._bound) if self.loads is None else self._bound(plan)

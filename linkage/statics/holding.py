@@ -10,19 +10,20 @@ such poses are refused like any other singular one, by the condition of the leve
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import reduce
 from itertools import permutations
-from typing import final
+from typing import Any, cast, final
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError, SingularWarning, unwarned, warn
+from ..errors import DefinitionError, SingularError, SingularWarning, UntracedError, unwarned, warn
 from ..loads import ForceElement, TwoPinned, TwoPoint
 from ..motion import Motion
 from ..motion.conditions import REFUSE, WARN, condition_of_sine, is_or_are
 from ..motion.limits import where_words
 from ..plan import Plan
-from ..program import FloatArray
+from ..program import FloatArray, Traced, elementwise, eliminated, is_traced, node_of
 from ..quantities import Member
 from .poses import FlatPoses
 
@@ -218,6 +219,11 @@ class Levers:
     sizes: FloatArray
     shares: tuple[tuple[FloatArray, ...], ...]
 
+    @property
+    def is_traced(self) -> bool:
+        """Whether they are numbers of a program."""
+        return self.matrix.dtype == object
+
     def share(self, line: PressureLine, member: TwoPoint, place: int) -> FloatArray:
         """Return the thrust of a cylinder of a line over that of its first."""
         return next(part for each, part in zip(line.cylinders, self.shares[place], strict=True) if same(each, member))
@@ -226,18 +232,23 @@ class Levers:
         """Return the thrusts of the lines' first cylinders (n, lines) that give the strokes what they need (n, strokes)."""
         if self.matrix.shape[1] == 1:
             return need / self.matrix[:, 0]
-        return np.asarray(np.linalg.solve(np.swapaxes(self.matrix, 1, 2), need[:, :, None])[:, :, 0])
+        turned = np.swapaxes(self.matrix, 1, 2)
+        if self.is_traced or need.dtype == object:
+            return solved_traced(turned[0], need[0])[None]
+        return np.asarray(np.linalg.solve(turned, need[:, :, None])[:, :, 0])
 
     @property
     def condition(self) -> FloatArray:
         """How near the levers are to a singular pose, relative to their sizes (n,); infinite where they are at one."""
-        columns = self.sizes.max(axis=1, keepdims=True)
-        columns = np.where(columns > 0.0, columns, 1.0)
-        rows = (self.sizes / columns).max(axis=2, keepdims=True)
-        scaled = self.matrix / columns / np.where(rows > 0.0, rows, 1.0)
-        if self.matrix.shape[1] == 1:
-            return condition_of_sine(scaled[:, 0, 0])
-        return inverse_size(scaled)
+        matrix, sizes, count = numbers_of(self.matrix), numbers_of(self.sizes), range(self.matrix.shape[1])
+        columns = [above_zero(reduce(np.maximum, [row[j] for row in sizes])) for j in count]
+        rows = [above_zero(reduce(np.maximum, [row[j] / columns[j] for j in count])) for row in sizes]
+        scaled = [[matrix[i][j] / columns[j] / rows[i] for j in count] for i in count]
+        return condition_of_sine(scaled[0][0]) if len(scaled) == 1 else inverse_size(scaled)
+
+    def kept(self, regular: Any) -> Levers:
+        """Return the same, of a program, with no value where it is not regular."""
+        return replace(self, matrix=elementwise(lambda each: np.where(regular, each, np.nan), (self.matrix,)))
 
 
 def with_levers(poses: FlatPoses, lines: Sequence[PressureLine], what: str) -> tuple[FlatPoses, tuple[Levers, ...]]:
@@ -254,7 +265,9 @@ def with_levers(poses: FlatPoses, lines: Sequence[PressureLine], what: str) -> t
     found = tuple(levers_of(poses, lines, way) for way in ways)
     names = [each.name or str(each) for line in lines for each in line.cylinders]
     whose = f"the length of {names[0]} stands" if len(names) == 1 else f"the lengths of {', '.join(names)} stand"
-    cond = np.max([each.condition for each in found], axis=0)
+    cond = reduce(np.maximum, [each.condition for each in found])
+    if is_traced(cond):
+        return poses, tuple(each.kept(cond <= REFUSE) for each in found)
     lost = np.isnan(refused_where(poses, np.zeros(poses.count), cond, what, f"{whose} still against the drive there"))
     if not lost.any():
         return poses, found
@@ -264,8 +277,8 @@ def with_levers(poses: FlatPoses, lines: Sequence[PressureLine], what: str) -> t
 
 def levers_of(poses: FlatPoses, lines: Sequence[PressureLine], way: int) -> Levers:
     """Return the levers of lines whose first cylinders push (`way` 1) or pull (-1)."""
-    n, count = poses.count, len(lines)
-    matrix, sizes, shares = np.zeros((n, count, count)), np.zeros((n, count, count)), []
+    count = len(lines)
+    matrix, sizes, shares = poses.zeros(count, count), poses.zeros(count, count), []
     for i, line in enumerate(lines):
         weights = areas(line, poses, way)
         shares.append(tuple(weight / weights[0] for weight in weights))
@@ -288,7 +301,7 @@ def areas(line: PressureLine, poses: FlatPoses, way: int) -> list[FloatArray]:
     if not any(each.works_both for each in line.cylinders):
         return [poses.flat(each.area_in(poses.motion, np.ones(()))) for each in line.cylinders]
     growth = [poses.growth(*each.ends, line.stroke) for each in line.cylinders]
-    senses = [poses.full(np.sign(rate * growth[0]) * way) for rate in growth]
+    senses = [poses.full(elementwise(np.sign, (rate * growth[0],)) * way) for rate in growth]
     return [poses.flat(each.area_in(poses.motion, sense)) for each, sense in zip(line.cylinders, senses, strict=True)]
 
 
@@ -298,7 +311,7 @@ def lever_of(poses: FlatPoses, cylinder: TwoPoint, stroke: str) -> tuple[FloatAr
     known = poses.plan.table.lengths.get(frozenset((P, Q)))
     if known is not None:
         lever = np.broadcast_to(poses.ratio(known, stroke), (poses.count,))
-        return lever, np.full(poses.count, float(np.max(np.abs(lever), initial=0.0)))
+        return lever, np.abs(lever) if lever.dtype == object else np.full(poses.count, float(np.max(np.abs(lever), initial=0.0)))
     return poses.growth(P, Q, stroke), np.hypot(*(poses.rate(Q, stroke) - poses.rate(P, stroke)))
 
 
@@ -327,17 +340,57 @@ def refused_where(poses: FlatPoses, values: FloatArray, cond: FloatArray, what: 
     return np.where(lost, np.nan, values)
 
 
-def inverse_size(matrices: FloatArray) -> FloatArray:
-    """Return the size of the inverse of each matrix (n, k, k): one over its least singular value, or up to the root of k more."""
-    k = matrices.shape[1]
+def inverse_size(rows: Sequence[Sequence[FloatArray]]) -> FloatArray:
+    """Return the size of the inverse of matrices of k rows, each number (n,): one over the least singular value, or root k times more."""
+    k = len(rows)
     with np.errstate(divide="ignore", invalid="ignore"):
         if k > 3:
-            return np.asarray(1.0 / np.linalg.svd(matrices, compute_uv=False)[:, -1])
-        rows = [matrices[:, i] for i in range(k)]
+            if is_traced(rows[0][0]):
+                raise UntracedError(f"{k} lines of cylinders hold together, and a program is written for three at the most.")
+            return np.asarray(1.0 / np.linalg.svd(np.moveaxis(np.array(rows), -1, 0), compute_uv=False)[:, -1])
         if k == 2:
-            minors, det = np.abs(matrices).reshape(-1, 4), rows[0][:, 0] * rows[1][:, 1] - rows[0][:, 1] * rows[1][:, 0]
+            minors, det = [each for row in rows for each in row], rows[0][0] * rows[1][1] - rows[0][1] * rows[1][0]
         else:
-            crosses = [np.cross(rows[1], rows[2]), np.cross(rows[2], rows[0]), np.cross(rows[0], rows[1])]
-            minors, det = np.concatenate(crosses, axis=1), (rows[0] * crosses[0]).sum(axis=1)
-        found = np.sqrt((minors * minors).sum(axis=1)) / np.abs(det)
-    return np.where(det == 0.0, np.inf, found)
+            crosses = [crossed(rows[1], rows[2]), crossed(rows[2], rows[0]), crossed(rows[0], rows[1])]
+            minors, det = [each for row in crosses for each in row], scalar_product(rows[0], crosses[0])
+        found = np.sqrt(scalar_product(minors, minors)) / np.abs(det)
+    return found if is_traced(found) else np.where(det == 0.0, np.inf, found)
+
+
+def crossed(a: Sequence[FloatArray], b: Sequence[FloatArray]) -> list[FloatArray]:
+    """Return the vector product of two rows of three."""
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def scalar_product(a: Sequence[FloatArray], b: Sequence[FloatArray]) -> FloatArray:
+    """Return the scalar product of two rows."""
+    return reduce(np.add, [x * y for x, y in zip(a, b, strict=True)])
+
+
+# The same of a program: one pose stands for all.
+
+
+def numbers_of(matrix: FloatArray) -> list[list[FloatArray]]:
+    """Return a matrix (n, k, k) as rows of numbers (n,) each, of a program as its numbers."""
+    parts = matrix[0] if matrix.dtype == object else np.moveaxis(matrix, 0, -1)
+    return [list(row) for row in parts]
+
+
+def above_zero(size: FloatArray) -> FloatArray:
+    """Return a size to divide by: 1 in the place of none."""
+    return cast(FloatArray, np.where(size > 0.0, size, 1.0))
+
+
+def where_negative(values: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
+    """Return x where values (n,) are below zero, else y."""
+    return cast(FloatArray, elementwise(lambda each, a, b: np.where(each < 0.0, a, b), (values, x, y)))
+
+
+def solved_traced(A: FloatArray, b: FloatArray) -> FloatArray:
+    """Return the solution of a linear system whose numbers are those of a program, shape (k,)."""
+    some = next(each for each in (*A.ravel(), *b) if isinstance(each, Traced))
+    graph = some.node.graph
+    found = eliminated([[graph.node(node_of(each)) for each in row] for row in A], [graph.node(node_of(each)) for each in b])
+    result = np.empty(len(b), object)
+    result[:] = [Traced(each, some.notes) for each in found]
+    return cast(FloatArray, result)

@@ -122,6 +122,10 @@ class AnyMotion(Poses, Protocol):
         """The strokes by name."""
 
     @property
+    def tangent(self) -> Mapping[str, FloatArray] | None:
+        """How several strokes go on along a path of poses; None where the poses are no path."""
+
+    @property
     def reached(self) -> Mask:
         """The mask of the poses that are reached."""
 

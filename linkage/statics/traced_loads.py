@@ -11,7 +11,7 @@ from typing import cast, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import DefinitionError, unwarned
+from ..errors import DefinitionError, UntracedError, unwarned
 from ..motion import BoundRequest, Motion
 from ..motion.requests import stroke_of
 from ..motion.strokes import checked_name
@@ -23,7 +23,7 @@ from ..vectors import Scalar
 from .acting import AT_REST, ActingElement, ActingLoads, Case, Loads, Movement, Parts, acting_elements, all_acting, case_of, element_parts
 from .equilibrium import System
 from .joints import Structure
-from .poses import FlatPoses
+from .poses import AnyMotion, FlatPoses
 from .solution import Equilibrium
 
 TRACING = RLock()
@@ -99,14 +99,33 @@ def traced_parts(motion: TracedMotion, movement: Movement, each: ActingElement) 
         ) from error
 
 
+def traced_acting(motion: TracedMotion, loads: Loads, case: Case, movement: Movement) -> ActingLoads:
+    """Return what acts, as nodes, with the dry friction as it is declared."""
+    elements, label = acting_elements(motion.plan, loads, case), case_of(motion.plan, case).label
+    found = all_acting(motion.plan, elements, label, movement, partial(traced_parts, motion, movement))
+    frictions = tuple(friction for each in elements if movement.has_friction for friction in each.element.frictions(motion))
+    return replace(found, frictions=frictions)
+
+
+def refuse_friction(motion: AnyMotion, acting: ActingLoads) -> None:
+    """Raise UntracedError where a program is asked for what dry friction has a part in: it follows from the forces that it changes."""
+    if isinstance(motion, TracedMotion) and acting.frictions:
+        rubbing = [each.name or str(each) for each in acting.elements if each.frictions(motion)]
+        raise UntracedError(
+            f"{motion.plan.title}: the friction of {', '.join(rubbing)} follows from the forces that it changes and has no program: there "
+            f"are values, and no derivatives. Ask while nothing rubs, direction=\"frictionless\", or leave {rubbing[0]} out by a LoadCase."
+        )
+
+
 @final
 class TracedMotion:
     """One pose that stands for all of them. A number of it is Traced, a vector an array (2,) of such; both pass as arrays of floats.
 
-    `read` are the members that have been asked for, `notes` what has been assumed of them.
+    `read` are the members that have been asked for, `through` those that ratios were taken of, `notes` what has been assumed of them.
     """
 
     shape: tuple[int, ...] = ()
+    tangent: None = None
     reached: Mask = np.array(True)
     unreachable = "raise"
 
@@ -114,6 +133,7 @@ class TracedMotion:
         self.plan, self._reading = plan, trace
         self.notes = Notes()
         self.read: set[str] = set()
+        self.through: set[str] = set()
 
     def _refused(self, what: BoundRequest, words: str) -> Mask:
         """Return that no pose is refused: what is made of the program here is looked at where it is asked for."""
@@ -212,6 +232,7 @@ class TracedMotion:
     def ratio(self, target: Reference, *, wrt: str | None = None) -> FloatArray:
         """Return the derivative of a point, a vector or a quantity by a stroke."""
         stroke = stroke_of(self.plan, wrt)
+        self.through |= self.plan.reaches(target if isinstance(target, str) else target.name or target)
         return self._shaped(tuple(self._reading.tangent(stroke).of(self.node(each)) for each in self._nodes(target)))
 
 

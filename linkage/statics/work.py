@@ -7,17 +7,30 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import DefinitionError
+from ..errors import DefinitionError, UntracedError
 from ..loads import Rate, TwoPoint
 from ..motion import Motion, require_motion
 from ..motion.requests import stroke_of
-from ..program import FloatArray
+from ..program import FloatArray, is_traced
 from ..quantities import is_number
-from .acting import ActingLoads, Case, Loads, Movement, acting_elements, acting_loads, member_title, movement_of, path_tangent, sense_of
+from .acting import (
+    AT_REST,
+    ActingLoads,
+    Case,
+    Loads,
+    Movement,
+    acting_elements,
+    acting_loads,
+    member_title,
+    movement_of,
+    path_tangent,
+    sense_of,
+)
 from .force_program import forces_at
-from .holding import Levers, PressureLine, holders_of, same, stroke_followed, with_levers
-from .poses import FlatPoses
+from .holding import Levers, PressureLine, holders_of, same, stroke_followed, where_negative, with_levers
+from .poses import AnyMotion, FlatPoses, plan_of
 from .solution import locked_words
+from .traced_loads import TracedMotion, refuse_friction, traced_acting
 
 
 def driving_force(
@@ -105,7 +118,7 @@ def work_gap(poses: FlatPoses, acting: ActingLoads, drives: Mapping[str, FloatAr
 
 
 def member_thrust(
-    motion: Motion,
+    motion: AnyMotion,
     member: TwoPoint,
     loads: Loads = None,
     *,
@@ -120,12 +133,12 @@ def member_thrust(
     `direction` is the member's own: "extending" while it grows, whatever that makes of the strokes. Raises DefinitionError for one
     that neither holds nor has a law here, SingularError where its length stands still against its drive.
     """
-    require_motion(motion)
-    plan, member = motion.plan, standing_for(motion, member)
+    plan = plan_of(motion)
+    member = standing_for(motion, member)
     holders = holders_of(plan, [*(each.element for each in acting_elements(plan, loads, None)), member])
     line = holders.line_of(member)
     movement = member_movement(motion, member, direction, rates, line)
-    acting = acting_loads(motion, loads, case, movement)
+    acting = acting_on(motion, loads, case, movement)
     if line is None:
         own = [each.thrust for each in acting.thrusts if same(each.member, member)]
         if not own:
@@ -133,13 +146,34 @@ def member_thrust(
             raise DefinitionError(f"{plan.title}: {member.name or member} carries nothing here: {why}.")
         return np.where(motion.reached, sum(own, np.zeros(motion.shape)), np.nan)
     what = f"The thrust of {member.name or member}"
+    refuse_friction(motion, acting)
     if acting.frictions:
-        found = forces_at(poses_held(motion, acting, what), acting, loads, case)
+        found = forces_at(poses_held(require_motion(motion), acting, what), acting, loads, case)
         locked_words(found, direction)
         return found.thrusts[member_title(member)]
     names = {name for point in (*acting.points, *(end for each in line.cylinders for end in each.ends)) for name in plan.reaches(point)}
     poses, levers = with_levers(FlatPoses(motion, what, names), holders.lines, what)
-    return poses.full(thrust_by_work(poses, acting, holders.lines, levers, member))
+    return poses.full(thrust_by_work(poses, acting, holders.lines, levers, member))[()]
+
+
+def acting_on(motion: AnyMotion, loads: Loads, case: Case, movement: Movement) -> ActingLoads:
+    """Return the loads that act, at a motion's poses or as nodes; UntracedError where a program cannot follow what they follow."""
+    if not isinstance(motion, TracedMotion):
+        return acting_loads(require_motion(motion), loads, case, movement)
+    acting = traced_acting(motion, loads, case, movement)
+    if movement.rates and len(motion.plan.strokes) > 1:
+        still = traced_acting(motion, loads, case, AT_REST)
+        if [motion.node(each) for each in numbers(acting)] != [motion.node(each) for each in numbers(still)]:
+            raise UntracedError(
+                f"{motion.plan.title}: what rubs acts along the path of several strokes, so that no program gives it pose by pose; ask a "
+                "motion, or while nothing rubs."
+            )
+    return acting
+
+
+def numbers(acting: ActingLoads) -> list[FloatArray]:
+    """Return all numbers of what acts."""
+    return [*(part for each in acting.loads for part in each.force), *(each.thrust for each in acting.thrusts)]
 
 
 def poses_held(motion: Motion, acting: ActingLoads, what: str) -> FlatPoses:
@@ -149,7 +183,7 @@ def poses_held(motion: Motion, acting: ActingLoads, what: str) -> FlatPoses:
     return poses if not lines else with_levers(poses, lines, what)[0]
 
 
-def standing_for(motion: Motion, member: TwoPoint) -> TwoPoint:
+def standing_for(motion: AnyMotion, member: TwoPoint) -> TwoPoint:
     """Return the machine's own holding element in whose place another one is tried, between the same points; else the same."""
     own = motion.plan.of_kind(TwoPoint).values()
     if any(same(member, each) for each in own):
@@ -158,20 +192,23 @@ def standing_for(motion: Motion, member: TwoPoint) -> TwoPoint:
 
 
 def member_movement(
-    motion: Motion, member: TwoPoint, direction: str, rates: Mapping[str, ArrayLike] | None, line: PressureLine | None
+    motion: AnyMotion, member: TwoPoint, direction: str, rates: Mapping[str, ArrayLike] | None, line: PressureLine | None
 ) -> Movement:
     """Return how strokes move while a member grows or shrinks: along the path, else by the stroke it holds or follows most."""
     sense = sense_of(direction)
+    if not sense and rates is None:
+        return AT_REST
     if not sense:
-        return movement_of(motion, direction, rates, None)
+        return movement_of(require_motion(motion), direction, rates, None)
     if rates is not None:
-        moves = movement_of(motion, "frictionless", rates, None).rates
+        moves = movement_of(require_motion(motion), "frictionless", rates, None).rates
         if np.any(sense * np.nan_to_num(member.growth(motion, moves)) < 0.0):
             what = f"{member.name or member}: direction={direction!r} is its own, and at these rates it goes the other way at some poses"
             raise DefinitionError(f"{motion.plan.title}: {what}; drop one of them.")
         return Movement(direction, moves, True, True)
     tangent: Mapping[str, Rate] = path_tangent(motion) or {line.stroke if line is not None else stroke_followed(motion.plan, member): 1.0}
-    way = sense * np.sign(np.nan_to_num(member.growth(motion, tangent)))
+    growth = member.growth(motion, tangent)
+    way = sense * np.sign(growth if is_traced(growth) else np.nan_to_num(growth))
     return Movement(direction, {name: way * rate for name, rate in tangent.items()}, True)
 
 
@@ -185,4 +222,4 @@ def thrust_by_work(
     firsts = [each.thrusts(need)[:, place] for each in levers]
     if len(levers) == 1:
         return firsts[0] * shares[0]
-    return np.where(firsts[0] < 0.0, firsts[1] * shares[1], firsts[0] * shares[0])
+    return where_negative(firsts[0], firsts[1] * shares[1], firsts[0] * shares[0])

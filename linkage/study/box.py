@@ -66,8 +66,8 @@ class Box:
     def sample(self, count: int, *, method: str = "sobol", seed: int = 0) -> dict[str, Any]:
         """Return settings (count,) by name, spread evenly over the ranges and choices: the designs of a survey.
 
-        By a scrambled Sobol sequence, evenest where count is a power of two, or a Latin hypercube, `method="latin"`; the same for
-        the same seed.
+        By a scrambled Sobol sequence, evenest where count is a power of two, a Latin hypercube, `method="latin"`, or pseudo-random
+        numbers, `method="random"`; the same for the same seed.
         """
         many = len(self.choices) > 1
         unit = unit_points(count, len(self.ranges) + many, method, seed)
@@ -108,13 +108,13 @@ def choices_of(name: str, given: Any) -> list[Any]:
 MOST_SETTINGS = 1 << 30
 """Designs of one sample."""
 
-METHODS = ("sobol", "latin")
+METHODS = ("sobol", "latin", "random")
 
 
 def unit_points(count: int, k: int, method: str, seed: int) -> FloatArray:
-    """Return points (count, k) spread evenly over [0, 1), by a scrambled Sobol sequence or a Latin hypercube; the same for the same seed.
+    """Return points (count, k) spread evenly over [0, 1), the same for the same seed.
 
-    A Sobol sequence is evenest where count is a power of two.
+    By a scrambled Sobol sequence, evenest where count is a power of two, a Latin hypercube, or pseudo-random numbers.
     """
     if not is_whole(count) or count < 1:
         raise DefinitionError(f"count={cited(count)}: a whole number of designs is expected, at least 1.")
@@ -128,6 +128,8 @@ def unit_points(count: int, k: int, method: str, seed: int) -> FloatArray:
     from scipy.stats import qmc
 
     random = np.random.default_rng(seed)
+    if method == "random":
+        return np.asarray(random.random((k, count)).T)
     if method == "latin":  # every coordinate has one point in each of count equal intervals
         return np.asarray(qmc.LatinHypercube(k, seed=random).random(count))
     engine: Any = qmc.Sobol(k, seed=random)

@@ -7,15 +7,15 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, told, unwarned
+from ..errors import DefinitionError, UntracedError, cited, told, unwarned
 from ..mechanism import Mechanism
-from ..motion import Motion, each_at_its_stroke
+from ..motion import Motion, Request, each_at_its_stroke
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import Quantity
+from ..quantities import Quantity, is_number
 
-QuantityLike: TypeAlias = str | Quantity | Callable[[Motion], FloatArray]
-"""A named output, a quantity, or a function of a motion that returns a number for each pose, NaN where it has none."""
+QuantityLike: TypeAlias = str | Quantity | Request | Callable[[Motion], FloatArray]
+"""A named output, a quantity, a request, or a function of a motion that returns a number for each pose, NaN where it has none."""
 
 
 def title_of(quantity: QuantityLike) -> str:
@@ -23,13 +23,18 @@ def title_of(quantity: QuantityLike) -> str:
     if callable(quantity):
         name = str(getattr(quantity, "__name__", ""))
         return name.replace("_", " ") if name.isidentifier() else "the quantity"
-    return quantity if isinstance(quantity, str) else str(quantity.name or quantity)
+    return str(quantity.name or quantity) if isinstance(quantity, Quantity) else str(quantity)
 
 
 def unit_of(plan: Plan, name: str) -> str:
     """Return the unit a dimension is shown in: its own, mm for lengths, deg for angles, "" where nothing says."""
     found = plan.table.entries[plan.table.spellings[name][0]]
     return found.unit or {"length": "mm", "coordinate": "mm", "angle": "deg"}.get(found.kind, "")
+
+
+def is_one(value: Any) -> bool:
+    """Return whether a value is one finite number."""
+    return is_number(value.item() if isinstance(value, np.ndarray) and value.ndim == 0 and not np.ma.is_masked(value) else value)
 
 
 def check_mechanism(machine: Any) -> None:
@@ -60,16 +65,24 @@ def function_value(quantity: Callable[[Motion], Any], motion: Motion) -> Any:
         return quantity(motion)
 
 
+def request_values(motion: Motion, request: Request) -> FloatArray:
+    """Return a request at every pose of a motion, by its program where it has one."""
+    try:
+        return motion._requested(request)
+    except UntracedError:
+        return motion[request]
+
+
 def quantity_values(motion: Motion, quantity: QuantityLike) -> FloatArray:
     """Return a quantity at every pose of a motion, NaN where it has no value; nearness to a dead point is told by the study."""
     title = motion.plan.title
-    if isinstance(quantity, type) or not (callable(quantity) or isinstance(quantity, (str, Quantity))):
+    if isinstance(quantity, type) or not (callable(quantity) or isinstance(quantity, (str, Quantity, Request))):
         raise DefinitionError(f"{title}: {cited(quantity)} is no output, quantity or function of a motion; give one, such as 'tilt'.")
     with unwarned(), np.errstate(all="ignore"):
         if callable(quantity):
             found = function_value(quantity, motion)
         else:
-            found = motion.value(quantity) if isinstance(quantity, Quantity) else motion[quantity]
+            found = request_values(motion, quantity) if isinstance(quantity, Request) else motion[quantity]
     try:
         result = np.asarray(found, float)
     except (TypeError, ValueError):

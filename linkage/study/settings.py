@@ -1,10 +1,10 @@
-"""The setting that gives a wanted value: all roots in a range, or why there is none."""
+"""The setting that gives a wanted value: all roots in a range, or why there is none; several settings are in `targets`."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias, final
+from typing import Any, TypeAlias, final, overload
 
 import numpy as np
 
@@ -12,10 +12,10 @@ from ..errors import DefinitionError, cited, known_name
 from ..mechanism import Mechanism
 from ..motion import highest, last_holding
 from ..program import FloatArray
-from ..quantities import is_number
 from ..units import show, unit_or_none
 from .box import range_of
-from .checks import QuantityLike, check_one_design, poses_of, quantity_values, title_of, unit_of
+from .checks import QuantityLike, check_one_design, is_one, poses_of, quantity_values, title_of, unit_of
+from .targets import Solutions, Target, solutions_for
 
 SAMPLES = 1025
 TOUCH = 1e-9  # of the values' span: what comes as near as this to the target touches it
@@ -36,28 +36,50 @@ class Settings:
         return self.sentence
 
 
+@overload
 def settings_for(
     machine: Mechanism,
     name: str,
     quantity: QuantityLike,
-    target: float = 0.0,
+    target: float = ...,
     *,
     between: tuple[float, float],
-    unit: str = "",
+    unit: str = ...,
     **strokes: float,
-) -> Settings:
+) -> Settings: ...
+@overload
+def settings_for(machine: Mechanism, name: Mapping[str, Any], quantity: Sequence[Target], /, *, points: int | None = ...) -> Solutions: ...
+def settings_for(
+    machine: Mechanism,
+    name: str | Mapping[str, Any],
+    quantity: Any,
+    target: float = 0.0,
+    *,
+    between: tuple[float, float] | None = None,
+    unit: str = "",
+    points: Any = None,
+    **strokes: float,
+) -> Settings | Solutions:
     """Return every value of a dimension in a range at which a quantity has a target value [SI], at one pose of one design.
 
     `settings_for(hitch, "MK", "tilt", 0.0, between=(0.5, 1.3), S=0.1)`. Roots are found to rounding; two that lie closer than a
     thousandth of the range may be missed. Settings that cannot be assembled are passed over. `unit` is the quantity's in the sentence.
+
+    Of several dimensions and targets, `settings_for(hitch, {"MK": (0.5, 1.3), "M": [(0.22, 1.05), (0.22, 0.95)]}, targets)` with a list of
+    targets such as `Target("tilt", 0.0, S=0.1)` returns all `Solutions` in the box that are found from `points` of it, for every choice,
+    or the nearest setting with what is missing of each target. There are at least as many targets as ranges, DefinitionError for fewer.
     """
+    if not isinstance(name, str):
+        return solutions_for(machine, name, quantity, points)
+    if between is None:
+        raise DefinitionError(f"{name}: say the range that is looked at, between=(low, high).")
     check_one_design(machine)
     known_name("Dimension", name, machine.plan.table.spellings, where=machine.plan.title)
     unit_or_none(unit, where="settings_for(unit=...)")
     low, high = range_of("between", between)
     if set(strokes) != set(machine.strokes):
         raise DefinitionError(f"{machine.plan.title}: say the pose, {', '.join(f'{each}=...' for each in machine.strokes)}.")
-    if not is_number(target) or not all(map(is_one, strokes.values())):
+    if not is_one(target) or not all(map(is_one, strokes.values())):
         given = ", ".join(f"{each}={cited(value)}" for each, value in {"target": target, **strokes}.items())
         raise DefinitionError(f"{machine.plan.title}: {given}: one number is expected for each, in SI.")
 
@@ -73,11 +95,6 @@ def settings_for(
     unique = [root for place, root in enumerate(sorted(found)) if not place or root - sorted(found)[place - 1] > 1e-9 * (high - low)]
     words = SettingWords(name, unit_of(machine.plan, name), title_of(quantity), unit)
     return Settings(name, tuple(unique), words.roots(unique, target) if unique else words.none(at, off + target, target))
-
-
-def is_one(value: Any) -> bool:
-    """Return whether a stroke's value is one finite number."""
-    return is_number(value.item() if isinstance(value, np.ndarray) and value.ndim == 0 and not np.ma.is_masked(value) else value)
 
 
 def ends_of_reach(curve: Curve, at: FloatArray) -> FloatArray:

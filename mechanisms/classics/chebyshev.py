@@ -16,7 +16,7 @@ class Chebyshev(Mechanism):
     above its pivot, and hardly off that line between; Hoeken's linkage is a cognate and draws the same curve.
     """
 
-    phi = Stroke(39 * deg, 88 * deg)                      # rocker angle, rad
+    phi = Stroke(39 * deg, 88 * deg)  # rocker angle, rad
 
     O = Ground(0.0, 0.0)
     C = Ground(0.400, 0.0)

@@ -19,16 +19,16 @@ class FourBar(Mechanism):
     psi, with K1 = OC/OA, K2 = OC/CB, K3 = (OA^2 - AB^2 + CB^2 + OC^2) / (2 OA CB).
     """
 
-    phi = Stroke(0.0, 2 * pi)                             # crank angle, rad
+    phi = Stroke(0.0, 2 * pi)  # crank angle, rad
 
     O = Ground(0.0, 0.0)
     C = Ground(0.100, 0.0)
 
     A = Crank(O, OA=0.040, angle=phi)
-    B = Dyad(A, C, AB=0.120, CB=0.080, side=LEFT)         # coupler and rocker
-    P = OnLink(A, B, AP=0.070, BAP=30 * deg)              # a point of the coupler
-    psi = angle(C, B)                                     # rocker
-    theta = angle(A, B)                                   # coupler
+    B = Dyad(A, C, AB=0.120, CB=0.080, side=LEFT)  # coupler and rocker
+    P = OnLink(A, B, AP=0.070, BAP=30 * deg)  # a point of the coupler
+    psi = angle(C, B)  # rocker
+    theta = angle(A, B)  # coupler
 
 
 class DragLink(FourBar):
@@ -42,7 +42,7 @@ class DragLink(FourBar):
 class DoubleRocker(FourBar):
     """The coupler is the shortest link: it can turn fully, OA and CB only rock (Grashof's double rocker)."""
 
-    phi = Stroke(32 * deg, 90 * deg)                      # it stops at 29.7 and 91.8 degrees
+    phi = Stroke(32 * deg, 90 * deg)  # it stops at 29.7 and 91.8 degrees
     A = Crank("O", OA=0.080, angle=phi)
     B = Dyad(A, "C", AB=0.040, CB=0.090, side=LEFT)
 
@@ -50,7 +50,7 @@ class DoubleRocker(FourBar):
 class TripleRocker(FourBar):
     """The shortest and the longest link outweigh the others: nothing turns fully (not Grashof)."""
 
-    phi = Stroke(-100 * deg, 100 * deg)                   # it stops at 105.9 degrees either way
+    phi = Stroke(-100 * deg, 100 * deg)  # it stops at 105.9 degrees either way
     A = Crank("O", OA=0.060, angle=phi)
     B = Dyad(A, "C", AB=0.060, CB=0.070, side=LEFT)
 

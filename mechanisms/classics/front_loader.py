@@ -13,20 +13,20 @@ class FrontLoader(Mechanism):
     every tilt; the tilt cylinder alone changes it. Two strokes.
     """
 
-    lift = Stroke(0.0, 0.600)                             # lift cylinder, m
-    tilt = Stroke(0.0, 0.350)                             # bucket cylinder, m
+    lift = Stroke(0.0, 0.600)  # lift cylinder, m
+    tilt = Stroke(0.0, 0.350)  # bucket cylinder, m
     sketch = drawn(lift=0.30, tilt=0.15)
 
-    L1, L2 = Dimension(1.000), Dimension(0.700)           # pin-to-pin lengths at stroke 0, m
-    rear, front, lever = Dimension(1.300), Dimension(1.400), Dimension(0.300)      # the parallelograms' sides, m
+    L1, L2 = Dimension(1.000), Dimension(0.700)  # pin-to-pin lengths at stroke 0, m
+    rear, front, lever = Dimension(1.300), Dimension(1.400), Dimension(0.300)  # the parallelograms' sides, m
 
-    O = Ground(0.0, 1.600)                                # boom and tilt lever
+    O = Ground(0.0, 1.600)  # boom and tilt lever
     K = Ground(0.200, 0.700)
     M = Ground(-0.750, 1.400)
 
     L = Dyad(K, O, KL=L1 + lift, OL=1.200, side=RIGHT)
-    H = OnLink(O, L, OH=rear, LOH=8 * deg)               # the boom's knee
-    B = OnLink(H, O, HB=front, OHB=160 * deg)             # the boom's end
+    H = OnLink(O, L, OH=rear, LOH=8 * deg)  # the boom's knee
+    B = OnLink(H, O, HB=front, OHB=160 * deg)  # the boom's end
     T = Dyad(M, O, MT=L2 + tilt, OT=0.350, side=LEFT)
     E = OnLink(O, T, OE=lever, TOE=-30 * deg)
 

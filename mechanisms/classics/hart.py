@@ -16,17 +16,17 @@ class Hart(Mechanism):
     on a circle through the fixed point O.
     """
 
-    phi = Stroke(-55 * deg, 55 * deg)                     # crank angle, rad
-    short = Dimension(0.200)                              # AB and CD
-    long = Dimension(0.500)                               # AD and CB
-    m = Dimension(0.45)                                   # AO / AB
+    phi = Stroke(-55 * deg, 55 * deg)  # crank angle, rad
+    short = Dimension(0.200)  # AB and CD
+    long = Dimension(0.500)  # AD and CB
+    m = Dimension(0.45)  # AO / AB
 
     O = Ground(0.0, 0.0)
     E = Ground(0.080, 0.0)
 
-    P = Crank(E, EP=0.080, angle=phi)                     # EP = OE: the circle passes through O
+    P = Crank(E, EP=0.080, angle=phi)  # EP = OE: the circle passes through O
     A = Dyad(O, P, OA=m * short, AP=m * long, side=LEFT)
     B = OnLink(A, O, AB=short)
     D = OnLink(A, P, AD=long)
-    C = Dyad(B, D, CB=long, CD=short, side=LEFT)          # crossed, not the parallelogram
+    C = Dyad(B, D, CB=long, CD=short, side=LEFT)  # crossed, not the parallelogram
     Q = OnLink(C, B, CQ=m * long)

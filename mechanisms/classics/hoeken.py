@@ -17,7 +17,7 @@ class Hoeken(Mechanism):
     within 0.25 % of its length; it is a cognate of Chebyshev's linkage.
     """
 
-    phi = Stroke(0.0, 2 * pi)                             # crank angle, rad
+    phi = Stroke(0.0, 2 * pi)  # crank angle, rad
 
     O = Ground(0.0, 0.0)
     C = Ground(0.200, 0.0)

@@ -18,14 +18,14 @@ class InvertedSliderCrank(Mechanism):
     swing for the cutting stroke, through pi less it for the return.
     """
 
-    phi = Stroke(0.0, 2 * pi)                             # crank angle, rad
+    phi = Stroke(0.0, 2 * pi)  # crank angle, rad
 
     O = Ground(0.0, 0.0)
     C = Ground(0.0, -0.300)
     rail = Guide((0.0, 0.200), angle=0.0)
 
     A = Crank(O, OA=0.120, angle=phi)
-    R = PinSlotDyad(C, A, CR=0.480)                       # the slotted lever's end
-    E = SliderDyad(R, rail, RE=0.180, side=LEFT)          # the ram
-    psi = angle(C, R)                                     # lever
-    ram = x(E)                                            # m
+    R = PinSlotDyad(C, A, CR=0.480)  # the slotted lever's end
+    E = SliderDyad(R, rail, RE=0.180, side=LEFT)  # the ram
+    psi = angle(C, R)  # lever
+    ram = x(E)  # m

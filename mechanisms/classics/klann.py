@@ -18,18 +18,18 @@ class Klann(Mechanism):
     The lengths are measured from the patent's drawing.
     """
 
-    phi = Stroke(0.0, 2 * pi)                             # crank angle, rad
+    phi = Stroke(0.0, 2 * pi)  # crank angle, rad
     sketch = drawn(phi=pi)
 
-    O = Ground(1.599, 0.750)                              # 15, crank shaft
-    M = Ground(1.009, 0.574)                              # 11, second rocker arm's axle
-    N = Ground(1.366, 1.366)                              # 9, first rocker arm's axle
+    O = Ground(1.599, 0.750)  # 15, crank shaft
+    M = Ground(1.009, 0.574)  # 11, second rocker arm's axle
+    N = Ground(1.366, 1.366)  # 9, first rocker arm's axle
 
-    A = Crank(O, OA=0.268, angle=phi)                     # 29
-    B = Pin(at=(0.741, 0.750))                            # 27, elbow
-    K = Pin(at=(0.232, 0.866))                            # 35, knee
-    H = Pin(at=(0.866, 1.500))                            # 37, hip
-    F = Pin(at=(0.000, 0.000))                            # 33, foot
+    A = Crank(O, OA=0.268, angle=phi)  # 29
+    B = Pin(at=(0.741, 0.750))  # 27, elbow
+    K = Pin(at=(0.232, 0.866))  # 35, knee
+    H = Pin(at=(0.866, 1.500))  # 37, hip
+    F = Pin(at=(0.000, 0.000))  # 33, foot
     rod = Link("A B K")
     lower = Link("M B")
     upper = Link("N H")

@@ -15,14 +15,14 @@ class Peaucellier(Mechanism):
     to OC, at the distance (arm^2 - side^2) / (2 OC) from O.
     """
 
-    phi = Stroke(-65 * deg, 65 * deg)                     # crank angle, rad
+    phi = Stroke(-65 * deg, 65 * deg)  # crank angle, rad
     arm = Dimension(0.500)
     side = Dimension(0.200)
 
     O = Ground(0.0, 0.0)
     C = Ground(0.200, 0.0)
 
-    A = Crank(C, CA=0.200, angle=phi)                     # CA = OC: the circle passes through O
+    A = Crank(C, CA=0.200, angle=phi)  # CA = OC: the circle passes through O
     B = Dyad(O, A, OB=arm, AB=side, side=LEFT)
     D = Dyad(O, A, OD=arm, AD=side, side=RIGHT)
-    P = Dyad(B, D, BP=side, DP=side, side=LEFT)           # the rhombus's other corner
+    P = Dyad(B, D, BP=side, DP=side, side=LEFT)  # the rhombus's other corner

@@ -15,8 +15,8 @@ class Roberts(Mechanism):
     Known for: P lies on AB exactly at A, at B and half-way, and within a hundredth of AB in between; longer arms make it straighter.
     """
 
-    phi = Stroke(33.56 * deg, 82.80 * deg)                # arm AC, rad: P runs from B to A
-    arm = Dimension(0.600)                                # AC, BD, CP and DP
+    phi = Stroke(33.56 * deg, 82.80 * deg)  # arm AC, rad: P runs from B to A
+    arm = Dimension(0.600)  # AC, BD, CP and DP
 
     A = Ground(0.0, 0.0)
     B = Ground(1.000, 0.0)

@@ -23,27 +23,27 @@ class RobertsCognates(Mechanism):
     Known for: P, Q and R are one point at every pose, whatever the dimensions.
     """
 
-    phi = Stroke(90 * deg, 270 * deg)                     # first crank, rad: beside OA's parallels to VB, where D is flat
+    phi = Stroke(90 * deg, 270 * deg)  # first crank, rad: beside OA's parallels to VB, where D is flat
 
     crank, coupler, rocker = Dimension(0.040), Dimension(0.120), Dimension(0.080)
     frame = Dimension(0.100)
-    k = Dimension(0.60)                                   # AP / AB
-    delta = Dimension(40 * deg)                           # BAP
-    h = np.sqrt(1.0 + k * k - 2.0 * k * np.cos(delta))    # BP / AB
+    k = Dimension(0.60)  # AP / AB
+    delta = Dimension(40 * deg)  # BAP
+    h = np.sqrt(1.0 + k * k - 2.0 * k * np.cos(delta))  # BP / AB
     epsilon = np.arctan2(k * np.sin(delta), 1.0 - k * np.cos(delta))
 
     U = Ground(0.0, 0.0)
     V = Ground(frame, 0.0)
     W = Ground(k * frame * np.cos(delta), k * frame * np.sin(delta))
 
-    A = Crank(U, UA=crank, angle=phi)                     # first: on U and V
+    A = Crank(U, UA=crank, angle=phi)  # first: on U and V
     B = Dyad(A, V, AB=coupler, VB=rocker, side=LEFT)
     P = OnLink(A, B, AP=k * coupler, BAP=delta)
 
-    C = Crank(U, UC=k * coupler, angle=angle(A, B) + delta)     # second: on U and W
+    C = Crank(U, UC=k * coupler, angle=angle(A, B) + delta)  # second: on U and W
     D = Dyad(C, W, CD=k * crank, WD=k * rocker, side=RIGHT)
     Q = OnLink(C, D, CQ=crank, DCQ=-delta)
 
-    E = Crank(W, WE=h * crank, angle=phi - epsilon)             # third: on W and V
+    E = Crank(W, WE=h * crank, angle=phi - epsilon)  # third: on W and V
     F = Dyad(E, V, EF=h * rocker, VF=h * coupler, side=RIGHT)
     R = OnLink(E, F, ER=k * rocker, FER=delta + epsilon - pi)

@@ -17,21 +17,21 @@ class ScissorLift(Mechanism):
     greater the cylinder's force.
     """
 
-    S = Stroke(0.0, 0.260)                                # cylinder stroke, m
-    L0 = Dimension(0.575)                                 # pin-to-pin length at S = 0, m
-    half = Dimension(0.800)                               # half an arm, m
+    S = Stroke(0.0, 0.260)  # cylinder stroke, m
+    L0 = Dimension(0.575)  # pin-to-pin length at S = 0, m
+    half = Dimension(0.800)  # half an arm, m
 
-    O = Ground(0.0, 0.0)                                  # fixed foot
-    K = Ground(0.350, -0.050)                             # cylinder's pin
+    O = Ground(0.0, 0.0)  # fixed foot
+    K = Ground(0.350, -0.050)  # cylinder's pin
     floor = Guide((0.0, 0.0), angle=0.0)
 
-    J = Dyad(O, K, OJ=0.900, KJ=L0 + S, side=LEFT)        # cylinder's pin on the arm OB
-    M = OnLink(O, J, OM=half)                             # first crossing
+    J = Dyad(O, K, OJ=0.900, KJ=L0 + S, side=LEFT)  # cylinder's pin on the arm OB
+    M = OnLink(O, J, OM=half)  # first crossing
     B = OnLink(O, J, OB=2.0 * half)
-    A = SliderDyad(M, floor, MA=half, side=RIGHT)         # roller
+    A = SliderDyad(M, floor, MA=half, side=RIGHT)  # roller
     C = OnLink(A, M, AC=2.0 * half)
-    N = Dyad(C, B, CN=half, BN=half, side=LEFT)           # second crossing
+    N = Dyad(C, B, CN=half, BN=half, side=LEFT)  # second crossing
     D = OnLink(B, N, BD=2.0 * half)
     E = OnLink(C, N, CE=2.0 * half)
-    h = y(D)                                              # platform, m
+    h = y(D)  # platform, m
     level = angle(D, E)

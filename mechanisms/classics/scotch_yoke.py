@@ -13,11 +13,11 @@ class ScotchYoke(Mechanism):
     Known for: harmonic motion without any error, x = OA cos(phi).
     """
 
-    phi = Stroke(0.0, 2 * pi)                             # crank angle, rad
+    phi = Stroke(0.0, 2 * pi)  # crank angle, rad
 
     O = Ground(0.0, 0.0)
     rail = Guide((0.0, 0.0), angle=0.0)
 
     A = Crank(O, OA=0.050, angle=phi)
     X = YokeDyad(A, rail)
-    travel = x(X)                                         # m
+    travel = x(X)  # m

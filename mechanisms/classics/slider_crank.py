@@ -17,11 +17,11 @@ class SliderCrank(Mechanism):
     sqrt((b + a)^2 - c^2) - sqrt((b - a)^2 - c^2), and one way takes longer than the other.
     """
 
-    phi = Stroke(0.0, 2 * pi)                             # crank angle, rad
+    phi = Stroke(0.0, 2 * pi)  # crank angle, rad
 
     O = Ground(0.0, 0.0)
     rail = Guide((0.0, -0.020), angle=0.0)
 
     A = Crank(O, OA=0.040, angle=phi)
     B = SliderDyad(A, rail, AB=0.120, side=RIGHT)
-    d = x(B)                                              # slider, m
+    d = x(B)  # slider, m

@@ -14,7 +14,7 @@ class StephensonOne(Mechanism):
     four-bar's coupler curve.
     """
 
-    phi = Stroke(0.0, 2 * pi)                             # crank angle, rad
+    phi = Stroke(0.0, 2 * pi)  # crank angle, rad
 
     O = Ground(0.0, 0.0)
     C = Ground(0.100, 0.0)

@@ -17,7 +17,7 @@ class StephensonThree(Mechanism):
     Known for: dwell. From phi = 120 to 240 degrees D runs on an arc about F, and the rocker rests.
     """
 
-    phi = Stroke(0.0, 2 * pi)                             # crank angle, rad
+    phi = Stroke(0.0, 2 * pi)  # crank angle, rad
     sketch = drawn(phi=pi)
 
     O = Ground(0.0, 0.0)
@@ -37,7 +37,7 @@ class StephensonThreeFar(Mechanism):
     Known for: A, B and D are one group of class III (the triad), which no dyads place.
     """
 
-    psi = Stroke(60 * deg, 85 * deg)                      # link EF, rad
+    psi = Stroke(60 * deg, 85 * deg)  # link EF, rad
     sketch = drawn(psi=75 * deg)
 
     O = Ground(0.0, 0.0)

@@ -11,7 +11,7 @@ class StephensonTwo(Mechanism):
     Known for: no dyad can be taken from it; the pins B, F and G are one group of class III (a triad).
     """
 
-    phi = Stroke(20 * deg, 200 * deg)                     # crank, rad: it stops at -2.3 and 293.9 degrees
+    phi = Stroke(20 * deg, 200 * deg)  # crank, rad: it stops at -2.3 and 293.9 degrees
     sketch = drawn(phi=60 * deg)
 
     O = Ground(0.0, 0.0)
@@ -35,7 +35,7 @@ class StephensonTwoFar(Mechanism):
     Known for: its pins A, D, B and F form one group of class IV (a closed contour of four links).
     """
 
-    psi = Stroke(80 * deg, 160 * deg)                     # rocker EG, rad: it turns back at 76.3 degrees
+    psi = Stroke(80 * deg, 160 * deg)  # rocker EG, rad: it turns back at 76.3 degrees
     sketch = drawn(psi=86.5 * deg)
 
     O = Ground(0.0, 0.0)

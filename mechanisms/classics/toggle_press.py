@@ -12,8 +12,8 @@ class TogglePress(Mechanism):
     A is magnified by 1 / (2 tan(alpha)).
     """
 
-    S = Stroke(0.0, 0.145)                                # cylinder stroke, m: the toggle would be straight at 0.15
-    L0 = Dimension(0.450)                                 # pin-to-pin length at S = 0, m
+    S = Stroke(0.0, 0.145)  # cylinder stroke, m: the toggle would be straight at 0.15
+    L0 = Dimension(0.450)  # pin-to-pin length at S = 0, m
 
     O = Ground(0.0, 0.800)
     C = Ground(-0.600, 0.500)
@@ -25,4 +25,4 @@ class TogglePress(Mechanism):
     ram = Slide("B", axis)
     A = Pin(near=(-0.12, 0.52))
     B = Pin(near=(0.0, 0.25))
-    travel = 0.200 - y(B)                                 # m below the straight toggle's end, negative above
+    travel = 0.200 - y(B)  # m below the straight toggle's end, negative above

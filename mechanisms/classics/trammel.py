@@ -11,11 +11,11 @@ class Trammel(Mechanism):
     Known for: P draws an exact ellipse of half axes PY (along X's rail) and PX (along Y's rail).
     """
 
-    S = Stroke(-0.080, 0.080)                             # X along its rail, m
+    S = Stroke(-0.080, 0.080)  # X along its rail, m
 
     rail = Guide((0.0, 0.0), angle=0.0)
     post = Guide((0.0, 0.0), angle=90 * deg)
 
     X = OnGuide(rail, at=S)
-    Y = SliderDyad(X, post, XY=0.100, side=RIGHT)         # above the rail
+    Y = SliderDyad(X, post, XY=0.100, side=RIGHT)  # above the rail
     P = OnLink(X, Y, XP=0.160)

@@ -17,13 +17,13 @@ class WattOne(Mechanism):
     either side.
     """
 
-    phi = Stroke(-20 * deg, 20 * deg)                     # beam angle, rad
+    phi = Stroke(-20 * deg, 20 * deg)  # beam angle, rad
 
     O = Ground(0.0, 0.0)
     C = Ground(0.900, -0.200)
 
-    M = Crank(O, OM=0.400, angle=phi)                     # the beam's middle pin
-    E = OnLink(O, M, OE=0.720)                            # the beam's end
-    F = Dyad(M, C, MF=0.200, CF=0.500, side=RIGHT)        # link and radius rod
-    P = OnLink(M, F, MP=0.200 * 0.400 / 0.720)            # the air pump's rod
-    G = Dyad(E, F, EG=0.200, FG=0.320, side=LEFT)         # the piston's rod
+    M = Crank(O, OM=0.400, angle=phi)  # the beam's middle pin
+    E = OnLink(O, M, OE=0.720)  # the beam's end
+    F = Dyad(M, C, MF=0.200, CF=0.500, side=RIGHT)  # link and radius rod
+    P = OnLink(M, F, MP=0.200 * 0.400 / 0.720)  # the air pump's rod
+    G = Dyad(E, F, EG=0.200, FG=0.320, side=LEFT)  # the piston's rod

@@ -37,9 +37,7 @@ from .measured import ALLOWED, Deviation
 from .settings import with_header
 
 SIZE, PAIR = (7.6, 5.0), (14.6, 5.2)
-COLOURS: Mapping[str, str] = MappingProxyType(
-    {"moving up": style.CURVE, "without friction": style.MUTED, "moving down": style.ACCENT}
-)
+COLOURS: Mapping[str, str] = MappingProxyType({"moving up": style.CURVE, "without friction": style.MUTED, "moving down": style.ACCENT})
 WAYS: Mapping[str, str] = MappingProxyType({"moving up": "extending", "without friction": "frictionless", "moving down": "retracting"})
 CURVES: Mapping[str, str] = MappingProxyType({"F_R up": "moving up", "F_R down": "moving down"})
 IMPROVED = ", improved mechanism"

@@ -28,8 +28,8 @@ class HeaderBalancer(Mechanism):
     the pump's and the relief valve's pressure are illustrative too. As it stands it has header 2: `with_header(1)`.
     """
 
-    h = Stroke(0.0, 0.45)                                       # m
-    L_min = Dimension(0.70, unit="mm")                          # distance of the cylinder's pins at h = 0
+    h = Stroke(0.0, 0.45)  # m
+    L_min = Dimension(0.70, unit="mm")  # distance of the cylinder's pins at h = 0
     L_OB = Dimension(0.930054, unit="mm")
     L_OR = Dimension(2.040833, unit="mm")
     BOR = Dimension(5.290081 * deg, unit="deg")
@@ -37,33 +37,33 @@ class HeaderBalancer(Mechanism):
     O = Ground(0.0, 1.05)
     A = Ground(-0.05, 0.30)
 
-    B = Dyad(O, A, OB=L_OB, AB=L_min + h, side=LEFT)            # from O: AOB = Tcos(|OA|, L_OB, L_AB), as the paper has it
-    R = OnLink(O, B, OR=L_OR, BOR=BOR)                          # the shoe
-    G1 = OnLink(O, B, OG1=0.488774, BOG1=5.491118 * deg)        # the feeder's centre of gravity
-    G2 = OnLink(O, B, OG2=1.436851, BOG2=18.840343 * deg)       # the header's
+    B = Dyad(O, A, OB=L_OB, AB=L_min + h, side=LEFT)  # from O: AOB = Tcos(|OA|, L_OB, L_AB), as the paper has it
+    R = OnLink(O, B, OR=L_OR, BOR=BOR)  # the shoe
+    G1 = OnLink(O, B, OG1=0.488774, BOG1=5.491118 * deg)  # the feeder's centre of gravity
+    G2 = OnLink(O, B, OG2=1.436851, BOG2=18.840343 * deg)  # the header's
     AB = Vector(A, B)
 
     h_horizon = stroke_at(0.0, y(O), distance(O, A), angle(O, A), L_OB, L_OR, BOR, L_min)
 
     m1 = Dimension(1500 * kg, unit="kg")
     m2 = Dimension(1000 * kg, unit="kg")
-    charge = Dimension(34 * kgf_cm2, unit="kgf/cm2")            # of the line, at the horizon
-    V_I = Dimension(4 * litre, unit="l")                        # two accumulators of 2 l; 0: none
+    charge = Dimension(34 * kgf_cm2, unit="kgf/cm2")  # of the line, at the horizon
+    V_I = Dimension(4 * litre, unit="l")  # two accumulators of 2 l; 0: none
     P_I = Dimension(50 * kgf_cm2, unit="kgf/cm2")
     V_II = Dimension(4 * litre, unit="l")
     P_II = Dimension(25 * kgf_cm2, unit="kgf/cm2")
-    seals = Dimension(3 * kgf_cm2, unit="kgf/cm2")              # seal friction, as a pressure
+    seals = Dimension(3 * kgf_cm2, unit="kgf/cm2")  # seal friction, as a pressure
     atmosphere = Dimension(101325.0, unit="Pa")
-    n = Dimension(1.0)                                          # 1 slow (isothermal); 1.4 fast, from the settled charge
-    follows = Dimension(150 * mm, unit="mm")                    # the shoe's travel to either side of the horizon
+    n = Dimension(1.0)  # 1 slow (isothermal); 1.4 fast, from the settled charge
+    follows = Dimension(150 * mm, unit="mm")  # the shoe's travel to either side of the horizon
     shoes = Dimension(2.0)
     pump = Dimension(160 * kgf_cm2, unit="kgf/cm2")
-    valve = Dimension(150 * kgf_cm2, unit="kgf/cm2")            # where the relief valve opens
+    valve = Dimension(150 * kgf_cm2, unit="kgf/cm2")  # where the relief valve opens
 
     feeder = Weight(G1, mass=m1)
     header = Weight(G2, mass=m2)
     shoe = Support(R, (0, 1))
-    pin_O = PinFriction(O, radius=70 * mm, coefficient=0.0)     # a rolling bearing; a plain one: 0.15
+    pin_O = PinFriction(O, radius=70 * mm, coefficient=0.0)  # a rolling bearing; a plain one: 0.15
     lift = Cylinder(A, B, bore=63 * mm, rod=40 * mm, count=2, closed=0.70, stroke=0.45)
     floating = FloatCircuit(
         lift,
@@ -108,6 +108,7 @@ class HeaderBalancer(Mechanism):
 
 # The improved mechanism of figure 6: an arm that grows while the header rises matches needed and given pressure.
 
+
 class ImprovedBalancer(HeaderBalancer):
     """Header 1 on a linkage whose arm H grows while the header rises, charged to just below its limit.
 
@@ -115,7 +116,7 @@ class ImprovedBalancer(HeaderBalancer):
     rises with the header, the pump keeps its reserve, and the cylinder's closed length suits its stroke.
     """
 
-    h = Stroke(0.0, 0.25)                                       # m
+    h = Stroke(0.0, 0.25)  # m
     L_min = Dimension(0.56, unit="mm")
     L_OB = Dimension(1.20, unit="mm")
     L_OR = Dimension(2.665521, unit="mm")

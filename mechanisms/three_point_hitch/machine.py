@@ -31,32 +31,32 @@ class ThreePointHitch(Mechanism):
     tractor, the implement and the cylinders. `admissible` are the settings of the zones of figure 2.
     """
 
-    S = Stroke(0.00, 0.25)                                # cylinder stroke, m
-    L0 = Dimension(0.50)                                  # pin-to-pin length at S = 0, m
+    S = Stroke(0.00, 0.25)  # cylinder stroke, m
+    L0 = Dimension(0.50)  # pin-to-pin length at S = 0, m
 
     A = Ground(0.20, 0.55)
     O = Ground(0.30, 1.15)
     E = Ground(0.25, 0.60)
     M = Ground(0.22, 1.05)
 
-    B = Dyad(A, O, AB=L0 + S, OB=0.30, side=RIGHT)        # cylinder and lift arm
-    C = OnLink(O, B, OC=0.36, BC=0.16, side=LEFT)         # the arm's other end
-    D = Dyad(E, C, ED=0.48, CD=0.62, side=RIGHT)          # lower link and lift rod
-    F = OnLink(E, D, EF=0.95)                             # EDF is straight
-    K = Dyad(M, F, MK=0.88, FK=0.685, side=LEFT)          # upper link and upright
-    G = OnLink(F, K, FG=0.90, KFG=75 * deg, side=RIGHT)   # centre of gravity
-    tilt = angle(F, K) - 90 * deg                         # a named output
+    B = Dyad(A, O, AB=L0 + S, OB=0.30, side=RIGHT)  # cylinder and lift arm
+    C = OnLink(O, B, OC=0.36, BC=0.16, side=LEFT)  # the arm's other end
+    D = Dyad(E, C, ED=0.48, CD=0.62, side=RIGHT)  # lower link and lift rod
+    F = OnLink(E, D, EF=0.95)  # EDF is straight
+    K = Dyad(M, F, MK=0.88, FK=0.685, side=LEFT)  # upper link and upright
+    G = OnLink(F, K, FG=0.90, KFG=75 * deg, side=RIGHT)  # centre of gravity
+    tilt = angle(F, K) - 90 * deg  # a named output
 
-    load = Weight(G, mass=2000)                           # the implement, kg
+    load = Weight(G, mass=2000)  # the implement, kg
     lift = Cylinder(A, B, bore=110 * mm, rod=63 * mm, count=2, closed=0.50, stroke=0.25)
     circuit = LiftCircuit(lift, pressure=18 * MPa, flow=60 * litre / minute, mechanical_efficiency=0.85)
 
-    vehicle_mass = Dimension(8000 * kg, unit="kg")        # the tractor without the implement
-    vehicle_x = Dimension(-1100 * mm, unit="mm")          # its centre of mass
+    vehicle_mass = Dimension(8000 * kg, unit="kg")  # the tractor without the implement
+    vehicle_x = Dimension(-1100 * mm, unit="mm")  # its centre of mass
     vehicle_y = Dimension(1100 * mm, unit="mm")
-    wheelbase = Dimension(2750 * mm, unit="mm")           # the front axle stands at x = -wheelbase
-    slope = Dimension(0 * deg, unit="deg")                # positive where the ground rises towards +x, behind the tractor
-    least_front = Dimension(0.20)                         # share of the tractor's weight that steering needs on the front axle
+    wheelbase = Dimension(2750 * mm, unit="mm")  # the front axle stands at x = -wheelbase
+    slope = Dimension(0 * deg, unit="deg")  # positive where the ground rises towards +x, behind the tractor
+    least_front = Dimension(0.20)  # share of the tractor's weight that steering needs on the front axle
 
     admissible: ClassVar[Mapping[str, Any]] = MappingProxyType(
         {"MK": (0.80, 0.96), "CD": (0.56, 0.68), "FK": (0.61, 0.685), "M": [(0.22, 1.05), (0.22, 0.95)]}
@@ -94,6 +94,7 @@ class ThreePointHitch(Mechanism):
 # `Category`: mast height, lower hitch point span and pin diameters, as implement makers' manuals reproduce them; tolerances are left out,
 # the standard itself decides. Every other dimension of the hitches is illustrative: the shipped set of category 3,
 # reduced to the mast height and rounded.
+
 
 class HitchCategory2(ThreePointHitch):
     """A hitch of the proportions of category 2; from ISO 730 is the mast height FK = 610 mm, all else is illustrative."""

@@ -127,6 +127,7 @@ def pressure_words(motion: Motion) -> str:
 
 # The force in the upper link, from the equilibrium of every body.
 
+
 def upper_link_force(motion: Motion, case: Case = None) -> FloatArray:
     """Return the force in the upper link MK [N], shape (...): positive in tension, negative in compression."""
     elements = motion.plan.of_kind(ForceElement)  # a spring at M, say, has a joint of its own there

@@ -1,0 +1,351 @@
+"""Measures: one number of a design, taken over its stroke, and the conditions that compare them.
+
+>>> from linkage import *
+>>> print(least(ref("tilt")) >= 2 * deg)
+least(tilt) >= 0.0349066
+>>> print(most(abs(ref("tilt"))) / 2 - at("tilt", S=0.1))
+most(absolute(tilt)) / 2 - at(tilt, S=0.1)
+"""
+
+from __future__ import annotations
+
+import operator
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any, ClassVar, NoReturn, TypeAlias, final
+
+from ..errors import DefinitionError, cited
+from ..motion import Motion, Request
+from ..program import FloatArray
+from ..quantities import Quantity, is_number
+
+MeasuredQuantity: TypeAlias = "str | Quantity | Request | Worst | Callable[[Motion], FloatArray]"
+"""What has a value at every pose: a named output, a quantity, a request, or a function of a motion."""
+
+OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = MappingProxyType(
+    {"+": operator.add, "-": operator.sub, "*": operator.mul, "/": operator.truediv, "**": operator.pow}
+)
+BINDS = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 3}
+
+
+class Measure(ABC):
+    """One number of a design. Measures add and multiply; compared with one another or a number they make a condition."""
+
+    __array_ufunc__ = None
+    __hash__ = object.__hash__
+
+    @property
+    @abstractmethod
+    def leaves(self) -> tuple[Leaf, ...]:
+        """What is taken over the stroke, each once."""
+
+    @abstractmethod
+    def of(self, value: Callable[[Leaf], Any]) -> Any:
+        """Return the number that the values of its leaves make; of anything that adds and multiplies."""
+
+    @property
+    def binds(self) -> int:
+        """How strongly it binds as text."""
+        return 9
+
+    def __add__(self, other: Operand) -> Measure:
+        return CombinedMeasure("+", self, as_measure(other))
+
+    def __radd__(self, other: Operand) -> Measure:
+        return CombinedMeasure("+", as_measure(other), self)
+
+    def __sub__(self, other: Operand) -> Measure:
+        return CombinedMeasure("-", self, as_measure(other))
+
+    def __rsub__(self, other: Operand) -> Measure:
+        return CombinedMeasure("-", as_measure(other), self)
+
+    def __mul__(self, other: Operand) -> Measure:
+        return CombinedMeasure("*", self, as_measure(other))
+
+    def __rmul__(self, other: Operand) -> Measure:
+        return CombinedMeasure("*", as_measure(other), self)
+
+    def __truediv__(self, other: Operand) -> Measure:
+        return CombinedMeasure("/", self, as_measure(other))
+
+    def __rtruediv__(self, other: Operand) -> Measure:
+        return CombinedMeasure("/", as_measure(other), self)
+
+    def __pow__(self, other: float) -> Measure:
+        return CombinedMeasure("**", self, as_measure(other))
+
+    def __neg__(self) -> Measure:
+        return CombinedMeasure("*", Given(-1.0), self)
+
+    def __ge__(self, other: Operand) -> Constraint:
+        return Constraint(self, ">=", as_measure(other))
+
+    def __le__(self, other: Operand) -> Constraint:
+        return Constraint(self, "<=", as_measure(other))
+
+    def __eq__(self, other: object) -> Constraint:  # type: ignore[override]
+        return Constraint(self, "==", as_measure(other))
+
+    def __gt__(self, other: object) -> NoReturn:
+        raise DefinitionError(f"{self} > {cited(other)}: a search meets its conditions exactly; write >= or <=.")
+
+    __lt__ = __gt__
+
+    def __ne__(self, other: object) -> NoReturn:
+        raise DefinitionError(f"{self} != {cited(other)}: a condition is written with >=, <= or ==.")
+
+    def __bool__(self) -> NoReturn:
+        raise DefinitionError(f"{self}: a measure has no value before a machine is looked at; ask measured(machine, ...).")
+
+
+Operand: TypeAlias = "Measure | float"
+
+
+def as_measure(given: object) -> Measure:
+    """Return a measure, a number as one; DefinitionError for what has a value at every pose and none of a design."""
+    if isinstance(given, Measure):
+        return given
+    if is_number(given):
+        return Given(float(given))
+    if isinstance(given, (Quantity, Request, str, Worst)):
+        raise DefinitionError(f"{words_of(given)} has a value at every pose: say which is meant, least(...), most(...), at(..., S=...).")
+    raise DefinitionError(f"{cited(given)} is no measure and no number; write one such as least(...) or 35 * kN.")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Given(Measure):
+    """A number."""
+
+    value: float
+
+    @property
+    def leaves(self) -> tuple[Leaf, ...]:
+        return ()
+
+    def of(self, value: Callable[[Leaf], Any]) -> Any:
+        return self.value
+
+    def __str__(self) -> str:
+        return f"{self.value:.6g}"
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class CombinedMeasure(Measure):
+    """Two measures joined by an operator."""
+
+    symbol: str
+    left: Measure
+    right: Measure
+
+    @property
+    def leaves(self) -> tuple[Leaf, ...]:
+        return tuple(dict.fromkeys((*self.left.leaves, *self.right.leaves)))
+
+    def of(self, value: Callable[[Leaf], Any]) -> Any:
+        return OPERATIONS[self.symbol](self.left.of(value), self.right.of(value))
+
+    @property
+    def binds(self) -> int:
+        return BINDS[self.symbol]
+
+    def __str__(self) -> str:
+        left = f"({self.left})" if self.left.binds < self.binds else str(self.left)
+        right = f"({self.right})" if self.right.binds <= self.binds else str(self.right)
+        return f"{left} {self.symbol} {right}"
+
+
+@dataclass(frozen=True, eq=False)
+class Leaf(Measure):
+    """What is taken of one quantity over the stroke."""
+
+    quantity: MeasuredQuantity
+    word: ClassVar[str] = ""
+
+    @property
+    def leaves(self) -> tuple[Leaf, ...]:
+        return (self,)
+
+    def of(self, value: Callable[[Leaf], Any]) -> Any:
+        return value(self)
+
+    def __str__(self) -> str:
+        return f"{self.word}({words_of(self.quantity)})"
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Least(Leaf):
+    """The least value over the stroke."""
+
+    word: ClassVar[str] = "least"
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Most(Leaf):
+    """The greatest value over the stroke."""
+
+    word: ClassVar[str] = "most"
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Integral(Leaf):
+    """The integral over a stroke."""
+
+    by: str | None = None
+    word: ClassVar[str] = "integral"
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class At(Leaf):
+    """The value at one pose."""
+
+    strokes: Mapping[str, float] = field(default_factory=dict)
+    word: ClassVar[str] = "at"
+
+    def __str__(self) -> str:
+        return f"at({', '.join([words_of(self.quantity), *(f'{name}={value:.6g}' for name, value in self.strokes.items())])})"
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Worst:
+    """The greatest (`sense` 1.0) or the least (-1.0) value of a quantity over another stroke: again a quantity, of the others."""
+
+    quantity: str | Quantity | Request | Callable[[Motion], FloatArray]
+    over: str
+    sense: float = 1.0
+
+    def __str__(self) -> str:
+        return f"worst({words_of(self.quantity)}, over={self.over}{'' if self.sense > 0.0 else ', by=least'})"
+
+
+def least(quantity: MeasuredQuantity) -> Measure:
+    """Return the least value of a quantity over the stroke, between the poses too: `least(capacity("lift", "G")) >= 35 * kN`."""
+    return Least(require_quantity(quantity, "least"))
+
+
+def most(quantity: MeasuredQuantity) -> Measure:
+    """Return the greatest value of a quantity over the stroke, between the poses too: `most(abs(ref("tilt"))) <= 8 * deg`."""
+    return Most(require_quantity(quantity, "most"))
+
+
+def integral(quantity: MeasuredQuantity, by: str | None = None) -> Measure:
+    """Return the integral of a quantity over the stroke, of several the one named: `integral(drive_force())` is a work [J]."""
+    return Integral(require_quantity(quantity, "integral"), by)
+
+
+def at(quantity: MeasuredQuantity, **strokes: float) -> Measure:
+    """Return the value of a quantity at one pose: `at("tilt", S=0.1)`; `at("mass")` of one that depends on no stroke."""
+    for name, value in strokes.items():
+        if not is_number(value):
+            raise DefinitionError(f"at(..., {name}={cited(value)}): one number is expected for a stroke, in SI.")
+    return At(require_quantity(quantity, "at"), dict(strokes))
+
+
+def worst(quantity: MeasuredQuantity, over: str, by: Callable[..., Any] = most) -> Worst:
+    """Return the greatest value of a quantity over another stroke, as a quantity of the others; with `by=least` its least.
+
+    `least(available - worst(drive_force("phi"), over="psi"))` is written with it, an upper bound of moments.
+    """
+    if by not in (least, most):
+        raise DefinitionError(f"worst(..., by={cited(by)}): least or most is expected, the functions of linkage.")
+    inner = require_quantity(quantity, "worst")
+    if isinstance(inner, Worst):
+        raise DefinitionError(f"{inner} is the worst over one stroke already; name the stroke of both in one function of a motion.")
+    return Worst(inner, over, 1.0 if by is most else -1.0)
+
+
+def require_quantity(quantity: Any, word: str) -> Any:
+    """Return what is a quantity; DefinitionError for anything else."""
+    if isinstance(quantity, Measure):
+        raise DefinitionError(f"{word}({quantity}): {quantity} is one number of a design already.")
+    if isinstance(quantity, type) or not (isinstance(quantity, (str, Quantity, Request, Worst)) or callable(quantity)):
+        said = 'a named output, a quantity such as y("G"), a request such as drive_force(), or a function of a motion is expected'
+        raise DefinitionError(f"{word}({cited(quantity)}): {said}.")
+    return quantity
+
+
+def words_of(quantity: object) -> str:
+    """Return a quantity in words."""
+    if isinstance(quantity, (str, Worst, Request)):
+        return str(quantity)
+    if isinstance(quantity, Quantity):
+        return str(quantity.name or quantity)
+    name = str(getattr(quantity, "__name__", ""))
+    return name.replace("_", " ") if name.isidentifier() else "the quantity"
+
+
+# Conditions.
+
+
+class Condition(ABC):
+    """What a design must keep."""
+
+    @abstractmethod
+    def constraints(self, machine: Any) -> tuple[Constraint, ...]:
+        """Return the constraints that it is, for a machine; none for what every search keeps anyway."""
+
+    def __bool__(self) -> NoReturn:
+        raise DefinitionError(f"{self}: a condition is neither true nor false before a machine is looked at; write two, not a <= q <= b.")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Constraint(Condition):
+    """A measure compared with another: `least(q) >= 35 * kN`."""
+
+    left: Measure
+    symbol: str
+    right: Measure
+
+    @property
+    def margin(self) -> Measure:
+        """What is zero or above where the condition is kept; zero where it is an equation."""
+        swapped = self.symbol == "<="
+        return CombinedMeasure("-", *((self.right, self.left) if swapped else (self.left, self.right)))
+
+    def constraints(self, machine: Any) -> tuple[Constraint, ...]:
+        return (self,)
+
+    def __str__(self) -> str:
+        return f"{self.left} {self.symbol} {self.right}"
+
+
+@final
+class Reachable(Condition):
+    """Every pose of the stroke is assembled: kept by every search, also where it is not written."""
+
+    def constraints(self, machine: Any) -> tuple[Constraint, ...]:
+        return ()
+
+    def __str__(self) -> str:
+        return "reachable"
+
+
+reachable = Reachable()
+"""Every pose of the stroke is assembled. A search keeps it also where it is not written."""
+
+
+def conditions_of(given: Any, machine: Any) -> list[Constraint]:
+    """Return the constraints of conditions; DefinitionError for what is none."""
+    listed = [given] if isinstance(given, (Condition, Measure, bool)) else given
+    if not isinstance(listed, (list, tuple)):
+        raise DefinitionError(f"subject_to={cited(given)}: a list of conditions is expected, such as [least(...) >= 35 * kN].")
+    for each in listed:
+        if not isinstance(each, Condition):
+            what = f"{each} says no limit" if isinstance(each, Measure) else f"{cited(each)} is no condition"
+            raise DefinitionError(f"subject_to: {what}; write one such as most(...) <= 8 * deg.")
+    return [found for each in listed for found in each.constraints(machine)]
+
+
+def key_of(quantity: Any) -> Hashable:
+    """Return what tells a quantity from others."""
+    return quantity if isinstance(quantity, str) else id(quantity)

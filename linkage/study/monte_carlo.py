@@ -1,0 +1,387 @@
+"""Monte Carlo of tolerances: the band of a quantity at every stroke, its worst case, and the share of machines that are good."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any, TypeVar, final
+
+import numpy as np
+
+from ..errors import DefinitionError, cited, one_word, unknown, unwarned
+from ..frozen import FrozenDict, refuses_changes
+from ..mechanism import Mechanism
+from ..plan import Mask, Plan
+from ..program import FloatArray, Way
+from ..quantities import is_number
+from ..units import show, unit_or_none
+from .measured import Measured, Poses, is_traced, measured_title, number_bound
+from .tolerances import Tolerance, ToleranceLike, sampled_designs, shifted_designs, tolerance_words, tolerances_of
+
+Task = TypeVar("Task")
+Found = TypeVar("Found")
+
+DESIGNS = 1 << 14
+POSES = 21
+BLOCK = 1 << 17
+"""Poses that are worked out at a time: their results fit a processor's cache."""
+MEMORY = 1 << 28
+"""Bytes of results that are kept at a time: of so many strokes as fit all designs are looked at together."""
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True)
+class Within:
+    """A limit that a good machine keeps at every stroke looked at: a quantity from `low` to `high` [SI], None where it has no such end.
+
+    `Within(drive_force(), high=40 * kN, unit="kN")`; `unit` is that of the words, `name` stands for the quantity in them.
+    """
+
+    quantity: Measured
+    low: float | None = None
+    high: float | None = None
+    unit: str = ""
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        unit_or_none(self.unit, where="Within(unit=...)")
+        ends = [end for end in (self.low, self.high) if end is not None]
+        if not ends or not all(map(is_number, ends)) or (len(ends) == 2 and ends[0] > ends[1]):
+            said = f"low={cited(self.low)}, high={cited(self.high)}"
+            raise DefinitionError(f"Within({cited(self.quantity)}, {said}): give a low or a high end [SI], or both, the low one first.")
+
+    def holds(self, values: FloatArray) -> Mask:
+        """Return where values [SI] keep the limit; NaN does not."""
+        least, most = (-np.inf if self.low is None else self.low), (np.inf if self.high is None else self.high)
+        return np.asarray((values >= least) & (values <= most))
+
+    def words(self, plan: Plan) -> str:
+        """Return the limit in words: `tilt from -2 deg to 2 deg`, `the driving force of S at most 40 kN`."""
+        title = self.name or measured_title(plan, self.quantity)
+        if self.low is None or self.high is None:
+            end, side = (self.low, "at least") if self.high is None else (self.high, "at most")
+            return f"{title} {side} {show(float(end), self.unit)}"  # type: ignore[arg-type]
+        return f"{title} from {show(float(self.low), self.unit)} to {show(float(self.high), self.unit)}"
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Band:
+    """A quantity over the strokes, shapes (...), of machines with tolerances.
+
+    `nominal` is that of the machine as it is set; `mean`, `sigma` and `percentiles`, by their percentage, are over the designs that have
+    a value there, `share` of all; `low` and `high` are the worst case with every deviation within its limits.
+    """
+
+    quantity: str
+    nominal: FloatArray
+    mean: FloatArray
+    sigma: FloatArray
+    percentiles: Mapping[float, FloatArray]
+    share: FloatArray
+    low: FloatArray
+    high: FloatArray
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class MonteCarlo:
+    """Machines with tolerances: a `Band` of each quantity, and the share of machines that are good.
+
+    `yield_rate` is the share of the designs that can be assembled and keep every limit, `assembled` that of those that have a value of
+    every quantity at every stroke, `kept` that of those that keep a limit, by its words. `good` is the mask of the good designs, shape
+    (count,), and `designs` their dimensions by name.
+    """
+
+    machine: Mechanism
+    tolerances: Mapping[str, Tolerance]
+    strokes: Mapping[str, FloatArray]
+    bands: Mapping[str, Band]
+    designs: Mapping[str, FloatArray]
+    good: Mask
+    assembled: float
+    kept: Mapping[str, float]
+    at: str
+
+    @property
+    def count(self) -> int:
+        """The number of designs."""
+        return self.good.size
+
+    @property
+    def yield_rate(self) -> float:
+        """The share of the designs that are good."""
+        return float(np.mean(self.good))
+
+    def __getitem__(self, quantity: Measured) -> Band:
+        """Return the band of a quantity, by its words or as it was asked for."""
+        name = quantity if isinstance(quantity, str) else measured_title(self.machine.plan, quantity)
+        if name not in self.bands:
+            raise unknown("Quantity", name, self.bands, where=f"the study of {self.machine.plan.title}")
+        return self.bands[name]
+
+    def design(self, place: int) -> Mechanism:
+        """Return the machine of one of the designs."""
+        return self.machine.replaced(**{name: float(value[place]) for name, value in self.designs.items()})
+
+    def __str__(self) -> str:
+        plan = self.machine.plan
+        tolerances = ", ".join(tolerance_words(plan, name, each) for name, each in self.tolerances.items())
+        lines = [f"{plan.title}, {self.count} machines with {tolerances}; {self.at}."]
+        if self.assembled < 1.0:
+            lines.append(f"{share_words(1.0 - self.assembled)} cannot be assembled everywhere and count as lost.")
+        lines += [f"{share_words(share)} keep {words}." for words, share in self.kept.items()]
+        return "\n".join([*lines, f"{share_words(self.yield_rate)} are good."] if self.kept else lines)
+
+
+def share_words(share: float) -> str:
+    """Return a share in per cent; one of less than a tenth of a per cent, or nearly all, with its digits."""
+    return f"{100.0 * share:.4g} %" if 0.0 < share < 1e-3 or 0.999 < share < 1.0 else f"{100.0 * share:.1f} %"
+
+
+def monte_carlo(
+    machine: Mechanism,
+    of: Sequence[Measured] | Mapping[str, Measured],
+    tolerances: Mapping[str, ToleranceLike],
+    *,
+    keep: Sequence[Within] = (),
+    count: int = DESIGNS,
+    percentiles: Sequence[float] = (5.0, 50.0, 95.0),
+    method: str = "sobol",
+    seed: int = 0,
+    backend: str = "numpy",
+    threads: int = 1,
+    **strokes: Any,
+) -> MonteCarlo:
+    """Return the bands of quantities over machines with tolerances, and how many of them keep limits.
+
+    `monte_carlo(hitch, ["tilt", drive_force()], {"OB": 0.1 * mm, "M": 0.5 * mm}, keep=[Within("tilt", high=18 * deg)])`. Quantities, in a
+    list or by names of your own, are outputs, requests, or functions of a motion of many designs, which give a number for each pose or
+    for each design. Dimensions are independent of each other; a tolerance's law is normal with three sigmas to its limit unless
+    `Tolerance` says another. `method` is "sobol", "latin" or "random", `count` the number of designs; strokes as in `machine.at`, by
+    default 21 over a single one. A design that cannot be assembled at one of the strokes is lost, and no good machine; percentiles
+    are of the others there. Limits are looked at at the strokes alone.
+
+    The worst case begins at the corner of the tolerances where each dimension's own effect is the worst, and is bettered by true
+    evaluation of the neighbouring corners and middles until none is worse. Beside the results it needs the dimensions of all designs, and
+    256 MB. The results are the same for the same seed, whatever the number of threads.
+    """
+    poses, plan = Poses.of(machine, strokes, POSES), machine.plan
+    named = tolerances_of(plan, tolerances)
+    asked, limits = quantities_listed(plan, of), limits_listed(plan, keep)
+    order = percentages(percentiles)
+    way = Way(one_word("backend", backend, ("numpy", "numba")), threads)
+    designs = sampled_designs(machine, named, count, method, seed, threads)
+    with unwarned(), np.errstate(all="ignore"):
+        run = Run(poses, machine.replaced(**designs), count, way, order)
+        run.measure(asked, limits)
+        ends = {title: worst_case(machine, poses, quantity, named) for title, quantity in asked.items()}
+        nominal = {title: poses.values(machine, quantity, Way())[0] for title, quantity in asked.items()}
+    bands = {title: band_of(title, poses, nominal[title], run.moments[title], order, ends[title]) for title in asked}
+    kept = {limit.words(plan): float(np.mean(good)) for limit, good in zip(limits, run.kept, strict=True)}
+    good = ~run.lost & np.all(run.kept, axis=0) if limits else ~run.lost
+    assembled = float(np.mean(~run.lost))
+    return MonteCarlo(
+        machine, FrozenDict(named), FrozenDict(dict(poses.base.strokes)), FrozenDict(bands), FrozenDict(designs), good, assembled,
+        FrozenDict(kept), poses.words(),
+    )  # fmt: skip
+
+
+def quantities_listed(plan: Plan, of: Any) -> dict[str, Measured]:
+    """Return quantities by their words, or the names they are given; DefinitionError for what is no list of them, or one name for two."""
+    if isinstance(of, Mapping) and of and all(isinstance(name, str) for name in of):
+        _ = [measured_title(plan, quantity) for quantity in of.values()]  # raises for what is none
+        return dict(of)
+    if not isinstance(of, (list, tuple)) or not of:
+        raise DefinitionError(f'{plan.title}: {cited(of)}: a list of quantities is expected, such as ["tilt"], or a dictionary by name.')
+    found = {measured_title(plan, quantity): quantity for quantity in of}
+    if len(found) < len(of):
+        said = ", ".join(measured_title(plan, each) for each in of)
+        raise DefinitionError(f'{plan.title}: {said}: two of them go by one name; give names of your own, {{"full": ..., "empty": ...}}.')
+    return found
+
+
+def limits_listed(plan: Plan, keep: Any) -> tuple[Within, ...]:
+    """Return limits; DefinitionError for what is no list of them."""
+    if not isinstance(keep, (list, tuple)) or not all(isinstance(each, Within) for each in keep):
+        raise DefinitionError(f'{plan.title}: keep={cited(keep)}: a list of limits is expected, such as [Within("tilt", high=18 * deg)].')
+    words = [each.words(plan) for each in keep]
+    for each in words:
+        if words.count(each) > 1:
+            raise DefinitionError(f'{plan.title}: keep= says "{each}" twice; leave one out, or give them names, Within(..., name="...").')
+    return tuple(keep)
+
+
+def percentages(given: Any) -> tuple[float, ...]:
+    """Return percentages in order; DefinitionError for what is none."""
+    if not isinstance(given, (list, tuple)) or not all(is_number(each) and 0.0 <= each <= 100.0 for each in given):
+        raise DefinitionError(f"percentiles={cited(given)}: percentages from 0 to 100 are expected, such as (5, 50, 95).")
+    return tuple(sorted({float(each) for each in given}))
+
+
+def band_of(
+    title: str, poses: Poses, nominal: FloatArray, moments: FloatArray, order: Sequence[float], ends: tuple[FloatArray, FloatArray]
+) -> Band:
+    """Return a band from the rows of its moments: share, mean, sigma, then percentiles."""
+    share, mean, sigma, *cuts = (poses.shaped(row) for row in moments)
+    low, high = (poses.shaped(end) for end in ends)
+    return Band(title, poses.shaped(nominal), mean, sigma, FrozenDict(zip(order, cuts, strict=True)), share, low, high)
+
+
+# The designs, block by block, and what is kept of them: of the results themselves nothing.
+
+
+@final
+class Run:
+    """The designs of a Monte Carlo: `moments` of each quantity, `lost` and `kept` designs."""
+
+    def __init__(self, poses: Poses, designs: Mechanism, count: int, way: Way, order: Sequence[float]) -> None:
+        self.poses, self.designs, self.count, self.order = poses, designs, count, order
+        self.threads, self.way = way.threads, Way(way.backend)
+        self.moments: dict[str, FloatArray] = {}
+        self.lost = np.zeros(count, bool)
+        self.kept: list[Mask] = []
+
+    def measure(self, asked: Mapping[str, Measured], limits: Sequence[Within]) -> None:
+        """Measure quantities and limits of all designs."""
+        self.kept = [np.ones(self.count, bool) for _ in limits]
+        every = {self._key(each): each for each in (*asked.values(), *(limit.quantity for limit in limits))}
+        traced = {key: each for key, each in every.items() if is_traced(each)}
+        found: dict[Hashable, list[FloatArray]] = {key: [] for key in every}
+        if traced:
+            width = min(max(1, MEMORY // (8 * len(traced) * self.count)), self.poses.count)
+            store = np.empty((len(traced), width, self.count))
+            for first in range(0, self.poses.count, width):
+                part = slice(first, min(first + width, self.poses.count))
+                self._take([*traced], self._traced([*traced.values()], part, store), limits, found)
+        for key, quantity in every.items():
+            if key not in traced:
+                self._take([key], self._of_function(quantity)[None], limits, found)
+        self.moments = {title: np.concatenate(found[self._key(each)], axis=1) for title, each in asked.items()}
+
+    def _key(self, quantity: Measured) -> Hashable:
+        """Return what tells a quantity from others."""
+        return number_bound(self.poses.base.plan, quantity).key if is_traced(quantity) else id(quantity)
+
+    def _traced(self, traced: Sequence[Any], part: slice, store: FloatArray) -> FloatArray:
+        """Return quantities at some of the poses, shape (quantities, poses, designs), in the array that is there for them."""
+        place = store[:, : part.stop - part.start]
+
+        def fill(block: slice) -> None:
+            with np.errstate(all="ignore"):
+                for row, found in zip(place, self.poses.traced(self._block(block), traced, self.way, part), strict=True):
+                    row[:, block] = found.T
+
+        self._on_threads(fill, blocks(self.count, part.stop - part.start))
+        return place
+
+    def _of_function(self, function: Any) -> FloatArray:
+        """Return a function of motions, shape (poses, designs), or (1, designs)."""
+        found = [self.poses.of_function(self._block(block), function).T for block in blocks(self.count, self.poses.count)]
+        return np.concatenate(found, axis=1)
+
+    def _block(self, block: slice) -> Mechanism:
+        return self.designs._part(block.start, block.stop)
+
+    def _take(
+        self, keys: Sequence[Hashable], store: FloatArray, limits: Sequence[Within], found: Mapping[Hashable, list[FloatArray]]
+    ) -> None:
+        """Take in the results of some quantities, shape (quantities, poses, designs), which are used up."""
+        for limit, kept in zip(limits, self.kept, strict=True):
+            key = self._key(limit.quantity)
+            for column in store[keys.index(key)] if key in keys else ():
+                kept &= limit.holds(column)
+        columns = [column for row in store for column in row]
+        for column in columns:
+            self.lost |= np.isnan(column)
+        moments = np.array(self._on_threads(self._moments, columns)).reshape(*store.shape[:2], -1)
+        for key, each in zip(keys, moments, strict=True):
+            found[key].append(each.T)
+
+    def _moments(self, column: FloatArray) -> list[float]:
+        """Return the share of designs that have a value, then their mean, sigma and percentiles; the column is used up."""
+        column.sort()
+        known = column[: int(np.searchsorted(column, np.nan))]  # NaN stands behind all numbers
+        if not known.size:
+            return [0.0] + [np.nan] * (2 + len(self.order))
+        cuts = [quantile(known, percentage) for percentage in self.order]
+        mean = float(known.mean())
+        known -= mean
+        known *= known
+        return [known.size / self.count, mean, float(np.sqrt(known.sum() / max(known.size - 1, 1))), *cuts]
+
+    def _on_threads(self, work: Callable[[Task], Found], tasks: Sequence[Task]) -> list[Found]:
+        """Return what a function gives for each task; the first by itself, so that kernels are made once."""
+        if self.threads == 1 or len(tasks) < 2:
+            return [work(task) for task in tasks]
+        first = work(tasks[0])
+        with ThreadPoolExecutor(self.threads) as pool:
+            return [first, *pool.map(work, tasks[1:])]
+
+
+def quantile(ordered: FloatArray, percentage: float) -> float:
+    """Return a percentile of ordered values, by straight lines between them."""
+    place = percentage / 100.0 * (ordered.size - 1)
+    below = min(int(place), ordered.size - 2) if ordered.size > 1 else 0
+    return float(ordered[below] + (place - below) * (ordered[min(below + 1, ordered.size - 1)] - ordered[below]))
+
+
+def blocks(count: int, poses: int) -> list[slice]:
+    """Return parts of the designs, each of so many that their poses are a block."""
+    size = max(1, BLOCK // poses)
+    return [slice(first, min(first + size, count)) for first in range(0, count, size)]
+
+
+# The worst case: corners of the tolerances, by true evaluation.
+
+ROUNDS = 20
+
+
+def worst_case(machine: Mechanism, poses: Poses, quantity: Measured, tolerances: Mapping[str, Tolerance]) -> tuple[FloatArray, FloatArray]:
+    """Return the least and the greatest value at every pose, shapes (n,), with every deviation at a limit or in the middle of them."""
+    k = len(tolerances)
+    steps = np.concatenate([-np.eye(k), np.eye(k)])
+
+    def at(levels: FloatArray) -> FloatArray:
+        values = poses.values(machine.replaced(**shifted_designs(machine, tolerances, levels)), quantity, Way())
+        return np.broadcast_to(values, (len(levels), values.shape[1]))
+
+    alone = at(steps)
+    rise = np.nan_to_num(alone[k:] - alone[:k])  # (k, n)
+    levels = np.unique(np.concatenate([np.sign(rise).T, -np.sign(rise).T, np.zeros((1, k))]), axis=0)
+    values = at(levels)
+    for _ in range(ROUNDS):
+        ends = extreme_rows(values)
+        near = np.unique(np.concatenate([neighbours(levels[row]) for row in ends]), axis=0) if k else levels
+        found = at(near)
+        better = (lowest(found) < lowest(values)) | (-lowest(-found) > -lowest(-values))
+        if not better.any():
+            break
+        levels, values = np.concatenate([levels, near]), np.concatenate([values, found])
+    return lowest(values), -lowest(-values)
+
+
+def lowest(values: FloatArray) -> FloatArray:
+    """Return the least value of each column that has one, else NaN."""
+    least = np.min(np.where(np.isnan(values), np.inf, values), axis=0)
+    return np.where(np.isinf(least), np.nan, least)
+
+
+def extreme_rows(values: FloatArray) -> list[int]:
+    """Return the rows that hold the least or the greatest value of a column."""
+    known = ~np.isnan(values)
+    rows = [*np.argmin(np.where(known, values, np.inf), axis=0), *np.argmax(np.where(known, values, -np.inf), axis=0)]
+    return sorted({int(row) for row in rows})
+
+
+def neighbours(level: FloatArray) -> FloatArray:
+    """Return levels, shape (2 k, k), each with another value, of -1, 0 and 1, of one deviation."""
+    k = level.size
+    found = np.tile(level, (2 * k, 1))
+    for place in range(k):
+        found[2 * place : 2 * place + 2, place] = [each for each in (-1.0, 0.0, 1.0) if each != level[place]][:2]
+    return found

@@ -1,0 +1,481 @@
+"""The search for better dimensions: many starts, one local search with exact gradients from each, over every combination of choices."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from hashlib import blake2b
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, final
+
+import numpy as np
+
+from ..disk import check_name, in_words
+from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, cited, one_word
+from ..mechanism import Mechanism
+from ..motion import Request
+from ..program import FloatArray
+from ..quantities import Quantity, is_number, is_whole, ref
+from ..statics import Case
+from ..units import show
+from .batching import Progress, progress_told
+from .box import unit_points
+from .checks import check_one_design
+from .infeasible import infeasible_error
+from .measures import At, CombinedMeasure, Constraint, Leaf, Measure, Worst, conditions_of, require_quantity, words_of
+from .optimum import Optimum, in_units, polished, unit_of_constraint
+from .problem import COARSE, Problem, reduced
+from .solver import Found, Graded, Local
+from .space import Space
+from .spread import sigma
+
+if TYPE_CHECKING:
+    from .pareto import Front
+
+METHODS = ("auto", "local", "multistart", "evolution")
+SCREENED = 256
+"""Designs looked at for each combination before the local searches begin; fewer each where there are many combinations."""
+SCREENED_IN_ALL = 1 << 14
+STARTS = 6
+SEARCHED = 64
+"""Combinations searched from at the most, the most promising ones of more."""
+GENERATIONS = 200
+NEARLY = 1e-3
+"""A design that misses no more is searched on from by the other solver."""
+NEAR = 0.1
+"""Starts are not nearer to one another than this part of the box's diagonal."""
+
+
+def optimise(
+    machine: Mechanism,
+    *,
+    minimise: Any = None,
+    maximise: Any = None,
+    vary: Any,
+    subject_to: Any = (),
+    case: Any = None,
+    over: Any = None,
+    robust: Any = None,
+    sigmas: float = 3.0,
+    method: str = "auto",
+    solver: str = "slsqp",
+    starts: int | None = None,
+    seed: int = 0,
+    folder: str | os.PathLike[str] | None = None,
+    progress: bool | Progress = False,
+) -> Optimum | Front:
+    """Return the best design found, of several objectives the front; see `linkage.optimise`."""
+    check_one_design(machine)
+    title = machine.plan.title
+    one_word("method", method, METHODS)
+    one_word("solver", solver, ("slsqp", "trust-constr"))
+    check_counts(title, starts, seed)
+    objectives, sense = objectives_of(machine, minimise, maximise)
+    space = Space.of(machine, vary)
+    constraints = conditions_of(subject_to, machine)
+    cases = list(case) if isinstance(case, (list, tuple)) else [case]
+    held = list(dict.fromkeys(found for each in cases for found in (constraint_in_case(one, each) for one in constraints)))
+    plan = SearchPlan(method, solver, starts or STARTS, seed)
+    if len(objectives) > 1:
+        if len(cases) > 1 or robust is not None:
+            raise DefinitionError(f"{title}: several objectives are sought in one load case and without robust=.")
+        from .pareto import front
+
+        problem = Problem(machine, [in_case(each, cases[0]) for each in objectives], held, space, 1.0, over)
+        with progress_told(progress, machine.plan.heading) as tell:
+            return front(problem, plan.seed, solver, tell)
+    problem = Problem(machine, [in_case(objectives[0], each) for each in cases], held, space, sense, over)
+    if robust is not None:
+        problem = with_spread(problem, robust, sigmas)
+    with progress_told(progress, machine.plan.heading) as tell:
+        return DesignSearch(problem, plan, Journal.of(folder, problem, seed), tell).run()
+
+
+def objectives_of(machine: Mechanism, minimise: Any, maximise: Any) -> tuple[list[Measure], float]:
+    """Return what is to be least, or of a single one greatest (the sense is then -1.0); DefinitionError for none."""
+    listed = [[] if given is None else list(given) if isinstance(given, (list, tuple)) else [given] for given in (minimise, maximise)]
+    least, most = ([objective_of(machine, each) for each in group] for group in listed)
+    if not least and not most:
+        raise DefinitionError(f"{machine.plan.title}: say minimise= or maximise=, one measure such as least(...), or a list of several.")
+    if len(least) + len(most) == 1:
+        return least or most, 1.0 if least else -1.0
+    return [*least, *(-each for each in most)], 1.0
+
+
+def check_counts(title: str, starts: Any, seed: Any) -> None:
+    """Raise DefinitionError for numbers that are none."""
+    for name, value, least in (("starts", starts, 1), ("seed", seed, 0)):
+        if value is not None and (not is_whole(value) or value < least):
+            raise DefinitionError(f"{title}: {name}={cited(value)}: a whole number is expected, at least {least}.")
+
+
+def objective_of(machine: Mechanism, given: Any) -> Measure:
+    """Return what is to be least or greatest; DefinitionError for what has a value at every pose."""
+    if isinstance(given, Measure):
+        return given
+    quantity = require_quantity(given, "minimise")
+    from .sampling import strokes_behind
+
+    if not isinstance(quantity, Worst) and not strokes_behind(machine.plan, quantity):
+        return At(quantity, {})
+    raise DefinitionError(
+        f"{machine.plan.title}: {words_of(quantity)} has a value at every pose: say which is meant, least(...), most(...)."
+    )
+
+
+# Load cases.
+
+
+def in_case(measure: Measure, case: Case) -> Measure:
+    """Return a measure with the forces of a load case, where it names none itself."""
+    if case is None:
+        return measure
+    if isinstance(measure, CombinedMeasure):
+        return replace(measure, left=in_case(measure.left, case), right=in_case(measure.right, case))
+    if isinstance(measure, Leaf):
+        return replace(measure, quantity=quantity_in_case(measure.quantity, case))
+    return measure
+
+
+def quantity_in_case(quantity: Any, case: Case) -> Any:
+    """Return a quantity with the forces of a load case."""
+    if isinstance(quantity, Worst):
+        return replace(quantity, quantity=quantity_in_case(quantity.quantity, case))
+    return quantity.in_case(case) if isinstance(quantity, Request) else quantity
+
+
+def constraint_in_case(constraint: Constraint, case: Case) -> Constraint:
+    """Return a constraint with the forces of a load case; itself where none is in it."""
+    if case is None:
+        return constraint
+    left, right = in_case(constraint.left, case), in_case(constraint.right, case)
+    before, after = ((*each.left.leaves, *each.right.leaves) for each in (constraint, Constraint(left, constraint.symbol, right)))
+    same = all(a.quantity is b.quantity for a, b in zip(before, after, strict=True))
+    return constraint if same else Constraint(left, constraint.symbol, right)
+
+
+# Spread: each number as bad as tolerances make it.
+
+
+def with_spread(problem: Problem, robust: Any, sigmas: Any) -> Problem:
+    """Return a problem whose numbers are worse by so many standard deviations of what tolerances of dimensions make of them."""
+    title = problem.plan.title
+    if not is_number(sigmas) or sigmas < 0.0:
+        raise DefinitionError(f"{title}: sigmas={cited(sigmas)}: a number is expected, zero or more.")
+    look = problem.look(problem.designs(problem.space.unit(problem.space.present(problem.machine)), [0] * len(problem.space.choices)))
+    values = {leaf: float(reduced(leaf, rows.values)[0]) for leaf, rows in look.rows.items()}
+    if not all(map(np.isfinite, values.values())):
+        raise DefinitionError(f"{title}: robust= starts from a design that can be assembled over the whole stroke; set the machine so.")
+
+    def spread(expression: Measure, sense: float) -> Measure:
+        """Return an expression with its leaves moved the way in which it gets less (sense -1.0) or more."""
+        found = expression
+        for leaf in expression.leaves:
+            graded = expression.of(lambda each, leaf=leaf: Graded(values[each], np.array([1.0 if each is leaf else 0.0])))  # type: ignore[misc]
+            way = sense * np.sign(Graded.of(graded).slope[0])
+            found = with_leaf(found, leaf, replace(leaf, quantity=spread_quantity(title, leaf.quantity, robust, float(way) * sigmas)))
+        return found
+
+    objectives = [spread(each, problem.sense) for each in problem.objectives]
+    constraints = [each if each.symbol == "==" else spread_constraint(each, spread) for each in problem.constraints]
+    return Problem(problem.machine, objectives, constraints, problem.space, problem.sense, problem.over)
+
+
+def spread_constraint(constraint: Constraint, spread: Callable[[Measure, float], Measure]) -> Constraint:
+    """Return an inequality whose sides are spread against it."""
+    sense = -1.0 if constraint.symbol == ">=" else 1.0
+    return Constraint(spread(constraint.left, sense), constraint.symbol, spread(constraint.right, -sense))
+
+
+def with_leaf(measure: Measure, leaf: Leaf, other: Leaf) -> Measure:
+    """Return a measure with another leaf in the place of one."""
+    if isinstance(measure, CombinedMeasure):
+        return replace(measure, left=with_leaf(measure.left, leaf, other), right=with_leaf(measure.right, leaf, other))
+    return other if measure is leaf else measure
+
+
+def spread_quantity(title: str, quantity: Any, robust: Any, by: float) -> Any:
+    """Return a quantity and so many of its standard deviations."""
+    if not isinstance(quantity, (str, Quantity, Request)):
+        raise DefinitionError(f"{title}: robust= needs exact derivatives, and {words_of(quantity)} has none; take a quantity or a request.")
+    return quantity if by == 0.0 else (ref(quantity) if isinstance(quantity, str) else quantity) + by * sigma(quantity, robust)
+
+
+# What was found on the way, kept in a folder.
+
+
+@final
+class Journal:
+    """The results of the local searches that are done, in a file of lines: the same call goes on from there."""
+
+    def __init__(self, path: Path | None, known: dict[str, dict[str, Any]]) -> None:
+        self.path, self.known = path, known
+
+    @classmethod
+    def of(cls, folder: str | os.PathLike[str] | None, problem: Problem, seed: int) -> Journal:
+        """Return the journal of a search; DefinitionError where the folder holds that of another one."""
+        if folder is None:
+            return cls(None, {})
+        if not isinstance(folder, (str, os.PathLike)) or folder == "":
+            raise DefinitionError(f"folder={cited(folder)}: the path of a folder is expected.")
+        path = Path(folder) / "search.jsonl"
+        check_name(path)
+        facts = {"search": blake2b(f"{problem.facts} {seed}".encode(), digest_size=16).hexdigest()}
+        with in_words(path):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            lines = path.read_text().splitlines() if path.exists() else []
+        entries = [entry for entry in map(entry_of, lines) if entry is not None]
+        if entries and entries[0] != facts:
+            raise DefinitionError(f"{path} holds another search, of other variables, conditions, dimensions or seed; give another folder.")
+        if not entries:
+            with in_words(path):
+                path.write_text(json.dumps(facts) + "\n")
+        return cls(path, {entry["task"]: entry for entry in entries if "task" in entry})
+
+    def result(self, task: str) -> Found | None:
+        """Return what a local search came to, as it is kept."""
+        entry = self.known.get(task)
+        if entry is None:
+            return None
+        return Found(np.array(entry["unit"], float), float(entry["value"]), float(entry["missing"]), bool(entry["whole"]))
+
+    def keep(self, task: str, found: Found) -> None:
+        """Write down what a local search came to."""
+        if self.path is None:
+            return
+        entry = {"task": task, "unit": list(found.unit), "value": found.value, "missing": found.missing, "whole": found.whole}
+        with in_words(self.path), self.path.open("a") as file:
+            file.write(json.dumps(entry) + "\n")
+            file.flush()
+            os.fsync(file.fileno())
+
+
+def entry_of(line: str) -> dict[str, Any] | None:
+    """Return what a line holds; None of a torn one."""
+    try:
+        found = json.loads(line)
+    except ValueError:
+        return None
+    return found if isinstance(found, dict) else None
+
+
+# The search.
+
+
+@final
+@dataclass(frozen=True)
+class SearchPlan:
+    """How is searched."""
+
+    method: str
+    solver: str
+    starts: int
+    seed: int
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Screened:
+    """Designs of one combination that were looked at: unit coordinates (m, n), the objective, what is missing, the part that is reached."""
+
+    combination: tuple[int, ...]
+    unit: FloatArray
+    value: FloatArray
+    missing: FloatArray
+    reached: FloatArray
+
+    @property
+    def order(self) -> Any:
+        """The designs, the best first: those that keep all, by the objective; then by what is missing."""
+        worth = np.where(np.isfinite(self.value), self.value, np.inf)
+        short = np.where(np.isfinite(self.missing), self.missing, 1e9) + 1e9 * (1.0 - self.reached)
+        return np.lexsort((worth, np.where(short <= 1e-9, 0.0, short)))
+
+    @property
+    def best(self) -> tuple[float, float]:
+        """How good the best one is: what is missing, then the objective."""
+        place = self.order[0]
+        short = float(np.nan_to_num(self.missing[place], nan=1e9, posinf=1e9)) + 1e9 * (1.0 - float(self.reached[place]))
+        return (short if short > 1e-9 else 0.0), float(np.nan_to_num(self.value[place], nan=np.inf))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Ended:
+    """A local search that is done: its combination and what it came to."""
+
+    combination: tuple[int, ...]
+    found: Found
+
+
+@final
+class DesignSearch:
+    """One search under way."""
+
+    def __init__(self, problem: Problem, plan: SearchPlan, journal: Journal, tell: Progress) -> None:
+        self.problem, self.plan, self.journal, self.tell = problem, plan, journal, tell
+        self.coarse = problem.with_counts(COARSE)
+        self.cut: list[str] = []
+        self.present = problem.space.present(problem.machine)
+
+    def run(self) -> Optimum:
+        """Return the best design."""
+        space = self.problem.space
+        if not space.variables:
+            ended = [Ended(each, self.ended(each, np.zeros((1, 0)), 0)) for each in space.combinations() if not self.is_cut(each)]
+            return self.chosen(ended, searched=len(ended))
+        left = [each for each in space.combinations() if not self.is_cut(each)]
+        if not left:
+            raise StudyError(f"{self.problem.plan.title}: no combination of choices can keep the conditions: {self.cut[0]}.")
+        screened = [self.screened(each) for each in left]
+        if not any(np.any(each.reached == 1.0) for each in screened):
+            raise self.unreachable(screened)
+        screened = sorted((each for each in screened if np.any(each.reached == 1.0)), key=lambda each: each.best)[:SEARCHED]
+        tasks = [(each, number, unit) for each in screened for number, unit in enumerate(self.starts(each, len(screened)))]
+        ended = []
+        self.tell(0, len(tasks))
+        for done, (each, number, unit) in enumerate(tasks):
+            ended.append(Ended(each.combination, self.ended(each.combination, unit, number)))
+            self.tell(done + 1, len(tasks))
+        return self.chosen(ended, searched=len(screened))
+
+    def is_cut(self, combination: tuple[int, ...]) -> bool:
+        """Return whether a combination cannot keep some condition of the design alone, whatever the variables; noted in words."""
+        space, plan = self.problem.space, self.problem.plan
+        if space.count == 1:
+            return False
+        for each in self.problem.constraints:
+            margin = self.problem.certainly(each.margin, combination)
+            if margin is not None and (margin.high < 0.0 or (each.symbol == "==" and margin.low > 0.0)):
+                units = unit_of_constraint(plan, each)
+                short = show(-margin.high if margin.high < 0.0 else margin.low, units, 4)
+                self.cut.append(f"{space.words(combination, plan)}: {in_units(each, units)} is missed by {short} at least")
+                return True
+        return False
+
+    # -- screening -----------------------------------------------------------------------------------------
+
+    def screened(self, combination: tuple[int, ...]) -> Screened:
+        """Return designs spread over the box of one combination, looked at all at once, the present one among them."""
+        space = self.problem.space
+        count = 1 << max(4, (min(SCREENED, SCREENED_IN_ALL // space.count) or 1).bit_length() - 1)
+        unit = unit_points(count, len(space.variables), "sobol", self.plan.seed)
+        present = space.unit(self.present)
+        if self.plan.method == "local":
+            unit = present[None]
+        elif np.allclose(space.values(present), self.present, rtol=0.0, atol=1e-9 * np.array([each.span for each in space.variables])):
+            unit = np.concatenate([present[None], unit])
+        return self.looked_at(combination, unit)
+
+    def looked_at(self, combination: tuple[int, ...], unit: FloatArray) -> Screened:
+        """Return designs with what they are worth at few poses."""
+        value, missing, reached = self.coarse.merits(combination, unit)
+        return Screened(combination, unit, self.problem.sense * value, missing, reached)
+
+    def starts(self, screened: Screened, combinations: int) -> list[FloatArray]:
+        """Return where the local searches of a combination begin: the best designs that stand apart, that of today always."""
+        many = 1 if self.plan.method == "local" else max(self.plan.starts if combinations == 1 else self.plan.starts // 2, 1)
+        if self.plan.method == "evolution":
+            return [self.evolved(screened)]
+        chosen: list[FloatArray] = []
+        apart = NEAR * np.sqrt(screened.unit.shape[1])
+        for place in screened.order:
+            unit = screened.unit[place]
+            if screened.reached[place] == 1.0 and all(np.linalg.norm(unit - each) > apart for each in chosen):
+                chosen.append(unit)
+            if len(chosen) == many:
+                break
+        present = screened.unit[0]
+        if screened.reached[0] == 1.0 and not any(each is present or np.array_equal(each, present) for each in chosen):
+            chosen = [*chosen[: max(many - 1, 0)], present]
+        return chosen
+
+    def evolved(self, screened: Screened) -> FloatArray:
+        """Return the best design of a differential evolution, whose generations are looked at all at once."""
+        from scipy.optimize import differential_evolution
+
+        n = len(self.problem.space.variables)
+
+        def merit(population: FloatArray) -> FloatArray:
+            found = self.looked_at(screened.combination, np.ascontiguousarray(population.T))
+            short = np.where(np.isfinite(found.missing), found.missing, 1.0)
+            worth = np.where(np.isfinite(found.value), found.value, 0.0)
+            return np.asarray(worth / self.scale_of(screened) + 10.0 * short + 100.0 * (1.0 - found.reached))
+
+        first = screened.unit[screened.order[: max(15 * n, 16)]]
+        result = differential_evolution(
+            merit, [(0.0, 1.0)] * n, init=padded(first, n), vectorized=True, updating="deferred", polish=False, seed=self.plan.seed,
+            maxiter=GENERATIONS, tol=1e-6,
+        )  # fmt: skip
+        return np.asarray(result.x, float)
+
+    @staticmethod
+    def scale_of(screened: Screened) -> float:
+        """Return what objectives are measured with."""
+        finite = np.abs(screened.value[np.isfinite(screened.value)])
+        return float(np.median(finite)) if finite.size and np.median(finite) > 0.0 else 1.0
+
+    # -- local searches -------------------------------------------------------------------------------------
+
+    def ended(self, combination: tuple[int, ...], unit: FloatArray, number: int) -> Found:
+        """Return what the local search from a start comes to, or came to before."""
+        task = f"{list(combination)} {number}"
+        known = self.journal.result(task)
+        if known is not None:
+            return known
+        found = self.locally(combination, np.ravel(unit))
+        self.journal.keep(task, found)
+        return found
+
+    def locally(self, combination: tuple[int, ...], unit: FloatArray) -> Found:
+        """Return what a local search comes to; where the samples are kept but what lies between them fails, what stands there."""
+        try:
+            local = Local(self.problem, combination, unit)
+        except LinkageError:
+            return Found(unit, np.nan, np.inf, False)
+        if not self.problem.space.variables:
+            return local.judged(unit, truly=True)
+        found = local.run(self.plan.solver)
+        if self.plan.solver == "slsqp" and found.whole and not found.feasible and found.missing < NEARLY:
+            again = Local(self.problem, combination, found.unit).run("trust-constr")
+            found = min(found, again, key=lambda each: (not each.feasible, each.missing))
+        return found
+
+    # -- the winner -----------------------------------------------------------------------------------------
+
+    def chosen(self, ended: Sequence[Ended], searched: int) -> Optimum:
+        """Return the best design that is assembled over the whole stroke and keeps everything; StudyError where there is none."""
+        sense, lost = self.problem.sense, []
+        for each in sorted((one for one in ended if one.found.feasible), key=lambda one: sense * one.found.value):
+            try:
+                everyone = [one.found for one in ended]
+                self.problem.looked_at += self.coarse.looked_at
+                self.coarse.looked_at = 0
+                return polished(self.problem, each.combination, each.found, everyone, searched, self.plan.solver, self.cut)
+            except AssemblyError as error:
+                lost.append(str(error))
+        if lost:
+            text = (
+                f"{self.problem.plan.title}: every design that keeps the conditions at its poses cannot be assembled in between. {lost[0]}"
+            )
+            raise StudyError(text)
+        raise infeasible_error(self.problem, [(each.combination, each.found) for each in ended])
+
+    def unreachable(self, screened: Sequence[Screened]) -> StudyError:
+        """Return the error for a box without a design that can be assembled over the whole stroke."""
+        best = max(screened, key=lambda each: float(each.reached.max()))
+        place, count = int(np.argmax(best.reached)), sum(len(each.unit) for each in screened)
+        design = self.problem.machine_of(best.unit[place], best.combination)
+        text = f"{self.problem.plan.title}: none of {count} designs looked at can be assembled over the whole stroke"
+        try:
+            self.problem.assembled(design)
+        except AssemblyError as error:
+            text += f"; of the one that reaches farthest: {error}"
+        return StudyError(f"{text.rstrip('.')}. Widen vary=, or look at a part of the stroke, over={{...}}.")
+
+
+def padded(first: FloatArray, n: int) -> FloatArray:
+    """Return a first population of at least five designs."""
+    return np.concatenate([first, np.random.default_rng(0).random((max(5 - len(first), 0), n))])

@@ -1,0 +1,509 @@
+"""A search's problem: the measures of designs over their stroke, with exact derivatives, as numbers that a solver takes.
+
+The stroke is looked at at samples, each of which is one smooth row of the problem: `least(q) >= 2` is `q - 2 >= 0` at each of them.
+Where the worst pose of a solution lies between the samples it is added to them (an exchange method for semi-infinite programs).
+Source: R. Hettich, K. O. Kortanek, Semi-infinite programming, SIAM Review 35 (1993) 380-429.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import DefinitionError, cited
+from ..mechanism import Mechanism
+from ..motion import Grid, Motion, greatest, lowest
+from ..program import Enclosure, FloatArray, enclosures
+from ..quantities import is_number
+from .measures import At, Constraint, Integral, Leaf, Least, Measure, Most, Worst, words_of
+from .sampling import SampledSlopes, Sampling, Seen, motion_of, strokes_behind, traced, value_on, with_values
+from .space import Space
+
+SAMPLES = {0: 1, 1: 49, 2: 17, 3: 9, 4: 5}
+COARSE = {0: 1, 1: 17, 2: 7, 3: 5, 4: 3}
+INNER = 65
+"""Samples of the stroke over which the worst value is taken."""
+PANELS, NODES = 24, 5
+"""An integral's panels, and the Gauss points of each."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Range:
+    """The part of a stroke that is looked at, from low to high: numbers [SI], or quantities that follow the design."""
+
+    low: Any
+    high: Any
+
+    @property
+    def follows(self) -> tuple[Any, ...]:
+        """The ends that follow the design."""
+        return tuple(end for end in (self.low, self.high) if not is_number(end))
+
+
+def ranges_of(machine: Mechanism, over: Any) -> dict[str, Range]:
+    """Return the part of each stroke that is looked at; DefinitionError for what is none."""
+    title, plan = machine.plan.title, machine.plan
+    given = {} if over is None else over
+    if not isinstance(given, Mapping):
+        raise DefinitionError(f'{title}: over={cited(over)}: a dictionary is expected, such as over={{"S": (0.0, 0.2)}}.')
+    for name, ends in given.items():
+        if name not in plan.strokes:
+            raise DefinitionError(
+                f"{title}: over={{{name!r}: ...}}: there is no stroke of that name; its strokes are {', '.join(plan.strokes)}."
+            )
+        if is_number(ends):
+            continue
+        if not isinstance(ends, (tuple, list)) or len(ends) != 2:
+            raise DefinitionError(f"{title}: over={{{name!r}: {cited(ends)}}}: (low, high) or one value is expected, in SI.")
+        for end in ends:
+            if not is_number(end) and strokes_behind(plan, end):
+                raise DefinitionError(f"{title}: over={{{name!r}: ...}}: {words_of(end)} depends on a stroke itself.")
+    found = {}
+    for name, stroke in plan.strokes.items():
+        ends = given.get(name, (stroke.start, stroke.end))
+        found[name] = Range(*((float(ends), float(ends)) if is_number(ends) else ends))
+    return found
+
+
+@final
+@dataclass(eq=False)
+class PoseSet:
+    """Poses at which some quantities are looked at: the parts of each stroke's range (0 to 1) along the axes, or one pose.
+
+    `weights` are an integral's; `inner` names a last axis over which the worst is taken.
+    """
+
+    axes: dict[str, FloatArray]
+    fixed: Mapping[str, float] = field(default_factory=dict)
+    weights: FloatArray | None = None
+    inner: str = ""
+    quantities: list[Any] = field(default_factory=list)
+
+    def place(self, quantity: Any) -> int:
+        """Return the number of a quantity, entered where it is new."""
+        for place, known in enumerate(self.quantities):
+            if known is quantity or (isinstance(known, str) and known == quantity and isinstance(quantity, str)):
+                return place
+        self.quantities.append(quantity)
+        return len(self.quantities) - 1
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of the poses."""
+        return tuple(map(len, self.axes.values()))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """A leaf at its poses: values (m, n), and of one design derivatives (p, n)."""
+
+    values: FloatArray
+    slopes: FloatArray | None
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Evaluated:
+    """One design or several looked at: the rows of each leaf, margins (m, r), whether all is reached (m,); of one also derivatives."""
+
+    rows: Mapping[Leaf, Rows]
+    margins: FloatArray
+    margin_slopes: FloatArray | None
+    whole: Any
+    reached: FloatArray
+
+
+@final
+class Problem:
+    """What is to be least, under which constraints, of designs in a space."""
+
+    def __init__(
+        self,
+        machine: Mechanism,
+        objectives: Sequence[Measure],
+        constraints: Sequence[Constraint],
+        space: Space,
+        sense: float = 1.0,
+        over: Any = None,
+        counts: Mapping[int, int] = SAMPLES,
+    ) -> None:
+        self.machine, self.plan, self.space, self.sense, self.over = machine, machine.plan, space, sense, over
+        self.objectives, self.constraints = tuple(objectives), tuple(constraints)
+        self.ranges = ranges_of(machine, over)
+        self.counts = counts
+        self.looked_at = 0
+        """How many designs were looked at, each look at one counted."""
+        self.leaves = tuple(dict.fromkeys(leaf for each in (*objectives, *(one.margin for one in constraints)) for leaf in each.leaves))
+        self.sets: list[PoseSet] = []
+        self._of_leaf: dict[Leaf, tuple[PoseSet, int]] = {}
+        moving = tuple(name for name, one in self.ranges.items() if not (is_number(one.low) and one.low == one.high))
+        for leaf in self.leaves:
+            poses = self._poses(leaf, moving)
+            inner = leaf.quantity.quantity if isinstance(leaf.quantity, Worst) else leaf.quantity
+            self._of_leaf[leaf] = poses, poses.place(inner)
+        self.whole = self._set(moving)
+        self.follow = tuple(dict.fromkeys(end for one in self.ranges.values() for end in one.follows))
+        self.owners = tuple(dict.fromkeys(each.owner for each in space.variables))
+        self._samplings: dict[int, Sampling] = {}
+
+    def with_counts(self, counts: Mapping[int, int]) -> Problem:
+        """Return the same problem at another number of samples."""
+        return Problem(self.machine, self.objectives, self.constraints, self.space, self.sense, self.over, counts)
+
+    def with_space(self, space: Space) -> Problem:
+        """Return the same problem with other variables and choices."""
+        return Problem(self.machine, self.objectives, self.constraints, space, self.sense, self.over, self.counts)
+
+    @property
+    def facts(self) -> str:
+        """What makes a search the same, as text."""
+        said = [self.plan.title, self.plan, self.sense, *self.objectives, *self.constraints, self.space.variables, self.space.choices]
+        ends = [(name, *(end if is_number(end) else words_of(end) for end in (one.low, one.high))) for name, one in self.ranges.items()]
+        return "; ".join(map(str, [*said, ends, sorted(self.machine.dimensions.items())]))
+
+    def value(self, numbers: Callable[[Leaf], Any]) -> Any:
+        """Return the objective from the leaves' numbers: of several the worst."""
+        found = [each.of(numbers) for each in self.objectives]
+        return found[0] if len(found) == 1 else (np.maximum if self.sense > 0.0 else np.minimum).reduce(found)
+
+    # -- the poses ---------------------------------------------------------------------------------------
+
+    def _poses(self, leaf: Leaf, moving: Sequence[str]) -> PoseSet:
+        """Return the poses of a leaf, shared with others that are looked at at the same."""
+        title, quantity = self.plan.title, leaf.quantity
+        inner = quantity.over if isinstance(quantity, Worst) else ""
+        if inner and inner not in self.plan.strokes:
+            raise DefinitionError(f"{title}: {quantity}: there is no stroke {inner!r}; its strokes are {', '.join(self.plan.strokes)}.")
+        depends = strokes_behind(self.plan, quantity.quantity if isinstance(quantity, Worst) else quantity)
+        axes = tuple(name for name in moving if name in depends and name != inner)
+        if isinstance(leaf, At):
+            return self._single(leaf, depends, inner)
+        if isinstance(leaf, Integral):
+            by = leaf.by or (axes[0] if len(axes) == 1 else "")
+            if by not in self.plan.strokes:
+                raise DefinitionError(f"{title}: {leaf}: say by which stroke, by= one of {', '.join(self.plan.strokes)}.")
+            others = [name for name in axes if name != by]
+            if others:
+                raise DefinitionError(f"{title}: {leaf} depends on {', '.join(others)} too: hold it by over={{...}}, or take worst(...).")
+            return self._set((by,), inner, integral=True)
+        if not axes and not inner:
+            return self._single(At(quantity, {}), (), inner)
+        return self._set(axes, inner)
+
+    def _single(self, leaf: At, depends: Sequence[str], inner: str) -> PoseSet:
+        """Return the poses of a value at one pose."""
+        unknown = [name for name in leaf.strokes if name not in self.plan.strokes]
+        if unknown:
+            known = ", ".join(self.plan.strokes) or "none"
+            raise DefinitionError(f"{self.plan.title}: {leaf}: there is no stroke {unknown[0]!r}; its strokes are {known}.")
+        held = {name: float(one.low) for name, one in self.ranges.items() if is_number(one.low) and one.low == one.high}
+        missing = [name for name in depends if name not in leaf.strokes and name not in held and name != inner]
+        if missing:
+            raise DefinitionError(f"{self.plan.title}: {leaf}: say the pose, {', '.join(f'{name}=...' for name in missing)}.")
+        fixed = held | {name: float(value) for name, value in leaf.strokes.items()}
+        for each in self.sets:
+            if each.fixed == fixed and not each.axes.keys() - {inner} and each.inner == inner:
+                return each
+        axes = {inner: np.linspace(0.0, 1.0, INNER)} if inner else {}
+        self.sets.append(PoseSet(axes, fixed, inner=inner))
+        return self.sets[-1]
+
+    def _set(self, names: Sequence[str], inner: str = "", *, integral: bool = False) -> PoseSet:
+        """Return the poses over some strokes."""
+        wanted = {*names, *([inner] if inner else [])}
+        for each in self.sets:
+            if each.axes.keys() == wanted and each.inner == inner and (each.weights is not None) == integral and not each.fixed:
+                return each
+        count = self.counts.get(len(names), 3)
+        places, weights = gauss() if integral else (np.linspace(0.0, 1.0, count), None)
+        axes = {name: places for name in names} | ({inner: np.linspace(0.0, 1.0, INNER)} if inner else {})
+        self.sets.append(PoseSet(axes, weights=weights, inner=inner))
+        return self.sets[-1]
+
+    # -- looking -----------------------------------------------------------------------------------------
+
+    def designs(self, unit: FloatArray, combination: Sequence[int]) -> dict[str, Any]:
+        """Return all dimensions of designs by unit coordinates (n,) or (m, n) and a combination of choices."""
+        return with_values(self.machine.dimensions, self.space.chosen(combination) | self.space.designs(unit))
+
+    def look(self, designs: Mapping[str, Any], *, slopes: bool = False) -> Evaluated:
+        """Return what is seen of designs, of one with derivatives by the unit coordinates."""
+        m = max((np.size(value) for value in designs.values()), default=1)
+        self.looked_at += m
+        ends = self._ends(designs, slopes=slopes)
+        whole, reached, margins, margin_slopes = np.ones(m, bool), np.ones(m), [], []
+        found: dict[int, tuple[Seen, SampledSlopes | None]] = {}
+        for number, poses in enumerate(self.sets):
+            grid = self._grid(poses, designs, ends)
+            sampling = self._sampling(number)
+            seen = sampling.seen(grid)
+            judged = poses is self.whole
+            slope = sampling.slopes(grid, margins=judged) if slopes else None
+            found[number] = seen, slope
+            whole &= seen.reached.all(axis=1)
+            reached = np.minimum(reached, seen.reached.mean(axis=1))
+            if not judged:
+                continue
+            margins.append(seen.margins.min(axis=2).T if not slopes else np.moveaxis(seen.margins, 0, 1).reshape(m, -1))
+            if slope is not None:
+                total = np.moveaxis(self._by_unit(slope.margins, poses, ends), 1, 0)
+                margin_slopes.append(total.reshape(len(total), int(np.prod(total.shape[1:]))))  # of no variable too
+        rows = {leaf: self._rows(leaf, found, ends) for leaf in self.leaves}
+        return Evaluated(
+            rows, np.concatenate(margins, axis=1), np.concatenate(margin_slopes, axis=1) if slopes else None, whole, reached
+        )  # fmt: skip
+
+    def _sampling(self, number: int) -> Sampling:
+        if number not in self._samplings:
+            poses = self.sets[number]
+            strokes = tuple(name for name in poses.axes if self.ranges[name].follows)
+            self._samplings[number] = Sampling(self.plan, poses.quantities, (*self.owners, *strokes))
+        return self._samplings[number]
+
+    def _ends(self, designs: Mapping[str, Any], *, slopes: bool) -> dict[int, tuple[FloatArray, FloatArray | None]]:
+        """Return the values (m,) of the ends that follow the design, with derivatives (p,) by the owners; by their identity."""
+        found = {}
+        for end in self.follow:
+            strokes = {name: np.asarray(stroke.start, float) for name, stroke in self.plan.strokes.items()}
+            sampling, grid = Sampling(self.plan, [end], self.owners), Grid(self.plan, designs, strokes)
+            values = sampling.seen(grid).values[0, :, 0]
+            if not np.isfinite(values).all():
+                raise DefinitionError(f"{self.plan.title}: over=: {words_of(end)} has no value of some designs.")
+            found[id(end)] = values, (sampling.slopes(grid).values[0, :, 0] if slopes else None)
+        return found
+
+    def _grid(self, poses: PoseSet, designs: Mapping[str, Any], ends: Mapping[int, tuple[FloatArray, FloatArray | None]]) -> Grid:
+        """Return a pose set's grid."""
+        follows = any(self.ranges[name].follows for name in poses.axes)
+        arrays = np.meshgrid(*poses.axes.values(), indexing="ij") if poses.axes else []
+        shape = arrays[0].shape if arrays else (1,)
+        parts = dict(zip(poses.axes, arrays, strict=True))
+        strokes = {}
+        m = max((np.size(value) for value in designs.values()), default=1)
+        batch = next((np.shape(value) for value in designs.values() if np.ndim(value)), ())
+        for name, stroke in self.plan.strokes.items():
+            one = self.ranges[name]
+            if name in parts:
+                low, high = (self._end(end, ends, m if batch else 0, len(shape)) for end in (one.low, one.high))
+                value = low + parts[name] * (high - low)
+            else:
+                value = np.full(shape, poses.fixed.get(name, one.low if is_number(one.low) else stroke.start))
+            strokes[name] = np.asarray(np.broadcast_to(value, (*batch, *shape) if follows else shape), float)
+        return Grid(self.plan, designs, strokes, per_design=follows)
+
+    @staticmethod
+    def _end(end: Any, ends: Mapping[int, tuple[FloatArray, FloatArray | None]], m: int, axes: int) -> Any:
+        if is_number(end):
+            return float(end)
+        values = ends[id(end)][0]
+        return values.reshape(m, *(1,) * axes) if m else float(values[0])
+
+    def _by_unit(self, slopes: FloatArray, poses: PoseSet, ends: Mapping[int, tuple[FloatArray, FloatArray | None]]) -> FloatArray:
+        """Return derivatives by the unit coordinates (k, n, poses), from those by owners and strokes (k, p, poses)."""
+        strokes = [name for name in poses.axes if self.ranges[name].follows]
+        parts = dict(zip(poses.axes, np.meshgrid(*poses.axes.values(), indexing="ij"), strict=True)) if poses.axes else {}
+        total = np.array(slopes[:, : len(self.owners)])
+        for row, name in enumerate(strokes):
+            one, along = self.ranges[name], parts[name].ravel()
+            for end, share in ((one.low, 1.0 - along), (one.high, along)):
+                if not is_number(end):
+                    by = ends[id(end)][1]
+                    assert by is not None
+                    total += slopes[:, len(self.owners) + row][:, None, :] * (by[:, None] * share)
+        factors = np.zeros((len(self.space.variables), len(self.owners)))
+        for place, each in enumerate(self.space.variables):
+            factors[place, self.owners.index(each.owner)] = each.sign * each.span
+        return np.asarray(np.einsum("vo,kon->kvn", factors, total))
+
+    def _rows(
+        self, leaf: Leaf, found: Mapping[int, tuple[Seen, SampledSlopes | None]], ends: Mapping[int, tuple[FloatArray, FloatArray | None]]
+    ) -> Rows:
+        """Return the rows of a leaf."""
+        poses, place = self._of_leaf[leaf]
+        seen, slope = found[self.sets.index(poses)]
+        values, slopes = seen.values[place], None
+        if slope is not None:
+            slopes = self._by_unit(slope.values[[place]], poses, ends)[0]
+        if poses.inner:
+            assert isinstance(leaf.quantity, Worst)
+            values, slopes = worst_along(values, slopes, len(poses.axes[poses.inner]), leaf.quantity.sense)
+        if isinstance(leaf, Integral):
+            (by,) = [name for name in poses.axes if name != poses.inner]
+            assert poses.weights is not None
+            one = self.ranges[by]
+            low, high = (self._end(end, ends, 0, 0) if is_number(end) else ends[id(end)][0] for end in (one.low, one.high))
+            span = np.reshape(high - low, (-1, 1))
+            total = (values * poses.weights).sum(axis=-1, keepdims=True) * span
+            if slopes is not None:
+                grown = np.zeros((len(slopes), 1))
+                for end, sign in ((one.low, -1.0), (one.high, 1.0)):
+                    if not is_number(end):
+                        by_owner = ends[id(end)][1]
+                        assert by_owner is not None
+                        share = [each.sign * each.span * by_owner[self.owners.index(each.owner)] for each in self.space.variables]
+                        factors = np.array(share)
+                        grown[:, 0] += sign * factors
+                mean = (values * poses.weights).sum(axis=-1)
+                slopes = (slopes * poses.weights).sum(axis=-1, keepdims=True) * float(span[0, 0]) + grown * mean[0]
+            return Rows(total, slopes)
+        return Rows(values, slopes)
+
+    def merits(self, combination: Sequence[int], unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return of designs (m, n) the objective, what is missing in parts of the conditions' sizes, and the part reached, all (m,)."""
+        values, missing, reached = self.merits_of_each(combination, unit)
+        return (values.max(axis=0) if self.sense > 0.0 else values.min(axis=0)), missing, reached
+
+    def merits_of_each(self, combination: Sequence[int], unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return of designs (m, n) each objective (k, m), what is missing in parts of the conditions' sizes, and the part reached."""
+        look = self.look(self.designs(unit, combination))
+        numbers = {leaf: reduced(leaf, rows.values) for leaf, rows in look.rows.items()}
+        shape = look.reached.shape
+        with np.errstate(all="ignore"):
+            values = np.array([np.broadcast_to(np.asarray(each.of(lambda leaf: numbers[leaf]), float), shape) for each in self.objectives])
+            missing = np.zeros(shape)
+            for each in self.constraints:
+                missing = np.maximum(missing, missed(each, numbers))
+        return np.where(look.whole, values, np.nan), np.where(look.whole, missing, np.nan), look.reached
+
+    def certainly(self, measure: Measure, combination: Sequence[int]) -> Enclosure | None:
+        """Return between which values a measure lies whatever the variables; None where a leaf of it is taken over the stroke."""
+        leaves = measure.leaves
+        if any(strokes_behind(self.plan, leaf.quantity) for leaf in leaves if not isinstance(leaf.quantity, Worst)):
+            return None
+        requests = [None if isinstance(leaf.quantity, Worst) else traced(self.plan, leaf.quantity) for leaf in leaves]
+        if any(request is None for request in requests):
+            return None
+        given = with_values(self.machine.dimensions, self.space.chosen(combination))
+        inputs = {name: Enclosure(value, value) for name, value in given.items()}
+        for each in self.space.variables:
+            ends = each.sign * each.low, each.sign * each.high
+            inputs[each.owner] = Enclosure(min(ends), max(ends))
+        nodes = [node for request in requests if request is not None for node in request.nodes(self.plan)]
+        found = dict(zip(leaves, enclosures(nodes, inputs), strict=True))
+        return Enclosure.of(measure.of(lambda leaf: found[leaf]))
+
+    # -- machines ----------------------------------------------------------------------------------------
+
+    def machine_of(self, unit: FloatArray, combination: Sequence[int]) -> Mechanism:
+        """Return the machine of unit coordinates (n,)."""
+        return self.machine.replaced(
+            **self.space.chosen(combination), **{name: float(each) for name, each in self.space.designs(unit).items()}
+        )
+
+    def assembled(self, machine: Mechanism) -> Motion:
+        """Return a machine's motion over the strokes' ranges; AssemblyError where it cannot be assembled, between the poses too."""
+        ends = self._ends(machine.dimensions, slopes=False)
+        axes = []
+        for one in self.ranges.values():
+            low, high = (float(np.ravel(self._end(end, ends, 0, 0))[0]) for end in (one.low, one.high))
+            axes.append(np.array(low) if low == high else np.linspace(low, high, 101 if len(self.ranges) == 1 else 25))
+        arrays = iter(np.meshgrid(*[axis for axis in axes if axis.ndim], indexing="ij")) if any(axis.ndim for axis in axes) else iter(())
+        at: dict[str, Any] = {name: next(arrays) if axis.ndim else float(axis) for name, axis in zip(self.ranges, axes, strict=True)}
+        return machine.at(**at)
+
+    # -- the whole truth ---------------------------------------------------------------------------------
+
+    def motion(self, design: Mapping[str, Any], names: Sequence[str], fixed: Mapping[str, float], count: int = 33) -> Motion:
+        """Return the motion of one design over some strokes' ranges, the others held."""
+        ends = self._ends(design, slopes=False)
+        poses = PoseSet({name: np.linspace(0.0, 1.0, count if len(names) == 1 else 5) for name in names}, fixed)
+        return motion_of(self._grid(poses, design, ends))
+
+    def true(self, leaf: Leaf, design: Mapping[str, Any]) -> tuple[float, dict[str, float]]:
+        """Return the value of a leaf of one design, between the poses too, and where: parts (0 to 1) of the strokes' ranges."""
+        poses, _ = self._of_leaf[leaf]
+        names = tuple(name for name in poses.axes if name != poses.inner)
+        if poses.inner or isinstance(leaf, (At, Integral)) or not names:
+            look = self.look(design)
+            return float(reduced(leaf, look.rows[leaf].values)[0]), {}
+        motion = self.motion(design, names, poses.fixed)
+        found = (lowest if isinstance(leaf, Least) else greatest)(motion, value_on(leaf.quantity))
+        parts = {}
+        for name in names:
+            values = motion.strokes[name]
+            low, high = float(values.min()), float(values.max())
+            given = self.ranges[name]
+            turned = is_number(given.low) and is_number(given.high) and given.low > given.high
+            part = (float(found.strokes[name]) - low) / (high - low) if high > low else 0.0
+            parts[name] = 1.0 - part if turned else part
+        return float(found.value), parts
+
+    def refinable(self, leaf: Leaf) -> bool:
+        """Return whether poses between the samples can be looked for."""
+        poses, _ = self._of_leaf[leaf]
+        return isinstance(leaf, (Least, Most)) and not poses.inner and bool(poses.axes)
+
+    def refined(self, leaf: Leaf, parts: Mapping[str, float]) -> bool:
+        """Add a pose between the samples to those of a leaf; return whether it is new."""
+        poses, _ = self._of_leaf[leaf]
+        new = False
+        for name, part in parts.items():
+            axis = poses.axes[name]
+            if np.abs(axis - part).min() > 1e-9:
+                poses.axes[name] = np.sort(np.append(axis, part))
+                new = True
+        return new
+
+    def where(self, leaf: Leaf, design: Mapping[str, Any], parts: Mapping[str, float]) -> dict[str, float]:
+        """Return the strokes [SI] at parts of their ranges."""
+        ends = self._ends(design, slopes=False)
+        found = {}
+        for name, part in parts.items():
+            low, high = (float(np.ravel(self._end(end, ends, 0, 0))[0]) for end in (self.ranges[name].low, self.ranges[name].high))
+            found[name] = low + part * (high - low)
+        return found
+
+
+def missed(constraint: Constraint, numbers: Mapping[Leaf, FloatArray]) -> FloatArray:
+    """Return by how much of its size a condition is missed by designs, from the leaves' numbers (m,); nothing where one says nothing."""
+    left, right = (np.asarray(side.of(lambda leaf: numbers[leaf]), float) for side in (constraint.left, constraint.right))
+    margin = (right - left if constraint.symbol == "<=" else left - right) / np.maximum(np.maximum(np.abs(left), np.abs(right)), 1e-300)
+    short = np.abs(margin) if constraint.symbol == "==" else -margin
+    says_nothing = np.any([np.isnan(numbers[leaf]) for leaf in constraint.margin.leaves], axis=0)
+    unlimited = np.isnan(margin) & (constraint.symbol != "==") & says_nothing
+    return np.where(unlimited, 0.0, np.where(np.isnan(short), np.inf, short))
+
+
+def gauss() -> tuple[FloatArray, FloatArray]:
+    """Return places from 0 to 1 and weights of Gauss's rule in panels."""
+    places, weights = np.polynomial.legendre.leggauss(NODES)
+    edges = np.arange(PANELS) / PANELS
+    return (edges[:, None] + (places + 1.0) / 2.0 / PANELS).ravel(), np.tile(weights / 2.0 / PANELS, PANELS)
+
+
+def worst_along(values: FloatArray, slopes: FloatArray | None, count: int, sense: float) -> tuple[FloatArray, FloatArray | None]:
+    """Return the worst values along a last axis of so many samples, (m, n) from (m, n * count), and the derivatives there.
+
+    A peak between samples is that of the parabola through three of them.
+    """
+    cube = sense * values.reshape(len(values), -1, count)
+    filled = np.where(np.isnan(cube), -np.inf, cube)
+    top = np.clip(np.argmax(filled, axis=-1), 1, count - 2)[..., None]
+    a, b, c = (np.take_along_axis(cube, top + shift, axis=-1)[..., 0] for shift in (-1, 0, 1))
+    with np.errstate(all="ignore"):
+        bend = a - 2.0 * b + c
+        shift = np.where(bend < 0.0, np.clip(0.5 * (a - c) / bend, -1.0, 1.0), np.where(c > a, 1.0, -1.0))
+        shift = np.where(np.isfinite(shift), shift, 0.0)
+    weights = np.stack([0.5 * shift * (shift - 1.0), 1.0 - shift**2, 0.5 * shift * (shift + 1.0)])
+    best = sense * (weights[0] * a + weights[1] * b + weights[2] * c)
+    best = np.where(np.isnan(cube).any(axis=-1), np.nan, best)
+    if slopes is None:
+        return best, None
+    bunch = slopes.reshape(len(slopes), -1, count)
+    parts = [np.take_along_axis(bunch, np.broadcast_to(top[0] + each, (*bunch.shape[:2], 1)), axis=-1)[..., 0] for each in (-1, 0, 1)]
+    return best, np.asarray(sum(weight[0] * part for weight, part in zip(weights, parts, strict=True)))
+
+
+def reduced(leaf: Leaf, values: FloatArray) -> FloatArray:
+    """Return what a leaf takes of its rows (m, n): one number (m,); rows without a value say nothing, NaN where none has one."""
+    with np.errstate(all="ignore"):
+        if isinstance(leaf, Least):
+            return np.asarray(np.where(np.isnan(values).all(axis=1), np.nan, np.fmin.reduce(values, axis=1)))
+        if isinstance(leaf, Most):
+            return np.asarray(np.where(np.isnan(values).all(axis=1), np.nan, np.fmax.reduce(values, axis=1)))
+    return np.asarray(values[:, 0])

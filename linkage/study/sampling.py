@@ -1,0 +1,276 @@
+"""Quantities at poses of designs, with exact derivatives by dimensions: what a search asks of the program, in one call for all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import DefinitionError, UntracedError, unwarned
+from ..motion import BoundRequest, Grid, Motion, Request
+from ..motion.evaluation import Evaluation
+from ..motion.grid import Angles, angles_of
+from ..motion.requests import Slope, bound
+from ..plan import Mask, Plan
+from ..program import QUICKEST, FloatArray, Kernel, Level
+from ..quantities import Quantity
+from .checks import quantity_values, title_of
+from .measures import words_of
+
+DIFFERENCE = 6e-6
+"""Of a variable's span: the step of a central difference, where nothing better is to be had."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """Quantities at poses: `values` (k, m, n), the `margins` of the loops (r, m, n), and whether a pose is `reached` (m, n)."""
+
+    values: FloatArray
+    margins: FloatArray
+    reached: Mask
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class SampledSlopes:
+    """Derivatives by p inputs: of k quantities (k, p, n) and of the margins (r, p, n), of one design."""
+
+    values: FloatArray
+    margins: FloatArray
+
+
+@final
+class Sampling:
+    """Some quantities of a plan, together: `seen` and `slopes` of designs at poses.
+
+    `owners` are the inputs they are differentiated by: design variables, and strokes.
+    """
+
+    def __init__(self, plan: Plan, quantities: Sequence[Any], owners: Sequence[str]) -> None:
+        self.plan, self.quantities, self.owners = plan, tuple(quantities), tuple(owners)
+        self._traced: dict[int, BoundRequest] = {}
+        self._eager: list[int] = []
+        for place, quantity in enumerate(self.quantities):
+            request = traced(plan, quantity)
+            if request is None:
+                self._eager.append(place)
+            else:
+                self._traced[place] = request
+
+    # -- values ------------------------------------------------------------------------------------------
+
+    def seen(self, grid: Grid) -> Seen:
+        """Return the quantities over a grid, NaN where they have no value."""
+        m, n = grid.size
+        values = np.full((len(self.quantities), m, n), np.nan)
+        with unwarned(), np.errstate(all="ignore"):
+            margins, reached = self._margins(grid)
+            if self._traced:
+                requests = tuple(self._traced.values())
+                for place, found in zip(self._traced, Evaluation(grid, requests, QUICKEST, "nan").run(None), strict=True):
+                    values[place] = np.broadcast_to(found, grid.shape).reshape(m, n)
+            if self._eager:
+                motion = motion_of(grid)
+                for place in self._eager:
+                    values[place] = eager(motion, self.quantities[place]).reshape(m, n)
+        return Seen(np.where(reached, values, np.nan), margins, reached)
+
+    def _margins(self, grid: Grid) -> tuple[FloatArray, Mask]:
+        """Return how far the links are from being too short or too long, (r, m, n), and which poses are reached (m, n)."""
+        kernel = self.plan.made(("search margins",), margin_kernel)
+        found = grid.full(kernel(grid.flat).values)
+        found = np.broadcast_to(found, (len(kernel.plan.outputs), *grid.shape)).reshape(-1, *grid.size)
+        margins = found[:-1]
+        at_end = np.asarray(np.abs(margins) < ROUNDED)  # a pose at a dead point to rounding is reached
+        reached = np.asarray(np.isfinite(found).all(axis=0) & (margins >= -ROUNDED).all(axis=0))
+        if bool((at_end.any(axis=0) & ~reached).any()):
+            reached = reached | np.asarray(motion_of(grid).reached.reshape(grid.size))
+        return margins, reached
+
+    # -- derivatives -------------------------------------------------------------------------------------
+
+    def slopes(self, grid: Grid, *, margins: bool = True) -> SampledSlopes:
+        """Return the derivatives over a grid of one design, those of the margins where they are asked for."""
+        n, p = grid.size[1], len(self.owners)
+        values = np.zeros((len(self.quantities), p, n))
+        if not p:
+            return SampledSlopes(values, np.zeros((len(self._margin_loops), 0, n)))
+        with unwarned(), np.errstate(all="ignore"):
+            kernel, angles = self._program(margins)
+            found = grid.full(kernel(grid.flat).values)
+            found = np.broadcast_to(found, (len(kernel.plan.outputs), *grid.shape)).reshape(-1, p, n)
+            rows = p * len(self._traced)
+            continued = angles.continued(grid)
+            if continued is not None:
+                found = np.concatenate([continued.reshape(-1, p, n), found[rows // p :]])
+            for row, place in enumerate(self._traced):
+                values[place] = found[row]
+            for place in self._eager:
+                values[place] = self._differences(grid, self.quantities[place])
+        return SampledSlopes(values, found[len(self._traced) :])
+
+    @cached_property
+    def _margin_loops(self) -> Sequence[Any]:
+        return self.plan.made(("search margins",), margin_kernel).plan.outputs[:-1]
+
+    def _program(self, margins: bool) -> tuple[Kernel, Angles]:
+        """Return the kernel of all derivatives, then those of the margins; and the angles behind the first."""
+        keys = tuple(each.key for each in self._traced.values())
+
+        def make(plan: Plan) -> tuple[Kernel, Angles]:
+            shares = [node for each in self._traced.values() for node in Slope(each, self.owners).nodes(plan)]
+            loops = Margin.each_of(plan) if margins else []
+            return Kernel([*shares, *(node for each in loops for node in Slope(each, self.owners).nodes(plan))]), angles_of(plan, shares)
+
+        return self.plan.made(("search slopes", keys, self.owners, margins), make)
+
+    def _differences(self, grid: Grid, quantity: Any) -> FloatArray:
+        """Return the central differences of a quantity that is not traced, shape (p, n)."""
+        found = []
+        for owner in self.owners:
+            given = grid.strokes if owner in grid.strokes else grid.designs
+            step = DIFFERENCE * max(float(np.max(np.abs(given[owner]))), 0.01)
+            ends = []
+            for sign in (1.0, -1.0):
+                moved = {owner: np.asarray(given[owner]) + sign * step}
+                designs = dict(grid.designs) | (moved if given is grid.designs else {})
+                strokes = dict(grid.strokes) | (moved if given is grid.strokes else {})
+                near = Grid(grid.plan, designs, strokes, per_design=grid.per_design)
+                ends.append(eager(motion_of(near), quantity).reshape(-1))
+            found.append((ends[0] - ends[1]) / (2.0 * step))
+        return np.array(found)
+
+
+def traced(plan: Plan, quantity: Any) -> BoundRequest | None:
+    """Return a quantity bound to a plan as nodes of its program; None where it has none; DefinitionError for what is no number."""
+    if not isinstance(quantity, (str, Quantity, Request)):
+        return None
+    try:
+        request = bound_quantity(plan, quantity)
+    except UntracedError:
+        return None
+    if request.rows > 1:
+        name = words_of(quantity)
+        raise DefinitionError(f'{plan.title}: {name} has two components; say which, x("{name}") or y("{name}").')
+    try:
+        plan.made(("traced", request.key), lambda twin: len(request.nodes(twin)))
+    except UntracedError:
+        return None
+    return request
+
+
+def bound_quantity(plan: Plan, quantity: str | Quantity | Request) -> BoundRequest:
+    """Return a quantity bound to a plan; a dimension by its name too, `"lift.closed"`."""
+    if isinstance(quantity, str) and quantity not in plan.members and quantity in plan.table.spellings:
+        return DimensionValue(*plan.table.spellings[quantity])
+    return bound(plan, quantity)
+
+
+def strokes_behind(plan: Plan, quantity: Any) -> tuple[str, ...]:
+    """Return the strokes that a quantity depends on; all of them for a function of a motion."""
+    if not isinstance(quantity, (str, Quantity, Request)):
+        return tuple(plan.strokes)
+    try:
+        names = bound_quantity(plan, quantity).names(plan)
+    except UntracedError:
+        return tuple(plan.strokes)
+    return tuple(name for name in plan.strokes if name in names or name in plan.reaches(*(each for each in names if each in plan.members)))
+
+
+def motion_of(grid: Grid) -> Motion:
+    """Return the motion over a grid, NaN out of reach."""
+    return Motion(grid.plan, grid.designs, grid.strokes, "nan", per_design=grid.per_design)
+
+
+def eager(motion: Motion, quantity: Any) -> FloatArray:
+    """Return a quantity at every pose of a motion, NaN where it has no value."""
+    if isinstance(quantity, str) and quantity not in motion.plan.members and quantity in motion.plan.table.spellings:
+        owner, sign = motion.plan.table.spellings[quantity]
+        return np.asarray(np.broadcast_to(sign * motion.inputs[owner], motion.shape))
+    found = quantity.of(motion) if isinstance(quantity, Request) else quantity_values(motion, quantity)
+    return np.asarray(np.broadcast_to(found, motion.shape))
+
+
+def value_on(quantity: Any) -> Callable[[Motion], FloatArray]:
+    """Return a quantity as a function of a motion, as the search for extremes between poses takes it."""
+
+    def value(motion: Motion) -> FloatArray:
+        return eager(motion, quantity)
+
+    value.__name__ = title_of(quantity).replace(" ", "_") if callable(quantity) or isinstance(quantity, (str, Quantity)) else "request"
+    return value
+
+
+# How far the links are from being too short or too long to meet.
+
+ROUNDED = 1e-12
+"""A squared sine that is smaller is zero to rounding."""
+
+
+@final
+@dataclass(frozen=True)
+class Margin(BoundRequest):
+    """What is above zero where one loop of links is assembled: a squared sine, or a length [m]; by the loop's number."""
+
+    place: int
+
+    @classmethod
+    def each_of(cls, plan: Plan) -> list[Margin]:
+        """Return those of a plan, of what moves."""
+        loops = [place for place, loop in enumerate(plan.trace.loops) if loop.kind in ("links", "length")]
+        return [cls(place) for place in loops if plan.trace.loops[place].terms[0].level is not Level.CONSTANT]
+
+    @property
+    def key(self) -> Any:
+        return "margin", self.place
+
+    def nodes(self, plan: Plan) -> tuple[Any, ...]:
+        loop = plan.trace.loops[self.place]
+        return (loop.terms[0] / loop.terms[2] if loop.kind == "links" else loop.terms[0],)
+
+    def names(self, plan: Plan) -> set[str]:
+        return plan.reaches(plan.trace.loops[self.place].step)
+
+    def __str__(self) -> str:
+        return f"margin {self.place}"
+
+
+@final
+@dataclass(frozen=True)
+class DimensionValue(BoundRequest):
+    """A dimension itself, by its owner and sign."""
+
+    owner: str
+    sign: int
+
+    @property
+    def key(self) -> Any:
+        return "dimension", self.owner, self.sign
+
+    def nodes(self, plan: Plan) -> tuple[Any, ...]:
+        return (plan.trace.inputs[self.owner] * float(self.sign),)
+
+    def names(self, plan: Plan) -> set[str]:
+        return set()
+
+    def __str__(self) -> str:
+        return self.owner
+
+
+def margin_kernel(plan: Plan) -> Kernel:
+    """Return the kernel of a plan's margins, then of a number that is finite where every point has a place."""
+    margins = [node for each in Margin.each_of(plan) for node in each.nodes(plan)]
+    places = [node for name in plan.moving for node in plan.nodes(name)]
+    whole = plan.trace.graph.constant(0.0)
+    for node in places:
+        whole = whole + node * node
+    return Kernel([*margins, whole])
+
+
+def with_values(designs: Mapping[str, Any], changed: Mapping[str, Any]) -> dict[str, Any]:
+    """Return dimensions with some of them changed; numbers as floats, and arrays of one number as such."""
+    return dict(designs) | {name: float(value) if np.ndim(value) == 0 else np.asarray(value, float) for name, value in changed.items()}

@@ -1,0 +1,215 @@
+"""Which dimension matters: one at a time, from exact gradients and the real change, and by the shares of the variance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import DefinitionError, one_word, unwarned
+from ..frozen import FrozenDict, refuses_changes
+from ..mechanism import Mechanism
+from ..plan import Plan
+from ..program import FloatArray, Way
+from ..quantities import is_whole
+from ..units import show, unit_or_none
+from .measured import Measured, Poses, is_traced, measured_title, number_bound
+from .tolerances import Tolerance, ToleranceLike, shifted_designs, tolerance_words, tolerances_of
+
+POSES = 21
+
+
+@final
+@dataclass(frozen=True)
+class Bar:
+    """What one dimension does to a quantity: its gradient, and the quantity's change [SI] at either limit of the tolerance.
+
+    `low` and `high` are the real changes, `linear_low` and `linear_high` those that the gradient tells; `share` is the dimension's of the
+    variance, to the first order. NaN where the machine cannot be assembled at a limit.
+    """
+
+    name: str
+    tolerance: Tolerance
+    gradient: float
+    low: float
+    high: float
+    share: float
+
+    @property
+    def linear_low(self) -> float:
+        """The change that the gradient tells at the lower limit [SI]."""
+        return self.gradient * self.tolerance.low
+
+    @property
+    def linear_high(self) -> float:
+        """The change that the gradient tells at the upper limit [SI]."""
+        return self.gradient * self.tolerance.high
+
+    @property
+    def length(self) -> float:
+        """The greatest change, real or told by the gradient [SI]."""
+        return float(np.nanmax(np.abs([self.low, self.high, self.linear_low, self.linear_high])))
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Tornado:
+    """The effect of every tolerance by itself on a quantity at one pose: bars, the longest first; `sigma` is that of all together."""
+
+    plan: Plan
+    quantity: str
+    unit: str
+    at: str
+    nominal: float
+    sigma: float
+    bars: tuple[Bar, ...]
+
+    def __iter__(self) -> Iterator[Bar]:
+        """Return the bars one by one."""
+        return iter(self.bars)
+
+    def __getitem__(self, name: str) -> Bar:
+        """Return the bar of a dimension."""
+        found = {bar.name: bar for bar in self.bars}
+        if name not in found:
+            raise DefinitionError(f"{self.plan.title}: {name!r} has no bar; there are {', '.join(found)}.")
+        return found[name]
+
+    def __str__(self) -> str:
+        head = f"{self.quantity} = {show(self.nominal, self.unit)} at {self.at}; sigma {show(self.sigma, self.unit, 3)} of all together"
+        width = max(len(tolerance_words(self.plan, bar.name, bar.tolerance)) for bar in self.bars)
+        return "\n".join([f"{head}.", *(self._line(bar, width) for bar in self.bars)])
+
+    def _line(self, bar: Bar, width: int) -> str:
+        """Return a bar as text."""
+        ends = " to ".join(show(end, self.unit, 3) if np.isfinite(end) else "out of reach" for end in (bar.low, bar.high))
+        return f"{tolerance_words(self.plan, bar.name, bar.tolerance):<{width}}  {ends}, {100.0 * bar.share:.0f} % of the variance"
+
+
+def tornado(machine: Mechanism, quantity: Measured, tolerances: Mapping[str, ToleranceLike], *, unit: str = "", **strokes: Any) -> Tornado:
+    """Return what every tolerance by itself does to a quantity at one pose, the dimension that does most first.
+
+    `tornado(hitch, "tilt", {"OB": 0.1 * mm, "CD": 0.2 * mm}, unit="deg", S=0.1)`. Gradients are exact; of a function of a motion, which may
+    return one number for each design over the strokes, they are central differences over a thousandth of the tolerance. `unit` is
+    that of the words. Raises AssemblyError where the machine as it is set cannot be assembled.
+    """
+    poses, plan = Poses.of(machine, strokes, POSES), machine.plan
+    unit_or_none(unit, where="tornado(unit=...)")
+    named = tolerances_of(plan, tolerances)
+    k = len(named)
+    levels = np.concatenate([np.zeros((1, k)), -np.eye(k), np.eye(k)])
+    values = poses.values(machine.replaced(**shifted_designs(machine, named, levels)), quantity, Way())
+    if values.shape[1] != 1:
+        said = "say one pose, or give a function of a motion that returns one number for each design"
+        raise DefinitionError(f"{plan.title}: {measured_title(plan, quantity)} at {poses.count} poses; {said}.")
+    nominal = float(values[0, 0])
+    low, high = values[1 : 1 + k, 0] - nominal, values[1 + k :, 0] - nominal
+    slopes = gradient_at(machine, poses, quantity, named)
+    parts = (slopes * np.array([each.sigma for each in named.values()])) ** 2
+    total = float(parts.sum())
+    shares = parts / total if total else parts
+    rows = np.stack([slopes, low, high, shares], axis=1).tolist()
+    bars = [Bar(name, each, *row) for (name, each), row in zip(named.items(), rows, strict=True)]
+    ordered = tuple(sorted(bars, key=lambda bar: -bar.length))
+    return Tornado(plan, measured_title(plan, quantity), unit, poses.words(), nominal, float(np.sqrt(total)), ordered)
+
+
+STEP = 1e-3
+"""Of a tolerance: the difference that the gradient of a function of a motion is taken over."""
+
+
+def gradient_at(machine: Mechanism, poses: Poses, quantity: Measured, tolerances: Mapping[str, Tolerance]) -> FloatArray:
+    """Return the derivatives of a quantity at one pose by dimensions, shape (k,): exact, or of a function differences."""
+    if is_traced(quantity):
+        number_bound(machine.plan, quantity)
+        return poses.base.gradient(quantity, wrt=list(tolerances)).reshape(-1)  # type: ignore[arg-type]
+    k = len(tolerances)
+    steps = {name: Tolerance(STEP * max(each.high, -each.low)) for name, each in tolerances.items()}
+    levels = np.concatenate([-np.eye(k), np.eye(k)])
+    values = poses.values(machine.replaced(**shifted_designs(machine, steps, levels)), quantity, Way())[:, 0]
+    apart = np.array([2.0 * each.high for each in steps.values()])
+    return np.asarray(np.divide(values[k:] - values[:k], apart, out=np.zeros(k), where=apart > 0.0))
+
+
+# Shares of the variance.
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class SobolIndices:
+    """The shares of a quantity's variance by dimension: `first` order, by itself, and `total`, with all it acts together with.
+
+    Both by name, shapes (...) of the strokes; `sigma`, shape (...), is the standard deviation that they divide.
+    """
+
+    quantity: str
+    strokes: Mapping[str, FloatArray]
+    first: Mapping[str, FloatArray]
+    total: Mapping[str, FloatArray]
+    sigma: FloatArray
+
+    def __str__(self) -> str:
+        """Return the greatest shares over the strokes, the greatest first."""
+        order = sorted(self.total, key=lambda name: -float(np.max(self.total[name])))
+        said = (f"{name} {float(np.max(self.first[name])):.2f} ({float(np.max(self.total[name])):.2f})" for name in order)
+        return f"Variance of {self.quantity}, first order (total): {', '.join(said)}."
+
+
+SAMPLES = 1 << 12
+
+
+def sobol(
+    machine: Mechanism,
+    quantity: Measured,
+    tolerances: Mapping[str, ToleranceLike],
+    *,
+    count: int = SAMPLES,
+    seed: int = 0,
+    backend: str = "numpy",
+    threads: int = 1,
+    **strokes: Any,
+) -> SobolIndices:
+    """Return the Sobol indices of a quantity over tolerances, at every stroke looked at; by default 21 over a single one.
+
+    `sobol(hitch, "tilt", {"OB": 5 * mm, "CD": 5 * mm}, S=0.1)`; a function of a motion may return one number for each design. The number of
+    designs is `count`, a power of two, times two more than there are dimensions. Source: Saltelli and others, Computer Physics
+    Communications 181 (2010), 259-270, by `scipy.stats.sobol_indices`.
+
+    Raises DefinitionError where designs cannot be assembled, so that the variance is not known, or where nothing varies.
+    """
+    poses, plan = Poses.of(machine, strokes, POSES), machine.plan
+    named, title = tolerances_of(plan, tolerances), measured_title(plan, quantity)
+    if not is_whole(count) or count < 2 or count & (count - 1):
+        raise DefinitionError(f"count={count!r}: a power of two is expected, such as {SAMPLES}.")
+    way, sigmas = Way(one_word("backend", backend, ("numpy", "numba")), threads), []
+
+    def values(x: FloatArray) -> FloatArray:
+        designs = {name: machine[name] + row for name, row in zip(named, x, strict=True)}
+        found = poses.values(machine.replaced(**designs), quantity, way).T
+        lost = int(np.isnan(found).any(axis=0).sum())
+        if lost:
+            what = f"{plan.title}: {lost} of {x.shape[1]} designs have no value of {title} at some stroke"
+            raise DefinitionError(f"{what}, so that its variance is not known; make the tolerances smaller, or leave the stroke out.")
+        sigmas.append(np.std(found, axis=1))
+        return np.concatenate([found, found])  # SciPy 1.17 stops at a lone index, that of one dimension at one pose
+
+    from scipy.stats import sobol_indices
+
+    laws: Any = [SimpleNamespace(ppf=each.deviations) for each in named.values()]
+    with unwarned(), np.errstate(all="ignore"):
+        found = sobol_indices(func=values, n=int(count), dists=laws, rng=np.random.default_rng(int(seed)))
+    if not np.all(sigmas[0] > 0.0):
+        raise DefinitionError(f"{plan.title}: {title} does not vary with {', '.join(named)} at some of the strokes; leave these out.")
+    first, total = shares_by_name(poses, named, found.first_order), shares_by_name(poses, named, found.total_order)
+    return SobolIndices(title, FrozenDict(poses.base.strokes), first, total, poses.shaped(sigmas[0]))
+
+
+def shares_by_name(poses: Poses, names: Mapping[str, Any], indices: Any) -> FrozenDict[str, FloatArray]:
+    """Return the shares of a variance by the names of dimensions, from twice the poses times the dimensions, in that order."""
+    rows = np.reshape(indices, (2, -1, len(names)))[0].T
+    return FrozenDict({name: poses.shaped(row) for name, row in zip(names, rows, strict=True)})

@@ -1,0 +1,442 @@
+"""One local search: a problem's rows handed to SciPy's SLSQP or trust-constr, from one start, with one combination of choices.
+
+A least or greatest value over the stroke becomes a variable of its own, held below or above every row, where the condition or the objective
+gains from its being so; elsewhere the row that stands worst counts by itself. A step onto designs that cannot be assembled sees the last
+good design's straight lines and a loss that grows with the way, so that the solver turns back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..program import FloatArray
+from .measures import Constraint, Given, Leaf, Least, Measure, Most
+from .problem import Evaluated, Problem, reduced
+
+FAR = 10.0
+"""The loss for the whole of a box's side towards designs that cannot be assembled, in scaled numbers."""
+ROUNDS = 12
+"""How often poses between the samples are added at the most."""
+MET = 1e-7
+"""A condition is met when nothing more than this part of its size is missing."""
+TIGHT = 1e-13
+CLEAR = 1e-9
+"""The least squared sine of a loop that counts as assembled."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Graded:
+    """A number with its derivatives: adds, multiplies and divides as they do."""
+
+    value: float
+    slope: FloatArray
+
+    @staticmethod
+    def of(given: Any) -> Graded:
+        """Return a number as one."""
+        return given if isinstance(given, Graded) else Graded(float(given), np.zeros(1))
+
+    def __add__(self, other: Any) -> Graded:
+        other = Graded.of(other)
+        return Graded(self.value + other.value, self.slope + other.slope)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Graded:
+        return Graded(-self.value, -self.slope)
+
+    def __sub__(self, other: Any) -> Graded:
+        return self + -Graded.of(other)
+
+    def __rsub__(self, other: Any) -> Graded:
+        return Graded.of(other) - self
+
+    def __mul__(self, other: Any) -> Graded:
+        other = Graded.of(other)
+        return Graded(self.value * other.value, self.slope * other.value + other.slope * self.value)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Graded:
+        other = Graded.of(other)
+        with np.errstate(all="ignore"):
+            value = float(np.divide(self.value, other.value))
+            return Graded(value, (self.slope - value * other.slope) / other.value)
+
+    def __rtruediv__(self, other: Any) -> Graded:
+        return Graded.of(other) / self
+
+    def __pow__(self, other: Any) -> Graded:
+        exponent = Graded.of(other).value
+        with np.errstate(all="ignore"):
+            return Graded(float(np.power(self.value, exponent)), exponent * float(np.power(self.value, exponent - 1.0)) * self.slope)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Row:
+    """One line of the solver's problem: which constraint it belongs to, None for what every design keeps, and its scaled numbers."""
+
+    constraint: Constraint | None
+    values: FloatArray
+    slopes: FloatArray
+    equation: bool = False
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Found:
+    """What a local search came to: unit coordinates, the objective, what is missing at most, and whether it is assembled throughout."""
+
+    unit: FloatArray
+    value: float
+    missing: float
+    whole: bool
+
+    @property
+    def feasible(self) -> bool:
+        """Whether all conditions are met."""
+        return self.whole and self.missing <= MET and bool(np.isfinite(self.value))
+
+
+@final
+class Local:
+    """A problem with one combination of choices, as a solver sees it.
+
+    Its variables are the unit coordinates, then those of the leaves, then the worst of several objectives, and where it is `elastic` by
+    how much each constraint gives way; then the sum of these is to be least.
+    """
+
+    def __init__(self, problem: Problem, combination: Sequence[int], start: FloatArray, *, elastic: bool = False) -> None:
+        self.problem, self.combination, self.elastic = problem, tuple(combination), elastic
+        self.n = len(problem.space.variables)
+        self._cache: dict[bytes, Evaluated] = {}
+        self._good: tuple[FloatArray, Evaluated] | None = None
+        first = self.look(start)
+        if not bool(first.whole[0]):
+            raise DefinitionError("A local search starts from a design that can be assembled.")
+        self.start = np.asarray(start, float)
+        leaf_values = self.leaf_values(first)
+        self.leaf_scales = {leaf: self._leaf_scale(leaf, first) for leaf in problem.leaves}
+        self.scales = [self._scale(each, leaf_values) for each in problem.constraints]
+        value = float(problem.value(lambda leaf: leaf_values[leaf]))
+        self.size = abs(value) if np.isfinite(value) and value != 0.0 else 1.0
+        self.aux = self._auxiliaries(first)
+        self.several = int(len(problem.objectives) > 1)
+        self.slack = len(problem.constraints) if elastic else 0
+        self.width = self.n + len(self.aux) + self.several + self.slack
+
+    # -- scales and auxiliary variables ------------------------------------------------------------------
+
+    def leaf_values(self, look: Evaluated) -> dict[Leaf, float]:
+        """Return the leaves' numbers at the samples."""
+        return {leaf: float(reduced(leaf, rows.values)[0]) for leaf, rows in look.rows.items()}
+
+    @staticmethod
+    def _leaf_scale(leaf: Leaf, look: Evaluated) -> float:
+        values = np.abs(look.rows[leaf].values[np.isfinite(look.rows[leaf].values)])
+        return float(values.max(initial=0.0)) or 1.0
+
+    def _scale(self, constraint: Constraint, values: Mapping[Leaf, float]) -> float:
+        """Return what a constraint's numbers are measured with: the larger of its sides."""
+        return scale_of(constraint, lambda leaf: values[leaf]) or 1.0
+
+    def _auxiliaries(self, look: Evaluated) -> list[tuple[Constraint | Measure, Leaf]]:
+        """Return the leaves that become variables, each with the constraint or objective in which it does."""
+        found: list[tuple[Constraint | Measure, Leaf]] = []
+        owners: tuple[Constraint | Measure, ...] = (*self.problem.objectives, *self.problem.constraints)
+        for owner in owners:
+            if isinstance(owner, Constraint) and (owner.symbol == "==" or single_extreme(owner) is not None):
+                continue
+            expression = owner.margin if isinstance(owner, Constraint) else owner
+            for leaf in expression.leaves:
+                if not isinstance(leaf, (Least, Most)) or look.rows[leaf].values.shape[1] < 2:
+                    continue
+                way = self._grows(expression, leaf, look) * (1.0 if isinstance(owner, Constraint) else -self.problem.sense)
+                if way * (1.0 if isinstance(leaf, Least) else -1.0) > 0.0:
+                    found.append((owner, leaf))
+        return found
+
+    def _grows(self, expression: Measure, leaf: Leaf, look: Evaluated) -> float:
+        """Return how an expression changes with a leaf at a look."""
+        values = self.leaf_values(look)
+        graded = expression.of(lambda each: Graded(values[each], np.array([1.0 if each is leaf else 0.0])))
+        return float(Graded.of(graded).slope[0])
+
+    # -- the solver's view -------------------------------------------------------------------------------
+
+    def look(self, unit: FloatArray) -> Evaluated:
+        """Return what is seen of unit coordinates, once."""
+        key = np.asarray(unit, float).tobytes()
+        if key not in self._cache:
+            if len(self._cache) > 4:
+                self._cache.pop(next(iter(self._cache)))
+            self._cache[key] = self.problem.look(self.problem.designs(np.clip(unit, 0.0, 1.0), self.combination), slopes=True)
+        look = self._cache[key]
+        if bool(look.whole[0]) and self._usable(look):
+            self._good = np.array(unit, float), look
+        return look
+
+    @staticmethod
+    def _usable(look: Evaluated) -> bool:
+        return all(bool(np.isfinite(rows.values).any()) for rows in look.rows.values())
+
+    def _safe(self, z: FloatArray) -> tuple[Evaluated, FloatArray, float]:
+        """Return a look that can be worked with, the way from it to the point that is asked, and the loss there."""
+        unit = z[: self.n]
+        look = self.look(unit)
+        if bool(look.whole[0]) and self._usable(look):
+            return look, np.zeros(self.n), 0.0
+        assert self._good is not None
+        base, good = self._good
+        way = unit - base
+        return good, way, FAR * float(np.abs(way).max(initial=0.0))
+
+    def graded(self, owner: Constraint | Measure, look: Evaluated, z: FloatArray) -> Graded:
+        """Return a constraint's margin or an objective with its derivatives by the solver's variables."""
+
+        def value(leaf: Leaf) -> Graded:
+            slope = np.zeros(self.width)
+            for place, (whose, each) in enumerate(self.aux):
+                if whose is owner and each is leaf:
+                    slope[self.n + place] = self.leaf_scales[leaf]
+                    return Graded(float(z[self.n + place]) * self.leaf_scales[leaf], slope)
+            rows = look.rows[leaf]
+            place = 0
+            if isinstance(leaf, (Least, Most)):
+                pick = np.nanargmin if isinstance(leaf, Least) else np.nanargmax
+                place = int(pick(rows.values[0]))
+            assert rows.slopes is not None
+            slope[: self.n] = rows.slopes[:, place]
+            return Graded(float(rows.values[0, place]), slope)
+
+        found = Graded.of((owner.margin if isinstance(owner, Constraint) else owner).of(value))
+        return Graded(found.value, np.broadcast_to(found.slope, (self.width,)))
+
+    def objective(self, z: FloatArray) -> tuple[float, FloatArray]:
+        """Return the scaled objective, to be least, and its derivatives."""
+        look, way, loss = self._safe(z)
+        if self.elastic or self.several:
+            slope = np.zeros(self.width)
+            columns = slice(self.width - self.slack, None) if self.elastic else slice(self.n + len(self.aux), self.n + len(self.aux) + 1)
+            slope[columns] = 1.0
+            return float(z[columns].sum()) + loss, slope
+        found = self.graded(self.problem.objectives[0], look, z)
+        factor = self.problem.sense / self.size
+        return factor * (found.value + float(found.slope[: self.n] @ way)) + loss, factor * found.slope
+
+    def rows(self, z: FloatArray) -> list[Row]:
+        """Return the lines of the problem: zero or above where they are kept, zero where they are equations."""
+        look, way, loss = self._safe(z)
+        found = [self._margins(look, way, loss)]
+        for place, each in enumerate(self.problem.constraints):
+            found.append(self._constraint(place, each, look, way, loss, z))
+        for place, (owner, leaf) in enumerate(self.aux):
+            found.append(self._bound(place, owner, leaf, look, way, loss, z))
+        if self.several:
+            found += [self._objective_line(each, look, way, loss, z) for each in self.problem.objectives]
+        return [each for each in found if each.values.size]
+
+    def _objective_line(self, objective: Measure, look: Evaluated, way: FloatArray, loss: float, z: FloatArray) -> Row:
+        """Return the line that holds one of several objectives below the worst of them."""
+        graded, factor = self.graded(objective, look, z), self.problem.sense / self.size
+        column = self.n + len(self.aux)
+        slope = -factor * graded.slope
+        slope[column] = 1.0
+        return Row(None, np.array([z[column] - factor * graded.value + slope[: self.n] @ way - loss]), slope[None])
+
+    def _margins(self, look: Evaluated, way: FloatArray, loss: float) -> Row:
+        assert look.margin_slopes is not None
+        slopes = np.zeros((look.margins.shape[1], self.width))
+        slopes[:, : self.n] = look.margin_slopes.T
+        values, slopes = without_gaps(look.margins[0] - CLEAR, slopes)
+        return Row(None, values + slopes[:, : self.n] @ way - loss, slopes)
+
+    def _constraint(self, place: int, each: Constraint, look: Evaluated, way: FloatArray, loss: float, z: FloatArray) -> Row:
+        """Return the line or lines of a constraint: one a pose where a single extreme is held against a number."""
+        scale, equation = self.scales[place], each.symbol == "=="
+        found = single_extreme(each)
+        if found is not None and not equation:
+            leaf, sign, bound = found
+            rows = look.rows[leaf]
+            assert rows.slopes is not None
+            values = sign * (rows.values[0] - bound) / scale
+            slopes = np.zeros((values.size, self.width))
+            slopes[:, : self.n] = sign * rows.slopes.T / scale
+            values, slopes = without_gaps(values, slopes)
+        else:
+            graded = self.graded(each, look, z)
+            values, slopes = np.array([graded.value / scale]), graded.slope[None] / scale
+        values = values + slopes[:, : self.n] @ way - loss
+        if self.elastic:
+            slopes = np.array(slopes)
+            column = self.width - self.slack + place
+            slack = float(z[column])
+            if equation:  # both sides give way
+                both = np.concatenate([slopes, -slopes])
+                both[:, column] = 1.0
+                return Row(each, np.concatenate([values + slack, slack - values]), both)
+            slopes[:, column] = 1.0
+            values = values + slack
+        return Row(each, values, slopes, equation)
+
+    def _bound(
+        self, place: int, owner: Constraint | Measure, leaf: Leaf, look: Evaluated, way: FloatArray, loss: float, z: FloatArray
+    ) -> Row:
+        """Return the lines that hold a leaf's variable below or above each of its rows."""
+        rows, scale = look.rows[leaf], self.leaf_scales[leaf]
+        assert rows.slopes is not None
+        sign = 1.0 if isinstance(leaf, Least) else -1.0
+        values = sign * (rows.values[0] / scale - z[self.n + place])
+        slopes = np.zeros((values.size, self.width))
+        slopes[:, : self.n] = sign * rows.slopes.T / scale
+        slopes[:, self.n + place] = -sign
+        values, slopes = without_gaps(values, slopes)
+        return Row(owner if isinstance(owner, Constraint) else None, values + slopes[:, : self.n] @ way - loss, slopes)
+
+    def first(self, unit: FloatArray) -> FloatArray:
+        """Return the solver's variables at unit coordinates."""
+        values = self.leaf_values(self.look(unit))
+        worst = [self.problem.sense * float(self.problem.value(lambda leaf: values[leaf])) / self.size] * self.several
+        z = np.concatenate([unit, [values[leaf] / self.leaf_scales[leaf] for _, leaf in self.aux], worst, np.zeros(self.slack)])
+        if self.elastic:
+            columns = {id(each): self.width - self.slack + place for place, each in enumerate(self.problem.constraints)}
+            for row in self.rows(z):
+                if row.constraint is not None:
+                    column = columns[id(row.constraint)]
+                    z[column] = max(z[column], -float(row.values.min()))
+        return z
+
+    # -- one search --------------------------------------------------------------------------------------
+
+    def solve(self, unit: FloatArray, method: str = "slsqp", most: int = 200) -> FloatArray:
+        """Return the unit coordinates that a solver comes to from some."""
+        from scipy.optimize import Bounds
+
+        z = self.first(unit)
+        low, high = np.full(self.width, -np.inf), np.full(self.width, np.inf)
+        low[: self.n], high[: self.n] = 0.0, 1.0
+        low[self.width - self.slack :] = 0.0
+        if method == "trust-constr":
+            return self._trusted(z, Bounds(low, high), most)
+        return self._sequential(z, Bounds(low, high), most)
+
+    def _stacked(self, z: FloatArray, equations: bool) -> tuple[FloatArray, FloatArray]:
+        rows = [row for row in self.rows(z) if row.equation is equations]
+        if not rows:
+            return np.zeros(0), np.zeros((0, self.width))
+        return np.concatenate([row.values for row in rows]), np.concatenate([row.slopes for row in rows])
+
+    def _sequential(self, z: FloatArray, bounds: Any, most: int) -> FloatArray:
+        """Return what SLSQP comes to."""
+        from scipy.optimize import minimize
+
+        held: list[dict[str, Any]] = []
+        for equations, kind in ((False, "ineq"), (True, "eq")):
+            if self._stacked(z, equations)[0].size:
+                held.append(self._held(kind, equations))
+        result = minimize(
+            lambda at: self.objective(at)[0], z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
+            method="SLSQP", options={"maxiter": most, "ftol": TIGHT},
+        )  # fmt: skip
+        return np.asarray(result.x, float)
+
+    def _held(self, kind: str, equations: bool) -> dict[str, Any]:
+        return {"type": kind, "fun": lambda at: self._stacked(at, equations)[0], "jac": lambda at: self._stacked(at, equations)[1]}
+
+    def _trusted(self, z: FloatArray, bounds: Any, most: int) -> FloatArray:
+        """Return what trust-constr comes to."""
+        from scipy.optimize import NonlinearConstraint, minimize
+
+        held = []
+        for equations, upper in ((False, np.inf), (True, 0.0)):
+            if self._stacked(z, equations)[0].size:
+                one = self._held("ineq", equations)
+                held.append(NonlinearConstraint(one["fun"], 0.0, upper, jac=one["jac"]))
+        result = minimize(
+            lambda at: self.objective(at)[0], z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
+            method="trust-constr", options={"maxiter": 5 * most, "gtol": 1e-9, "xtol": 1e-11},
+        )  # fmt: skip
+        return np.asarray(result.x, float)
+
+    def judged(self, unit: FloatArray, *, truly: bool = False) -> Found:
+        """Return the objective and what is missing at unit coordinates, at the samples or between them too."""
+        problem, design = self.problem, self.problem.designs(unit, self.combination)
+        look = self.look(unit)
+        if not bool(look.whole[0]):
+            return Found(unit, np.nan, np.inf, False)
+        values = self.leaf_values(look)
+        if truly:
+            values = {leaf: problem.true(leaf, design)[0] for leaf in problem.leaves}
+        value = float(problem.value(lambda leaf: values[leaf]))
+        return Found(unit, value, missing_of(problem.constraints, self.scales, values), True)
+
+    def run(self, method: str = "slsqp") -> Found:
+        """Return what a search from the start comes to, with poses between the samples added until none is worse than these."""
+        unit = self.start
+        for _ in range(ROUNDS):
+            unit = np.clip(self.solve(unit, method)[: self.n], 0.0, 1.0)
+            if not bool(self.look(unit).whole[0]):
+                assert self._good is not None
+                unit = np.clip(self._good[0], 0.0, 1.0)
+            if not self._refine(unit):
+                break
+        return self.judged(unit, truly=True)
+
+    def _refine(self, unit: FloatArray) -> bool:
+        """Add the worst poses between the samples; return whether one of them is worse than those by what counts."""
+        problem, design = self.problem, self.problem.designs(unit, self.combination)
+        values, added = self.leaf_values(self.look(unit)), False
+        for leaf in problem.leaves:
+            if isinstance(leaf, (Least, Most)) and problem.refinable(leaf):
+                true, parts = problem.true(leaf, design)
+                if not np.isfinite(true):
+                    continue
+                worse = (values[leaf] - true) * (1.0 if isinstance(leaf, Least) else -1.0)
+                if worse > 0.1 * MET * max(self.leaf_scales[leaf], abs(true)):
+                    added = problem.refined(leaf, parts) or added
+        if added:
+            self._cache.clear()
+        return added
+
+
+def without_gaps(values: FloatArray, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return lines of which those without a value say nothing."""
+    gap = ~(np.isfinite(values) & np.isfinite(slopes).all(axis=1))
+    return np.where(gap, 1.0, values), np.where(gap[:, None], 0.0, slopes)
+
+
+def single_extreme(constraint: Constraint) -> tuple[Leaf, float, float] | None:
+    """Return a single extreme, its sign and the number it is held against, where a condition gains from its being so; else None."""
+    left, right = constraint.left, constraint.right
+    for one, other, sign in ((left, right, 1.0), (right, left, -1.0)):
+        if isinstance(one, (Least, Most)) and isinstance(other, Given):
+            sign = sign if constraint.symbol == ">=" else -sign
+            if (sign > 0.0) == isinstance(one, Least):
+                return one, sign, other.value
+    return None
+
+
+def scale_of(constraint: Constraint, value: Any) -> float:
+    """Return the larger of a constraint's two sides, in size."""
+    sides = [abs(float(side.of(value))) for side in (constraint.left, constraint.right)]
+    return max((side for side in sides if np.isfinite(side)), default=0.0)
+
+
+def missing_of(constraints: Sequence[Constraint], scales: Sequence[float], values: Mapping[Leaf, float]) -> float:
+    """Return by how much the worst of some constraints is missed, in parts of its size; infinite where one has no value."""
+    missing = 0.0
+    for each, scale in zip(constraints, scales, strict=True):
+        margin = float(each.margin.of(lambda leaf: values[leaf])) / scale
+        if np.isnan(margin):
+            if all(np.isfinite(values[leaf]) for leaf in each.margin.leaves) or each.symbol == "==":
+                return np.inf
+            continue  # a quantity that says nothing anywhere: not limited
+        missing = max(missing, abs(margin) if each.symbol == "==" else -margin)
+    return missing

@@ -1,0 +1,211 @@
+"""What a search may vary: ranges of dimensions, in steps or not, choices, and rows of a catalogue."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from math import prod
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import DefinitionError, cited, unknown
+from ..mechanism import Mechanism
+from ..plan import Plan
+from ..program import FloatArray
+from ..quantities import is_number
+from ..units import show
+from .checks import unit_of
+from .designs import check_once
+
+MOST_COMBINATIONS = 100_000
+
+
+@final
+@dataclass(frozen=True)
+class Around:
+    """So far up and down from a dimension's present value."""
+
+    by: float
+    step: float | None = None
+
+
+def around(by: float, step: float | None = None) -> Around:
+    """Return the range of so much up and down about the present value, of a point in both directions: `vary={"M": around(60 * mm)}`."""
+    for value, what in ((by, "a distance or an angle"), (step, "a step")):
+        if value is not None and (not is_number(value) or value <= 0.0):
+            raise DefinitionError(f"around({cited(by)}{'' if step is None else f', {cited(step)}'}): {what} above zero is expected.")
+    return Around(float(by), step)
+
+
+@final
+@dataclass(frozen=True)
+class Varied:
+    """A dimension that varies between two values [SI], in steps where `step` is given; `sign` that of its spelling."""
+
+    name: str
+    owner: str
+    sign: float
+    low: float
+    high: float
+    step: float | None
+    unit: str
+
+    @property
+    def span(self) -> float:
+        """High less low."""
+        return self.high - self.low
+
+    def stepped(self, value: float) -> tuple[float, ...]:
+        """Return the one or two steps about a value."""
+        if self.step is None:
+            return (value,)
+        place = (value - self.low) / self.step
+        last = int(np.floor(self.span / self.step + 1e-9))
+        near = {int(np.clip(part, 0, last)) for part in (np.floor(place + 1e-9), np.ceil(place - 1e-9))}
+        return tuple(self.low + self.step * each for each in sorted(near))
+
+    def show(self, value: float) -> str:
+        """Return a value with its unit."""
+        return show(value, self.unit)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Space:
+    """The variables, and the choices: for each, the dimensions it sets and their rows."""
+
+    variables: tuple[Varied, ...]
+    choices: tuple[tuple[tuple[tuple[str, float], ...], tuple[tuple[float, ...], ...]], ...]
+    names: tuple[tuple[str, ...], ...]
+
+    @classmethod
+    def of(cls, machine: Mechanism, vary: Any) -> Space:
+        """Return what `vary` says; DefinitionError for an unknown dimension, an empty range, or anything else."""
+        title = machine.plan.title
+        if not isinstance(vary, Mapping) or not vary:
+            raise DefinitionError(f'{title}: vary={cited(vary)}: a dictionary is expected, such as vary={{"OB": (0.27, 0.33)}}.')
+        variables: list[Varied] = []
+        choices, names = [], []
+        for name, given in vary.items():
+            parts = name if isinstance(name, tuple) else (name,)
+            for part in parts:
+                known_dimension(machine, part)
+            if isinstance(given, Around) or (isinstance(given, tuple) and len(parts) == 1 and len(given) in (2, 3)):
+                variables += ranged(machine, parts, given)
+            else:
+                owners = tuple(owner for part in parts for owner in owners_of(machine.plan, part))
+                choices.append((owners, rows_of(title, parts, given, len(owners))))
+                names.append(tuple(coordinates(machine.plan, parts)))
+        check_once(machine, {part: None for name in vary for part in (name if isinstance(name, tuple) else (name,))})
+        found = cls(tuple(variables), tuple(choices), tuple(names))
+        if found.count > MOST_COMBINATIONS:
+            raise DefinitionError(f"{title}: {found.count} combinations of choices are too many; {MOST_COMBINATIONS} are the most.")
+        for owners, rows in found.choices:
+            for row in rows:
+                machine.replaced(**{owner: sign * value for (owner, sign), value in zip(owners, row, strict=True)})
+        for each in variables:
+            for end in (each.low, each.high):
+                machine.replaced(**{each.name: end})
+        return found
+
+    @property
+    def count(self) -> int:
+        """How many combinations of choices there are."""
+        return prod(len(rows) for _, rows in self.choices)
+
+    def combinations(self) -> Iterator[tuple[int, ...]]:
+        """Yield every combination of choices, by the numbers of their rows."""
+        return product(*(range(len(rows)) for _, rows in self.choices))
+
+    def chosen(self, combination: Sequence[int]) -> dict[str, float]:
+        """Return the dimensions [SI] of a combination, by their owners."""
+        found: dict[str, float] = {}
+        for (owners, rows), row in zip(self.choices, combination, strict=True):
+            found |= {owner: sign * value for (owner, sign), value in zip(owners, rows[row], strict=True)}
+        return found
+
+    def words(self, combination: Sequence[int], plan: Plan) -> str:
+        """Return a combination in words."""
+        return ", ".join(
+            f"{name} = {show(value, unit_of(plan, name))}"
+            for names, (_, rows), row in zip(self.names, self.choices, combination, strict=True)
+            for name, value in zip(names, rows[row], strict=True)
+        )
+
+    def values(self, unit: FloatArray) -> FloatArray:
+        """Return values (..., n) of the variables from unit coordinates (..., n)."""
+        low, span = np.array([(each.low, each.span) for each in self.variables]).reshape(-1, 2).T
+        return np.asarray(low + np.asarray(unit) * span)
+
+    def unit(self, values: FloatArray) -> FloatArray:
+        """Return unit coordinates of values (..., n), within 0 and 1."""
+        low, span = np.array([(each.low, each.span) for each in self.variables]).reshape(-1, 2).T
+        return np.asarray(np.clip((np.asarray(values) - low) / np.where(span > 0.0, span, 1.0), 0.0, 1.0))
+
+    def designs(self, unit: FloatArray) -> dict[str, Any]:
+        """Return dimensions by owner from unit coordinates, (n,) or (m, n)."""
+        values = self.values(unit)
+        return {each.owner: each.sign * values[..., place] for place, each in enumerate(self.variables)}
+
+    def present(self, machine: Mechanism) -> FloatArray:
+        """Return the variables' present values (n,)."""
+        return np.array([each.sign * float(machine.dimensions[each.owner]) for each in self.variables])
+
+
+def known_dimension(machine: Mechanism, name: Any) -> None:
+    """Raise DefinitionError for what is no dimension of a machine."""
+    if not isinstance(name, str):
+        raise unknown("Dimension", name, machine.plan.table.names(), where=machine.plan.title)
+    if name in machine.plan.strokes:
+        raise DefinitionError(
+            f"{machine.plan.title}: {name} is a stroke and no dimension; say over={{{name!r}: (low, high)}} for its range."
+        )
+    _ = machine[name]  # raises for a name that is none, or that follows others
+
+
+def coordinates(plan: Plan, names: Sequence[str]) -> list[str]:
+    """Return names, those of points by their two coordinates."""
+    return [part for name in names for part in ([name] if name in plan.table.spellings else [f"{name}.x", f"{name}.y"])]
+
+
+def owners_of(plan: Plan, name: str) -> list[tuple[str, float]]:
+    """Return the design variables that a name sets, with signs: two of a point."""
+    return [(owner, float(sign)) for owner, sign in (plan.table.spellings[each] for each in coordinates(plan, [name]))]
+
+
+def ranged(machine: Mechanism, names: Sequence[str], given: Around | tuple[Any, ...]) -> list[Varied]:
+    """Return the variables of a range; DefinitionError for what is none."""
+    plan, found = machine.plan, []
+    for name in coordinates(plan, names):
+        owner, sign = plan.table.spellings[name]
+        if isinstance(given, Around):
+            now = float(sign * machine.dimensions[owner])
+            low, high, step = now - given.by, now + given.by, given.step
+        elif name not in names:
+            said = f'write around(60 * mm), or ranges of its coordinates, "{name}": (low, high)'
+            raise DefinitionError(f"{plan.title}: {names[0]}={cited(given)}: {names[0]} is a point; {said}, or a list of positions.")
+        else:
+            low, high, step = (*given, None)[:3]
+        ends = [low, high] if step is None else [low, high, step]
+        if not all(is_number(each) for each in ends) or not low < high or (step is not None and not 0.0 < step <= high - low):
+            said = "write (low, high) or (low, high, step) in SI, a list of choices, or around(...)"
+            raise DefinitionError(f"{plan.title}: {name}={cited(given)} is no range; {said}.")
+        found.append(Varied(name, owner, float(sign), float(low), float(high), None if step is None else float(step), unit_of(plan, name)))
+    return found
+
+
+def rows_of(title: str, names: Sequence[str], given: Any, width: int) -> tuple[tuple[float, ...], ...]:
+    """Return the rows of choices; DefinitionError for what is none."""
+    said = "write a range (low, high), a list of choices such as [0.28, 0.30], or for several names at once a list of rows"
+    if not isinstance(given, (list, tuple, range, np.ndarray)) or len(given) == 0:
+        raise DefinitionError(f"{title}: {', '.join(names)}={cited(given)}: {said}.")
+    rows = []
+    for each in given:
+        row = tuple(each) if isinstance(each, (list, tuple, np.ndarray)) else (each,)
+        if len(row) != width or not all(is_number(value) for value in row):
+            many = f"{width} numbers are" if width > 1 else "a number is"
+            raise DefinitionError(f"{title}: {', '.join(names)}: {cited(each)} is no choice; {many} expected.")
+        rows.append(tuple(map(float, row)))
+    return tuple(rows)

@@ -1,0 +1,359 @@
+"""Several settings for several wanted values: all that give them, or the nearest with what is missing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NoReturn, final
+
+import numpy as np
+
+from ..errors import DefinitionError, cited, unwarned
+from ..frozen import FrozenDict, refuses_changes
+from ..mechanism import Mechanism
+from ..motion import BoundRequest, Motion, RequestLike, evaluate_grid, stroke_display_unit
+from ..motion.grid import Grid, JoinedTo
+from ..motion.requests import Value, dimensions_of, slopes_of
+from ..program import FloatArray, Way
+from ..quantities import Quantity, is_number
+from ..units import deg, mm, show, unit_or_none
+from .box import Box, setting_words, unit_points
+from .checks import check_one_design, is_one
+from .measured import number_bound
+
+
+@final
+class Target:
+    """A value [SI] that a quantity is to have at a pose: `Target(y("F"), 0.45, S=0.05)`, `Target("tilt", 0.0, unit="deg", S=0.05)`.
+
+    The quantity is an output, a quantity or a request. `within` says how far off it may be [SI], by default 1 mm, 0.1 deg, or a
+    thousandth: where no setting gives all targets, misses are weighed by it. `unit` is that of the words.
+    """
+
+    def __init__(self, quantity: RequestLike, value: float, *, within: float | None = None, unit: str = "", **strokes: float) -> None:
+        what = f"Target({cited(quantity)}, {cited(value)})"
+        if not is_one(value):
+            raise DefinitionError(f"{what}: one number is expected for the value, in SI.")
+        if within is not None and not (is_number(within) and within > 0.0):
+            raise DefinitionError(f"{what}: within={cited(within)}: how far off it may be [SI], a number above zero, is expected.")
+        if not all(map(is_one, strokes.values())):
+            raise DefinitionError(f"{what}: one number is expected for each stroke, in SI.")
+        parts = {"quantity": quantity, "value": float(value), "within": within, "strokes": {k: float(v) for k, v in strokes.items()}}
+        vars(self).update(parts, unit=unit_or_none(unit, where="Target(unit=...)"))
+
+    quantity: RequestLike
+    value: float
+    within: float | None
+    unit: str
+    strokes: Mapping[str, float]
+
+    def __setattr__(self, name: str, value: object) -> NoReturn:
+        raise DefinitionError(f"Target.{name} = ...: it does not change; make a new one, Target(...).")
+
+    def __repr__(self) -> str:
+        return f"Target({', '.join([repr(self.quantity), repr(self.value), *(f'{k}={v!r}' for k, v in self.strokes.items())])})"
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Solutions:
+    """All settings of several dimensions that give the targets, or the nearest one; `sentence` says so.
+
+    `settings` are values [SI] by name; `met` is whether they give every target; `misses` are, by settings, how far each target is missed
+    [SI], zero to rounding where they are met. Where `is_family` they are some of infinitely many.
+    """
+
+    machine: Mechanism
+    settings: tuple[Mapping[str, Any], ...]
+    met: bool
+    misses: tuple[tuple[float, ...], ...]
+    is_family: bool
+    sentence: str
+
+    @property
+    def machines(self) -> tuple[Mechanism, ...]:
+        """The machines with these settings."""
+        return tuple(self.machine.replaced(**each) for each in self.settings)
+
+    def __str__(self) -> str:
+        return self.sentence
+
+
+def solutions_for(machine: Mechanism, vary: Mapping[str, Any], targets: Sequence[Target], points: int | None) -> Solutions:
+    """Return the settings of a box that give all targets; see `settings_for`."""
+    check_one_design(machine)
+    box, aim = Box.of(machine, vary), Aim.of(machine, targets)
+    k, plan = len(box.ranges), machine.plan
+    if not k and len(box.choices) < 2:
+        raise DefinitionError(f'{plan.title}: nothing may vary; give a range such as {{"MK": (0.5, 1.3)}} or a list of choices.')
+    if k > len(targets):
+        what = f"{len(targets)} target{'s' * (len(targets) > 1)} leave{'s' * (len(targets) == 1)} {k} ranges a family of settings"
+        raise DefinitionError(f"{plan.title}: {what}; hold {k - len(targets)} of {', '.join(box.ranges)}, or give as many targets more.")
+    search = Search(machine, box, aim)
+    with unwarned(), np.errstate(all="ignore"):
+        start, choice = search.starts(grid_size(k, points))
+        if not len(start):
+            return Solutions(machine, (), False, (), False, nowhere(box, aim))
+        unit, off = search.descend(start, choice)
+        return search.settled(unit, choice, off)
+
+
+def grid_size(k: int, points: int | None) -> int:
+    """Return how many points of a box of k ranges are looked at first; DefinitionError for what is no such number."""
+    if points is None:
+        return 1 << min(8 + 2 * k, 14) if k else 1
+    if isinstance(points, bool) or not isinstance(points, int) or not 1 <= points <= 1 << 20:
+        raise DefinitionError(f"points={cited(points)}: a whole number of points of the box is expected, such as 4096.")
+    return points if k else 1
+
+
+# The targets, bound to a machine, and how far off settings are.
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Aim:
+    """Targets of a machine: their requests, the poses they are wanted at, and in how many units each is weighed."""
+
+    machine: Mechanism
+    targets: tuple[Target, ...]
+    bound: tuple[BoundRequest, ...]
+    strokes: Mapping[str, FloatArray]
+    base: Motion
+    wanted: FloatArray
+    scale: FloatArray
+
+    @classmethod
+    def of(cls, machine: Mechanism, targets: Any) -> Aim:
+        """Return targets bound to a machine; DefinitionError for what is none, and for a pose that is not said."""
+        plan = machine.plan
+        if not isinstance(targets, (list, tuple)) or not targets or not all(isinstance(each, Target) for each in targets):
+            said = 'a list of targets is expected, such as [Target("tilt", 0.0, S=0.1)]'
+            raise DefinitionError(f"{plan.title}: {cited(targets)}: {said}.")
+        for each in targets:
+            if set(each.strokes) != set(machine.strokes):
+                raise DefinitionError(f"{plan.title}: {each!r}: say the pose, {', '.join(f'{name}=...' for name in machine.strokes)}.")
+        bound = tuple(number_bound(plan, each.quantity) for each in targets)
+        strokes = {name: np.array([each.strokes[name] for each in targets]) for name in machine.strokes}
+        scale = [each.within or usual_miss(request, each) for each, request in zip(targets, bound, strict=True)]
+        with unwarned():
+            base = Motion(plan, machine.dimensions, strokes, "nan")
+        return cls(machine, tuple(targets), bound, strokes, base, np.array([each.value for each in targets]), np.array(scale))
+
+    def misses(self, machine: Mechanism) -> FloatArray:
+        """Return how far m designs are off each target, in its units, shape (m, targets); NaN where they have no value."""
+        unique = {request.key: each.quantity for request, each in zip(self.bound, self.targets, strict=True)}
+        found = dict(zip(unique, evaluate_grid(self._grid(machine), list(unique.values()), None, Way("numpy"), "nan"), strict=True))
+        columns = [np.atleast_2d(found[request.key])[:, place] for place, request in enumerate(self.bound)]
+        return np.asarray((np.stack(columns, axis=1) - self.wanted) / self.scale)
+
+    def slopes(self, machine: Mechanism, names: Sequence[str]) -> FloatArray:
+        """Return the derivatives of the misses of m designs by dimensions, shape (m, targets, dimensions)."""
+        plan, dimensions = machine.plan, dimensions_of(machine.plan, names)
+        owners, signs = tuple(owner for owner, _ in dimensions), np.array([float(sign) for _, sign in dimensions])
+        flat = self._grid(machine).flat
+        found: dict[Any, FloatArray] = {}
+        for request in self.bound:
+            if request.key not in found:
+                kept = plan.made(("gradient", request.key, owners), lambda twin, what=request: slopes_of(twin, what, owners))  # type: ignore[misc]
+                found[request.key] = kept.kernel(flat, way=Way("numpy"), size=self._grid(machine).size).values[: len(owners)]
+        columns = [found[request.key][:, :, place] for place, request in enumerate(self.bound)]
+        return np.asarray(np.stack(columns, axis=0).transpose(2, 0, 1) * signs / self.scale[:, None])
+
+    def _grid(self, machine: Mechanism) -> Grid:
+        return Grid(machine.plan, machine.dimensions, self.strokes, joining=JoinedTo(self.base._grid, np.arange(len(self.targets))))
+
+    def words(self, place: int, value: float | None = None) -> str:
+        """Return a target in words, or a value of it: `tilt = 5 deg at S = 100 mm`."""
+        each, request, plan = self.targets[place], self.bound[place], self.machine.plan
+        at = ", ".join(f"{name} = {show(float(v), stroke_display_unit(plan, name, 'mm'))}" for name, v in each.strokes.items())
+        return f"{request} = {show(each.value if value is None else value, self.unit(place))} at {at}"
+
+    def unit(self, place: int) -> str:
+        """Return the unit that a target is told in."""
+        kind = measure_of(self.bound[place])
+        return self.targets[place].unit or {"length": "mm", "angle": "deg"}.get(kind, "")
+
+
+def measure_of(request: BoundRequest) -> str:
+    """Return what a request measures: "length", "angle", or "" where that is not known."""
+    member = request.member if isinstance(request, Value) and not request.along else None
+    return str(member.measures or "") if isinstance(member, Quantity) else ""
+
+
+def usual_miss(request: BoundRequest, target: Target) -> float:
+    """Return how far off a target may be where nothing is said [SI]."""
+    return {"length": 1.0 * mm, "angle": 0.1 * deg}.get(measure_of(request), 1e-3 * abs(target.value) or 1e-3)
+
+
+def nowhere(box: Box, aim: Aim) -> str:
+    """Return that no setting of a box has a value of every target."""
+    where = ", ".join(dict.fromkeys(aim.words(place).partition(" at ")[2] for place in range(len(aim.targets))))
+    return f"No setting of {', '.join([*box.ranges, *box.choices[0]])} that was looked at can be assembled at {where}. Look farther."
+
+
+# The search: a grid of the box at once, then steps of Levenberg and Marquardt from all good starts together.
+
+STARTS = 64
+"""Starts of each choice: the best points of the grid, and those that no neighbour betters."""
+STEPS = 80
+MET = 1e-7
+"""Of a target's own units: a miss that is smaller is rounding."""
+SAME = 1e-6
+"""Of a side of the box: solutions that are nearer to each other are one."""
+NEAR = 1e-2
+"""Of a side of the box: how far solutions of a double root may lie apart, and how far aside another one of a family is looked for."""
+FLAT = 1e-5
+"""Of the largest singular value: where the least one is smaller, settings may change together without effect on any target."""
+TOLD = 1e-3
+"""Of a target's own units: a miss that is smaller is not told."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Search:
+    """A box of settings, and what is aimed at with them."""
+
+    machine: Mechanism
+    box: Box
+    aim: Aim
+
+    @property
+    def sides(self) -> FloatArray:
+        """The lengths of the ranges [SI], shape (k,)."""
+        return np.array([high - low for low, high in self.box.ranges.values()])
+
+    def at(self, unit: FloatArray, choice: Any) -> Mechanism:
+        """Return the machines at unit coordinates (m, k) with choices (m,)."""
+        return self.machine.replaced(**self.box.settings(unit, choice))
+
+    def starts(self, points: int) -> tuple[FloatArray, Any]:
+        """Return where to start: unit coordinates (m, k) and choices (m,), of every choice the best of a Sobol sequence."""
+        k, choices = len(self.box.ranges), len(self.box.choices)
+        grid = np.concatenate([unit_points(points, k, "sobol", 0), np.full((1, k), 0.5)]) if k else np.empty((1, 0))
+        every, choice = np.tile(grid, (choices, 1)), np.repeat(np.arange(choices), len(grid))
+        off = np.linalg.norm(self.aim.misses(self.at(every, choice)), axis=1).reshape(choices, -1)
+        off[~np.isfinite(off)] = np.inf
+        rows = [np.flatnonzero(best_points(grid, each)) for each in off]
+        return np.concatenate([grid[row] for row in rows]), np.repeat(np.arange(choices), [len(row) for row in rows])
+
+    def descend(self, unit: FloatArray, choice: Any) -> tuple[FloatArray, FloatArray]:
+        """Return where the misses are least near each start, unit coordinates (m, k), and the misses there (m, targets).
+
+        Source: Nocedal, Wright, Numerical Optimization, 2nd ed., 10.3; a coordinate that a step would take out of the box is held.
+        """
+        unit = unit.copy()
+        off = self.aim.misses(self.at(unit, choice))
+        damping, going = np.full(len(unit), 1e-3), np.arange(len(unit)) if unit.shape[1] else np.arange(0)
+        for _ in range(STEPS):
+            if not len(going):
+                break
+            at = self.at(unit[going], choice[going])
+            slopes = self.aim.slopes(at, [*self.box.ranges]) * self.sides
+            new = damped_steps(unit[going], off[going], slopes, damping[going])
+            found = self.aim.misses(self.at(new, choice[going]))
+            better = np.sum(found**2, axis=1) < np.sum(off[going] ** 2, axis=1)
+            moved = np.abs(new - unit[going]).max(axis=1)
+            unit[going[better]], off[going[better]] = new[better], found[better]
+            damping[going] = np.where(better, damping[going] * 0.1, damping[going] * 5.0)
+            going = going[(moved > 1e-14) & (damping[going] < 1e12)]
+        return unit, off
+
+    def settled(self, unit: FloatArray, choice: Any, off: FloatArray) -> Solutions:
+        """Return all solutions that a search found, or the nearest setting."""
+        size = np.abs(off).max(axis=1)
+        met = np.flatnonzero(size <= MET)
+        order = met[np.argsort(size[met], kind="stable")] if len(met) else np.argsort(np.sum(off**2, axis=1), kind="stable")[:1]
+        kept: list[int] = []
+        for each in order.tolist():
+            if not any(self._is_same(unit[other], unit[each], choice[each]) for other in kept if choice[other] == choice[each]):
+                kept.append(each)
+        family = [each for each in kept if len(met) and self._is_of_a_family(unit[each], choice[each])]
+        first = {int(choice[each]): each for each in reversed(family)}
+        kept = [each for each in kept if each not in family or first[int(choice[each])] == each]
+        kept.sort(key=lambda each: (int(choice[each]), *unit[each]))
+        values = self.box.settings(unit[kept], choice[kept])
+        settings = tuple(one_setting(values, place) for place in range(len(kept)))
+        misses = tuple(tuple((off[each] * self.aim.scale).tolist()) for each in kept)
+        words = [setting_words(self.machine.plan, values, place) for place in range(len(kept))]
+        sentence = self._met_words(words, bool(family)) if len(met) else self._near_words(words[0], off[kept[0]])
+        return Solutions(self.machine, settings, bool(len(met)), misses, bool(family), sentence)
+
+    def _is_same(self, one: FloatArray, other: FloatArray, choice: int) -> bool:
+        """Return whether two solutions are one: to rounding, or, at a double one, as near as what lies between is a solution too."""
+        apart = np.abs(one - other).max(initial=0.0)
+        if apart <= SAME or apart > NEAR:
+            return bool(apart <= SAME)
+        between = self.aim.misses(self.at(0.5 * (one + other)[None], [choice]))
+        return bool(np.abs(between).max() <= MET)
+
+    def _is_of_a_family(self, unit: FloatArray, choice: int) -> bool:
+        """Return whether settings can change together from there without effect: another solution stands a step aside."""
+        if not len(unit):
+            return False
+        slopes = self.aim.slopes(self.at(unit[None], [choice]), [*self.box.ranges])[0] * self.sides
+        _, sizes, ways = np.linalg.svd(slopes)
+        if sizes[-1] > FLAT * sizes[0]:
+            return False
+        aside = np.clip(unit + NEAR * np.array([[1.0], [-1.0]]) * ways[-1], 0.0, 1.0)
+        found, off = self.descend(aside, np.array([choice, choice]))
+        return bool(np.any((np.abs(off).max(axis=1) <= MET) & (np.abs(found - unit).max(axis=1) > 0.3 * NEAR)))
+
+    def _met_words(self, words: Sequence[str], is_family: bool) -> str:
+        """Return the settings that give the targets."""
+        wanted = "; ".join(self.aim.words(place) for place in range(len(self.aim.targets)))
+        more = " This is one of a family: settings can change together there without any effect." if is_family else ""
+        return f"{wanted}: with {' or with '.join(words)}.{more}"
+
+    def _near_words(self, words: str, off: FloatArray) -> str:
+        """Return the nearest setting, and what is missing of each target."""
+        said = []
+        for place, miss in enumerate(off * self.aim.scale):
+            name = self.aim.words(place, self.aim.targets[place].value + float(miss))
+            gap = show(abs(float(miss)), self.aim.unit(place), 4)
+            side = "more" if miss > 0.0 else "less"
+            said.append(f"{name}, {gap} {side} than wanted" if abs(off[place]) > TOLD else f"{name} as wanted")
+        return f"No setting that was found gives all of it. The nearest is {words}: {'; '.join(said)}."
+
+
+def one_setting(values: Mapping[str, Any], place: int) -> Mapping[str, Any]:
+    """Return one of some settings (m,) by name; a point's is a pair."""
+    found: dict[str, Any] = {}
+    for name, value in values.items():
+        found[name] = tuple(float(part[place]) for part in value) if isinstance(value, tuple) else float(value[place])
+    return FrozenDict(found)
+
+
+def best_points(grid: FloatArray, off: FloatArray) -> Any:
+    """Return the mask of the points (m, k) of a grid to start from: the best, and those that none of their neighbours betters."""
+    chosen = np.zeros(len(grid), bool)
+    order = np.argsort(off, kind="stable")
+    chosen[order[: STARTS // 2]] = True
+    if len(grid) > STARTS:
+        from scipy.spatial import cKDTree
+
+        _, near = cKDTree(grid).query(grid, 1 + 4 * grid.shape[1])
+        lowest = np.flatnonzero(off <= off[near].min(axis=1))
+        chosen[lowest[np.argsort(off[lowest], kind="stable")][:STARTS]] = True
+    return chosen & np.isfinite(off)
+
+
+def damped_steps(unit: FloatArray, off: FloatArray, slopes: FloatArray, damping: FloatArray) -> FloatArray:
+    """Return where a step of Levenberg and Marquardt leads from unit coordinates (m, k), within the box."""
+    m, k = unit.shape
+    slopes = np.where(np.isfinite(slopes), slopes, 0.0)
+    pull = np.einsum("mrk,mr->mk", slopes, off)
+    matrix = np.einsum("mrk,mrl->mkl", slopes, slopes)
+    size = np.maximum(np.einsum("mkk->mk", matrix), 1e-30 + 1e-12 * np.trace(matrix, axis1=1, axis2=2)[:, None])
+    free = np.ones((m, k), bool)
+    step: Any = np.zeros((m, k))
+    for _ in range(k + 1):  # coordinates that would leave the box are held, one round after the other
+        both = free[:, :, None] & free[:, None, :]
+        system = np.where(both, matrix, 0.0) + np.eye(k) * np.where(free, damping[:, None] * size, 1.0)[:, :, None]
+        step = -np.linalg.solve(system, np.where(free, pull, 0.0)[:, :, None])[:, :, 0]
+        leaving = free & (((unit <= 0.0) & (step < 0.0)) | ((unit >= 1.0) & (step > 0.0)))
+        if not leaving.any():
+            break
+        free &= ~leaving
+    return np.clip(unit + np.where(free, step, 0.0), 0.0, 1.0)

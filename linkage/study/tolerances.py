@@ -1,0 +1,163 @@
+"""Tolerances of dimensions: how far each may lie from its value, by which law, and the designs that follow from them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from math import exp, pi, sqrt
+from typing import Any, TypeAlias, final
+
+import numpy as np
+
+from ..errors import DefinitionError, cited, one_word, unknown
+from ..frozen import refuses_changes
+from ..mechanism import Mechanism
+from ..plan import Plan
+from ..program import FloatArray
+from ..quantities import is_number
+from ..units import show
+from .box import unit_points
+from .checks import unit_of
+
+LAWS = ("normal", "uniform", "truncated")
+SIGMAS = 3.0
+"""Sigmas from the middle of a tolerance to either of its limits, of a normal law: 99.73 % lie between."""
+WITHIN = 0.9973002039367398
+"""The share of a normal law within three sigmas."""
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True)
+class Tolerance:
+    """How far a dimension may lie from its value [SI]: `0.1 * mm` to either side, or `(-0.1 * mm, 0.2 * mm)`; and by which law.
+
+    "normal": the limits are three sigmas from the middle, and 0.27 % lie beyond them; "truncated": the same without these; "uniform":
+    every value between the limits is as likely as another.
+    """
+
+    limits: float | tuple[float, float]
+    law: str = "normal"
+
+    def __post_init__(self) -> None:
+        one_word("law", self.law, LAWS)
+        given: Any = self.limits
+        if is_number(given) and given >= 0.0:
+            return
+        if isinstance(given, (tuple, list)) and len(given) == 2 and all(map(is_number, given)) and given[0] <= given[1]:
+            return
+        said = "how far it may lie to either side [SI], such as 0.1 * mm, or the limits (-0.1 * mm, 0.2 * mm)"
+        raise DefinitionError(f"{cited(given)} is no tolerance; give {said}.")
+
+    @property
+    def low(self) -> float:
+        """The least deviation [SI]; of a normal law three sigmas below the middle."""
+        return float(self.limits[0]) if isinstance(self.limits, (tuple, list)) else -float(self.limits)
+
+    @property
+    def high(self) -> float:
+        """The greatest deviation [SI]; of a normal law three sigmas above the middle."""
+        return float(self.limits[1] if isinstance(self.limits, (tuple, list)) else self.limits)
+
+    @property
+    def sigma(self) -> float:
+        """The standard deviation [SI]."""
+        half = 0.5 * (self.high - self.low)
+        if self.law == "uniform":
+            return half / sqrt(3.0)
+        cut = 2.0 * SIGMAS * exp(-0.5 * SIGMAS**2) / sqrt(2.0 * pi) / WITHIN  # what is missing of the variance of a law cut off
+        return half / SIGMAS * (sqrt(1.0 - cut) if self.law == "truncated" else 1.0)
+
+    def deviations(self, unit: FloatArray) -> FloatArray:
+        """Return deviations [SI] that are spread by the law where `unit` is spread evenly over 0 to 1."""
+        middle, half = 0.5 * (self.low + self.high), 0.5 * (self.high - self.low)
+        if self.law == "uniform":
+            return np.asarray(middle + half * (2.0 * unit - 1.0))
+        from scipy.special import ndtri
+
+        unit = np.clip(unit, 2.0**-54, 1.0 - 2.0**-53)
+        share = unit if self.law == "normal" else 0.5 + WITHIN * (unit - 0.5)
+        return np.asarray(middle + half / SIGMAS * ndtri(share))
+
+
+ToleranceLike: TypeAlias = float | tuple[float, float] | Tolerance
+
+
+def tolerances_of(plan: Plan, given: Any) -> dict[str, Tolerance]:
+    """Return tolerances by the names of dimensions, a point's for each of its coordinates.
+
+    Raises DefinitionError for a name that is no dimension, for two that stand for one, and for what is no tolerance.
+    """
+    if not isinstance(given, Mapping) or not given:
+        raise DefinitionError(f'{plan.title}: {cited(given)}: tolerances by the names of dimensions are expected, {{"OB": 0.1 * mm}}.')
+    found: dict[str, Tolerance] = {}
+    seen: dict[str, str] = {}
+    for name, value in given.items():
+        for part in dimension_names(plan, name):
+            owner = plan.table.spellings[part][0]
+            if owner in seen:
+                raise DefinitionError(f"{plan.title}: {seen[owner]} and {part} are one dimension; give it one tolerance.")
+            seen[owner] = part
+            found[part] = value if isinstance(value, Tolerance) else tolerance_named(plan, part, value)
+    return found
+
+
+def dimension_names(plan: Plan, name: Any) -> list[str]:
+    """Return the name of a dimension, or of both coordinates of a point; DefinitionError for any other name."""
+    if isinstance(name, str) and f"{name}.x" in plan.table.spellings:
+        return [f"{name}.x", f"{name}.y"]
+    if isinstance(name, str) and name in plan.table.spellings:
+        return [name]
+    if isinstance(name, str) and name in plan.table.following:
+        raise DefinitionError(f"{plan.title}: {name} follows {plan.table.following[name]}; give what it follows a tolerance.")
+    raise unknown("Dimension", name, plan.table.names(), where=plan.title)
+
+
+def tolerance_named(plan: Plan, name: str, value: Any) -> Tolerance:
+    """Return the tolerance of a dimension, whose name stands in the error of what is none."""
+    try:
+        return Tolerance(tuple(value) if isinstance(value, list) else value)
+    except DefinitionError as error:
+        raise DefinitionError(f"{plan.title}: {name}: {error}") from None
+
+
+def tolerance_words(plan: Plan, name: str, tolerance: Tolerance) -> str:
+    """Return a tolerance as a drawing says it: `OB ±0.1 mm`, `OB +0.2/-0.1 mm`."""
+    unit = unit_of(plan, name)
+    if tolerance.low == -tolerance.high:
+        return f"{name} ±{show(tolerance.high, unit)}"
+    number = show(tolerance.low, unit).removesuffix(f" {unit}")
+    return f"{name} {'+' if tolerance.high > 0 else ''}{show(tolerance.high, unit).removesuffix(f' {unit}')}/{number} {unit}".rstrip()
+
+
+# Designs that follow from tolerances.
+
+HALF_CELL = 2.0**-31
+"""Half the distance of the numbers of a Sobol sequence, which begin with zero."""
+
+
+def sampled_designs(
+    machine: Mechanism, tolerances: Mapping[str, Tolerance], count: int, method: str, seed: int, threads: int = 1
+) -> dict[str, FloatArray]:
+    """Return dimensions (count,) by name, every one spread by the law of its tolerance and independent of the others.
+
+    By a scrambled Sobol sequence, "sobol", a Latin hypercube, "latin", or pseudo-random numbers, "random"; the same for the same seed.
+    """
+    unit = unit_points(count, len(tolerances), method, seed)
+    shift = HALF_CELL if method == "sobol" else 0.0
+
+    def column(place: int, name: str) -> FloatArray:
+        return np.asarray(machine[name] + tolerances[name].deviations(unit[:, place] + shift))
+
+    with ThreadPoolExecutor(threads) as pool:
+        return dict(zip(tolerances, pool.map(column, range(len(tolerances)), tolerances), strict=True))
+
+
+def shifted_designs(machine: Mechanism, tolerances: Mapping[str, Tolerance], level: FloatArray) -> dict[str, FloatArray]:
+    """Return dimensions (m,) by name: at their own values where `level`, shape (m, k), is 0, at their limits where it is -1 or 1."""
+    found = {}
+    for column, (name, tolerance) in enumerate(tolerances.items()):
+        share = level[:, column]
+        found[name] = machine[name] + np.where(share < 0.0, -share * tolerance.low, share * tolerance.high)
+    return found

@@ -1,0 +1,239 @@
+"""The arm's drive: a cylinder on the boom turns the arm, over a lever and a coupler or straight away.
+
+Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse bioenergetiki", (2.38) to (2.66).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hydraulics import Cylinder, LiftCircuit
+from linkage import (
+    LEFT,
+    RIGHT,
+    Column,
+    CosineAngle,
+    Crank,
+    Dimension,
+    Dyad,
+    Ground,
+    LoadCase,
+    Mechanism,
+    Moment,
+    Motion,
+    MPa,
+    OnLink,
+    Stroke,
+    angle,
+    deg,
+    distance,
+    mm,
+    ref,
+)
+from linkage.quantities import Function, Quantity
+from linkage.steps import Point
+
+from .drive_duty import clipped
+from .drive_report import drive_columns, drive_verdicts
+
+
+class DrivenArm(Mechanism):
+    """An arm PT on the boom, what is asked about its hinge P, and the cylinder that a drive of it has.
+
+    Drawn on the boom: x leads towards its end, y away from the side that the arm folds to. psi is the angle between boom and arm, as in
+    the source: 0 folded back, 180 deg straight. M_l1, M_l2 are the bounds of moments (2.39) to (2.43), positive where a moment is asked
+    for that opens the arm: M_l1 with the telescope in, while the arm folds; M_l2 with it out, while the arm opens. `folds` and `opens`
+    are the forces that the cylinder then gives, F p n, positive where it pushes.
+    """
+
+    psi: Quantity = Stroke(0.0, 180 * deg)
+
+    D = Dimension(140 * mm, unit="mm")  # bore
+    d = Dimension(80 * mm, unit="mm")  # rod
+    S = Dimension(0.926744269401061, unit="mm")  # stroke of the cylinder
+    p = Dimension(22 * MPa, unit="bar")  # gauge
+    n = Dimension(0.95)  # efficiency
+    f_0 = Dimension(200 * mm, unit="mm")  # closed length less stroke, of a bore of none
+    f_1 = Dimension(1.6)  # and by how much of the bore it grows
+    l = S + f_0 + f_1 * D  # length of the closed cylinder
+    push = 0.25 * np.pi * p * n * D**2  # what its sides give, N
+    pull = 0.25 * np.pi * p * n * (D**2 - d**2)
+
+    psi_0 = Dimension(0.0, unit="deg")  # psi of the folded arm
+    psi_k = Dimension(180 * deg, unit="deg")  # and of the straight one
+    l_p = Dimension(3.165204914008807, unit="mm")  # length of the arm
+
+    P = Ground(0.0, 0.0)
+    T: Point = Crank(P, PT=l_p, angle=psi - 180 * deg)  # the arm's end
+
+    K_A = Dimension(71905.17119002105, unit="Nm")
+    K_A1 = Dimension(39947.317327789475, unit="Nm")
+    phi_0 = Dimension(15 * deg, unit="deg")
+    phi_k = Dimension(99.9262455066517 * deg, unit="deg")
+    M_l1 = -K_A1 * np.sin(clipped(phi_k - psi, 0.0, 90 * deg))
+    M_l2 = K_A * np.sin(clipped(psi - phi_0, 0.0, 90 * deg))
+
+    outward = Moment("P T", M=-M_l1)
+    inward = Moment("P T", M=-M_l2)
+    case_1 = LoadCase("telescope in", only=[outward])
+    case_2 = LoadCase("telescope out", only=[inward])
+
+    def working(self, count: int = 101) -> Motion:
+        """Return the motion from psi_0 to psi_k, at `count` poses."""
+        return self.at(psi=np.linspace(self["psi_0"], self["psi_k"], count))
+
+
+class ArmDrive(DrivenArm):
+    """Cylinder CL turns the lever OL (r_1), the coupler LN (r_2) the arm's lug PN (r_3): fig. 2.13 a.
+
+    O is the lever's pivot and the origin, P lies r_4 from it. C lies r_5 towards the boom's root and r_6 above it, on the part that is
+    bent by delta. The cylinder's growth folds the arm. The drive gives M_g = F p n h I (2.44), (2.52), h the cylinder's lever about O
+    and I = d(alpha_1)/d(alpha_2): h I = -d(CL)/d(psi). `steel` is the volume of (2.60), `mass` its mass.
+    """
+
+    r_1 = Dimension(0.5634824610356947, unit="mm")
+    r_2 = Dimension(0.5056991910045654, unit="mm")
+    r_3 = Dimension(0.20803265972531704, unit="mm")
+    r_4 = Dimension(0.13215746111972135, unit="mm")
+    r_5 = Dimension(1.7535661783335663, unit="mm")
+    r_6 = Dimension(150 * mm, unit="mm")
+    delta = Dimension(0.0, unit="deg")  # bend of the boom, its front part down
+    alpha_20 = Dimension(-66.73074343448614 * deg, unit="deg")  # direction of the lug of the folded arm
+    alpha_2: Quantity = alpha_20 + ref("psi") - ref("psi_0")
+
+    O = Ground(0.0, 0.0)
+    P = Ground(r_4, 0.0)
+    C = Ground(-r_5 * np.cos(delta) - r_6 * np.sin(delta), r_6 * np.cos(delta) - r_5 * np.sin(delta))
+    N: Point = OnLink(P, "T", PN=r_3, TPN=alpha_20 - ref("psi_0") + 180 * deg)
+    L: Point = Dyad(O, N, OL=r_1, NL=r_2, side=LEFT)
+
+    alpha_1 = angle(O, L)
+    mu = CosineAngle(r_2, r_3, distance(L, P))  # transmission angle of coupler and lug
+    length = distance(C, L)
+    gamma = CosineAngle(distance(O, C), r_1, length)
+
+    section = Dimension(2700 * mm**2)  # of lever and coupler, m2
+    wall = Dimension(5 * mm, unit="mm")  # of the barrel
+    head = Dimension(20 * mm, unit="mm")  # thickness of its end
+    eye_width = Dimension(0.50)  # B, l_2 and d_1 of an eye, over the bore
+    eye_radius = Dimension(0.50)
+    eye_hole = Dimension(0.45)
+    eyes = Dimension(1.0)  # as many as (2.60) counts; a cylinder has two
+    eye = eye_width * (4.0 * eye_radius**2 - eye_hole**2) * ref("D") ** 3
+    barrel = ref("S") * (ref("d") ** 2 + 4.0 * wall * (ref("D") + wall)) + head * ref("D") ** 2
+    steel = section * (r_1 + r_2) + 0.25 * np.pi * (barrel + eyes * eye)  # volume, m3
+    mass = 7800.0 * steel  # kg
+
+    folds, opens = ref("push"), -ref("pull")
+    fold = Cylinder(C, L, bore="D", rod="d", works="both")
+    circuit = LiftCircuit(fold, pressure="p", mechanical_efficiency="n")
+
+    def columns(self, motion: Motion) -> list[Column]:
+        """Return angle, length, lever, and the moments asked for and given: folding by the piston side, opening by the rod side."""
+        return drive_columns(motion)
+
+    def verdicts(self, motion: Motion) -> list[str]:
+        """Return whether the drive carries the arm over a motion, and whether the cylinder is as long as that takes."""
+        return drive_verdicts(motion)
+
+
+class ArmDriveByCylinder(ArmDrive):
+    """The same drive, driven by its cylinder: k from 1, out, to 0, drawn in; psi follows."""
+
+    k = Stroke(1.0, 0.0)
+    L = Dyad("C", "O", CL=ref("l") + k * ref("S"), OL="r_1", side=LEFT)
+    N = Dyad(L, "P", NL="r_2", PN="r_3", side=LEFT)
+    T = OnLink("P", N, PT="l_p", NPT=ref("psi_0") - ref("alpha_20") - 180 * deg)
+    alpha_2 = angle("P", N)
+    psi = alpha_2 - ref("alpha_20") + ref("psi_0")
+
+
+class BellCrankArmDrive(ArmDrive):
+    """The cylinder CZ turns a bell crank OLZ with the sides r_1, r_8 and the third side r_7: fig. 2.13 b; the source's example."""
+
+    psi: Quantity = Stroke(0.0, 170.93262957316685 * deg)
+    psi_k = Dimension(170.93262957316685 * deg, unit="deg")
+    S = Dimension(0.900, unit="mm")
+    r_1 = Dimension(0.50, unit="mm")
+    r_2 = Dimension(0.50, unit="mm")
+    r_3 = Dimension(0.23, unit="mm")
+    r_4 = Dimension(0.15, unit="mm")
+    r_5 = Dimension(1.75, unit="mm")
+    r_6 = Dimension(0.20, unit="mm")
+    r_7 = Dimension(0.22, unit="mm")
+    r_8 = Dimension(0.56, unit="mm")
+    delta = Dimension(12 * deg, unit="deg")
+    alpha_20 = Dimension(-82.2365727085356 * deg, unit="deg")
+
+    Z: Point = OnLink("O", "L", OZ=r_8, LZ=r_7, side=LEFT)
+    length = distance("C", Z)
+    gamma = CosineAngle(distance("O", "C"), r_8, length)
+    fold = Cylinder("C", Z, bore="D", rod="d", works="both")
+
+
+class BellCrankArmDriveByCylinder(BellCrankArmDrive):
+    """The same drive, driven by its cylinder: k from 1, out, to 0, drawn in; psi follows."""
+
+    k = Stroke(1.0, 0.0)
+    Z = Dyad("C", "O", CZ=ref("l") + k * ref("S"), OZ="r_8", side=LEFT)
+    L = OnLink("O", Z, OL="r_1", ZL="r_7", side=RIGHT)
+    N = Dyad(L, "P", NL="r_2", PN="r_3", side=LEFT)
+    T = OnLink("P", N, PT="l_p", NPT=ref("psi_0") - ref("alpha_20") - 180 * deg)
+    alpha_2 = angle("P", N)
+    psi = alpha_2 - ref("alpha_20") + ref("psi_0")
+
+
+class DirectArmDrive(DrivenArm):
+    """Cylinder AB under the boom turns the arm without a four-bar, its growth opens it: fig. 2.13 c, by the boom's formulas (2.30).
+
+    A lies r_2 from P towards the boom's root and r_1 below it; B r_3 along the arm and r_4 on its inner side: with phi = 180 deg - psi
+    it is the boom's drive, column and boom in the place of boom and arm.
+    """
+
+    psi = Stroke(60 * deg, 180 * deg)
+    psi_0 = Dimension(60 * deg, unit="deg")
+    D = Dimension(125 * mm, unit="mm")
+    d = Dimension(70 * mm, unit="mm")
+    S = Dimension(0.8870639834735008, unit="mm")
+    r_1 = Dimension(0.45, unit="mm")
+    r_2 = Dimension(1.7124415946523257, unit="mm")
+    r_3 = Dimension(0.452, unit="mm")
+    r_4 = Dimension(0.245, unit="mm")
+
+    A = Ground(-r_2, -r_1)
+    B = OnLink("P", "T", PB=np.sqrt(r_3**2 + r_4**2), TPB=-Function("arctan2", r_4, r_3))
+
+    length = distance(A, B)
+
+    folds, opens = -ref("pull"), ref("push")
+    fold = Cylinder(A, B, bore="D", rod="d", works="both")
+    circuit = LiftCircuit(fold, pressure="p", mechanical_efficiency="n")
+
+    def columns(self, motion: Motion) -> list[Column]:
+        """Return angle, length, lever, and the moments asked for and given: opening by the piston side, folding by the rod side."""
+        return drive_columns(motion)
+
+    def verdicts(self, motion: Motion) -> list[str]:
+        """Return whether the drive carries the arm over a motion, and whether the cylinder is as long as that takes."""
+        return drive_verdicts(motion)
+
+
+class DirectArmDriveAbove(DirectArmDrive):
+    """The same above the boom, its growth folds the arm: fig. 2.13 d. r_1 is above the boom, r_4 on the arm's outer side.
+
+    B may lie behind the arm's hinge, r_3 below zero.
+    """
+
+    D = Dimension(140 * mm, unit="mm")
+    d = Dimension(80 * mm, unit="mm")
+    S = Dimension(0.9639376633275721, unit="mm")
+    r_1 = Dimension(0.284, unit="mm")
+    r_2 = Dimension(1.8423319564124518, unit="mm")
+    r_3 = Dimension(-0.455, unit="mm")
+    r_4 = Dimension(0.325, unit="mm")
+
+    A = Ground(-ref("r_2"), "r_1")
+    B = OnLink("P", "T", PB=np.sqrt(ref("r_3") ** 2 + ref("r_4") ** 2), TPB=Function("arctan2", ref("r_4"), ref("r_3")))
+    length = distance(A, B)
+    folds, opens = ref("push"), -ref("pull")
+    fold = Cylinder(A, B, bore="D", rod="d", works="both")

@@ -1,0 +1,109 @@
+"""What the crane's cylinders can do: the forces of their two sides, the moments they give, and how far they let their drives go."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hydraulics import Cylinder, LiftCircuit
+from linkage import DefinitionError, Motion, distance, ratio
+from linkage.program import FloatArray
+from linkage.units import mm
+
+from .machine import DRIVEN, Crane
+
+PLAY = 1e-6
+"""m: a length that a cylinder misses by no more is within its stroke."""
+
+
+@final
+@dataclass(frozen=True)
+class Sides:
+    """What a cylinder pushes and pulls with at the pump's pressure [N], both positive."""
+
+    push: float
+    pull: float
+
+
+def sides(motion: Motion, stroke: str) -> Sides:
+    """Return what the cylinder of a stroke pushes and pulls with, of one design; p n times the area, less the back pressure's share.
+
+    The side that a cylinder does not work with gives nothing.
+    """
+    ram, line = DRIVEN[stroke]
+    cylinder, circuit = motion.plan.of_kind(Cylinder)[ram], motion.plan.of_kind(LiftCircuit)[line]
+    size, back = cylinder.sized(motion), float(circuit.back(motion))
+    k_m, k_h = (float(circuit.efficiency(motion, kind)) for kind in ("mechanical", "hydraulic"))
+    pressure = k_h * float(circuit.supply(motion))
+    out = k_m * (pressure * float(size.push_area) - back * float(size.pull_area))
+    inwards = k_m * (pressure * float(size.pull_area) - back * float(size.push_area))
+    return Sides(max(out, 0.0) if size.works != "rod" else 0.0, max(inwards, 0.0) if size.works != "piston" else 0.0)
+
+
+def lever(crane: Crane, stroke: str, at: ArrayLike) -> FloatArray:
+    """Return the rate of a cylinder's length by its stroke, the shape of `at`: its lever about the joint [m], positive where it grows."""
+    ends = crane.plan.of_kind(Cylinder)[DRIVEN[stroke][0]].ends
+    (found,) = crane.evaluate([ratio(distance(*ends), wrt=stroke)], **along_stroke(crane, stroke, at))
+    return found.reshape(np.shape(at))
+
+
+def along_stroke(crane: Crane, stroke: str, at: ArrayLike) -> dict[str, Any]:
+    """Return strokes with one of them as said, in a row, and the others half way."""
+    others: dict[str, Any] = {name: 0.5 * sum(span) for name, span in crane.limits_of().items()}
+    return others | {stroke: np.ravel(np.asarray(at, float))}
+
+
+def boom_moment(crane: Crane, phi: ArrayLike) -> FloatArray:
+    """Return M_g(phi) [N m], the shape of phi: what the boom's cylinder lifts with, its piston side at the pump's pressure. (2.29)"""
+    return -sides(crane.position(1), "phi").push * lever(crane, "phi", phi)
+
+
+def arm_moment(crane: Crane, psi: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    """Return M_g1 and M_g2 (psi) [N m], the shape of psi: what the arm's cylinder gives with its piston and its rod side. (2.44)
+
+    M_g1 folds the arm and is negative, M_g2 unfolds it.
+    """
+    has, arm = sides(crane.position(1), "psi"), lever(crane, "psi", psi)
+    return has.push * arm, -has.pull * arm
+
+
+def drive_limits(crane: Crane) -> dict[str, tuple[float, float]]:
+    """Return how far each drive goes in this design, phi, psi [rad], t [m], as far as its cylinder's closed and open length let it.
+
+    DefinitionError where a cylinder's length fits none of its drive's positions.
+    """
+    return {stroke: within(crane, stroke, *span) for stroke, span in crane.limits_of().items()}
+
+
+def within(crane: Crane, stroke: str, start: float, end: float) -> tuple[float, float]:
+    """Return the part of start..end of a stroke in which its cylinder's length lies between closed and open."""
+    cylinder = crane.plan.of_kind(Cylinder)[DRIVEN[stroke][0]]
+    closed, out = cylinder.closed_and_stroke(crane.at(unreachable="nan", **along_stroke(crane, stroke, np.array([start]))))
+    if closed is None or end <= start:
+        return start, end
+    least, most = float(np.squeeze(closed)) - PLAY, float(np.squeeze(closed)) + PLAY + (np.inf if out is None else float(np.squeeze(out)))
+
+    def slack(at: FloatArray) -> FloatArray:
+        """Return by how much its length lies within its own [m], of strokes."""
+        (length,) = crane.evaluate([distance(*cylinder.ends)], **along_stroke(crane, stroke, at))
+        return np.minimum(length - least, most - length)
+
+    grid = np.linspace(start, end, 65)
+    inside = slack(grid) >= 0.0
+    if not inside.any():
+        length = crane.at(**along_stroke(crane, stroke, grid)).distance(*cylinder.ends)
+        goes = f"{np.min(length) / mm:.1f} to {np.max(length) / mm:.1f} mm"
+        raise DefinitionError(f"{cylinder.name} is never as long as {stroke} needs, {goes}; take another closed length or other pins.")
+    if inside.all():
+        return start, end
+    first, last = int(np.argmax(inside)), inside.size - 1 - int(np.argmax(inside[::-1]))
+    ends = [(grid[max(first - 1, 0)], grid[first]), (grid[min(last + 1, grid.size - 1)], grid[last])]
+    outside, good = np.array(ends).T
+    for _ in range(50):
+        middle = 0.5 * (outside + good)
+        fits = slack(middle) >= 0.0
+        good, outside = np.where(fits, middle, good), np.where(fits, outside, middle)
+    return float(good[0]) if first else start, float(good[1]) if last < grid.size - 1 else end

@@ -1,0 +1,136 @@
+"""What a crane asks of its drives, and the cylinders they are chosen from.
+
+Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse bioenergetiki", (2.19) to (2.27), (2.36), (2.39) to (2.43).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
+from math import pi
+from typing import final
+
+from hydraulics import CylinderSize
+from hydraulics.inputs import efficient, in_pascals, not_negative, one_number, positive
+from linkage import DefinitionError, MPa, mm
+from linkage.quantities import Function, Operand, Quantity, quantity
+from linkage.units import deg
+
+GRAVITY = 9.81
+"""m/s2, the source's."""
+JOINT = 300.0
+"""Weight of the parts at the joint of boom and arm, G_m [N] (2.24)."""
+OF_DRIVE, AT_BOOM, AT_DRIVE, AT_ARM = 0.025, 0.4, 0.7, 0.45
+"""The boom drive's share of the crane's mass; where the centres of gravity lie: of boom and drive in l_c, of the arm in its length."""
+LONGEST_BOOM = 40.0
+"""m; a longer boom, arm or telescope was given in millimetres."""
+
+
+def clipped(value: Operand, low: Operand | None, high: Operand | None = None) -> Quantity:
+    """Return a quantity kept from `low` up to `high`, as far as they are given."""
+    found = quantity(value)
+    found = found if high is None else Function("minimum", found, quantity(high))
+    return found if low is None else Function("maximum", found, quantity(low))
+
+
+@final
+@dataclass(frozen=True)
+class DriveDuty:
+    """The lengths, angles and moments that boom drive and arm drive are made for; by default those of the source's examples 2 and 3.
+
+    Lengths of boom, arm, telescope stroke and column l_c, l_p, l_t, h_0 and heights of column and boom b_0, b_c [m]; phi_0 to phi_k is
+    the boom's angle from the upward vertical, psi_0 to psi_k the one between boom and arm [rad]. The bounds of moments [N m]: K_B of
+    sin(phi) for the boom, K_A for the arm with its telescope out, K_A1 with it in.
+    """
+
+    l_c: float = 4.454601406907623
+    l_p: float = 3.165204914008807
+    l_t: float = 2.532163931207046
+    h_0: float = 1.85
+    b_0: float = 0.2736588
+    b_c: float = 0.3826715957639661
+    phi_0: float = 15.0 * deg
+    phi_k: float = 99.9262455066517 * deg
+    psi_0: float = 0.0
+    psi_k: float = pi
+    K_B: float = 85260.01232735414
+    K_A: float = 71905.17119002105
+    K_A1: float = 39947.317327789475
+
+    def __post_init__(self) -> None:
+        for each in fields(self):
+            object.__setattr__(self, each.name, one_number(getattr(self, each.name), each.name))
+        for name in ("l_c", "l_p", "h_0", "b_0", "b_c", "K_B", "K_A", "K_A1"):
+            positive(getattr(self, name), name)
+        not_negative(self.l_t, "l_t")
+        for name in ("l_c", "l_p", "l_t", "h_0", "b_0", "b_c"):
+            if getattr(self, name) > LONGEST_BOOM:
+                given = f"{getattr(self, name):.6g}"
+                raise DefinitionError(f"{name} = {given} m; no crane is so large, write {given} * mm if these are millimetres.")
+        for low, high, most in (("phi_0", "phi_k", pi), ("psi_0", "psi_k", 2.0 * pi)):
+            first, last = getattr(self, low), getattr(self, high)
+            if not 0.0 <= first < last <= most:
+                given = f"{low} = {first / deg:.6g} deg, {high} = {last / deg:.6g} deg"
+                raise DefinitionError(f"{given}: 0 <= {low} < {high} <= {most / deg:.0f} deg is expected; write 15 * deg for degrees.")
+        if self.K_A1 > self.K_A:
+            raise DefinitionError(
+                f"K_A1 = {self.K_A1:.6g} N m with the telescope in is above K_A = {self.K_A:.6g} N m with it out; exchange them."
+            )
+
+    @classmethod
+    def of_masses(
+        cls, *, l_c: float, l_p: float, l_t: float, W: float, W_c: float, W_p: float, W_t: float, Q: float, **others: float
+    ) -> DriveDuty:
+        """Return the duty of a crane of so many kilograms: W the whole, W_c boom, W_p arm, W_t telescope; Q the load's weight [N].
+
+        `others` are h_0, b_0, b_c [m] and the angles [rad]. G_i = 9.81 W_i, the boom's centre at 0.4 l_c, its drive's, 2.5 % of the
+        crane, at 0.7 l_c, the arm's at 0.45 of its length. (2.19), (2.22) to (2.27), (2.39) to (2.43)
+        """
+        for name, value in {"W": W, "W_c": W_c, "W_p": W_p, "W_t": W_t, "Q": Q}.items():
+            not_negative(value, name)
+        arm = GRAVITY * (W_p + W_t)
+        K_B = GRAVITY * (AT_BOOM * W_c + AT_DRIVE * OF_DRIVE * W) * l_c + (JOINT + arm + Q) * l_c
+        K_A, K_A1 = ((Q + AT_ARM * arm) * reach for reach in (l_p + l_t, l_p))
+        return cls(l_c=l_c, l_p=l_p, l_t=l_t, K_B=K_B, K_A=K_A, K_A1=K_A1, **others)
+
+
+SIZES_MM = ((63, 36), (70, 40), (80, 45), (90, 50), (100, 56), (110, 63), (125, 70), (140, 80))
+"""Bores and rods of the source's examples."""
+
+
+@final
+@dataclass(frozen=True)
+class DriveCylinders:
+    """The cylinders a drive is chosen from: (bore, rod) [m] in ascending order, what they are fed with and how long they are.
+
+    `pressure` is gauge [Pa], `efficiency` the cylinder's. One of bore D with the stroke S is S + f_0 + f_1 D long closed (2.36) and comes
+    out by no more than `longest` bores.
+    """
+
+    sizes: Sequence[tuple[float, float]] = tuple((bore * mm, rod * mm) for bore, rod in SIZES_MM)
+    pressure: float = 22.0 * MPa
+    efficiency: float = 0.95
+    f_0: float = 200.0 * mm
+    f_1: float = 1.6
+    longest: float = 10.0
+
+    def __post_init__(self) -> None:
+        if not self.sizes:
+            raise DefinitionError("DriveCylinders: sizes= names no cylinder; give pairs of bore and rod, [(125 * mm, 70 * mm)].")
+        for bore, rod in self.sizes:
+            CylinderSize(bore, rod)
+        object.__setattr__(self, "sizes", tuple((float(bore), float(rod)) for bore, rod in self.sizes))
+        in_pascals(positive(one_number(self.pressure, "pressure"), "pressure"), "pressure")
+        efficient(one_number(self.efficiency, "efficiency"), "efficiency")
+        not_negative(one_number(self.f_0, "f_0"), "f_0")
+        not_negative(one_number(self.f_1, "f_1"), "f_1")
+        positive(one_number(self.longest, "longest"), "longest")
+
+    def dimensions(self, bore: float, rod: float) -> Mapping[str, float]:
+        """Return what a drive's class takes of one of them."""
+        return {"D": bore, "d": rod, "p": self.pressure, "n": self.efficiency, "f_0": self.f_0, "f_1": self.f_1}
+
+    def swallowed(self, bore: float, rod: float = 0.0) -> float:
+        """Return the greatest work [J] of a bore over its longest stroke: its piston's, or with a rod its annulus's."""
+        area = pi / 4.0 * (bore**2 - rod**2)
+        return self.pressure * self.efficiency * area * self.longest * bore

@@ -1,0 +1,135 @@
+"""What a drive gives against what is asked of it: columns, the worst movements, verdicts.
+
+Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse bioenergetiki", (2.29), (2.33), (2.34), (2.44), (2.62).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from hydraulics import Verdict
+from linkage import Column, DefinitionError, Motion
+from linkage.motion import Extremum, greatest, lowest
+from linkage.program import FloatArray
+from linkage.units import kN, mm
+
+SHORT = 1e-6
+"""Of the greatest moment asked for: what is missing by less is met to rounding."""
+
+
+@final
+@dataclass(frozen=True)
+class Movement:
+    """One movement of a drive: its name, the moment it gives and the one asked of it [N m], both of a motion and not negative."""
+
+    name: str
+    given: Callable[[Motion], FloatArray]
+    asked: Callable[[Motion], FloatArray]
+
+    def surplus(self, motion: Motion) -> FloatArray:
+        """Return the moment given less the one asked for, shape (...) [N m]."""
+        return np.asarray(self.given(motion) - self.asked(motion))
+
+
+def moment_given(motion: Motion, force: str) -> FloatArray:
+    """Return the moment that the drive gives about its joint, shape (...) [N m], positive where the angle grows.
+
+    `force` names what its cylinder then gives, F p n [N], positive where it pushes: by virtual work that force times
+    d(length)/d(angle), which is the boom's lever h and the arm's h I. (2.29); (2.44), (2.52)
+    """
+    return np.asarray(motion[force] * motion.ratio("length", wrt=angle_of(motion)))
+
+
+def angle_of(motion: Motion) -> str:
+    """Return the stroke that a drive's joint turns by; DefinitionError where it is driven by its cylinder."""
+    for name in ("phi", "psi"):
+        if name in motion.strokes and "length" in motion.plan.members:
+            return name
+    raise DefinitionError(f"{motion.plan.title} is no drive that its angle drives; give a motion of a BoomDrive or an ArmDrive.")
+
+
+LIFTING = Movement("lifting", lambda motion: -moment_given(motion, "lifts"), lambda motion: motion["M_l"])
+FOLDING = Movement("folding", lambda motion: -moment_given(motion, "folds"), lambda motion: -motion["M_l1"])
+OPENING = Movement("opening", lambda motion: moment_given(motion, "opens"), lambda motion: motion["M_l2"])
+
+
+def movements_of(motion: Motion) -> tuple[Movement, ...]:
+    """Return the movements that the drive of a motion is for; DefinitionError for another machine."""
+    return (LIFTING,) if angle_of(motion) == "phi" else (FOLDING, OPENING)
+
+
+def drive_columns(motion: Motion) -> list[Column]:
+    """Return the angle, the cylinder's length and lever, and for every movement the moments asked for and given, and what is over."""
+    angle = angle_of(motion)
+    found = [Column(angle, motion.strokes[angle], "deg", 2), Column("length", motion["length"], "mm", 1)]
+    found.append(Column("lever", np.abs(motion.ratio("length")), "mm", 1))
+    for each in movements_of(motion):
+        asked, given = each.asked(motion), each.given(motion)
+        found += [Column(f"{each.name}: asked", asked, "kNm", 2), Column("given", given, "kNm", 2), Column("over", given - asked, "kNm", 2)]
+    return found
+
+
+@final
+@dataclass(frozen=True)
+class WorstMovement:
+    """Where a movement has least and most moment over what is asked [N m], and the greatest moment asked for."""
+
+    movement: Movement
+    least: Extremum
+    most: Extremum
+    greatest: float
+
+    @property
+    def short(self) -> bool:
+        """Whether a moment is missing."""
+        return float(self.least.value) < -SHORT * self.greatest
+
+    @property
+    def verdict(self) -> Verdict:
+        """Return it in words."""
+        least, most = float(self.least.value), float(self.most.value)
+        missing = f"{-least / kN:.2f} kNm are missing" if self.short else f"{max(least, 0.0) / kN:.2f} kNm are over"
+        says = f"of up to {self.greatest / kN:.2f} kNm asked {missing} {self.least.where}"
+        beside = f", at most {most / kN:.2f} kNm {self.most.where}" if most > 0.0 else ""
+        remedy = "; take a larger bore or a longer lever" if self.short else ""
+        return Verdict(self.movement.name, not self.short, f"{says}{beside}{remedy}.")
+
+
+def worst_movements(motion: Motion) -> list[WorstMovement]:
+    """Return the worst of every movement over a motion of one design, looked for between its poses too."""
+    if motion._design_shape:
+        raise DefinitionError(f"A drive is judged for one design at a time; this motion has {motion._design_shape}. Take one.")
+    return [
+        WorstMovement(each, lowest(motion, each.surplus), greatest(motion, each.surplus), float(greatest(motion, each.asked).value))
+        for each in movements_of(motion)
+    ]
+
+
+TOLERANCE = 1e-7
+"""m: a length that is met to rounding is met."""
+
+
+def drive_verdicts(motion: Motion) -> list[str]:
+    """Return whether the drive carries what is asked, whether its cylinder is as long as that takes, and its least lever."""
+    return [*(str(each.verdict) for each in worst_movements(motion)), str(length_verdict(motion)), str(lever_verdict(motion))]
+
+
+def length_verdict(motion: Motion) -> Verdict:
+    """Return whether the cylinder, l closed and l + S open, is as long as the motion takes."""
+    low, high = (float(found(motion, lambda each: each["length"]).value) for found in (lowest, greatest))
+    closed, stroke = float(np.ravel(motion["l"])[0]), float(motion.inputs["S"].item())
+    pins, cylinder = (f"{start / mm:.1f} to {end / mm:.1f} mm" for start, end in ((low, high), (closed, closed + stroke)))
+    ok = closed <= low + TOLERANCE and high <= closed + stroke + TOLERANCE
+    return Verdict("length", ok, f"its pins are {pins} apart, the cylinder is {cylinder} long.")
+
+
+def lever_verdict(motion: Motion) -> Verdict:
+    """Return the least lever of the cylinder about the driven joint; not above zero past a dead point."""
+    sense = np.sign(np.ravel(motion.ratio("length"))[0])
+    least = lowest(motion, lambda each: sense * each.ratio("length"))
+    beyond = "" if least.value > 0.0 else "; the cylinder passes its dead point: move its pins"
+    return Verdict("lever", bool(least.value > 0.0), f"at least {float(least.value) / mm:.1f} mm, {least.where}{beyond}.")

@@ -1,0 +1,77 @@
+"""The whole crane: the skeleton with the cylinders of its boom, its arm and its telescope.
+
+The boom's cylinder stands on the column, figure of (2.30); the arm's one turns a lever that a coupler joins to the arm, figure 2.14 a.
+The default drives are the best of the source's examples for the first reading of (2.13): boom 125/70, arm 140/80 mm, at 22 MPa.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from hydraulics import Cylinder, LiftCircuit
+from linkage import LEFT, Dimension, Dyad, Ground, OnLink, Stroke, ref
+from linkage.units import MPa, deg, mm
+
+from .skeleton import CraneSkeleton
+
+DRIVEN: Mapping[str, tuple[str, str]] = MappingProxyType(
+    {"phi": ("lift", "lift_line"), "psi": ("fold", "fold_line"), "t": ("extend", "extend_line")}
+)
+"""Which cylinder moves with which stroke, and its circuit."""
+
+
+class Crane(CraneSkeleton):
+    """Cylinder AB lifts the boom OJ; cylinder CN folds the arm JK by the lever VN and the coupler NE; cylinder RT pushes the telescope.
+
+    Boom drive: A lies boom_r1 before and boom_r2 below O, B boom_r3 along the boom and boom_r4 under it. Arm drive: V lies
+    arm_r4 before J on the boom, C arm_r5 before V and arm_r6 above it, the lever VN is arm_r1, the coupler NE arm_r2, the arm's lug
+    JE arm_r3 long and `lug` off the arm. `bend` is the boom's bend at V. Every cylinder works with both sides.
+    """
+
+    phi = Stroke(15 * deg, 99.92 * deg)
+    t = Stroke(0.0, 2.532)
+    l_c, l_p, l_t = Dimension(4.454601406907623), Dimension(3.165204914008807), Dimension(2.532163931207046)
+    phi_0 = Dimension(15 * deg, unit="deg")
+
+    boom_r1, boom_r2 = Dimension(0.2618294), Dimension(1.6706883884436237)
+    boom_r3, boom_r4 = Dimension(0.5925163333637224), Dimension(0.31633579788198307)
+    A = Ground(boom_r1, ref("H_p") + ref("h_0") - boom_r2)
+    H = OnLink("O", "J", OH=boom_r3)
+    B = OnLink(H, "O", HB=boom_r4, OHB=90 * deg)
+
+    arm_r1, arm_r2, arm_r3 = Dimension(0.5634824610356947), Dimension(0.5056991910045654), Dimension(0.20803265972531704)
+    arm_r4, arm_r5, arm_r6 = Dimension(0.13215746111972135), Dimension(1.7535661783335663), Dimension(0.15)
+    lug = Dimension(113.26925656551386 * deg, unit="deg")
+    bend = Dimension(0 * deg, unit="deg")
+    V = OnLink("J", "O", JV=arm_r4)
+    U = OnLink(V, "J", VU=arm_r5, JVU=180 * deg + bend)
+    C = OnLink(U, V, UC=arm_r6, VUC=90 * deg)
+    E = OnLink("J", "K", JE=arm_r3, KJE=lug)
+    N = Dyad(V, E, VN=arm_r1, NE=arm_r2, side=LEFT)
+
+    root_pin = Dimension(0.25)                            # the telescope cylinder's pin on the arm, from J, m
+    R = OnLink("J", "K", JR=root_pin)
+
+    lift = Cylinder(A, B, bore=125 * mm, rod=70 * mm, works="both", closed=1.28505459, stroke=0.88505460)
+    fold = Cylinder(C, N, bore=140 * mm, rod=80 * mm, works="both", closed=1.35074426, stroke=0.92674428)
+    extend = Cylinder(R, "T", bore=63 * mm, rod=40 * mm, works="both", closed=2.915, stroke=2.533)
+    lift_line = LiftCircuit(lift, pressure=22 * MPa, mechanical_efficiency=0.95)
+    fold_line = LiftCircuit(fold, pressure=22 * MPa, mechanical_efficiency=0.95)
+    extend_line = LiftCircuit(extend, pressure=22 * MPa, mechanical_efficiency=0.95)
+
+
+class BellCrankCrane(Crane):
+    """The arm's cylinder turns a bell crank, figure 2.13 b: it ends at Z, arm_r8 from V, the crank's third side NZ is arm_r7."""
+
+    arm_r7, arm_r8 = Dimension(0.22), Dimension(0.56)
+    Z = OnLink("V", "N", VZ=arm_r8, NZ=arm_r7, side=LEFT)
+    fold = Cylinder("C", Z, bore=140 * mm, rod=80 * mm, works="both", closed=1.324, stroke=0.9)
+
+
+class ChainCrane(Crane):
+    """The telescope's cylinder pushes its first section X, chains draw the second, which runs twice the cylinder's way (figure 2.2)."""
+
+    first = Dimension(0.05)                               # how far the first section stands out of the arm when drawn in, m
+    X = OnLink("J", "K", JX=ref("l_p") + first + 0.5 * ref("t"))
+    extend = Cylinder("R", X, bore=80 * mm, rod=50 * mm, works="both", closed=2.965, stroke=1.267)

@@ -1,0 +1,176 @@
+"""The skeleton of a forestry crane: column, boom, arm and telescope, their masses, and what a good one has to keep, (2.4)-(2.18).
+
+Angles go as in the source: phi is the boom's from the upward vertical, psi the inner one between boom and arm, 180 deg where they
+are in line. Forces hold with g = 9.81 m/s2, by the load case `lifting`. Every margin is a named output [m], kept where it is not negative.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from linkage import (
+    Crank,
+    DefinitionError,
+    Dimension,
+    Ground,
+    Link,
+    LinkMass,
+    LoadCase,
+    Mechanism,
+    Motion,
+    OnLink,
+    Stroke,
+    Weight,
+    angle,
+    ref,
+)
+from linkage.errors import cited
+from linkage.program import FloatArray
+from linkage.units import deg, kN, mm
+
+GRAVITY = (0.0, -9.81)
+"""m/s2, the source's."""
+
+JOINT_WEIGHT = 300.0
+"""What the parts at the joint of boom and arm weigh [N], G_m of (2.24)."""
+
+AT_BOOM, AT_DRIVE, AT_ARM = 0.4, 0.7, 0.45
+"""Where the centres of gravity lie: of the boom and of its drive in l_c, of arm and telescope in what is out of both. (2.22)-(2.27)"""
+
+DRIVE_SHARE = 0.025
+"""The boom drive's share of the crane's mass, G_g."""
+
+
+class CraneSkeleton(Mechanism):
+    """Boom OJ, arm JK and telescope KT, turned and pushed by their strokes, on a column whose top is O.
+
+    The origin is the foot of the column's axis on the ground, x away from it, y up. phi, psi and t are what the drives do: boom angle from
+    the upward vertical, inner angle of boom and arm, telescope out. The members' heights b and masses W follow from the
+    regressions (2.5)-(2.9), of cranes of 23.5 to 185 kN m; W_m is the mass's measure (2.4) that a skeleton is chosen by.
+    """
+
+    phi = Stroke(15 * deg, 100 * deg)                     # boom, from the upward vertical
+    psi = Stroke(0 * deg, 180 * deg)                      # arm, from the boom
+    t = Stroke(0.0, 2.493)                                # telescope, m
+
+    L = Dimension(10.0)                                   # greatest reach, m
+    M = Dimension(100 * kN, unit="kNm")                   # rated moment
+    H_p, H_w = Dimension(1.1), Dimension(1.2)             # heights from the ground: platform, tool
+    H_k, H_max = Dimension(2.95), Dimension(4.0)          # cab, the legal one
+    h_s = Dimension(2.88760963074689)                     # stakes
+    c = Dimension(0.5)                                    # column to guard
+    psi_0 = Dimension(0 * deg, unit="deg")
+    psi_k = Dimension(180 * deg, unit="deg")
+    Q = Dimension(10 * kN, unit="kN")                     # load and tool
+
+    l_c, l_p, l_t = Dimension(4.542413835813), Dimension(3.116420231283), Dimension(2.493136185027)
+    h_0 = Dimension(1.85)                                 # column, from the platform
+    phi_0 = Dimension(20.526019274995 * deg, unit="deg")  # boom at its highest
+
+    O = Ground(0.0, H_p + h_0)
+    F = Ground(L, H_w)                                    # where the tool is set down at the whole reach
+    phi_k = 90 * deg - angle(O, F)                        # boom at its lowest (2.10)
+    J = Crank(O, OJ=l_c, angle=90 * deg - phi)
+    K = Crank(J, JK=l_p, angle=angle(J, O) + psi)         # the arm's end
+    T = OnLink(J, K, JT=l_p + t)                          # the telescope's end, with load and tool
+    arm = Link(J, K)
+
+    b_0 = 0.0352123 + 0.12889 * h_0                       # m (2.5)
+    b_c = -0.236125 + 0.00257739 * L + 0.126493 * l_c + 0.295468e-6 * M       # (2.6)
+    b_p = 0.0104471 + 0.0217203 * L + 0.74192e-6 * M      # (2.7)
+    b_t = 0.0437195 - 0.00409106 * l_t + 0.580051 * b_p   # (2.8)
+    W = -277.332 + 156.808 * L - 17.0799 * l_t**2 + 7.90261e-3 * M            # kg (2.9)
+    W_m = b_0 * h_0 + b_c * l_c + b_p * l_p + b_t * l_t   # m2 (2.4)
+    W_0, W_c = 0.75 * W * b_0 * h_0 / W_m, 0.75 * W * b_c * l_c / W_m         # (2.16)
+    W_p, W_t = 0.75 * W * b_p * l_p / W_m, 0.75 * W * b_t * l_t / W_m
+
+    OC = OnLink(O, J, OOC=AT_BOOM * l_c)                  # centres of gravity of the boom and of its drive
+    OG = OnLink(O, J, OOG=AT_DRIVE * l_c)
+    boom = Weight(OC, mass=W_c)
+    drive = Weight(OG, mass=DRIVE_SHARE * W)
+    joint = Weight(J, mass=JOINT_WEIGHT / -GRAVITY[1])
+    root = LinkMass((J, K), mass=(1.0 - AT_ARM) * (W_p + W_t), at=(0.0, 0.0)) # arm and telescope: their centre at 0.45 JT
+    end = Weight(T, mass=AT_ARM * (W_p + W_t))
+    load = Weight(T, mass=Q / -GRAVITY[1])
+    lifting = LoadCase("lifting", gravity=GRAVITY)
+
+    reach_error = l_c + l_p + l_t - np.sqrt(L**2 + (H_p + h_0 - H_w) ** 2)    # (2.10)
+    over_stakes = H_p + h_0 + l_c * np.cos(phi_0) - l_p - H_w - h_s           # (2.11)
+    past_guard = l_c * np.sin(phi_0) - l_p * np.sin(phi_0 - psi_0) - c        # (2.13)
+    below_legal = H_max - H_p - h_0                       # (2.14)
+    above_cab = H_p + h_0 - H_k                           # (2.15)
+    above_load = H_p + h_0 - h_s
+    telescope_over = l_t - 0.3 * l_p                      # (2.16)
+    telescope_under = 0.8 * l_p - l_t
+    boom_over_arm = l_c - l_p
+    arm_over_column = l_p - h_0
+    boom_turns = phi_k - phi_0
+
+    def __init__(self, **dimensions: Any) -> None:
+        """Set the design [SI]; DefinitionError also for a boom so short that the regression (2.6) gives it no height."""
+        super().__init__(**dimensions)
+        heights = self.outputs("b_c", "b_t", "W")
+        if np.any(heights["b_c"] <= 0.0):
+            boom = f"b_c = {np.min(heights['b_c']) / mm:.4g} mm: a boom of l_c = {np.min(self['l_c']):.4g} m"
+            raise DefinitionError(f"{boom} is outside the regression (2.6); give a longer one, from about 1.7 m on.")
+        for name in ("b_t", "W"):
+            if np.any(heights[name] <= 0.0):
+                long = f"{name} is not above zero: l_t = {np.max(self['l_t']):.4g} m"
+                raise DefinitionError(f"{long} is outside the regressions (2.8), (2.9); give a shorter telescope.")
+
+    def outputs(self, *names: str) -> dict[str, FloatArray]:
+        """Return named outputs that hang on the design alone [SI], such as W_m, one value a design."""
+        motion = self.at(unreachable="nan", **{name: stroke.start for name, stroke in self.strokes.items()})
+        return {name: motion[name] for name in names}
+
+    def output(self, name: str) -> float:
+        """Return a named output of one design that hangs on the design alone [SI]."""
+        return float(self.outputs(name)[name])
+
+    def limits_of(self) -> dict[str, tuple[float, float]]:
+        """Return how far each drive goes in this design: phi, psi [rad], t [m]."""
+        psi = float(self["psi_0"]), float(self["psi_k"])
+        return {"phi": (float(self["phi_0"]), self.output("phi_k")), "psi": psi, "t": (0.0, float(self["l_t"]))}
+
+    def position(self, number: int) -> Motion:
+        """Return one of the positions that the skeleton is laid out by: 1 reaching, 2 over the stakes, 3 over the guard, 4 in transport."""
+        if number not in POSITIONS:
+            raise DefinitionError(f"Position {cited(number)} is unknown; the skeleton has {', '.join(map(str, POSITIONS))}.")
+        (phi_0, phi_k), (psi_0, psi_k), (t_0, t_k) = self.limits_of().values()
+        poses = {1: (phi_k, psi_k, t_k), 2: (phi_0, phi_0, t_0), 3: (phi_0, psi_0, t_0), 4: (90 * deg, psi_0, t_0)}
+        phi, psi, t = poses[number]
+        return self.at(phi=phi, psi=psi, t=t)
+
+
+POSITIONS: Mapping[int, str] = {
+    1: "the whole reach, the tool at its height (2.10)",
+    2: "over the stakes, the arm upright (2.11)",
+    3: "over the guard, the arm folded (2.13)",
+    4: "in transport, the boom level (2.14), (2.15)",
+}
+
+
+class BackBrokenSkeleton(CraneSkeleton):
+    """A crane whose arm bends backwards, psi_k above 180 deg: in transport its tool stands on the platform before the cab, (2.17), (2.18).
+
+    Of (2.10) the length alone is kept; phi_k, psi_k and Delta, the height of the joint J over the platform in transport, are design
+    variables, bound to the transport pose by `joint_error` and `tool_error`.
+    """
+
+    phi = Stroke(15 * deg, 120 * deg)
+    psi = Stroke(0 * deg, 230 * deg)
+    t = Stroke(0.0, 2.547)
+    A_k = Dimension(6.9)                                  # column to cab: A of (2.18), m
+    l_c, l_p, l_t = Dimension(4.45955493536), Dimension(3.184829964299), Dimension(2.547863971439)
+    h_0 = Dimension(2.070263193179)
+    phi_0 = Dimension(0.403067078631, unit="deg")
+    phi_k = Dimension(2.053562399393, unit="deg")
+    psi_k = Dimension(4.010683069459, unit="deg")
+    Delta = Dimension(0.0)                                # joint over the platform, in transport
+
+    joint_error = h_0 + l_c * np.cos(phi_k) - Delta                    # (2.18)
+    tool_error = Delta - l_p * np.cos(psi_k - phi_k) - ref("H_w")
+    before_cab = A_k - l_c * np.sin(phi_k) + l_p * np.sin(phi_k - psi_k)

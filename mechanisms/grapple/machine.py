@@ -1,0 +1,135 @@
+"""The grapple: the lever's hinge from the stems it has to hold, its cylinder between two circles, the moment it needs: (2.67) to (2.94)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from hydraulics import Cylinder, LiftCircuit
+from hydraulics.inputs import positive
+from linkage import Column, Crank, DefinitionError, Dimension, Force, Ground, Mechanism, Motion, OnLink, Stroke, distance, ref, x, y
+from linkage.units import MPa, deg, mm
+
+from .report import grapple_columns, grapple_verdicts
+
+
+class Grapple(Mechanism):
+    """Cylinder EC turns the lever AOC, whose end A presses the stem against the housing at T; the right-hand lever of the two.
+
+    The section across the stem; the origin is the centre of the largest stem D_0, y up to the housing, where all stems rest on T.
+    theta is the lever's angle from where it holds D_0: opening_angle when open, 0 at D_0, -closing_angle at the smallest stem d_0.
+    O lies at equal distances from both places of A and by hinge_gap off the largest stem; C on AO produced; E where the closed
+    cylinder reaches the open lever and the extended one the closed lever: of the two such places the one on `side_E` of the way of C
+    (1 left, -1 right). The efficiency is the source's n; pressures are gauge; everything is of one lever.
+
+    The range of theta is that of the shipped stems and hinge; for others `grapple_for` makes a class with the range that they need.
+    The moment M_1 that a stem needs is not in the source at hand: the force N_0 + N_2 D**2 of the lever on the stem, through its arm
+    about O, is assumed. A subclass replaces M_1 by its own: any quantity of D, arm and theta.
+    """
+
+    theta = Stroke(23.913519201828226 * deg, -72.5116859213048 * deg)
+
+    D_0 = Dimension(550 * mm, unit="mm")                        # the largest stem
+    d_0 = Dimension(100 * mm, unit="mm")                        # the smallest one
+    alpha = Dimension(55 * deg, unit="deg")                     # wrap angle at D_0
+    beta = Dimension(5 * deg, unit="deg")                       # at d_0; above 0 the lever ends pass each other, on two levels
+    hinge_gap = Dimension(85 * mm, unit="mm")                   # a_k: gap, lug, and the pin's or bush's radius
+    opening = Dimension(1.3)                                    # opening angle over the one that lets the stem go
+    bush = Dimension(25 * mm, unit="mm")                        # radius of the hinge's bush, which the cylinder passes
+
+    bore = Dimension(50 * mm, unit="mm")
+    rod = Dimension(28 * mm, unit="mm")
+    S = Dimension(250 * mm, unit="mm")                          # the cylinder's stroke
+    dead = Dimension(120 * mm, unit="mm")                       # its closed length beyond the stroke: dead + dead_bores bore
+    dead_bores = Dimension(1.6)
+    rho = Dimension(192.613145857 * mm, unit="mm")               # OC
+    side_E = Dimension(-1.0)
+    bend = Dimension(180 * deg, unit="deg")                     # the angle AOC
+
+    T = Ground(0.0, D_0 / 2)
+    x_0 = D_0 / 2 * np.cos(alpha)                               # A at D_0 (2.72), (2.73)
+    y_0 = -D_0 / 2 * np.sin(alpha)
+    x_1 = -d_0 / 2 * np.sin(beta)                               # A at d_0 (2.74), (2.75)
+    y_1 = D_0 / 2 - d_0 / 2 * (1.0 + np.cos(beta))
+    chord = np.sqrt((x_1 - x_0)**2 + (y_1 - y_0)**2)
+    x_n = (y_1 - y_0) / chord                                   # across the chord, away from the stem
+    y_n = (x_0 - x_1) / chord
+    ahead = ((x_0 + x_1) * x_n + (y_0 + y_1) * y_n) / 2         # the chord's middle, seen from the origin along n and across it
+    aside = ((x_0 + x_1) * y_n - (y_0 + y_1) * x_n) / 2
+    off = np.sqrt((D_0 / 2 + hinge_gap)**2 - aside**2) - ahead  # of the two the hinge farther out
+    O = Ground((x_0 + x_1) / 2 + off * x_n, (y_0 + y_1) / 2 + off * y_n)
+
+    OA = np.sqrt((x_0 - x(O))**2 + (y_0 - y(O))**2)
+    to_A = np.arctan2(y_0 - y(O), x_0 - x(O))                   # the direction O -> A at D_0
+    closing_angle = 2.0 * np.arctan2(chord, 2.0 * off)          # 2 lambda (2.80)
+    about_release = D_0 * (1.0 - np.cos(alpha)) / (2.0 * OA)    # (2.71), (2.82)
+    outside = (D_0 / 2 - x(O)) / OA
+    release_angle = -np.arctan2(np.sqrt(1.0 - outside**2), outside) - to_A  # where A stands beside the stem, exactly
+    opening_angle = opening * about_release                     # beta_K (2.81)
+
+    A = Crank(O, OA=OA, angle=to_A + theta)
+    C = OnLink(O, A, OC=rho, AOC=bend)
+
+    closed = S + dead + dead_bores * bore
+    open_length = closed                                        # EC at the open lever (2.91)
+    shut_length = closed + S                                    # EC at d_0 (2.92)
+    x_open = x(O) + rho * np.cos(to_A + bend + opening_angle)   # C there
+    y_open = y(O) + rho * np.sin(to_A + bend + opening_angle)
+    dx = x(O) + rho * np.cos(to_A + bend - closing_angle) - x_open
+    dy = y(O) + rho * np.sin(to_A + bend - closing_angle) - y_open
+    way = dx**2 + dy**2
+    u = (ref("open_length")**2 - ref("shut_length")**2 + way) / (2.0 * way)
+    v = side_E * np.sqrt(ref("open_length")**2 / way - u**2)
+    E = Ground(x_open + u * dx - v * dy, y_open + u * dy + v * dx)
+    EC = distance(E, C)
+
+    below = D_0 / 2 - y(A)                                      # A below the housing
+    D = (x(A)**2 + below**2) / below                            # the stem that it holds there
+    x_in = -2.0 * x(A) / D                                      # from A to the stem's centre, of length one
+    y_in = 2.0 * below / D - 1.0
+    arm = (x(O) - x(A)) * y_in - (y(O) - y(A)) * x_in           # of the stem's push on the lever about O
+    N_0 = Dimension(6000.0, unit="N")
+    N_2 = Dimension(40000.0)                                    # N/m2
+    M_1 = (N_0 + N_2 * D**2) * arm
+    push = ref("M_1") / arm
+
+    stem = Force(A, (-push * x_in, -push * y_in))
+    lift = Cylinder(E, C, bore=bore, rod=rod)
+    circuit = LiftCircuit(lift, pressure=20 * MPa, mechanical_efficiency=0.95)
+
+    def __init__(self, **dimensions: Any) -> None:
+        """Set the design [SI]; DefinitionError also for what cannot be: no stem, a wrap of no angle, a side that is neither."""
+        super().__init__(**dimensions)
+        for name in ("D_0", "d_0", "hinge_gap", "opening", "bush", "bore", "rod", "S", "rho"):
+            positive(self[name], name)
+        if np.any(np.abs(np.asarray(self["side_E"])) != 1.0):
+            raise DefinitionError(f"side_E = {self['side_E']}: 1 for the left of the way of C, -1 for the right.")
+        if np.any(np.asarray(self["d_0"]) >= np.asarray(self["D_0"])):
+            small, large = np.max(self["d_0"]) / mm, np.min(self["D_0"]) / mm
+            raise DefinitionError(f"The smallest stem d_0 = {small:.4g} mm is not below the largest one, {large:.4g} mm; exchange them.")
+
+    def columns(self, motion: Motion) -> list[Column]:
+        """Return theta, the stem's diameter, the cylinder's length, H, M_g, M_1 and their ratio; no stem beyond D_0: NaN."""
+        return grapple_columns(motion)
+
+    def verdicts(self, motion: Motion) -> list[str]:
+        """Return what an engineer should know: moment over the stems, way past the hinge, opening, stroke, E, the cylinder's size."""
+        return [str(each) for each in grapple_verdicts(motion)]
+
+
+class InnerGrapple(Grapple):
+    """The hinges exchanged: the cylinder at the inner one, C between O and A; it closes by drawing in, with its rod side.
+
+    Dimensions of the shipped stems, for the assumed M_1; E may lie farther out than in the other layout.
+    """
+
+    bore = Dimension(70 * mm, unit="mm")
+    rod = Dimension(40 * mm, unit="mm")
+    S = Dimension(200 * mm, unit="mm")
+    rho = Dimension(140 * mm, unit="mm")
+    side_E = Dimension(1.0)
+    bend = Dimension(0 * deg, unit="deg")
+    open_length = ref("closed") + ref("S")
+    shut_length = ref("closed") + 0.0
+    lift = Cylinder("E", "C", bore="bore", rod="rod", works="rod")

@@ -1,0 +1,178 @@
+"""What a grapple's lever gives and what its stems need, over the angle; its table and its verdicts. Pressures are gauge [Pa]."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from hydraulics import LiftCircuit, Verdict
+from linkage import Column, DefinitionError, Motion, pin_forces, ref
+from linkage.motion import greatest, lowest, require_motion
+from linkage.program import FloatArray
+from linkage.quantities import is_whole
+from linkage.units import deg, kN, mm
+
+ADVISED = (1.2, 1.4)
+"""Opening angle over the release angle (2.81)."""
+MET = 1e-9
+"""A ratio, a length or an angle that is missed by less is met."""
+
+
+def require_grapple(motion: Motion) -> Motion:
+    """Return a motion of a grapple; DefinitionError for anything else."""
+    require_motion(motion)
+    if "closing_angle" not in motion or "theta" not in motion.strokes:
+        raise DefinitionError(f"{motion.plan.title} is no grapple; give a motion of a Grapple.")
+    return motion
+
+
+def gripping(motion: Motion, count: int = 101) -> Motion:
+    """Return the same designs over the angles at which they hold stems, from D_0 to d_0, each its own."""
+    closing = require_grapple(motion).sketched(ref("closing_angle"))
+    return _over(motion, np.zeros_like(closing), -closing, count)
+
+
+def travelling(motion: Motion, count: int = 101) -> Motion:
+    """Return the same designs over the lever's whole way, from open to d_0, each its own."""
+    start, closing = (require_grapple(motion).sketched(ref(name)) for name in ("opening_angle", "closing_angle"))
+    return _over(motion, start, -closing, count)
+
+
+def _over(motion: Motion, start: FloatArray, end: FloatArray, count: int) -> Motion:
+    if not is_whole(count) or count < 2:
+        raise DefinitionError(f"count={count!r}: a whole number of poses is expected, at least 2.")
+    shape = motion._design_shape
+    first, last = (each.reshape(shape)[..., None] for each in (start, end))
+    return motion.moved({"theta": first + (last - first) * np.linspace(0.0, 1.0, count)})
+
+
+def unplaced_words(motion: Motion) -> str:
+    """Return why the pin E has no place in a design of a motion, and what gives it one; empty where all have."""
+    lost = ~np.isfinite(motion["E"]).all(axis=0)
+    if not lost.any():
+        return ""
+    opened, shut, rho, swing = (
+        float(np.broadcast_to(each, motion.shape)[lost][0])
+        for each in (motion["open_length"], motion["shut_length"], motion.inputs["rho"], motion["closing_angle"] + motion["opening_angle"])
+    )
+    chord, stroke = 2.0 * rho * np.sin(0.5 * swing), abs(shut - opened)
+    lengths = f"its lengths are {opened / mm:.4g} mm at the open lever and {shut / mm:.4g} mm at the closed one"
+    ends = f"the pin C has its ends {chord / mm:.4g} mm apart"
+    if chord < stroke:
+        return f"E has no place: {lengths}, {ends}, less than the stroke; OC = rho from {rho * stroke / chord / mm:.1f} mm on has one."
+    return f"E has no place: {lengths}, {ends}; OC = rho up to {rho * (opened + shut) / chord / mm:.1f} mm has one."
+
+
+def require_placed(motion: Motion) -> Motion:
+    """Return a motion of grapples whose cylinders have a place for the pin E; DefinitionError, with what gives one, for others."""
+    words = unplaced_words(require_grapple(motion))
+    if words:
+        raise DefinitionError(f"{motion.plan.title}: {words}")
+    return motion
+
+
+@dataclass(frozen=True)
+class GrappleState:
+    """What the poses of a motion have, arrays of its shape: D [m], H [m], M_g and M_1 [N m] of one lever."""
+
+    motion: Motion
+
+    @cached_property
+    def D(self) -> FloatArray:
+        """Diameter of the stem that the lever holds there [m]; beyond D_0 of one that large."""
+        return self.motion["D"]
+
+    @cached_property
+    def H(self) -> FloatArray:
+        """The cylinder's arm about the hinge [m]: how its length follows the lever's angle, |dEC/dtheta| (2.90)."""
+        return np.abs(self.motion.ratio("EC"))
+
+    @cached_property
+    def given(self) -> FloatArray:
+        """M_g [N m], what the full pressure gives about the hinge."""
+        circuit: LiftCircuit = self.motion.plan.of_kind(LiftCircuit)["circuit"]
+        return circuit.largest(self.motion) * circuit.efficiency(self.motion, "mechanical") * self.H
+
+    @cached_property
+    def needed(self) -> FloatArray:
+        """M_1 [N m], what the stem needs about the hinge."""
+        return self.motion["M_1"]
+
+
+def moment_ratio(motion: Motion) -> FloatArray:
+    """Return M_g / M_1 of a motion, shape (...)."""
+    state = GrappleState(motion)
+    return np.asarray(state.given / state.needed)
+
+
+def grapple_columns(motion: Motion) -> list[Column]:
+    """Return the table of a motion; where no stem of the range is held D, M_1 and the ratio are NaN."""
+    state = GrappleState(require_placed(motion))
+    held = motion.strokes["theta"] <= MET
+    of_stems = [np.where(held, each, np.nan) for each in (state.D, state.needed, state.given / state.needed)]
+    theta = np.broadcast_to(motion.strokes["theta"], motion.shape)
+    return [
+        Column("theta", theta, "deg", 2), Column("D", of_stems[0], "mm", 1), Column("EC", motion["EC"], "mm", 1),
+        Column("H", state.H, "mm", 2), Column("M_g", state.given, "Nm", 1), Column("M_1", of_stems[1], "Nm", 1),
+        Column("M_g/M_1", of_stems[2], "", 4),
+    ]  # fmt: skip
+
+
+def grapple_verdicts(motion: Motion) -> list[Verdict]:
+    """Return the verdicts on one design, over its own way whatever poses the motion has."""
+    if require_grapple(motion)._design_shape:
+        return [Verdict("grapple", True, "the verdicts are for one design at a time; this motion has a batch of them.")]
+    words = unplaced_words(motion)
+    if words:
+        return [Verdict("cylinder", False, words)]
+    return [moment_verdict(motion), passing_verdict(motion), opening_verdict(motion), stroke_verdict(motion), hinge_verdict(motion)]
+
+
+def moment_verdict(motion: Motion) -> Verdict:
+    """Return whether the lever's moment is enough for every stem, and where it is scarcest."""
+    over = gripping(motion)
+    least, most = lowest(over, moment_ratio), greatest(over, moment_ratio)
+    where = {each: float(motion.moved({"theta": np.array([each.strokes["theta"]])})["D"][0]) / mm for each in (least, most)}
+    low, high = float(least.value), float(most.value)
+    text = f"M_g / M_1 is {low:.4g} at the stem of {where[least]:.0f} mm, the least, and {high:.4g} at {where[most]:.0f} mm, the greatest"
+    remedy = "" if low >= 1.0 - MET else ": too little; take a greater bore or a longer OC"
+    return Verdict("moment", low >= 1.0 - MET, f"{text}{remedy}.")
+
+
+def passing_verdict(motion: Motion) -> Verdict:
+    """Return whether the cylinder passes the hinge's bush on its whole way. (2.93)"""
+    least = lowest(travelling(motion), lambda each: GrappleState(each).H)
+    room, needed = float(least.value), float(motion.inputs["bush"] + motion.inputs["rod"] / 2.0)
+    text = f"the cylinder's line passes the hinge at {room / mm:.1f} mm at the least, at theta = {least.strokes['theta'] / deg:.1f} deg"
+    return Verdict("passing", room >= needed - MET, f"{text}; bush and rod need {needed / mm:.1f} mm.")
+
+
+def opening_verdict(motion: Motion) -> Verdict:
+    """Return whether the open lever lets the largest stem go, and how (2.71) tells it."""
+    opened, exact, about = (float(np.ravel(motion[name])[0]) / deg for name in ("opening_angle", "release_angle", "about_release"))
+    text = f"opens by {opened:.2f} deg; the largest stem goes at {exact:.2f} deg ({about:.2f} deg by (2.71), which is too little)"
+    share = float(motion.inputs["opening"])
+    told = "" if ADVISED[0] <= share <= ADVISED[1] else f"; opening = {share:.3g}, {ADVISED[0]} to {ADVISED[1]} is advised"
+    return Verdict("opening", opened >= exact, f"{text}{told}.")
+
+
+def stroke_verdict(motion: Motion) -> Verdict:
+    """Return whether the class's range of theta is the lever's own way, and which way the cylinder has."""
+    declared = motion.plan.strokes["theta"]
+    opened, closing = (float(np.ravel(motion[name])[0]) for name in ("opening_angle", "closing_angle"))
+    fits = abs(declared.start - opened) < 1e-6 and abs(declared.end + closing) < 1e-6
+    lengths = travelling(motion, 2)["EC"]
+    text = f"the lever closes by {closing / deg:.2f} deg from D_0 to d_0, EC goes from {lengths[0] / mm:.1f} to {lengths[-1] / mm:.1f} mm"
+    said = f"; the class's theta goes from {declared.start / deg:.2f} to {declared.end / deg:.2f} deg: make one by grapple_for"
+    return Verdict("stroke", fits, f"{text}{'' if fits else said}.")
+
+
+def hinge_verdict(motion: Motion) -> Verdict:
+    """Return the force in the hinge O, the greatest over the stems."""
+    over = gripping(motion)
+    (hinge,) = pin_forces(over).at("O")
+    force = np.hypot(*hinge.force)
+    worst = int(np.argmax(force))
+    return Verdict("hinge", True, f"the pin O carries up to {force[worst] / kN:.1f} kN, at the stem of {over['D'][worst] / mm:.0f} mm.")

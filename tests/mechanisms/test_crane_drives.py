@@ -1,0 +1,410 @@
+"""Boom and arm drive of a forestry crane against the reconstructed source: its formulas, its examples, its optima."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import simpson
+from scipy.optimize import minimize
+
+from linkage import RIGHT, Dyad, deg, ratio
+from linkage.motion import lowest
+from mechanisms.crane.arm_drive import ArmDrive, BellCrankArmDrive, BellCrankArmDriveByCylinder, DirectArmDrive, DirectArmDriveAbove
+from mechanisms.crane.boom_drive import BoomDrive
+from mechanisms.crane.drive_report import OPENING, movements_of
+
+# Source: Syunyov et al., (2.19) to (2.66), as reconstructed; numbers of its examples 2, 3a and 3b, computed independently.
+
+K_A, K_A1, K_B = 71905.17119002105, 39947.317327789475, 85260.01232735414
+PHI_0, PHI_K = 15.0 * deg, 99.9262455066517 * deg
+BOOMS = {  # example 2: rod, S, r_1 .. r_4, surplus (2.33), most M_g / M_l, h at phi_0, 90 deg, phi_k
+    125: (70, 0.8850545905614509, 0.2618294, 1.6706883884436237, 0.5925163333637224, 0.31633579788198307, 23429.523301843783,
+          1.1460746853955897, (0.41247373341726307, 0.6506409027399889, 0.6036008101330094)),
+    140: (80, 0.8037405078703522, 0.2768294, 1.6298875560931196, 0.49700267292449635, 0.3313357978819831, 55017.15508730882,
+          1.4164286711117156, (0.4137150677910758, 0.5453975811715456, 0.48118687032287066)),
+}  # fmt: skip
+ARMS = {  # example 3a: rod, r_1 .. r_5, S, alpha_20, volume, area, psi of tangency
+    125: (70, 0.6927875564208, 0.6260722919074565, 0.24747421702558486, 0.15746382785087581, 2.046244512975232, 1.1422391570783725,
+          -65.41746333417115, 11146377.376692418e-9, 26886.889042529452, 85.02022079969181),
+    140: (80, 0.5634824610356947, 0.5056991910045654, 0.20803265972531704, 0.13215746111972135, 1.7535661783335663, 0.926744269401061,
+          -66.73074343448614, 10823153.847283429e-9, 26721.89572263079, 84.73693294510497),
+}  # fmt: skip
+
+
+def boom_of(bore):
+    rod, S, r_1, r_2, r_3, r_4, *_ = BOOMS[bore]
+    return BoomDrive(D=bore / 1e3, d=rod / 1e3, S=S, r_1=r_1, r_2=r_2, r_3=r_3, r_4=r_4)
+
+
+def arm_of(bore):
+    rod, *r, S, alpha_20, _, _, _ = ARMS[bore]
+    return ArmDrive(D=bore / 1e3, d=rod / 1e3, S=S, alpha_20=alpha_20 * deg, **{f"r_{i}": each for i, each in enumerate(r, 1)})
+
+
+# -- the boom: geometry and moments ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("phi", "length", "lever"),
+    [
+        (15.0, 1.9111021380388928, 0.40289490672001926),
+        (60.0, 1.465452676738976, 0.7140677409507485),
+        (90.0, 1.0547511554864493, 0.8390604697577597),
+        (110.0, 0.7580690014987745, 0.8443778704413747),
+    ],
+)
+def test_length_and_lever_of_the_boom(phi, length, lever):
+    motion = BoomDrive(r_1=0.25, r_2=1.2, r_3=0.8, r_4=0.3).at(phi=phi * deg)
+    assert_allclose(motion["length"], length, rtol=1e-14)
+    assert_allclose(-motion.ratio("length"), lever, rtol=1e-13)
+
+
+def test_boom_by_the_closed_formulas():
+    """(2.30) for many random drives at once."""
+    rng = np.random.default_rng(2)
+    r = {f"r_{i}": rng.uniform(*ends, 200) for i, ends in enumerate([(0.1, 0.4), (0.6, 1.8), (0.3, 1.5), (0.1, 0.5)], 1)}
+    motion = BoomDrive(**r).at(phi=np.linspace(0.1, 2.0, 9))
+    length, lever = boom_formulas(np.linspace(0.1, 2.0, 9), *(each[:, None] for each in r.values()))
+    assert_allclose(motion["length"], length, rtol=1e-13)
+    assert_allclose(-motion.ratio("length"), lever, rtol=1e-10, atol=1e-12)
+
+
+def boom_formulas(phi, r_1, r_2, r_3, r_4):
+    """Return the length AB and the lever h by (2.30)."""
+    X, Y = r_3 * np.sin(phi) + r_4 * np.cos(phi), r_3 * np.cos(phi) - r_4 * np.sin(phi)
+    length = np.hypot(X - r_1, Y + r_2)
+    return length, (r_1 * Y + r_2 * X) / length
+
+
+ROWS_3B = [  # k, gamma, alpha_1, alpha_2 [deg], h, I, M_g2, and the pins Z, 1, 2
+    (1.0, 140.85967064191908, 21.546609540792947, -82.2365727085356, 0.279956911508449, 0.5566553679416626, 33766.62803847461,
+     (0.39859368465897166, 0.3933485408006292), (0.4650595575455656, 0.18362899535618765), (0.18106912137964554, -0.22789188159453336)),
+    (0.75, 107.0948481867672, 55.31143199594485, -20.993789757481697, 0.4716360480700518, 0.5730706765073665, 58563.26440242404,
+     (0.11274389382675765, 0.5485333302587736), (0.2845577365067744, 0.4111288053568385), (0.36473243077085526, -0.08240135420756055)),
+    (0.5, 82.162183653013, 80.24409652969905, 20.172186845607765, 0.5508255533370527, 0.6427112470750627, 76707.89727112453,
+     (-0.12899919585062875, 0.5449396365377464), (0.08472552485629836, 0.49276930245077644), (0.3658919220539735, 0.07931379446124782)),
+    (0.25, 58.97786252096023, 103.42841766175181, 54.29869257167299, 0.5457041184896381, 0.719012920310431, 85016.65717477823,
+     (-0.33311911158006413, 0.45014626234159577), (-0.11611517703249197, 0.4863304079149412), (0.28421874067852987, 0.18677614850582386)),
+    (0.0, 32.53693420799573, 129.8693459747163, 88.69605686463125, 0.4006928493722661, 0.8268800584337606, 71790.04230332548,
+     (-0.49871165832710546, 0.2547286435574697), (-0.3205195479705375, 0.383754113162012), (0.15523391139505316, 0.22994044048733298)),
+]  # fmt: skip
+
+
+def test_analysis_3b():
+    """The bell crank driven by its cylinder, and the same poses driven by the arm."""
+    k, gamma, alpha_1, alpha_2, h, transfer, moment, *pins = (np.array(column).T for column in zip(*ROWS_3B, strict=True))
+    by_cylinder = BellCrankArmDriveByCylinder().at(k=k)
+    motion = BellCrankArmDrive().at(psi=by_cylinder["psi"])
+    for found in (by_cylinder, motion):
+        for name, expected in (("gamma", gamma), ("alpha_1", alpha_1), ("alpha_2", alpha_2)):
+            assert_allclose(found[name] / deg, expected, rtol=0, atol=1e-9)
+        for name, pin in zip("ZLN", pins, strict=True):
+            assert_allclose(found[name], pin, rtol=0, atol=1e-11)
+    assert_allclose(motion["C"][:, 0], [-1.7533406394477118, -0.16821593878431768], atol=1e-14)
+    assert_allclose(motion["length"], 1.324 + 0.9 * k, rtol=1e-12)
+    assert_allclose(motion.ratio("alpha_1"), transfer, rtol=1e-10)
+    assert_allclose(motion.ratio("length") / motion.ratio("gamma"), h, rtol=1e-10)
+    assert_allclose(OPENING.given(motion), moment, rtol=1e-10)
+    assert_allclose(by_cylinder.ratio("psi") * motion.ratio("length"), 0.9, rtol=1e-10)
+
+
+@pytest.mark.parametrize(
+    ("alpha_1", "alpha_2", "other", "transfer"),
+    [
+        (30.0, -66.83088229745665, 149.74258814063197, 0.5436721260531041),
+        (60.0, -12.89180267423534, 166.88397878858967, 0.5845369598162999),
+        (90.0, 34.999726238964726, 178.3987622290225, 0.673694833106222),
+        (120.0, 76.41657449501926, 189.04448108177732, 0.7821810897446668),
+        (140.0, 100.56927102842779, 197.25370659870876, 0.8821087304772562),
+    ],
+)
+def test_unit_vectors_of_the_four_bar(alpha_1, alpha_2, other, transfer):
+    arm = ArmDrive(r_1=0.5, r_2=0.5, r_3=0.23, r_4=0.15, alpha_20=alpha_2 * deg)
+    motion = arm.at(psi=0.0)
+    assert_allclose(motion["alpha_1"] / deg, alpha_1, rtol=1e-12)
+    assert_allclose(motion.ratio("alpha_1"), transfer, rtol=1e-12)
+    modes = [each.at(psi=0.0)["alpha_1"] for each in (arm, ArmOtherAssembly(**{**arm.dimensions, "alpha_20": other * deg}))]
+    assert_allclose(np.array(modes) / deg, alpha_1, rtol=1e-12)
+
+
+class ArmOtherAssembly(ArmDrive):
+    """The other assembly of the four-bar: the lever on the other side of the line from O to the lug's pin."""
+
+    L = Dyad("O", "N", OL="r_1", NL="r_2", side=RIGHT)
+
+
+def alpha_2_of(alpha_1, r_1, r_2, r_3, r_4):
+    """Return the lug's angle by (2.51) with the corrected signs, [rad]."""
+    x, y = r_1 * np.cos(alpha_1), r_1 * np.sin(alpha_1)
+    a = np.hypot(x - r_4, y)
+    return np.arcsin((r_1**2 - r_2**2 + r_3**2 + r_4**2 - 2 * r_1 * r_4 * np.cos(alpha_1)) / (2 * r_3 * a)) - np.arctan2(x - r_4, y)
+
+
+def transfer_of(alpha_1, alpha_2, r_1, r_3, r_4):
+    """Return I by (2.49) in the form without 0/0."""
+    x_1, y_1 = r_1 * np.cos(alpha_1), r_1 * np.sin(alpha_1)
+    x_2, y_2 = r_4 + r_3 * np.cos(alpha_2), r_3 * np.sin(alpha_2)
+    return ((x_1 - r_4) * y_2 - y_1 * (x_2 - r_4)) / (x_1 * y_2 - y_1 * x_2)
+
+
+def test_four_bar_and_cylinder_by_the_closed_formulas():
+    """(2.45) to (2.59) at random, both variants: the angles, the levers, and |h I| = |d(length)/d(psi)| (virtual work)."""
+    rng = np.random.default_rng(7)
+    checked = 0
+    while checked < 60:
+        r_1, r_2, r_3, r_4, r_5, r_6 = rng.uniform([0.4, 0.35, 0.15, 0.08, 1.0, -0.2], [0.8, 0.8, 0.3, 0.2, 2.2, 0.3])
+        r_8, delta, alpha_1 = rng.uniform(0.4, 0.7), rng.uniform(-0.2, 0.2), rng.uniform(0.4, 2.2)
+        r_7 = rng.uniform(abs(r_1 - r_8) + 0.05, 0.5)
+        with np.errstate(invalid="ignore"):
+            alpha_2 = alpha_2_of(alpha_1, r_1, r_2, r_3, r_4)
+        transfer = transfer_of(alpha_1, alpha_2, r_1, r_3, r_4)
+        if not (0.2 < transfer < 3.0):
+            continue
+        checked += 1
+        common = {"r_1": r_1, "r_2": r_2, "r_3": r_3, "r_4": r_4, "r_5": r_5, "r_6": r_6, "delta": delta, "alpha_20": alpha_2}
+        epsilon = np.arccos((r_8**2 + r_1**2 - r_7**2) / (2 * r_8 * r_1))
+        for machine, arm, turned in (
+            (ArmDrive(**common), r_1, 0.0),
+            (BellCrankArmDrive(r_7=r_7, r_8=r_8, **common), r_8, epsilon),
+        ):
+            motion, R = machine.at(psi=0.0), np.hypot(r_5, r_6)
+            gamma = np.pi - alpha_1 - np.arctan2(r_6, r_5) - turned + delta  # (2.56), (2.59)
+            length = np.sqrt(R**2 + arm**2 - 2 * R * arm * np.cos(gamma))
+            lever = arm * R * np.sin(gamma) / length  # (2.53), (2.57)
+            assert_allclose(motion["alpha_1"], alpha_1, rtol=1e-10)
+            assert_allclose(motion.ratio("alpha_1"), transfer, rtol=1e-8)
+            assert_allclose(motion["length"], length, rtol=1e-10)
+            assert_allclose(motion.ratio("length"), -lever * transfer, rtol=1e-8, atol=1e-12)
+
+
+def test_printed_plus_of_the_errata_breaks_the_coupler():
+    """(2.63), (2.66) print r_1^2 + r_2^2: with the plus the coupler has another length."""
+    r_1, r_2, r_3, r_4, alpha_1 = 0.5, 0.5, 0.23, 0.15, 75 * deg
+    x, y = r_1 * np.cos(alpha_1), r_1 * np.sin(alpha_1)
+
+    def coupler(sign):
+        a = np.hypot(x - r_4, y)
+        K = (r_1**2 + sign * r_2**2 + r_3**2 + r_4**2 - 2 * r_1 * r_4 * np.cos(alpha_1)) / (2 * r_3 * a)
+        alpha_2 = np.arcsin(np.clip(K, -1.0, 1.0)) - np.arctan2(x - r_4, y)
+        return np.hypot(r_4 + r_3 * np.cos(alpha_2) - x, r_3 * np.sin(alpha_2) - y)
+
+    assert_allclose(coupler(-1.0), r_2, rtol=1e-14)
+    assert abs(coupler(1.0) - r_2) > 0.05
+
+
+@pytest.mark.parametrize(("machine", "side"), [(DirectArmDrive, 1.0), (DirectArmDriveAbove, -1.0)])
+def test_direct_drive_is_the_booms(machine, side):
+    """Without a four-bar the boom's formulas hold with phi = 180 deg - psi; above the boom r_1 and r_4 change their signs."""
+    psi, arm = np.linspace(60.0, 180.0, 7) * deg, machine()
+    motion = arm.at(psi=psi)
+    length, lever = boom_formulas(np.pi - psi, side * arm["r_1"], arm["r_2"], arm["r_3"], side * arm["r_4"])
+    assert_allclose(motion["length"], length, rtol=1e-12)
+    assert_allclose(motion.ratio("length"), lever, rtol=1e-10)
+    assert all(sentence.startswith("ok") for sentence in arm.verdicts(motion))
+
+
+@pytest.mark.parametrize("machine", [ArmDrive, BellCrankArmDrive, DirectArmDrive, DirectArmDriveAbove, BoomDrive])
+def test_moments_are_those_of_the_cylinder_in_equilibrium(machine):
+    """The framework's reserve, pump over need, is the moment given over the one asked for."""
+    drive = machine()
+    motion = drive.working(5)
+    cases = {"folding": "case_1", "opening": "case_2", "lifting": None}
+    for movement in movements_of(motion):
+        with np.errstate(divide="ignore", invalid="ignore"):
+            expected = movement.given(motion) / movement.asked(motion)
+        found = drive.circuit.reserve(motion, case=cases[movement.name])
+        asked = movement.asked(motion) > 1.0
+        assert asked.sum() >= 2
+        assert_allclose(found[asked], expected[asked], rtol=1e-10)
+
+
+def test_swallowed_oil_is_the_area_under_the_curve():
+    """The identity: the integral of M_g is F p n times the change of length."""
+    for motion, force in ((boom_of(125).working(2001), "lifts"), (arm_of(140).working(2001), "pull")):
+        (angle,) = motion.strokes.values()
+        given = motion[force] * np.abs(motion.ratio("length"))
+        assert_allclose(simpson(given, x=angle), float(motion[force][0]) * float(np.ptp(motion["length"])), rtol=1e-11)
+
+
+def test_volume_of_the_arm_drive():
+    """(2.60), the unit vector; and with both eyes."""
+    arm = ArmDrive(r_1=0.6, r_2=0.5, S=0.9, D=0.125, d=0.070)
+    assert_allclose(arm.at(psi=0.0)["steel"], 9128549.368163878e-9, rtol=1e-14)
+    eye = np.pi / 4 * 0.0625 * (4 * 0.0625**2 - 0.05625**2)
+    assert_allclose(arm.replaced(eyes=2).at(psi=0.0)["steel"], 9128549.368163878e-9 + eye, rtol=1e-14)
+    assert_allclose(arm_of(125).at(psi=0.0)["mass"], 86.94174353820085, rtol=1e-12)
+
+
+def test_transmission_angle_at_the_reference():
+    """45.0 and 45.5 deg at the least, taken as 180 deg less where it is obtuse."""
+    for bore, expected in ((125, 44.992335148106406), (140, 45.53520755914545)):
+        mu = arm_of(bore).working(1801)["mu"] / deg
+        assert_allclose(np.minimum(mu, 180 - mu).min(), expected, atol=1e-3)
+
+
+# -- the reference optima: multipliers, and a search of its own ------------------------------------------------
+
+ARM_NAMES = ["r_1", "r_2", "r_3", "r_4", "r_5", "S", "alpha_20"]
+
+
+def arm_forces(bore):
+    """Return what the piston side and the rod side give with the efficiency [N]."""
+    rod = ARMS[bore][0]
+    return np.pi / 4 * bore**2 * 1e-6 * 22e6 * 0.95, np.pi / 4 * (bore**2 - rod**2) * 1e-6 * 22e6 * 0.95
+
+
+def arm_slack(machine, bore, psi):
+    """Return all constraints of 3a at poses psi, equalities first, then those not below zero, each with its gradients as rows.
+
+    Two lengths at the ends; M_g2 over M_l2 and M_g1 over M_l1, over K_A; above the cylinder, no fold-over, room on the boom.
+    """
+    push, pull = arm_forces(bore)
+    motion, ends = machine.at(psi=psi), machine.at(psi=np.array([0.0, np.pi]))
+    lever, d_lever = -motion.ratio("length"), -motion.gradient(ratio("length"), wrt=ARM_NAMES)
+    is_S = np.array([name == "S" for name in ARM_NAMES], float)[:, None]
+    equal = ends["length"] - machine.at(psi=0.0)["l"] - np.array([float(machine["S"]), 0.0])
+    d_equal = ends.gradient("length", wrt=ARM_NAMES) - is_S * np.array([2.0, 1.0])
+    moments = [(pull * lever - motion["M_l2"]) / K_A, (push * lever + motion["M_l1"]) / K_A]
+    d_moments = [pull * d_lever / K_A, push * d_lever / K_A]
+    r_1, r_2, r_3, r_4, r_5 = (float(machine[f"r_{i}"]) for i in range(1, 6))
+    lug = float(machine["alpha_20"])
+    others = [*(ends.y("L") - 0.15), ends.x("L")[0] + (r_2 - r_3) * np.cos(lug) - r_4, r_1 + r_3 - r_4 - r_2, 4.4546 - r_4 - r_5]
+    d_L = ends.gradient("L", wrt=ARM_NAMES)
+    fold = d_L[:, 0, 0] + np.array([0.0, np.cos(lug), -np.cos(lug), -1.0, 0.0, 0.0, -(r_2 - r_3) * np.sin(lug)])
+    d_others = [d_L[:, 1, 0], d_L[:, 1, 1], fold, np.array([1.0, -1.0, 1.0, -1.0, 0.0, 0.0, 0.0]), np.array([0, 0, 0, -1.0, -1.0, 0, 0])]
+    return equal, d_equal.T, np.concatenate([*moments, others]), np.vstack([np.hstack(d_moments).T, d_others])
+
+
+@pytest.mark.parametrize("bore", ARMS)
+def test_multipliers_of_the_arm(bore):
+    """The gradient of the volume is made of those of the four conditions that bind, with multipliers above zero."""
+    machine, tangency = arm_of(bore), ARMS[bore][10] * deg
+    volume = machine.at(psi=0.0)
+    assert_allclose(volume["steel"], ARMS[bore][8], rtol=1e-14)
+    _, d_equal, slack, d_slack = arm_slack(machine, bore, np.array([0.0, tangency, np.pi]))
+    binding = [1, 2, 3]  # M_g2 where it touches and at the end, M_g1 at the start
+    assert_allclose(slack[binding], 0.0, atol=1e-12)
+    assert np.all(np.delete(slack, binding) > 0.01)
+    normals = np.vstack([d_equal, d_slack[binding]])
+    target = volume.gradient("steel", wrt=ARM_NAMES) / ARMS[bore][8]
+    found = np.linalg.lstsq(normals.T, target, rcond=None)[0]
+    assert_allclose(normals.T @ found, target, atol=1e-7)
+    assert np.all(found[2:] > 0.05)
+
+
+def lightest(start, bore, psi):
+    """Return the lightest arm drive near a start that keeps the conditions at poses psi: SLSQP on the machine's values and gradients."""
+
+    def at(x):
+        return start.replaced(**dict(zip(ARM_NAMES, x, strict=True)))
+
+    def slack(part):
+        return lambda x: arm_slack(at(x), bore, psi)[part]
+
+    result = minimize(
+        lambda x: float(at(x).at(psi=0.0)["steel"]) * 100,
+        [float(start[name]) for name in ARM_NAMES],
+        jac=lambda x: at(x).at(psi=0.0).gradient("steel", wrt=ARM_NAMES) * 100,
+        method="SLSQP",
+        bounds=[(0.15, 0.8), (0.15, 1.2), (0.12, 0.6), (0.1, 0.8), (0.5, 4.0), (0.3, bore / 100), (-np.pi, np.pi)],
+        constraints=[{"type": "eq", "fun": slack(0), "jac": slack(1)}, {"type": "ineq", "fun": slack(2), "jac": slack(3)}],
+        options={"maxiter": 100, "ftol": 1e-13},
+    )
+    return at(result.x)
+
+
+def searched(machine, bore, rounds=7):
+    """Return the lightest arm drive near a start, and the least of M_g2 - M_l2 [N m].
+
+    The poses looked at grow by the one at which the last answer falls short most.
+    """
+    psi, low = np.linspace(0.0, np.pi, 19), None
+    for _ in range(rounds):
+        machine = lightest(machine, bore, psi)
+        low = lowest(machine.sweep(61), OPENING.surplus)
+        psi = np.append(psi, float(low.strokes["psi"]))
+    return machine, float(low.value)
+
+
+@pytest.mark.parametrize("bore", ARMS)
+def test_a_search_through_the_machine_finds_the_reference(bore):
+    shares = [1.05, 1.04, 0.97, 1.03, 0.96, 1.02, 1.01]
+    away = arm_of(bore).replaced(**{name: share * float(arm_of(bore)[name]) for name, share in zip(ARM_NAMES, shares, strict=True)})
+    found, short = searched(away, bore)
+    assert short > -1e-3
+    assert_allclose(found.at(psi=0.0)["steel"], ARMS[bore][8], rtol=1e-8)
+    for name in ARM_NAMES:
+        assert_allclose(found[name], arm_of(bore)[name], rtol=1e-5)
+
+
+BOOM_NAMES = ["S", "r_2", "r_3"]
+
+
+def boom_slack(machine, phi=(PHI_0, PHI_K)):
+    """Return the two lengths at the ends and M_g - M_l over K_B at poses phi, with their gradients as rows."""
+    ends, motion = machine.at(phi=np.array([PHI_0, PHI_K])), machine.at(phi=np.array(phi))
+    is_S = np.array([name == "S" for name in BOOM_NAMES], float)[:, None]
+    equal = ends["length"] - machine.at(phi=0.5)["l"] - np.array([float(machine["S"]), 0.0])
+    d_equal = ends.gradient("length", wrt=BOOM_NAMES) - is_S * np.array([2.0, 1.0])
+    force = float(machine.at(phi=0.5)["lifts"])
+    slack = (-force * motion.ratio("length") - motion["M_l"]) / K_B
+    return equal, d_equal.T, slack, -force * motion.gradient(ratio("length"), wrt=BOOM_NAMES).T / K_B
+
+
+HALF = BoomDrive(  # r_1 and r_4 by the other reading of (2.35)
+    D=0.14, d=0.08, S=0.7189915934859773, r_1=0.2068294, r_2=1.4616717840599718, r_3=0.4765076180753317, r_4=0.261335797881983
+)
+
+
+@pytest.mark.parametrize(
+    ("machine", "surplus", "most"),
+    [
+        (boom_of(125), BOOMS[125][6], BOOMS[125][7]),
+        (boom_of(140), BOOMS[140][6], BOOMS[140][7]),
+        (HALF, 27750.84417828263, 1.1767489017126695),
+    ],
+)
+def test_reference_optimum_of_the_boom(machine, surplus, most):
+    """Nothing is left to choose where M_g = M_l at phi_k; its multiplier is above zero, by both readings of (2.35)."""
+    equal, d_equal, slack, d_slack = boom_slack(machine)
+    assert_allclose(equal, 0.0, atol=1e-13)
+    assert_allclose(slack[1], 0.0, atol=1e-12)
+    target = np.array([1.0, 0.0, 0.0])  # the surplus is F p n S less what the load asks
+    multipliers = np.linalg.solve(np.vstack([d_equal, d_slack[1:]]).T, target)
+    assert multipliers[2] > 0.1
+    motion = machine.working(2001)
+    (phi,) = motion.strokes.values()
+    over = simpson(-motion["lifts"] * motion.ratio("length") - motion["M_l"], x=phi)
+    assert_allclose(over, surplus, rtol=1e-9)
+    asked = K_B * (np.cos(PHI_0) - np.cos(PHI_K)) + K_A * (np.pi / 2 - PHI_0 - np.cos(PHI_K))
+    assert_allclose(asked, 203570.68331704653, rtol=1e-13)
+    assert_allclose(over, float(motion["lifts"][0]) * float(machine["S"]) - asked, rtol=1e-9)
+    given, needed = -motion["lifts"] * motion.ratio("length"), motion["M_l"]
+    assert_allclose((given / needed).max(), most, rtol=1e-6)
+    assert_allclose((given / needed).min(), 1.0, rtol=1e-10)
+
+
+@pytest.mark.parametrize("bore", BOOMS)
+def test_lever_at_the_reference(bore):
+    motion = boom_of(bore).at(phi=np.array([PHI_0, np.pi / 2, PHI_K]))
+    assert_allclose(-motion.ratio("length"), BOOMS[bore][8], rtol=1e-10)
+
+
+@pytest.mark.parametrize("bore", BOOMS)
+def test_a_search_through_the_boom_finds_the_reference(bore):
+    start = boom_of(bore).replaced(S=0.9, r_2=1.5, r_3=0.65)
+    phi = np.linspace(PHI_0, PHI_K, 21)
+
+    def at(x):
+        return start.replaced(**dict(zip(BOOM_NAMES, x, strict=True)))
+
+    result = minimize(
+        lambda x: x[0], [float(start[name]) for name in BOOM_NAMES], jac=lambda x: np.array([1.0, 0.0, 0.0]), method="SLSQP",
+        bounds=[(0.3, bore / 100), (0.3, 1.85), (0.3, 4.45)],
+        constraints=[
+            {"type": "eq", "fun": lambda x: boom_slack(at(x))[0], "jac": lambda x: boom_slack(at(x))[1]},
+            {"type": "ineq", "fun": lambda x: boom_slack(at(x), phi)[2], "jac": lambda x: boom_slack(at(x), phi)[3]},
+        ],
+        options={"maxiter": 200, "ftol": 1e-14},
+    )  # fmt: skip
+    for name in BOOM_NAMES:
+        assert_allclose(at(result.x)[name], boom_of(bore)[name], rtol=1e-7)

@@ -65,10 +65,9 @@ def draw(
 def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
     """Return a figure of columns over the stroke, a panel each; a column that is the stroke itself is left out.
 
-    A column may go by its name: a named output, or a point's coordinate such as "G_y"; or be a request, `drive_force()`. `limits` are,
-    by the column's name, `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the side that fails, above unless
-    said, is shaded.
-    Raises DefinitionError for a batch, a grid, or an unknown name.
+    A column may go by its name: a named output, or a point's coordinate such as "G_y"; a request, `drive_force()`, is one under its own
+    words. `limits` are, by the column's name, `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the side that
+    fails, above unless said, is shaded. Raises DefinitionError for a batch, a grid, or an unknown name.
     """
     from .pictures import plot
 

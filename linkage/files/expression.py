@@ -12,10 +12,11 @@ from __future__ import annotations
 import math
 import operator
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, final
+from typing import Any, ClassVar, final
 
 import numpy as np
 
@@ -34,10 +35,8 @@ GRAMMAR = "an expression is made of numbers with units, names, + - * / **, brack
 # -- words -------------------------------------------------------------------------------------------------
 
 _UNIT = "|".join(re.escape(name) for name in sorted(UNITS, key=len, reverse=True))
-_TOKEN = re.compile(
-    rf"\s*(?:(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?(?:[ \t]*(?P<unit>{_UNIT})(?!\w))?)"
-    r"|(?P<name>[^\W\d]\w*)|(?P<sign>\*\*|[-+*/(),=])|(?P<end>\Z))"
-)
+NUMBER = rf"(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?(?:[ \t]*(?P<unit>{_UNIT})(?!\w))?)"
+_TOKEN = re.compile(rf"\s*(?:{NUMBER}|(?P<name>[^\W\d]\w*)|(?P<sign>\*\*|[-+*/(),=])|(?P<end>\Z))")
 
 
 @final
@@ -51,16 +50,16 @@ class Token:
     unit: str = ""
 
 
-def tokens(text: str) -> list[Token]:
+def tokens(text: str, pattern: re.Pattern[str] = _TOKEN, grammar: str = GRAMMAR) -> list[Token]:
     """Return an expression's words, the last one of kind `end`; DefinitionError for what is none."""
     if len(text) > EXPRESSION_LENGTH:
         raise DefinitionError(f"the expression has {len(text)} characters; up to {EXPRESSION_LENGTH} are read. Give a part of it a name.")
     found: list[Token] = []
     place = 0
     while not found or found[-1].kind != "end":
-        match = _TOKEN.match(text, place)
+        match = pattern.match(text, place)
         if match is None:
-            raise DefinitionError(f"{text!r} cannot be read from {text[place:].strip()[:12]!r} on; {GRAMMAR}.")
+            raise DefinitionError(f"{text!r} cannot be read from {text[place:].strip()[:12]!r} on; {grammar}.")
         kind = str(match.lastgroup)
         word = match.group(kind)
         found.append(Token(kind, word, parse(word), match.group("unit") or "") if kind == "number" else Token(kind, word))
@@ -155,21 +154,26 @@ def arrow(text: str, names: Names) -> Arrow | str:
     return found
 
 
-@final
-class Parser:
-    """Reads one expression from left to right."""
+class Grammar(ABC):
+    """Reads one expression from left to right: sums, products, powers and brackets. A subclass says what its atoms are."""
 
-    def __init__(self, text: str, names: Names) -> None:
-        self.text, self.names = text, names
-        self.tokens = tokens(text)
+    grammar: ClassVar[str] = GRAMMAR
+
+    def __init__(self, text: str, words: list[Token]) -> None:
+        self.text, self.tokens = text, words
         self.place = self.depth = self.operations = 0
 
-    def whole(self, kind: str) -> Any:
-        """Return what the whole text says, of a kind."""
-        found = self.argument(kind)
-        if self.next.kind != "end":
-            raise self.fault("an operator or the end")
-        return found
+    @abstractmethod
+    def atom(self) -> Any:
+        """Return a number, what a name stands for, or what a function makes."""
+
+    @abstractmethod
+    def joined(self, sign: str, a: Any, b: Any) -> Any:
+        """Return two parts joined; of numbers alone it is a number."""
+
+    def negative(self, part: Any) -> Any:
+        """Return a part with the other sign."""
+        return -part
 
     # -- words -----------------------------------------------------------------------------------------
 
@@ -193,7 +197,7 @@ class Parser:
     def fault(self, wanted: str) -> DefinitionError:
         """Return the error for a word that does not fit."""
         found = repr(self.next.text) if self.next.text else "its end"
-        return DefinitionError(f"{self.text!r}: {wanted} is expected where {found} stands; {GRAMMAR}.")
+        return DefinitionError(f"{self.text!r}: {wanted} is expected where {found} stands; {self.grammar}.")
 
     def deeper(self, step: int) -> None:
         """Count brackets and operations; DefinitionError for too many."""
@@ -206,15 +210,15 @@ class Parser:
 
     # -- the grammar -----------------------------------------------------------------------------------
 
-    def sum(self) -> Quantity:
+    def sum(self) -> Any:
         """Return a sum."""
         return self.chain(self.product, "+", "-")
 
-    def product(self) -> Quantity:
+    def product(self) -> Any:
         """Return a product or a quotient."""
         return self.chain(self.signed, "*", "/")
 
-    def chain(self, part: Callable[[], Quantity], *signs: str) -> Quantity:
+    def chain(self, part: Callable[[], Any], *signs: str) -> Any:
         """Return parts joined by signs, from left to right."""
         found = part()
         while sign := self.take(*signs):
@@ -223,7 +227,7 @@ class Parser:
             self.depth -= 1
         return found
 
-    def signed(self) -> Quantity:
+    def signed(self) -> Any:
         """Return a power with its sign; of a number it is a number."""
         sign = self.take("-", "+")
         if not sign:
@@ -231,13 +235,11 @@ class Parser:
         self.deeper(+1)
         found = self.signed()
         self.depth -= 1
-        if sign == "+":
-            return found
-        return Number(-found.number) if isinstance(found, Number) else -found
+        return found if sign == "+" else self.negative(found)
 
-    def power(self) -> Quantity:
-        """Return an atom, or a power of one."""
-        base = self.atom()
+    def power(self) -> Any:
+        """Return an atom or what stands in brackets, or a power of it."""
+        base = self.bracket() if self.next.kind == "sign" and self.next.text == "(" else self.atom()
         if not self.take("**"):
             return base
         self.deeper(+1)
@@ -245,8 +247,35 @@ class Parser:
         self.depth -= 1
         return found
 
+    def bracket(self) -> Any:
+        """Return what stands in brackets."""
+        self.want("(")
+        self.deeper(+1)
+        found = self.sum()
+        self.depth -= 1
+        self.want(")")
+        return found
+
+
+@final
+class Parser(Grammar):
+    """Reads one expression of a file."""
+
+    def __init__(self, text: str, names: Names) -> None:
+        super().__init__(text, tokens(text))
+        self.names = names
+
+    def whole(self, kind: str) -> Any:
+        """Return what the whole text says, of a kind."""
+        found = self.argument(kind)
+        if self.next.kind != "end":
+            raise self.fault("an operator or the end")
+        return found
+
+    def negative(self, part: Quantity) -> Quantity:
+        return Number(-part.number) if isinstance(part, Number) else -part
+
     def joined(self, sign: str, a: Quantity, b: Quantity) -> Quantity:
-        """Return two parts joined; of numbers alone it is a number."""
         if not (isinstance(a, Number) and isinstance(b, Number)):
             made: Quantity = BINARY[sign](a, b)
             return made
@@ -257,14 +286,7 @@ class Parser:
             raise DefinitionError(f"{text} has no finite value.") from None
 
     def atom(self) -> Quantity:
-        """Return a number, a name's quantity, what a function makes, or what stands in brackets."""
         token = self.next
-        if self.take("("):
-            self.deeper(+1)
-            found = self.sum()
-            self.depth -= 1
-            self.want(")")
-            return found
         if token.kind not in ("number", "name"):
             raise self.fault("a number, a name or a bracket")
         self.place += 1

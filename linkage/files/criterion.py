@@ -1,0 +1,320 @@
+"""Measures and conditions as text: `least(capacity(lift, G))`, `most(abs(tilt)) <= 8 deg`, `fits(lift)`, `reachable`.
+
+    criterion = sum [("<=" | ">=" | "==") sum]
+    sum       = as in expressions
+    atom      = number [unit] | name | function "(" [argument {"," argument}] ")" | "(" sum ")"
+    argument  = [name "="] (sum | name | text | "(" number "," number ")")
+
+A name is an output, a dimension or a stroke of the machine. Nothing is run but the functions that are known by name.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping
+from inspect import signature
+from types import MappingProxyType
+from typing import Any, ClassVar, final
+
+import numpy as np
+
+from ..errors import DefinitionError, unknown
+from ..mechanism import Mechanism
+from ..motion import Request
+from ..quantities import Quantity, angle, distance, is_number, ref, x, y
+from ..steps import Point
+from ..study.measures import Condition, Constraint, Measure, Worst, as_measure, at, integral, least, most, reachable, words_of, worst
+from ..study.optimum import unit_of_measure
+from ..study.problem import Problem
+from ..study.space import Space
+from ..units import UNITS
+from .callables import request_function
+from .expression import BINARY, CONSTANTS, NUMBER, Grammar, tokens
+
+CRITERION_GRAMMAR = (
+    "a criterion is made of least(...), most(...), integral(...), at(..., S=...), names, numbers with units, + - * / **, and one of <= >= =="
+)
+_CRITERION = re.compile(
+    rf"\s*(?:{NUMBER}|(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*)|(?P<text>'[^'\n]*'|\"[^\"\n]*\")"
+    r"|(?P<sign>\*\*|<=|>=|==|!=|[-+*/(),=<>])|(?P<end>\Z))"
+)
+COMPARING = ("<=", ">=", "==", "!=", "<", ">")
+
+MEASURES: Mapping[str, Callable[..., Any]] = MappingProxyType(
+    {"least": least, "most": most, "integral": integral, "at": at, "worst": worst}
+)
+"""What makes measures of quantities, and `worst`, which makes a quantity."""
+PLACED: Mapping[str, Callable[..., Quantity]] = MappingProxyType({"angle": angle, "distance": distance, "x": x, "y": y})
+"""What makes quantities of points."""
+NUMERIC: Mapping[str, str] = MappingProxyType(
+    {each: each for each in ("absolute", "sqrt", "sin", "cos", "tan", "exp", "log", "arctan2", "minimum", "maximum", "hypot")}
+    | {"abs": "absolute", "atan2": "arctan2", "min": "minimum", "max": "maximum"}
+)
+"""NumPy's functions by the names that a file may give them."""
+CONDITIONS: Mapping[str, Condition] = MappingProxyType({"reachable": reachable})
+AXES = {"_x": x, "_y": y}
+EMPTY = Space((), (), ())
+
+
+def measure_said(text: Any, machine: Mechanism, over: Mapping[str, Any] | None = None) -> Measure:
+    """Return the measure that a text says; DefinitionError for what is none of this machine.
+
+    What depends on no stroke is one too: `mass`.
+    """
+    found = CriterionParser(checked_text(text), machine).whole()
+    if isinstance(found, Condition):
+        raise DefinitionError(f"{text!r} is a condition; a measure is expected, such as least(...), with no <=, >= or ==.")
+    measure = found if isinstance(found, Measure) else as_number_or_constant(found, machine)
+    check_measures(machine, [measure], [], over)
+    return measure
+
+
+def as_number_or_constant(found: Any, machine: Mechanism) -> Measure:
+    """Return what has one value for a design as a measure; DefinitionError for what has one at every pose."""
+    from ..study.sampling import strokes_behind
+
+    if not is_number(found) and not isinstance(found, Worst) and not strokes_behind(machine.plan, found):
+        return at(found)
+    return as_measure(found)
+
+
+def condition_said(text: Any, machine: Mechanism, over: Mapping[str, Any] | None = None) -> Condition:
+    """Return the condition that a text says; DefinitionError for what is none of this machine."""
+    parser = CriterionParser(checked_text(text), machine)
+    found = parser.whole()
+    if not isinstance(found, Condition):
+        what = words_of(found) if isinstance(found, (Request, Quantity, Worst)) else str(found)
+        raise DefinitionError(f"{text!r}: {what} says no limit; write one such as most(...) <= 8 deg.")
+    check_measures(machine, [], [each for each in found.constraints(machine)], over)
+    return found
+
+
+def quantity_said(text: Any, machine: Mechanism) -> Any:
+    """Return the quantity over poses that a text says: an output's name, a quantity or a request; DefinitionError for what is none."""
+    found = CriterionParser(checked_text(text), machine).whole()
+    if is_number(found) or isinstance(found, (Measure, Condition, Worst)):
+        raise DefinitionError(f"{text!r} has no value at every pose; write an output such as tilt, or a request such as drive_force().")
+    check_measures(machine, [most(found)], [], None)
+    return found
+
+
+def checked_text(text: Any) -> str:
+    """Return a text; DefinitionError for anything else."""
+    if not isinstance(text, str) or not text.strip():
+        raise DefinitionError(f'{text!r:.60} is no text in quotes, such as "least(tilt)".')
+    return text
+
+
+def check_measures(machine: Mechanism, measures: list[Measure], constraints: list[Constraint], over: Mapping[str, Any] | None) -> None:
+    """Raise DefinitionError where measures or constraints ask for what a machine has not: an unknown point, no such stroke."""
+    Problem(machine, measures, constraints, EMPTY, over=over)
+
+
+@final
+class CriterionParser(Grammar):
+    """Reads one measure, quantity or condition of a machine."""
+
+    grammar: ClassVar[str] = CRITERION_GRAMMAR
+
+    def __init__(self, text: str, machine: Mechanism) -> None:
+        super().__init__(text, tokens(text, _CRITERION, CRITERION_GRAMMAR))
+        self.machine, self.plan = machine, machine.plan
+        self.kinds: list[str] = []
+
+    def whole(self) -> Any:
+        """Return what the whole text says: a number, a quantity, a measure or a condition."""
+        try:
+            found = self.compared()
+        except DefinitionError as error:
+            said = str(error)
+            raise DefinitionError(said if said.startswith(repr(self.text)) else f"{self.text!r}: {said}") from None
+        if self.next.kind != "end":
+            raise self.fault("an operator or the end")
+        return found
+
+    def compared(self) -> Any:
+        """Return a sum, or the condition that two of them make."""
+        left = self.sum()
+        kinds = [*self.kinds]
+        sign = self.take(*COMPARING)
+        if not sign:
+            return left
+        if sign not in BOUNDS:
+            raise DefinitionError(f"a search meets its conditions exactly; write >=, <= or == for {sign}.")
+        self.kinds.clear()
+        right = self.sum()
+        if self.next.text in COMPARING:
+            raise DefinitionError("one comparison makes a condition; write two conditions for a value between two limits.")
+        if is_number(left) and is_number(right):
+            raise DefinitionError("two numbers are compared; one side is a measure such as least(...).")
+        one, other = as_measure(left), as_measure(right)
+        self.check_units(one, other, self.kinds if is_number(right) else kinds if is_number(left) else [])
+        return BOUNDS[sign](one, other)
+
+    def check_units(self, left: Measure, right: Measure, kinds: list[str]) -> None:
+        """Raise DefinitionError where a limit's only unit measures something else than what it limits; `kinds` are those of its units."""
+        measured = {UNITS[unit][1] for unit in (unit_of_measure(self.plan, each) for each in (left, right) if each.leaves) if unit}
+        if len(measured) == 1 and len(set(kinds)) == 1 and set(kinds) != measured:
+            raise DefinitionError(f"a limit of the kind {kinds[0]} is given for what is of the kind {next(iter(measured))}; look at its unit.")
+
+    # -- parts -----------------------------------------------------------------------------------------
+
+    def joined(self, sign: str, a: Any, b: Any) -> Any:
+        try:
+            found = BINARY[sign](a, b)
+        except ArithmeticError:
+            raise DefinitionError(f"{a!r} {sign} {b!r} has no finite value.") from None
+        except TypeError:
+            raise DefinitionError(f"{self.words(a)} {sign} {self.words(b)} cannot be calculated.") from None
+        return self.checked_number(found, f"{a!r} {sign} {b!r}") if is_number(a) and is_number(b) else found
+
+    def negative(self, part: Any) -> Any:
+        if isinstance(part, str):
+            raise DefinitionError(f"-{part} cannot be calculated; a dimension stands by itself, at({part}).")
+        return -part
+
+    @staticmethod
+    def words(part: Any) -> str:
+        """Return a part in words."""
+        return words_of(part) if isinstance(part, (Quantity, Request, Worst, str)) else str(part)
+
+    @staticmethod
+    def checked_number(value: Any, text: str) -> float:
+        """Return a number; DefinitionError where a calculation has no finite one."""
+        if not isinstance(value, (int, float)) or not math.isfinite(value):
+            raise DefinitionError(f"{text} has no finite value.")
+        return float(value)
+
+    def atom(self) -> Any:
+        token = self.next
+        if token.kind not in ("number", "name", "text"):
+            raise self.fault("a number, a name or a bracket")
+        self.place += 1
+        if token.kind == "number":
+            self.kinds += [UNITS[token.unit][1]] if token.unit else []
+            return token.value
+        if token.kind == "name" and self.next.text == "(":
+            return self.called(token.text)
+        return self.named(token.text.strip("'\""))
+
+    def named(self, name: str) -> Any:
+        """Return what a name stands for; DefinitionError, with the names there are, for one that has no value at a pose."""
+        plan = self.plan
+        member = plan.members.get(name)
+        if isinstance(member, Quantity):
+            return ref(name)
+        if member is not None:
+            remedy = f"x({name}) or y({name})" if isinstance(member, Point) else f"a request of it, such as thrust({name})"
+            raise DefinitionError(f"{name} is a {type(member).__name__} and no number; write {remedy}.")
+        if name in CONDITIONS:
+            return CONDITIONS[name]
+        if name in plan.table.spellings:
+            return name
+        if name[:-2] in plan.points and name[-2:] in AXES:
+            return AXES[name[-2:]](name[:-2])
+        if name in CONSTANTS:
+            self.kinds += [UNITS[name][1]] if name in UNITS else []
+            return CONSTANTS[name]
+        quantities = [each for each, one in plan.members.items() if isinstance(one, Quantity)]
+        raise unknown("Quantity", name, [*quantities, *plan.table.spellings], where=plan.title)
+
+    # -- functions -------------------------------------------------------------------------------------
+
+    def called(self, name: str) -> Any:
+        """Return what a function makes of its arguments."""
+        make = self.function(name)
+        positional, named = self.arguments(name in MEASURES or name in NUMERIC)
+        try:
+            signature(make).bind(*positional, **named)
+        except TypeError as error:
+            raise DefinitionError(f"{name}(...): {error}; write {name}{usage(make)}.") from None
+        except ValueError:  # NumPy's functions say no signature
+            pass
+        try:
+            return make(*positional, **named)
+        except TypeError:
+            said = ", ".join(map(self.words, positional))
+            raise DefinitionError(f"{name}({said}) cannot be calculated; it takes quantities and numbers.") from None
+
+    def function(self, name: str) -> Callable[..., Any]:
+        """Return a function by its name."""
+        if name in NUMERIC:
+            return self.numeric(NUMERIC[name])
+        if name in MEASURES:
+            return MEASURES[name]
+        if name in PLACED:
+            return PLACED[name]
+        return request_function(name, (*MEASURES, *PLACED, *NUMERIC))
+
+    def numeric(self, name: str) -> Callable[..., Any]:
+        """Return NumPy's function of numbers, quantities and requests; a number of numbers."""
+
+        def made(*parts: Any) -> Any:
+            if any(isinstance(each, (Measure, str, Worst)) for each in parts):
+                what = next(each for each in parts if isinstance(each, (Measure, str, Worst)))
+                raise DefinitionError(f"{name}({self.words(what)}) cannot be calculated; it takes quantities over poses, as least(abs(q)).")
+            if len(parts) != getattr(np, name).nin:
+                raise DefinitionError(f"{name}(...) takes {getattr(np, name).nin} arguments, not {len(parts)}.")
+            with np.errstate(all="ignore"):
+                found = getattr(np, name)(*parts)
+            return self.checked_number(float(found), f"{name}({', '.join(map(repr, parts))})") if all(map(is_number, parts)) else found
+
+        return made
+
+    def arguments(self, of_quantities: bool) -> tuple[list[Any], dict[str, Any]]:
+        """Return a function's arguments, those by place and those by name, up to the closing bracket."""
+        positional: list[Any] = []
+        named: dict[str, Any] = {}
+        self.want("(")
+        self.deeper(+1)
+        while not self.take(")"):
+            if positional or named:
+                self.want(",")
+            follows = self.tokens[min(self.place + 1, len(self.tokens) - 1)].text
+            if self.next.kind == "name" and follows == "=":
+                key = self.next.text
+                if key in named:
+                    raise DefinitionError(f"{key}= stands twice.")
+                self.place += 2
+                named[key] = self.argument(False)
+            elif named:
+                raise self.fault("an argument by name")
+            else:
+                positional.append(self.argument(of_quantities))
+        self.depth -= 1
+        return positional, named
+
+    def argument(self, of_quantities: bool) -> Any:
+        """Return one argument: a name or a text as it stands, two numbers in brackets, or a sum."""
+        token = self.next
+        ends = self.tokens[min(self.place + 1, len(self.tokens) - 1)].text in (",", ")")
+        if not of_quantities and ends and token.kind in ("name", "text"):
+            self.place += 1
+            word = token.text.strip("'\"")
+            return {"true": True, "false": False, "least": least, "most": most}.get(word, word)
+        if not of_quantities and token.text == "(":
+            return self.pair_or_sum()
+        return self.sum()
+
+    def pair_or_sum(self) -> Any:
+        """Return two numbers in brackets, or a sum that begins with a bracket."""
+        start = self.place
+        self.want("(")
+        first = self.sum()
+        if not self.take(","):
+            self.place = start
+            return self.sum()
+        second = self.sum()
+        self.want(")")
+        return first, second
+
+
+def usage(make: Callable[..., Any]) -> str:
+    """Return how a function is called: its arguments by name."""
+    return f"({', '.join(signature(make).parameters)})"
+
+
+BOUNDS: Mapping[str, Callable[[Measure, Measure], Condition]] = MappingProxyType(
+    {"<=": lambda a, b: a <= b, ">=": lambda a, b: a >= b, "==": lambda a, b: a == b}
+)

@@ -40,7 +40,7 @@ WORDS = (
 
 @final
 @dataclass(frozen=True, eq=False)
-class Given:
+class GivenNumber:
     """A symbol that no line gives, what its value is at the poses of a motion [SI], and what it measures."""
 
     symbol: Any
@@ -73,7 +73,7 @@ class ForceLines:
         self.design, self.listing, self.plan = design, listing, design.plan
         self.inputs: Mapping[str, Any] = {name: listing.input(name) for name in listing.units}
         self.lines: list[Written] = []
-        self.givens: list[Given] = []
+        self.givens: list[GivenNumber] = []
         self._thrusts: dict[str, Term] = {}
         self._weights: dict[str, Term] = {}
         self._members: dict[str, TwoPinned] = {}
@@ -146,7 +146,7 @@ class ForceLines:
         for place, load in enumerate(acting.loads):
             point = load.load.point
             symbol = self.listing.names.force_vector(f"F_{name}" if len(acting.loads) == 1 else f"F_{name}_{point}")
-            self.givens.append(Given(symbol, given_load(name, place), unit_named("N")))
+            self.givens.append(GivenNumber(symbol, given_load(name, place), unit_named("N")))
             yield Pulled(point, symbol, 0)
 
     def _somewhere(self) -> Motion:
@@ -217,7 +217,7 @@ class ForceLines:
 
     def given(self, name: str, value: Callable[[Any], Any], unit: str = "") -> Any:
         symbol = self.listing.names.force(name)
-        self.givens.append(Given(symbol, value, unit_named(unit)))
+        self.givens.append(GivenNumber(symbol, value, unit_named(unit)))
         return Term(symbol)
 
     def equals(self, value: Any, number: float) -> bool:
@@ -336,14 +336,14 @@ class Chain:
     def _given_rate(self, forces: ForceLines, stroke: str, point: str) -> Any:
         """Return the derivative of a point that hangs on pins found together: a given number."""
         symbol = self.listing.names.derivative(self.listing.names.vector(point), self.symbol)
-        forces.givens.append(Given(symbol, lambda motion: motion.ratio(point, wrt=stroke), NUMBER))
+        forces.givens.append(GivenNumber(symbol, lambda motion: motion.ratio(point, wrt=stroke), NUMBER))
         return symbol
 
     def _given_growth(self, forces: ForceLines, stroke: str, ends: tuple[str, str]) -> Any:
         """Return how a length grows that hangs on pins found together: a given number."""
         vector = self.listing.names.vector("".join(ends))
         symbol = self.listing.names.stretching(vector, self.symbol)
-        forces.givens.append(Given(symbol, lambda motion: motion.ratio(Distance(*ends), wrt=stroke), NUMBER))
+        forces.givens.append(GivenNumber(symbol, lambda motion: motion.ratio(Distance(*ends), wrt=stroke), NUMBER))
         return symbol
 
     def _unit(self, point: str) -> Unit:

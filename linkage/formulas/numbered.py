@@ -16,7 +16,7 @@ from ..errors import DefinitionError, cited, unknown
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..motion.requests import stroke_of
 from ..quantities import is_whole
-from .forces import WORDS, ForceLines, Given
+from .forces import WORDS, ForceLines, GivenNumber
 from .listing import X_AXIS, Listing, Written
 from .printing import Latex, Text, plain_number
 from .rates import lines_needed, ratio_lines
@@ -221,7 +221,7 @@ class Equations(Sequence[Equation]):
         return given
 
     @property
-    def _givens(self) -> Sequence[Given]:
+    def _givens(self) -> Sequence[GivenNumber]:
         """The numbers that no formula gives."""
         return [] if self._forces is None else self._forces.givens
 

@@ -255,8 +255,8 @@ class Problem:
                 continue
             margins.append(seen.margins.min(axis=2).T if not slopes else np.moveaxis(seen.margins, 0, 1).reshape(m, -1))
             if slope is not None:
-                total = self._by_unit(slope.margins, poses, ends)
-                margin_slopes.append(np.moveaxis(total, 1, 0).reshape(total.shape[1], total.shape[0] * total.shape[2]))
+                total = np.moveaxis(self._by_unit(slope.margins, poses, ends), 1, 0)
+                margin_slopes.append(total.reshape(len(total), int(np.prod(total.shape[1:]))))  # of no variable too
         rows = {leaf: self._rows(leaf, found, ends) for leaf in self.leaves}
         return Evaluated(
             rows, np.concatenate(margins, axis=1), np.concatenate(margin_slopes, axis=1) if slopes else None, whole, reached

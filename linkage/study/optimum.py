@@ -379,11 +379,9 @@ def unit_of_leaf(plan: Plan, leaf: Leaf) -> str:
     quantity: Any = leaf.quantity.quantity if isinstance(leaf.quantity, Worst) else leaf.quantity
     if isinstance(leaf, Integral):
         return ""
-    if isinstance(quantity, Request):
-        return str(getattr(quantity, "unit", ""))
     if isinstance(quantity, str):
         quantity = plan.members.get(quantity)
-    return display_unit(quantity.measures, "mm") if isinstance(quantity, Quantity) else ""
+    return display_unit(quantity.measures, "mm") if isinstance(quantity, (Quantity, Request)) else ""
 
 
 def in_units(constraint: Constraint, units: str) -> str:

@@ -24,6 +24,7 @@ from .member import Cylinder as Cylinder
 from .nitrogen import real_nitrogen as real_nitrogen
 from .requests import buckling as buckling
 from .requests import capacity as capacity
+from .requests import fits as fits
 from .requests import pressure as pressure
 from .requests import reserve as reserve
 from .requests import thrust as thrust

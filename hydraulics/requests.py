@@ -11,9 +11,12 @@ from dataclasses import dataclass, replace
 from typing import Self, cast, final
 
 from linkage.errors import DefinitionError, known_name, unknown
+from linkage.mechanism import Mechanism
 from linkage.plan import Plan
-from linkage.quantities import Reference, name_of
+from linkage.quantities import Reference, distance, name_of
 from linkage.statics import AnyMotion, Case, LawRequest, case_words, loads_identity, same
+from linkage.study import at, least, most
+from linkage.study.measures import Condition, Constraint
 
 from .inputs import Array
 from .lift import LiftCircuit, direction_of, proper_share
@@ -241,3 +244,35 @@ class BucklingUse(CylinderRequest):
 def buckling(cylinder: Reference, *, case: Case = None, direction: str | None = None) -> BucklingUse:
     """Return the request for the utilisation of a rod: `lift.buckling_use(motion, case=..., direction=...)`, at most 1 where it holds."""
     return BucklingUse(name_of(cylinder), case, known_direction(direction))
+
+
+# A condition of a search.
+
+@final
+@dataclass(frozen=True)
+class Fits(Condition):
+    """A cylinder's closed and open length serve the whole stroke."""
+
+    cylinder: str
+
+    def constraints(self, machine: Mechanism) -> tuple[Constraint, ...]:
+        plan = machine.plan
+        ram = found_in(plan.members, self.cylinder, plan.title)
+        length, name = distance(ram.A, ram.B), ram.name
+        if ram.stroke is None:
+            raise DefinitionError(f"{plan.title}: fits({name}): {name} says no stroke; declare it, Cylinder(..., closed=0.5, stroke=0.25).")
+        if ram.closed is None:
+            return (most(length) - least(length) <= at(f"{name}.stroke"),)
+        closed, stroke = at(f"{name}.closed"), at(f"{name}.stroke")
+        return least(length) >= closed, most(length) <= closed + stroke
+
+    def __str__(self) -> str:
+        return f"fits({self.cylinder})"
+
+
+def fits(cylinder: Reference) -> Fits:
+    """Return the condition that a cylinder's closed and open length serve the whole stroke of a machine; `Cylinder.fits` tells by how much.
+
+    With its stroke alone declared that is compared with the travel. Its `closed` and `stroke` may be varied: `"lift.closed"`.
+    """
+    return Fits(name_of(cylinder))

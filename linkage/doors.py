@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .pictures import Drawing
     from .pictures.film import Progress
     from .study import Optimum
+    from .study.pareto import Front
 
 
 @overload
@@ -64,9 +65,9 @@ def draw(
 def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
     """Return a figure of columns over the stroke, a panel each; a column that is the stroke itself is left out.
 
-    A column may go by its name: a named output, or a point's coordinate such as "G_y"; or be a request, `drive_force()`. `limits` are, by the column's name,
-    `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the side that fails, above unless said, is shaded.
-    Raises DefinitionError for a batch, a grid, or an unknown name.
+    A column may go by its name: a named output, or a point's coordinate such as "G_y"; a request, `drive_force()`, is one under its own
+    words. `limits` are, by the column's name, `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the side that
+    fails, above unless said, is shaded. Raises DefinitionError for a batch, a grid, or an unknown name.
     """
     from .pictures import plot
 
@@ -146,13 +147,15 @@ def optimise(
     subject_to: Any = (),
     case: Any = None,
     over: Mapping[str, Any] | None = None,
+    robust: Mapping[str, Any] | None = None,
+    sigmas: float = 3.0,
     method: str = "auto",
     solver: str = "slsqp",
     starts: int | None = None,
     seed: int = 0,
     folder: str | PathLike[str] | None = None,
     progress: Any = False,
-) -> Optimum:
+) -> Optimum | Front:
     """Return the best design of a machine: `optimise(hitch, maximise=least(capacity("lift", "G")), vary={"OB": (0.27, 0.33)})`.
 
     What is to be least or greatest is one number of a design: `least(q)`, `most(q)`, `integral(q)`, `at(q, S=...)` of a quantity q (an
@@ -163,6 +166,9 @@ def optimise(
     coordinates; a list of choices; and for several names at once rows of a catalogue, `("lift.bore", "lift.rod"): [(0.1, 0.056), ...]`.
     `over={"S": (0.0, 0.2)}` looks at a part of the stroke; an end may be a quantity that follows the design. `case` names a load case or
     several, all of which are kept and the worst of which counts.
+
+    Of several objectives, given as lists, the front comes back: designs of which none is better in all (extra `pareto`). With
+    `robust={"OB": 0.2 * mm}` every number counts as bad as `sigmas` standard deviations make it, by tolerances as in `tolerance`.
 
     From the best of some hundred designs spread over the box, `starts` of them for each combination of choices, a `solver` ("slsqp" or
     "trust-constr") goes on with exact derivatives. `method="local"` begins with the machine as it is, "evolution" with the best of a
@@ -175,6 +181,6 @@ def optimise(
     from .study.optimise import optimise
 
     return optimise(
-        machine, minimise=minimise, maximise=maximise, vary=vary, subject_to=subject_to, case=case, over=over, method=method, solver=solver,
-        starts=starts, seed=seed, folder=folder, progress=progress,
+        machine, minimise=minimise, maximise=maximise, vary=vary, subject_to=subject_to, case=case, over=over, robust=robust,
+        sigmas=sigmas, method=method, solver=solver, starts=starts, seed=seed, folder=folder, progress=progress,
     )  # fmt: skip

@@ -35,9 +35,13 @@ class Command(ABC):
         """Do it and return the exit code; a LinkageError ends it with one line and exit code 2."""
 
 
-def machine_arguments(parser: ArgumentParser) -> None:
-    """Declare the arguments that every command on a machine has."""
-    parser.add_argument("machine", metavar="NAME", help="a machine of `list`, package.module:Class, file.py, file.py:Class or file.toml")
+def machine_arguments(parser: ArgumentParser, default: str | None = None) -> None:
+    """Declare the arguments that every command on a machine has; with a `default` the machine need not be named."""
+    said = "a machine of `list`, package.module:Class, file.py, file.py:Class or file.toml"
+    if default is None:
+        parser.add_argument("machine", metavar="NAME", help=said)
+    else:
+        parser.add_argument("machine", metavar="NAME", nargs="?", default=default, help=f"{said} (default {default})")
     parser.add_argument(
         "--set", dest="settings", metavar="OB=180mm", action="append", default=[],
         help="change a design variable, with its unit (without: SI); a point: M=0.22,0.95 or M.x=220mm; repeatable",

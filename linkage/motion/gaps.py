@@ -71,8 +71,8 @@ def gap(a: Reference, b: Reference, *, width: float = 0.0) -> Gap:
 
     A body goes by its points (`"OBC"`), the name of its Link, that of a cylinder, a spring or another straight element, or of a point;
     `"frame"` is its fixed points, each for itself. Bars count by their centre lines and plates by the convex hull of their points, less
-    the `width` [m], the sum of their half widths. Where two bodies cross it is negative: the least way that parts them. Outlines that steps draw
-    of themselves do not count. DefinitionError for two bodies that share a pin.
+    the `width` [m], the sum of their half widths. Where two bodies cross it is negative: the least way that parts them. Outlines that
+    steps draw of themselves do not count. DefinitionError for two bodies that share a pin.
     """
     if not is_number(width) or width < 0.0:
         raise DefinitionError(f"gap(width={width!r}): the sum of the half widths is expected [m], zero or more.")

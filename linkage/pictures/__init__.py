@@ -5,3 +5,4 @@ from .curves import Limit, plot
 from .drawing import Drawing, mechanism
 from .film import animate, page
 from .poses import draw
+from .tolerances import plot_bands, plot_tornado

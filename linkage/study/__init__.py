@@ -1,10 +1,15 @@
-"""Studies: the search for better dimensions, extremes over a box of settings, wanted values, and surveys of millions of designs."""
+"""Studies: the search for better dimensions, extremes over a box, wanted values, tolerances, and surveys of millions of designs."""
 
 from .box import Box
 from .infeasible import InfeasibleError
 from .measures import at, integral, least, most, reachable, worst
+from .monte_carlo import Band, MonteCarlo, Within, monte_carlo
 from .optimum import Optimum
+from .sensitivity import Bar, SobolIndices, Tornado, sobol, tornado
 from .settings import Settings, settings_for
 from .space import around
+from .spread import sigma, spread
 from .survey import Survey, survey
+from .targets import Solutions, Target
+from .tolerances import Tolerance
 from .zone import Zone, zone

@@ -14,7 +14,7 @@ from ..errors import DefinitionError, cited, unwarned
 from ..mechanism import Mechanism
 from ..motion import BoundRequest, Motion, Request, evaluate_grid, stroke_display_unit
 from ..motion.grid import Grid, JoinedTo
-from ..motion.requests import bound
+from ..motion.requests import Value, bound
 from ..plan import Plan
 from ..program import FloatArray, Way
 from ..quantities import Quantity
@@ -42,6 +42,12 @@ def number_bound(plan: Plan, quantity: Any) -> BoundRequest:
 def is_traced(quantity: Any) -> bool:
     """Return whether a quantity is part of the program, not a function of a motion."""
     return not callable(quantity) or isinstance(quantity, (Quantity, Request))
+
+
+def measure_of(request: BoundRequest) -> str:
+    """Return what a request measures: "length", "angle", or "" where that is not known."""
+    member = request.member if isinstance(request, Value) and not request.along else None
+    return str(member.measures or "") if isinstance(member, Quantity) else ""
 
 
 def measured_title(plan: Plan, quantity: Any) -> str:

@@ -15,8 +15,8 @@ from ..mechanism import Mechanism
 from ..plan import Mask, Plan
 from ..program import FloatArray, Way
 from ..quantities import is_number
-from ..units import show, unit_or_none
-from .measured import Measured, Poses, is_traced, measured_title, number_bound
+from ..units import display_unit, show, unit_or_none
+from .measured import Measured, Poses, is_traced, measure_of, measured_title, number_bound
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, shifted_designs, tolerance_words, tolerances_of
 
 Task = TypeVar("Task")
@@ -70,13 +70,14 @@ class Within:
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Band:
-    """A quantity over the strokes, shapes (...), of machines with tolerances.
+    """A quantity over the strokes, shapes (...), of machines with tolerances; `unit` is the one it is shown in.
 
     `nominal` is that of the machine as it is set; `mean`, `sigma` and `percentiles`, by their percentage, are over the designs that have
     a value there, `share` of all; `low` and `high` are the worst case with every deviation within its limits.
     """
 
     quantity: str
+    unit: str
     nominal: FloatArray
     mean: FloatArray
     sigma: FloatArray
@@ -100,7 +101,9 @@ class MonteCarlo:
     machine: Mechanism
     tolerances: Mapping[str, Tolerance]
     strokes: Mapping[str, FloatArray]
+    of: Mapping[str, Measured]
     bands: Mapping[str, Band]
+    keep: tuple[Within, ...]
     designs: Mapping[str, FloatArray]
     good: Mask
     assembled: float
@@ -181,13 +184,14 @@ def monte_carlo(
         run.measure(asked, limits)
         ends = {title: worst_case(machine, poses, quantity, named) for title, quantity in asked.items()}
         nominal = {title: poses.values(machine, quantity, Way())[0] for title, quantity in asked.items()}
-    bands = {title: band_of(title, poses, nominal[title], run.moments[title], order, ends[title]) for title in asked}
+    units = {title: unit_shown(plan, quantity, limits) for title, quantity in asked.items()}
+    bands = {title: band_of(title, units[title], poses, nominal[title], run.moments[title], order, ends[title]) for title in asked}
     kept = {limit.words(plan): float(np.mean(good)) for limit, good in zip(limits, run.kept, strict=True)}
     good = ~run.lost & np.all(run.kept, axis=0) if limits else ~run.lost
     assembled = float(np.mean(~run.lost))
     return MonteCarlo(
-        machine, FrozenDict(named), FrozenDict(dict(poses.base.strokes)), FrozenDict(bands), FrozenDict(designs), good, assembled,
-        FrozenDict(kept), poses.words(),
+        machine, FrozenDict(named), FrozenDict(poses.base.strokes), FrozenDict(asked), FrozenDict(bands), limits, FrozenDict(designs),
+        good, assembled, FrozenDict(kept), poses.words(),
     )  # fmt: skip
 
 
@@ -223,13 +227,28 @@ def percentages(given: Any) -> tuple[float, ...]:
     return tuple(sorted({float(each) for each in given}))
 
 
+def unit_shown(plan: Plan, quantity: Measured, limits: Sequence[Within]) -> str:
+    """Return the unit that a quantity is shown in: a limit's of it, mm or deg, "" where nothing says."""
+    if not is_traced(quantity):
+        return next((limit.unit for limit in limits if limit.quantity is quantity), "")
+    what = number_bound(plan, quantity)
+    said = [each.unit for each in limits if each.unit and is_traced(each.quantity) and number_bound(plan, each.quantity).key == what.key]
+    return (said or [display_unit(measure_of(what), "mm")])[0]
+
+
 def band_of(
-    title: str, poses: Poses, nominal: FloatArray, moments: FloatArray, order: Sequence[float], ends: tuple[FloatArray, FloatArray]
+    title: str,
+    unit: str,
+    poses: Poses,
+    nominal: FloatArray,
+    moments: FloatArray,
+    order: Sequence[float],
+    ends: tuple[FloatArray, FloatArray],
 ) -> Band:
     """Return a band from the rows of its moments: share, mean, sigma, then percentiles."""
     share, mean, sigma, *cuts = (poses.shaped(row) for row in moments)
     low, high = (poses.shaped(end) for end in ends)
-    return Band(title, poses.shaped(nominal), mean, sigma, FrozenDict(zip(order, cuts, strict=True)), share, low, high)
+    return Band(title, unit, poses.shaped(nominal), mean, sigma, FrozenDict(zip(order, cuts, strict=True)), share, low, high)
 
 
 # The designs, block by block, and what is kept of them: of the results themselves nothing.

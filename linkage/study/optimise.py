@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from hashlib import blake2b
 from pathlib import Path
-from typing import Any, final
+from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
 
@@ -17,17 +17,22 @@ from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, c
 from ..mechanism import Mechanism
 from ..motion import Request
 from ..program import FloatArray
-from ..quantities import is_whole
+from ..quantities import Quantity, is_number, is_whole, ref
 from ..statics import Case
+from ..units import show
 from .batching import Progress, progress_told
 from .box import unit_points
 from .checks import check_one_design
 from .infeasible import infeasible_error
 from .measures import At, CombinedMeasure, Constraint, Leaf, Measure, Worst, conditions_of, require_quantity, words_of
-from .optimum import Optimum, polished
-from .problem import COARSE, Problem
-from .solver import Found, Local
+from .optimum import Optimum, in_units, polished, unit_of_constraint
+from .problem import COARSE, Problem, reduced
+from .solver import Found, Graded, Local
 from .space import Space
+from .spread import sigma
+
+if TYPE_CHECKING:
+    from .pareto import Front
 
 METHODS = ("auto", "local", "multistart", "evolution")
 SCREENED = 256
@@ -52,32 +57,51 @@ def optimise(
     subject_to: Any = (),
     case: Any = None,
     over: Any = None,
+    robust: Any = None,
+    sigmas: float = 3.0,
     method: str = "auto",
     solver: str = "slsqp",
     starts: int | None = None,
     seed: int = 0,
     folder: str | os.PathLike[str] | None = None,
     progress: bool | Progress = False,
-) -> Optimum:
-    """Return the best design found; see `linkage.optimise`."""
+) -> Optimum | Front:
+    """Return the best design found, of several objectives the front; see `linkage.optimise`."""
     check_one_design(machine)
     title = machine.plan.title
     one_word("method", method, METHODS)
     one_word("solver", solver, ("slsqp", "trust-constr"))
     check_counts(title, starts, seed)
-    if (minimise is None) == (maximise is None):
-        raise DefinitionError(f"{title}: say either minimise= or maximise=, one measure such as least(...).")
-    sense = 1.0 if maximise is None else -1.0
+    objectives, sense = objectives_of(machine, minimise, maximise)
     space = Space.of(machine, vary)
     constraints = conditions_of(subject_to, machine)
-    objective = objective_of(machine, minimise if maximise is None else maximise)
-    cases = case if isinstance(case, (list, tuple)) else [case]
-    objectives = [in_case(objective, each) for each in cases]
-    held = [found for each in cases for found in (constraint_in_case(one, each) for one in constraints)]
-    problem = Problem(machine, objectives, list(dict.fromkeys(held)), space, sense, over)
+    cases = list(case) if isinstance(case, (list, tuple)) else [case]
+    held = list(dict.fromkeys(found for each in cases for found in (constraint_in_case(one, each) for one in constraints)))
+    plan = SearchPlan(method, solver, starts or STARTS, seed)
+    if len(objectives) > 1:
+        if len(cases) > 1 or robust is not None:
+            raise DefinitionError(f"{title}: several objectives are sought in one load case and without robust=.")
+        from .pareto import front
+
+        problem = Problem(machine, [in_case(each, cases[0]) for each in objectives], held, space, 1.0, over)
+        with progress_told(progress, machine.plan.heading) as tell:
+            return front(problem, plan.seed, solver, tell)
+    problem = Problem(machine, [in_case(objectives[0], each) for each in cases], held, space, sense, over)
+    if robust is not None:
+        problem = with_spread(problem, robust, sigmas)
     with progress_told(progress, machine.plan.heading) as tell:
-        search = Search(problem, SearchPlan(method, solver, starts or STARTS, seed), Journal.of(folder, problem, seed), tell)
-        return search.run()
+        return DesignSearch(problem, plan, Journal.of(folder, problem, seed), tell).run()
+
+
+def objectives_of(machine: Mechanism, minimise: Any, maximise: Any) -> tuple[list[Measure], float]:
+    """Return what is to be least, or of a single one greatest (the sense is then -1.0); DefinitionError for none."""
+    listed = [[] if given is None else list(given) if isinstance(given, (list, tuple)) else [given] for given in (minimise, maximise)]
+    least, most = ([objective_of(machine, each) for each in group] for group in listed)
+    if not least and not most:
+        raise DefinitionError(f"{machine.plan.title}: say minimise= or maximise=, one measure such as least(...), or a list of several.")
+    if len(least) + len(most) == 1:
+        return least or most, 1.0 if least else -1.0
+    return [*least, *(-each for each in most)], 1.0
 
 
 def check_counts(title: str, starts: Any, seed: Any) -> None:
@@ -130,6 +154,53 @@ def constraint_in_case(constraint: Constraint, case: Case) -> Constraint:
     before, after = ((*each.left.leaves, *each.right.leaves) for each in (constraint, Constraint(left, constraint.symbol, right)))
     same = all(a.quantity is b.quantity for a, b in zip(before, after, strict=True))
     return constraint if same else Constraint(left, constraint.symbol, right)
+
+
+# Spread: each number as bad as tolerances make it.
+
+
+def with_spread(problem: Problem, robust: Any, sigmas: Any) -> Problem:
+    """Return a problem whose numbers are worse by so many standard deviations of what tolerances of dimensions make of them."""
+    title = problem.plan.title
+    if not is_number(sigmas) or sigmas < 0.0:
+        raise DefinitionError(f"{title}: sigmas={cited(sigmas)}: a number is expected, zero or more.")
+    look = problem.look(problem.designs(problem.space.unit(problem.space.present(problem.machine)), [0] * len(problem.space.choices)))
+    values = {leaf: float(reduced(leaf, rows.values)[0]) for leaf, rows in look.rows.items()}
+    if not all(map(np.isfinite, values.values())):
+        raise DefinitionError(f"{title}: robust= starts from a design that can be assembled over the whole stroke; set the machine so.")
+
+    def spread(expression: Measure, sense: float) -> Measure:
+        """Return an expression with its leaves moved the way in which it gets less (sense -1.0) or more."""
+        found = expression
+        for leaf in expression.leaves:
+            graded = expression.of(lambda each, leaf=leaf: Graded(values[each], np.array([1.0 if each is leaf else 0.0])))  # type: ignore[misc]
+            way = sense * np.sign(Graded.of(graded).slope[0])
+            found = with_leaf(found, leaf, replace(leaf, quantity=spread_quantity(title, leaf.quantity, robust, float(way) * sigmas)))
+        return found
+
+    objectives = [spread(each, problem.sense) for each in problem.objectives]
+    constraints = [each if each.symbol == "==" else spread_constraint(each, spread) for each in problem.constraints]
+    return Problem(problem.machine, objectives, constraints, problem.space, problem.sense, problem.over)
+
+
+def spread_constraint(constraint: Constraint, spread: Callable[[Measure, float], Measure]) -> Constraint:
+    """Return an inequality whose sides are spread against it."""
+    sense = -1.0 if constraint.symbol == ">=" else 1.0
+    return Constraint(spread(constraint.left, sense), constraint.symbol, spread(constraint.right, -sense))
+
+
+def with_leaf(measure: Measure, leaf: Leaf, other: Leaf) -> Measure:
+    """Return a measure with another leaf in the place of one."""
+    if isinstance(measure, CombinedMeasure):
+        return replace(measure, left=with_leaf(measure.left, leaf, other), right=with_leaf(measure.right, leaf, other))
+    return other if measure is leaf else measure
+
+
+def spread_quantity(title: str, quantity: Any, robust: Any, by: float) -> Any:
+    """Return a quantity and so many of its standard deviations."""
+    if not isinstance(quantity, (str, Quantity, Request)):
+        raise DefinitionError(f"{title}: robust= needs exact derivatives, and {words_of(quantity)} has none; take a quantity or a request.")
+    return quantity if by == 0.0 else (ref(quantity) if isinstance(quantity, str) else quantity) + by * sigma(quantity, robust)
 
 
 # What was found on the way, kept in a folder.
@@ -240,21 +311,25 @@ class Ended:
 
 
 @final
-class Search:
+class DesignSearch:
     """One search under way."""
 
     def __init__(self, problem: Problem, plan: SearchPlan, journal: Journal, tell: Progress) -> None:
         self.problem, self.plan, self.journal, self.tell = problem, plan, journal, tell
         self.coarse = problem.with_counts(COARSE)
+        self.cut: list[str] = []
         self.present = problem.space.present(problem.machine)
 
     def run(self) -> Optimum:
         """Return the best design."""
         space = self.problem.space
         if not space.variables:
-            ended = [Ended(each, self.ended(each, np.zeros((1, 0)), 0)) for each in self.combinations()]
+            ended = [Ended(each, self.ended(each, np.zeros((1, 0)), 0)) for each in space.combinations() if not self.is_cut(each)]
             return self.chosen(ended, searched=len(ended))
-        screened = [self.screened(each) for each in space.combinations()]
+        left = [each for each in space.combinations() if not self.is_cut(each)]
+        if not left:
+            raise StudyError(f"{self.problem.plan.title}: no combination of choices can keep the conditions: {self.cut[0]}.")
+        screened = [self.screened(each) for each in left]
         if not any(np.any(each.reached == 1.0) for each in screened):
             raise self.unreachable(screened)
         screened = sorted((each for each in screened if np.any(each.reached == 1.0)), key=lambda each: each.best)[:SEARCHED]
@@ -266,9 +341,19 @@ class Search:
             self.tell(done + 1, len(tasks))
         return self.chosen(ended, searched=len(screened))
 
-    def combinations(self) -> Iterator[tuple[int, ...]]:
-        """Yield the combinations; of choices alone each is looked at."""
-        return self.problem.space.combinations()
+    def is_cut(self, combination: tuple[int, ...]) -> bool:
+        """Return whether a combination cannot keep some condition of the design alone, whatever the variables; noted in words."""
+        space, plan = self.problem.space, self.problem.plan
+        if space.count == 1:
+            return False
+        for each in self.problem.constraints:
+            margin = self.problem.certainly(each.margin, combination)
+            if margin is not None and (margin.high < 0.0 or (each.symbol == "==" and margin.low > 0.0)):
+                units = unit_of_constraint(plan, each)
+                short = show(-margin.high if margin.high < 0.0 else margin.low, units, 4)
+                self.cut.append(f"{space.words(combination, plan)}: {in_units(each, units)} is missed by {short} at least")
+                return True
+        return False
 
     # -- screening -----------------------------------------------------------------------------------------
 
@@ -368,7 +453,7 @@ class Search:
                 everyone = [one.found for one in ended]
                 self.problem.looked_at += self.coarse.looked_at
                 self.coarse.looked_at = 0
-                return polished(self.problem, each.combination, each.found, everyone, searched, self.plan.solver)
+                return polished(self.problem, each.combination, each.found, everyone, searched, self.plan.solver, self.cut)
             except AssemblyError as error:
                 lost.append(str(error))
         if lost:

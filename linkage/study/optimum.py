@@ -16,6 +16,7 @@ from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import Quantity, is_number
 from ..units import deg, display_unit, mm, show
+from .checks import unit_of
 from .measures import Constraint, Given, Integral, Leaf, Measure, Worst
 from .problem import Problem
 from .solver import MET, Found, Local, missing_of, scale_of
@@ -82,7 +83,8 @@ class Optimum:
 
     `machine` is the design, `value` its objective [SI], `start_value` that of the design it began with (NaN where that cannot be
     assembled). `conditions` say what each condition has to spare and which are active, `bounds` which variables stand at their ends.
-    `agreed` of `tries` local searches came to this value.
+    `agreed` of `tries` local searches came to this value; `cut` says which combinations of choices cannot keep a condition, whatever the
+    variables.
     """
 
     machine: Mechanism
@@ -96,6 +98,7 @@ class Optimum:
     agreed: int
     tries: int
     searched: int
+    cut: tuple[str, ...]
     evaluations: int
     problem: Problem
     unit: FloatArray
@@ -121,6 +124,7 @@ class Optimum:
         lines += [f"  {each}." for each in (*self.conditions, *self.bounds)]
         tries = f"{self.agreed} of {self.tries} searches came to it" if self.tries > 1 else "one search"
         rows = f" over {self.searched} of {problem.space.count} combinations" if problem.space.count > 1 else ""
+        lines += [f"  {each}." for each in self.cut]
         lines.append(f"  {tries}{rows}; {self.evaluations} designs looked at. Assembled over the whole stroke.")
         return "\n".join(lines)
 
@@ -131,6 +135,8 @@ class Optimum:
             return ""
         if self.start_missing > MET or not np.isfinite(self.gain):
             return f"; {show(self.start_value, units)} to begin with{', which misses the conditions' if self.start_missing > MET else ''}"
+        if abs(self.gain) < SAME:
+            return ", as to begin with"
         return f", {100.0 * self.gain:.3g} % better than {show(self.start_value, units)} to begin with"
 
     def _settings(self) -> list[tuple[str, str]]:
@@ -150,7 +156,15 @@ class Optimum:
 # The winner, on its steps and judged.
 
 
-def polished(problem: Problem, combination: Sequence[int], found: Found, ended: Sequence[Found], searched: int, solver: str) -> Optimum:
+def polished(
+    problem: Problem,
+    combination: Sequence[int],
+    found: Found,
+    ended: Sequence[Found],
+    searched: int,
+    solver: str,
+    cut: Sequence[str],
+) -> Optimum:
     """Return an optimum; AssemblyError where it cannot be assembled over the whole stroke."""
     if any(each.step is not None for each in problem.space.variables):
         problem, combination, found = on_steps(problem, combination, found, solver)
@@ -180,7 +194,7 @@ def polished(problem: Problem, combination: Sequence[int], found: Found, ended: 
     return Optimum(
         machine, problem.machine, value, start_value, start_missing, conditions, tuple(bounds),
         {each.name: float(at) for each, at in zip(problem.space.variables, values, strict=True)},
-        max(agreed, 1), len(ended), searched, problem.looked_at, problem, found.unit, tuple(combination),
+        max(agreed, 1), len(ended), searched, tuple(cut), problem.looked_at, problem, found.unit, tuple(combination),
     )  # fmt: skip
 
 
@@ -380,6 +394,8 @@ def unit_of_leaf(plan: Plan, leaf: Leaf) -> str:
     if isinstance(leaf, Integral):
         return ""
     if isinstance(quantity, str):
+        if quantity not in plan.members and quantity in plan.table.spellings:
+            return unit_of(plan, quantity)
         quantity = plan.members.get(quantity)
     return display_unit(quantity.measures, "mm") if isinstance(quantity, (Quantity, Request)) else ""
 

@@ -16,10 +16,10 @@ import numpy as np
 from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, greatest, lowest
-from ..program import FloatArray
+from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import is_number
 from .measures import At, Constraint, Integral, Leaf, Least, Measure, Most, Worst, words_of
-from .sampling import SampledSlopes, Sampling, Seen, motion_of, strokes_behind, value_on, with_values
+from .sampling import SampledSlopes, Sampling, Seen, motion_of, strokes_behind, traced, value_on, with_values
 from .space import Space
 
 SAMPLES = {0: 1, 1: 49, 2: 17, 3: 9, 4: 5}
@@ -355,22 +355,37 @@ class Problem:
 
     def merits(self, combination: Sequence[int], unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return of designs (m, n) the objective, what is missing in parts of the conditions' sizes, and the part reached, all (m,)."""
+        values, missing, reached = self.merits_of_each(combination, unit)
+        return (values.max(axis=0) if self.sense > 0.0 else values.min(axis=0)), missing, reached
+
+    def merits_of_each(self, combination: Sequence[int], unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return of designs (m, n) each objective (k, m), what is missing in parts of the conditions' sizes, and the part reached."""
         look = self.look(self.designs(unit, combination))
-        values = {leaf: reduced(leaf, rows.values) for leaf, rows in look.rows.items()}
+        numbers = {leaf: reduced(leaf, rows.values) for leaf, rows in look.rows.items()}
+        shape = look.reached.shape
         with np.errstate(all="ignore"):
-            value = np.broadcast_to(np.asarray(self.value(lambda leaf: values[leaf]), float), look.reached.shape)
-            missing = np.zeros(look.reached.shape)
+            values = np.array([np.broadcast_to(np.asarray(each.of(lambda leaf: numbers[leaf]), float), shape) for each in self.objectives])
+            missing = np.zeros(shape)
             for each in self.constraints:
-                left, right = (np.asarray(side.of(lambda leaf: values[leaf]), float) for side in (each.left, each.right))
-                margin = (right - left if each.symbol == "<=" else left - right) / np.maximum(
-                    np.maximum(np.abs(left), np.abs(right)), 1e-300
-                )
-                short = np.abs(margin) if each.symbol == "==" else -margin
-                unlimited = (
-                    np.isnan(margin) & (each.symbol != "==") & np.any([np.isnan(values[leaf]) for leaf in each.margin.leaves], axis=0)
-                )
-                missing = np.maximum(missing, np.where(unlimited, 0.0, np.where(np.isnan(short), np.inf, short)))
-        return np.where(look.whole, value, np.nan), np.where(look.whole, missing, np.nan), look.reached
+                missing = np.maximum(missing, missed(each, numbers))
+        return np.where(look.whole, values, np.nan), np.where(look.whole, missing, np.nan), look.reached
+
+    def certainly(self, measure: Measure, combination: Sequence[int]) -> Enclosure | None:
+        """Return between which values a measure lies whatever the variables; None where a leaf of it is taken over the stroke."""
+        leaves = measure.leaves
+        if any(strokes_behind(self.plan, leaf.quantity) for leaf in leaves if not isinstance(leaf.quantity, Worst)):
+            return None
+        requests = [None if isinstance(leaf.quantity, Worst) else traced(self.plan, leaf.quantity) for leaf in leaves]
+        if any(request is None for request in requests):
+            return None
+        given = with_values(self.machine.dimensions, self.space.chosen(combination))
+        inputs = {name: Enclosure(value, value) for name, value in given.items()}
+        for each in self.space.variables:
+            ends = each.sign * each.low, each.sign * each.high
+            inputs[each.owner] = Enclosure(min(ends), max(ends))
+        nodes = [node for request in requests if request is not None for node in request.nodes(self.plan)]
+        found = dict(zip(leaves, enclosures(nodes, inputs), strict=True))
+        return Enclosure.of(measure.of(lambda leaf: found[leaf]))
 
     # -- machines ----------------------------------------------------------------------------------------
 
@@ -442,6 +457,16 @@ class Problem:
             low, high = (float(np.ravel(self._end(end, ends, 0, 0))[0]) for end in (self.ranges[name].low, self.ranges[name].high))
             found[name] = low + part * (high - low)
         return found
+
+
+def missed(constraint: Constraint, numbers: Mapping[Leaf, FloatArray]) -> FloatArray:
+    """Return by how much of its size a condition is missed by designs, from the leaves' numbers (m,); nothing where one says nothing."""
+    left, right = (np.asarray(side.of(lambda leaf: numbers[leaf]), float) for side in (constraint.left, constraint.right))
+    margin = (right - left if constraint.symbol == "<=" else left - right) / np.maximum(np.maximum(np.abs(left), np.abs(right)), 1e-300)
+    short = np.abs(margin) if constraint.symbol == "==" else -margin
+    says_nothing = np.any([np.isnan(numbers[leaf]) for leaf in constraint.margin.leaves], axis=0)
+    unlimited = np.isnan(margin) & (constraint.symbol != "==") & says_nothing
+    return np.where(unlimited, 0.0, np.where(np.isnan(short), np.inf, short))
 
 
 def gauss() -> tuple[FloatArray, FloatArray]:

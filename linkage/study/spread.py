@@ -33,6 +33,9 @@ class Sigma(Request):
         of = identity_of(plan, self.quantity)
         return None if of is None else ("sigma", of, deviations_of(plan, self.tolerances))
 
+    def __str__(self) -> str:
+        return f"sigma({self.quantity.name or self.quantity if isinstance(self.quantity, Quantity) else self.quantity})"
+
     def bound(self, plan: Plan) -> SigmaOf:
         return SigmaOf(number_bound(plan, self.quantity), self.quantity, deviations_of(plan, self.tolerances))
 

@@ -13,13 +13,13 @@ from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..motion import BoundRequest, Motion, RequestLike, evaluate_grid, stroke_display_unit
 from ..motion.grid import Grid, JoinedTo
-from ..motion.requests import Value, dimensions_of, slopes_of
+from ..motion.requests import dimensions_of, slopes_of
 from ..program import FloatArray, Way
-from ..quantities import Quantity, is_number
-from ..units import deg, mm, show, unit_or_none
+from ..quantities import is_number
+from ..units import deg, display_unit, mm, show, unit_or_none
 from .box import Box, setting_words, unit_points
 from .checks import check_one_design, is_one
-from .measured import number_bound
+from .measured import measure_of, number_bound
 
 
 @final
@@ -172,14 +172,7 @@ class Aim:
 
     def unit(self, place: int) -> str:
         """Return the unit that a target is told in."""
-        kind = measure_of(self.bound[place])
-        return self.targets[place].unit or {"length": "mm", "angle": "deg"}.get(kind, "")
-
-
-def measure_of(request: BoundRequest) -> str:
-    """Return what a request measures: "length", "angle", or "" where that is not known."""
-    member = request.member if isinstance(request, Value) and not request.along else None
-    return str(member.measures or "") if isinstance(member, Quantity) else ""
+        return self.targets[place].unit or display_unit(measure_of(self.bound[place]), "mm")
 
 
 def usual_miss(request: BoundRequest, target: Target) -> float:
@@ -198,6 +191,8 @@ def nowhere(box: Box, aim: Aim) -> str:
 STARTS = 64
 """Starts of each choice: the best points of the grid, and those that no neighbour betters."""
 STEPS = 80
+LEAST = 1e-13
+"""The damping of a step, at least: with it a singular system of equations has a solution."""
 MET = 1e-7
 """Of a target's own units: a miss that is smaller is rounding."""
 SAME = 1e-6
@@ -256,7 +251,7 @@ class Search:
             better = np.sum(found**2, axis=1) < np.sum(off[going] ** 2, axis=1)
             moved = np.abs(new - unit[going]).max(axis=1)
             unit[going[better]], off[going[better]] = new[better], found[better]
-            damping[going] = np.where(better, damping[going] * 0.1, damping[going] * 5.0)
+            damping[going] = np.where(better, np.maximum(damping[going] * 0.1, LEAST), damping[going] * 5.0)
             going = going[(moved > 1e-14) & (damping[going] < 1e12)]
         return unit, off
 
@@ -269,9 +264,8 @@ class Search:
         for each in order.tolist():
             if not any(self._is_same(unit[other], unit[each], choice[each]) for other in kept if choice[other] == choice[each]):
                 kept.append(each)
-        family = [each for each in kept if len(met) and self._is_of_a_family(unit[each], choice[each])]
-        first = {int(choice[each]): each for each in reversed(family)}
-        kept = [each for each in kept if each not in family or first[int(choice[each])] == each]
+        family = self._of_families(unit, choice, kept) if len(met) else {}
+        kept = [each for each in kept if family.get(each, each) == each]
         kept.sort(key=lambda each: (int(choice[each]), *unit[each]))
         values = self.box.settings(unit[kept], choice[kept])
         settings = tuple(one_setting(values, place) for place in range(len(kept)))
@@ -288,15 +282,27 @@ class Search:
         between = self.aim.misses(self.at(0.5 * (one + other)[None], [choice]))
         return bool(np.abs(between).max() <= MET)
 
-    def _is_of_a_family(self, unit: FloatArray, choice: int) -> bool:
-        """Return whether settings can change together from there without effect: another solution stands a step aside."""
+    def _of_families(self, unit: FloatArray, choice: Any, kept: Sequence[int]) -> dict[int, int]:
+        """Return the solutions from which settings can change together without effect, each with the first one of its choice."""
+        found: dict[int, int] = {}
+        for each in kept:
+            way = self._way_aside(unit[each], choice[each])
+            first = next((other for other in found if choice[other] == choice[each]), None)
+            if way is not None and (first is not None or self._goes_on(unit[each], choice[each], way)):
+                found[each] = each if first is None else first
+        return found
+
+    def _way_aside(self, unit: FloatArray, choice: int) -> FloatArray | None:
+        """Return the direction in which settings have no effect to the first order, shape (k,); None where every one has."""
         if not len(unit):
-            return False
+            return None
         slopes = self.aim.slopes(self.at(unit[None], [choice]), [*self.box.ranges])[0] * self.sides
         _, sizes, ways = np.linalg.svd(slopes)
-        if sizes[-1] > FLAT * sizes[0]:
-            return False
-        aside = np.clip(unit + NEAR * np.array([[1.0], [-1.0]]) * ways[-1], 0.0, 1.0)
+        return None if sizes[-1] > FLAT * sizes[0] else ways[-1]
+
+    def _goes_on(self, unit: FloatArray, choice: int, way: FloatArray) -> bool:
+        """Return whether another solution stands a step aside."""
+        aside = np.clip(unit + NEAR * np.array([[1.0], [-1.0]]) * way, 0.0, 1.0)
         found, off = self.descend(aside, np.array([choice, choice]))
         return bool(np.any((np.abs(off).max(axis=1) <= MET) & (np.abs(found - unit).max(axis=1) > 0.3 * NEAR)))
 
@@ -343,17 +349,18 @@ def damped_steps(unit: FloatArray, off: FloatArray, slopes: FloatArray, damping:
     """Return where a step of Levenberg and Marquardt leads from unit coordinates (m, k), within the box."""
     m, k = unit.shape
     slopes = np.where(np.isfinite(slopes), slopes, 0.0)
+    size = np.sqrt(np.sum(slopes**2, axis=1))
+    slopes = slopes / np.where(size > 0.0, size, 1.0)[:, None]  # every coordinate by its own effect
     pull = np.einsum("mrk,mr->mk", slopes, off)
     matrix = np.einsum("mrk,mrl->mkl", slopes, slopes)
-    size = np.maximum(np.einsum("mkk->mk", matrix), 1e-30 + 1e-12 * np.trace(matrix, axis1=1, axis2=2)[:, None])
     free = np.ones((m, k), bool)
     step: Any = np.zeros((m, k))
     for _ in range(k + 1):  # coordinates that would leave the box are held, one round after the other
         both = free[:, :, None] & free[:, None, :]
-        system = np.where(both, matrix, 0.0) + np.eye(k) * np.where(free, damping[:, None] * size, 1.0)[:, :, None]
+        system = np.where(both, matrix, 0.0) + np.eye(k) * np.where(free & (size > 0.0), damping[:, None], 1.0)[:, :, None]
         step = -np.linalg.solve(system, np.where(free, pull, 0.0)[:, :, None])[:, :, 0]
         leaving = free & (((unit <= 0.0) & (step < 0.0)) | ((unit >= 1.0) & (step > 0.0)))
         if not leaving.any():
             break
         free &= ~leaving
-    return np.clip(unit + np.where(free, step, 0.0), 0.0, 1.0)
+    return np.clip(unit + np.where(free & (size > 0.0), step / np.where(size > 0.0, size, 1.0), 0.0), 0.0, 1.0)

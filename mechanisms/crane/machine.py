@@ -29,19 +29,22 @@ class Crane(CraneSkeleton):
     JE arm_r3 long and `lug` off the arm. `bend` is the boom's bend at V. Every cylinder works with both sides.
     """
 
+    reading = "<="
     phi = Stroke(15 * deg, 99.92 * deg)
     t = Stroke(0.0, 2.532)
-    l_c, l_p, l_t = Dimension(4.454601406907623), Dimension(3.165204914008807), Dimension(2.532163931207046)
+    l_c, l_p = Dimension(4.454601406907623, unit="m"), Dimension(3.165204914008807, unit="m")
+    l_t = Dimension(2.532163931207046, unit="m")
     phi_0 = Dimension(15 * deg, unit="deg")
 
-    boom_r1, boom_r2 = Dimension(0.2618294), Dimension(1.6706883884436237)
-    boom_r3, boom_r4 = Dimension(0.5925163333637224), Dimension(0.31633579788198307)
+    boom_r1, boom_r2 = Dimension(0.2618294, unit="m"), Dimension(1.6706883884436237, unit="m")
+    boom_r3, boom_r4 = Dimension(0.5925163333637224, unit="m"), Dimension(0.31633579788198307, unit="m")
     A = Ground(boom_r1, ref("H_p") + ref("h_0") - boom_r2)
     H = OnLink("O", "J", OH=boom_r3)
     B = OnLink(H, "O", HB=boom_r4, OHB=90 * deg)
 
-    arm_r1, arm_r2, arm_r3 = Dimension(0.5634824610356947), Dimension(0.5056991910045654), Dimension(0.20803265972531704)
-    arm_r4, arm_r5, arm_r6 = Dimension(0.13215746111972135), Dimension(1.7535661783335663), Dimension(0.15)
+    arm_r1, arm_r2 = Dimension(0.5634824610356947, unit="m"), Dimension(0.5056991910045654, unit="m")
+    arm_r3, arm_r4 = Dimension(0.20803265972531704, unit="m"), Dimension(0.13215746111972135, unit="m")
+    arm_r5, arm_r6 = Dimension(1.7535661783335663, unit="m"), Dimension(0.15, unit="m")
     lug = Dimension(113.26925656551386 * deg, unit="deg")
     bend = Dimension(0 * deg, unit="deg")
     V = OnLink("J", "O", JV=arm_r4)
@@ -50,7 +53,7 @@ class Crane(CraneSkeleton):
     E = OnLink("J", "K", JE=arm_r3, KJE=lug)
     N = Dyad(V, E, VN=arm_r1, NE=arm_r2, side=LEFT)
 
-    root_pin = Dimension(0.25)                            # the telescope cylinder's pin on the arm, from J, m
+    root_pin = Dimension(0.25, unit="m")                  # the telescope cylinder's pin on the arm, from J
     R = OnLink("J", "K", JR=root_pin)
 
     lift = Cylinder(A, B, bore=125 * mm, rod=70 * mm, works="both", closed=1.28505459, stroke=0.88505460)
@@ -64,14 +67,20 @@ class Crane(CraneSkeleton):
 class BellCrankCrane(Crane):
     """The arm's cylinder turns a bell crank, figure 2.13 b: it ends at Z, arm_r8 from V, the crank's third side NZ is arm_r7."""
 
-    arm_r7, arm_r8 = Dimension(0.22), Dimension(0.56)
+    arm_r7, arm_r8 = Dimension(0.22, unit="m"), Dimension(0.56, unit="m")
     Z = OnLink("V", "N", VZ=arm_r8, NZ=arm_r7, side=LEFT)
     fold = Cylinder("C", Z, bore=140 * mm, rod=80 * mm, works="both", closed=1.324, stroke=0.9)
 
 
 class ChainCrane(Crane):
-    """The telescope's cylinder pushes its first section X, chains draw the second, which runs twice the cylinder's way (figure 2.2)."""
+    """The telescope's cylinder pushes its first section, chains draw the second, which runs twice the cylinder's way (figure 2.2).
 
-    first = Dimension(0.05)                               # how far the first section stands out of the arm when drawn in, m
-    X = OnLink("J", "K", JX=ref("l_p") + first + 0.5 * ref("t"))
-    extend = Cylinder("R", X, bore=80 * mm, rod=50 * mm, works="both", closed=2.965, stroke=1.267)
+    `extend` stands for cylinder and chains together: from the arm straight to the tip, of half the area and
+    twice the stroke of the real one, whose bore and rod are `chain_bore` and `chain_rod`. Pressure, oil and all pin forces but
+    those inside the telescope are the real one's; its thrust is twice that of `extend`.
+    """
+
+    chain_bore, chain_rod = Dimension(90 * mm, unit="mm"), Dimension(56 * mm, unit="mm")
+    extend = Cylinder("R", "T", bore=0.5**0.5 * chain_bore, rod=0.5**0.5 * chain_rod, works="both", closed=2.915, stroke=2.533)
+    extend_line = LiftCircuit(extend, pressure=22 * MPa, mechanical_efficiency=0.95)
+    first = 0.5 * ref("t")                                # how far the real cylinder has pushed the first section, m

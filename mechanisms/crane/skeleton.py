@@ -7,11 +7,14 @@ are in line. Forces hold with g = 9.81 m/s2, by the load case `lifting`. Every m
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from types import MappingProxyType
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
+from hydraulics import Verdict
 from linkage import (
+    Column,
     Crank,
     DefinitionError,
     Dimension,
@@ -43,6 +46,17 @@ AT_BOOM, AT_DRIVE, AT_ARM = 0.4, 0.7, 0.45
 DRIVE_SHARE = 0.025
 """The boom drive's share of the crane's mass, G_g."""
 
+GUARDS: Mapping[str, tuple[str, str]] = MappingProxyType(
+    {
+        ">=": ("past_guard", "the folded tip clears the guard (2.13)"),
+        "<=": ("within_guard", "the folded tip comes as near as the guard (2.13)"),
+    }
+)
+"""The two readings of (2.13), whose relation sign is lost in print: each with the margin that it keeps."""
+
+CLOSE = 1e-6
+"""m: a condition missed by no more is kept."""
+
 
 class CraneSkeleton(Mechanism):
     """Boom OJ, arm JK and telescope KT, turned and pushed by their strokes, on a column whose top is O.
@@ -56,18 +70,19 @@ class CraneSkeleton(Mechanism):
     psi = Stroke(0 * deg, 180 * deg)                      # arm, from the boom
     t = Stroke(0.0, 2.493)                                # telescope, m
 
-    L = Dimension(10.0)                                   # greatest reach, m
+    L = Dimension(10.0, unit="m")                         # greatest reach
     M = Dimension(100 * kN, unit="kNm")                   # rated moment
-    H_p, H_w = Dimension(1.1), Dimension(1.2)             # heights from the ground: platform, tool
-    H_k, H_max = Dimension(2.95), Dimension(4.0)          # cab, the legal one
-    h_s = Dimension(2.88760963074689)                     # stakes
-    c = Dimension(0.5)                                    # column to guard
+    H_p, H_w = Dimension(1.1, unit="m"), Dimension(1.2, unit="m")             # platform, tool
+    H_k, H_max = Dimension(2.95, unit="m"), Dimension(4.0, unit="m")          # cab, the legal height
+    h_s = Dimension(2.88760963074689, unit="m")           # stakes, from the ground as all heights
+    c = Dimension(0.5, unit="m")                          # column to guard
     psi_0 = Dimension(0 * deg, unit="deg")
     psi_k = Dimension(180 * deg, unit="deg")
     Q = Dimension(10 * kN, unit="kN")                     # load and tool
 
-    l_c, l_p, l_t = Dimension(4.542413835813), Dimension(3.116420231283), Dimension(2.493136185027)
-    h_0 = Dimension(1.85)                                 # column, from the platform
+    l_c, l_p = Dimension(4.542413835813, unit="m"), Dimension(3.116420231283, unit="m")
+    l_t = Dimension(2.493136185027, unit="m")             # boom, arm, telescope
+    h_0 = Dimension(1.85, unit="m")                       # column, from the platform
     phi_0 = Dimension(20.526019274995 * deg, unit="deg")  # boom at its highest
 
     O = Ground(0.0, H_p + h_0)
@@ -103,11 +118,27 @@ class CraneSkeleton(Mechanism):
     below_legal = H_max - H_p - h_0                       # (2.14)
     above_cab = H_p + h_0 - H_k                           # (2.15)
     above_load = H_p + h_0 - h_s
+    within_guard = -past_guard                            # the other reading of (2.13)
     telescope_over = l_t - 0.3 * l_p                      # (2.16)
     telescope_under = 0.8 * l_p - l_t
     boom_over_arm = l_c - l_p
     arm_over_column = l_p - h_0
-    boom_turns = phi_k - phi_0
+    boom_turns = phi_k - phi_0                            # rad
+
+    reading: ClassVar[Literal[">=", "<="]] = ">="
+    margins: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {
+            "over_stakes": "the arm clears the stakes (2.11)",
+            "below_legal": "the column keeps the legal height (2.14)",
+            "above_cab": "the boom lies above the cab in transport (2.15)",
+            "above_load": "the boom lies above the stakes in transport (2.15)",
+            "telescope_over": "the telescope is at least 0.3 of the arm (2.16)",
+            "telescope_under": "the telescope is at most 0.8 of the arm (2.16)",
+            "boom_over_arm": "the boom is no shorter than the arm (2.16)",
+            "arm_over_column": "the arm is no shorter than the column (2.16)",
+        }
+    )
+    errors: ClassVar[Mapping[str, str]] = MappingProxyType({"reach_error": "boom, arm and telescope reach L at the tool's height (2.10)"})
 
     def __init__(self, **dimensions: Any) -> None:
         """Set the design [SI]; DefinitionError also for a boom so short that the regression (2.6) gives it no height."""
@@ -120,6 +151,39 @@ class CraneSkeleton(Mechanism):
             if np.any(heights[name] <= 0.0):
                 long = f"{name} is not above zero: l_t = {np.max(self['l_t']):.4g} m"
                 raise DefinitionError(f"{long} is outside the regressions (2.8), (2.9); give a shorter telescope.")
+
+    def columns(self, motion: Motion) -> list[Column]:
+        """Return the table of results without what hangs on the design alone."""
+        return [each for each in super().columns(motion) if each.name in self.strokes or self._moves(each.name)]
+
+    def _moves(self, name: str) -> bool:
+        """Return whether a column is one of a point or of an output that follows a stroke."""
+        point = name.removesuffix("_x").removesuffix("_y")
+        return not self.plan.reaches(name if name in self.plan.members else point).isdisjoint(self.strokes)
+
+    def verdicts(self, motion: Motion) -> list[str]:
+        """Return which of the source's conditions on the skeleton this design keeps, with what is to spare; of a batch nothing."""
+        if any(np.ndim(value) for value in self.dimensions.values()):
+            return []
+        return [str(each) for each in self.judged()]
+
+    @classmethod
+    def conditions(cls, reading: str) -> dict[str, str]:
+        """Return the named margins that a skeleton has to keep, with their words, by how (2.13) is read: ">=" or "<=" c.
+
+        ">=": the folded tip clears the guard; "<=": it comes as near as that.
+        """
+        if reading not in GUARDS:
+            raise DefinitionError(f'reading={cited(reading)}: (2.13) is read as ">=", the tip clears the guard, or "<=", it comes so near.')
+        name, words = GUARDS[reading]
+        return {**cls.margins, name: words}
+
+    def judged(self) -> list[Verdict]:
+        """Return the source's conditions on the skeleton of one design, (2.10)-(2.16)."""
+        rules = self.conditions(self.reading)
+        found = {name: float(value) for name, value in self.outputs(*self.errors, *rules).items()}
+        return [*(met(name, rule, found[name]) for name, rule in self.errors.items()),
+                *(kept(name, rule, found[name]) for name, rule in rules.items())]  # fmt: skip
 
     def outputs(self, *names: str) -> dict[str, FloatArray]:
         """Return named outputs that hang on the design alone [SI], such as W_m, one value a design."""
@@ -145,6 +209,17 @@ class CraneSkeleton(Mechanism):
         return self.at(phi=phi, psi=psi, t=t)
 
 
+def met(name: str, rule: str, gap: float) -> Verdict:
+    """Return whether a length that should be none [m] is none."""
+    return Verdict(name, abs(gap) <= CLOSE, f"{rule}: {'met' if abs(gap) <= CLOSE else f'off by {gap / mm:+.1f} mm'}.")
+
+
+def kept(name: str, rule: str, spare: float) -> Verdict:
+    """Return whether a margin [m] is not negative."""
+    says = f"{max(spare, 0.0) / mm:.1f} mm to spare" if spare >= -CLOSE else f"{-spare / mm:.1f} mm are missing"
+    return Verdict(name, spare >= -CLOSE, f"{rule}: {says}.")
+
+
 POSITIONS: Mapping[int, str] = {
     1: "the whole reach, the tool at its height (2.10)",
     2: "over the stakes, the arm upright (2.11)",
@@ -163,14 +238,26 @@ class BackBrokenSkeleton(CraneSkeleton):
     phi = Stroke(15 * deg, 120 * deg)
     psi = Stroke(0 * deg, 230 * deg)
     t = Stroke(0.0, 2.547)
-    A_k = Dimension(6.9)                                  # column to cab: A of (2.18), m
-    l_c, l_p, l_t = Dimension(4.45955493536), Dimension(3.184829964299), Dimension(2.547863971439)
-    h_0 = Dimension(2.070263193179)
+    A_k = Dimension(6.9, unit="m")                        # column to cab: A of (2.18)
+    l_c, l_p = Dimension(4.45955493536, unit="m"), Dimension(3.184829964299, unit="m")
+    l_t = Dimension(2.547863971439, unit="m")
+    h_0 = Dimension(2.070263193179, unit="m")
     phi_0 = Dimension(0.403067078631, unit="deg")
     phi_k = Dimension(2.053562399393, unit="deg")
     psi_k = Dimension(4.010683069459, unit="deg")
-    Delta = Dimension(0.0)                                # joint over the platform, in transport
+    Delta = Dimension(0.0, unit="m")                      # joint over the platform, in transport
 
     joint_error = h_0 + l_c * np.cos(phi_k) - Delta                    # (2.18)
     tool_error = Delta - l_p * np.cos(psi_k - phi_k) - ref("H_w")
     before_cab = A_k - l_c * np.sin(phi_k) + l_p * np.sin(phi_k - psi_k)
+
+    margins: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {**CraneSkeleton.margins, "before_cab": "in transport the tip stands before the cab (2.18)"}
+    )
+    errors: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {
+            **CraneSkeleton.errors,
+            "joint_error": "phi_k brings the joint to Delta over the platform (2.18)",
+            "tool_error": "psi_k stands the tool on the platform (2.18)",
+        }
+    )

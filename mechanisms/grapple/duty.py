@@ -1,8 +1,8 @@
 """What a grapple has to do and what it may be made of: stems, hinge, cylinders, room; checked in words. Pressures are gauge [Pa].
 
-    >>> from linkage.units import mm
-    >>> print(Duty.at_breast_height(440 * mm, 1.25))
-    stems of 100 to 550 mm, 4 bores from 50 mm, 10 strokes from 100 mm
+>>> from linkage.units import mm
+>>> print(Duty.at_breast_height(440 * mm, 1.25))
+stems of 100 to 550 mm, 4 bores from 50 mm, 10 strokes from 100 mm
 """
 
 from __future__ import annotations
@@ -136,10 +136,7 @@ def box_of(given: Any) -> tuple[float, float, float, float]:
 
 
 def grapple_for(duty: Duty, **design: float) -> Grapple:
-    """Return the machine of a duty: a class with the range of theta and the M_1 that it needs, and a `design` of it [SI].
-
-    DefinitionError where no hinge has the same distance from both places of the lever's end and the gap off the largest stem.
-    """
+    """Return the machine of a duty: a class with the range of theta and the M_1 that it needs, and a `design` of it [SI]."""
     base: type[Grapple] = InnerGrapple if duty.inner else Grapple
     layout = {name: getattr(duty, name) for name in duty.in_machine}
     given = {**layout, "circuit.pressure": duty.pressure, "circuit.mechanical_efficiency": duty.efficiency}
@@ -151,19 +148,6 @@ def grapple_for(duty: Duty, **design: float) -> Grapple:
 
 
 def lever_range(base: type[Grapple], layout: dict[str, float]) -> tuple[float, float]:
-    """Return the lever's angle when open and at the smallest stem [rad]."""
-    reach = layout.get("D_0", 0.55) / 2.0 + layout.get("hinge_gap", 0.085)
-    values = base(**layout)
-    asked = values.evaluate(["aside", "opening_angle", "closing_angle"], theta=0.0, unreachable="nan")
-    aside, opened, closing = (float(each) for each in asked)
-    if abs(aside) >= reach:
-        short = (abs(aside) - reach) / mm
-        raise DefinitionError(
-            f"Duty: no hinge is at equal distances from both places of the lever's end and {reach / mm:.4g} mm from the largest stem's "
-            f"centre: {short:.3g} mm are missing. Give a greater hinge_gap, or a smaller range of stems."
-        )
-    if not closing > 0.0:
-        raise DefinitionError("Duty: the hinge lies inside the lever's way. Give a greater hinge_gap, or a smaller range of stems.")
-    return opened, -closing
-
-
+    """Return the lever's angle when open and at the smallest stem [rad]. There is always a hinge: the chord lies in the largest stem."""
+    opened, closing = base(**layout).evaluate(["opening_angle", "closing_angle"], theta=0.0)
+    return float(opened), -float(closing)

@@ -17,7 +17,7 @@ from matplotlib.patches import Circle, Polygon
 from linkage import DefinitionError, Motion
 from linkage.errors import unknown
 from linkage.pictures import style
-from linkage.pictures.sheet import panels, sheet
+from linkage.pictures.sheet import panels
 from linkage.program import FloatArray
 from linkage.units import deg, mm
 
@@ -49,11 +49,15 @@ def stems(grapple: Grapple) -> Figure:
     """Return the grapple open, at D_0 and at d_0, both levers, with the rosette of stems resting on T."""
     way = travelling(require_placed(grapple.at(theta=0.0)), 41)
     start, end = (float(way.strokes["theta"][place]) for place in (0, -1))
-    page, axes = panels((14.4, 6.6), 3, rect=(0.0, 0.0, 1.0, 0.93), w_pad=0.06, h_pad=0.06)
+    left, right, low, high = _room(way)
+    page, axes = panels((14.4, 1.2 + 4.6 * (high - low) / (right - left)), 3, rect=(0.005, 0.0, 0.99, 0.985), w_pad=0.06, h_pad=0.06)
     page.suptitle(_stems_title(grapple), fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
-    for ax, theta, title in zip(axes, (start, 0.0, end), ("open", "at the largest stem", "at the smallest stem"), strict=True):
+    for ax, theta, title in zip(axes, (start, 0.0, end), ("open", "largest stem", "smallest stem"), strict=True):
         motion = grapple.at(theta=theta)
-        sheet(ax, _room(way, motion))
+        ax.set(xlim=(left, right), ylim=(low, high))
+        ax.set_aspect("equal")
+        ax.set_xlabel("x, m", fontsize=style.TEXT, color=style.MUTED)
+        ax.set_ylabel("y, m", fontsize=style.TEXT, color=style.MUTED)
         _rosette(ax, motion, theta)
         _frame(ax, motion)
         for sense in (-1.0, 1.0):
@@ -71,13 +75,13 @@ def _stems_title(grapple: Grapple) -> str:
     return f"The grapple and its stems, {float(grapple['d_0']) / mm:.0f} to {float(grapple['D_0']) / mm:.0f} mm; cylinder, mm: {size}"
 
 
-def _room(way: Motion, motion: Motion) -> tuple[float, float, float, float]:
+def _room(way: Motion) -> tuple[float, float, float, float]:
     """Return a box that has room for both levers over their whole way [m]."""
-    half = float(motion.inputs["D_0"]) / 2.0
+    half = float(way.inputs["D_0"]) / 2.0
     pad = 0.16 * half
-    wide = max(float(np.abs(way.x(point)).max()) for point in "ACE") + 1.5 * pad
+    wide = max(float(np.abs(way.x(point)).max()) for point in "ACEO") + 2.0 * pad
     low = min(-half, *(float(way.y(point).min()) for point in "AC")) - pad
-    high = max(half, *(float(way.y(point).max()) for point in "CE")) + 1.5 * pad
+    high = max(half, *(float(way.y(point).max()) for point in "CE")) + 2.2 * pad
     return -wide, wide, low, high
 
 
@@ -96,8 +100,9 @@ def _frame(ax: Axes, motion: Motion) -> None:
     """Draw the housing: from hinge to hinge over the point T that the stems rest on."""
     x_O, y_O = motion["O"].ravel()
     y_T, (x_E, y_E) = float(motion.y("T")), motion["E"].ravel()
-    top = max(y_T + 0.10 * y_T, y_E)
-    right = [(0.0, y_T), (0.55 * x_O, y_T + 0.06 * y_T), (x_O, y_O), (max(abs(x_E), 0.25 * x_O), top), (0.0, top)]
+    top = max(1.1 * y_T, y_E + 0.1 * y_T)
+    near, shoulder = max(abs(x_E), 0.25 * x_O) + 0.1 * x_O, 0.12 * x_O
+    right = [(0.0, y_T), (0.5 * x_O, y_T), (x_O - 0.3 * shoulder, y_O - shoulder), (x_O + shoulder, y_O), (near, top), (0.0, top)]
     outline = [*right, *((-x, y) for x, y in reversed(right))]
     ax.add_patch(Polygon(outline, facecolor="#eef1f4", edgecolor=style.RULE, linewidth=1.2, joinstyle="round", zorder=1.0))
 
@@ -161,13 +166,14 @@ def _cylinder(ax: Axes, motion: Motion, sense: float) -> None:
 
 def _names(ax: Axes, motion: Motion) -> None:
     """Name the pins and the ends of the right-hand lever."""
-    aside = {"T": (0.0, 7.0), "O": (-9.0, -11.0), "A": (10.0, -9.0), "C": (10.0, 4.0), "E": (0.0, 11.0)}
-    T = motion["T"].ravel()
+    T, O, C = (motion[name].ravel() for name in "TOC")
+    x_out, y_out = 12.0 * (C - O) / np.hypot(*(C - O))
+    aside = {"T": (0.0, 8.0), "O": (-x_out, -y_out - 3.0), "A": (0.0, -14.0), "C": (x_out, y_out), "E": (0.0, 15.0)}
     ax.plot(*T, "v", color=style.INK, markersize=6, zorder=9.0)
     for name, offset in aside.items():
         ax.annotate(
-            name, (float(motion.x(name)), float(motion.y(name))), xytext=offset, textcoords="offset points", ha="center", va="center", fontstyle="italic",
-            fontsize=style.LABEL, color=style.INK, zorder=10.0,
+            name, (float(motion.x(name)), float(motion.y(name))), xytext=offset, textcoords="offset points", ha="center", va="center",
+            fontstyle="italic", fontsize=style.LABEL, color=style.INK, zorder=10.0,
         )  # fmt: skip
 
 
@@ -178,22 +184,24 @@ def moments(grapple: Grapple) -> Figure:
     """Return M_g and M_1 over the stem's diameter, and below them their ratio."""
     over = gripping(require_placed(grapple.at(theta=0.0)), 201)
     state, ratio = GrappleState(over), moment_ratio(over)
-    page, (above, below) = panels((8.4, 7.2), 1, 2, rect=(0.005, 0.01, 0.985, 0.93), h_pad=0.08)
-    page.suptitle(_stems_title(grapple).replace("The grapple and its stems", "Moments of one lever"), fontsize=style.TITLE + 1,
-                  fontweight="bold", color=style.INK, x=0.012, ha="left")  # fmt: skip
+    page, (above, below) = panels((8.4, 7.2), 1, 2, rect=(0.005, 0.005, 0.985, 0.985), h_pad=0.08)
+    stems_held = f"stems of {float(grapple['d_0']) / mm:.0f} to {float(grapple['D_0']) / mm:.0f} mm"
+    title = f"Moments of one lever over {stems_held}"
+    page.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
     D = state.D / mm
     above.fill_between(D, state.needed / 1e3, state.given / 1e3, color=style.CURVE, alpha=0.12, linewidth=0)
     above.plot(D, state.given / 1e3, color=style.CURVE, linewidth=2.0, label="M_g, what the lever gives")
     above.plot(D, state.needed / 1e3, color=style.ACCENT, linewidth=2.0, label="M_1, what the stem needs")
     above.set_ylim(0.0, None)
     above.legend(loc="upper left", fontsize=style.SMALL, frameon=False, labelcolor=style.INK)
+    for ax in (above, below):
+        ax.set_xlim(float(D.min()), float(D.max()))
     below.plot(D, ratio, color=style.INK, linewidth=2.0)
     below.axhline(1.0, color=style.ACCENT, linewidth=1.2, linestyle="--")
     below.set_ylim(min(0.9, 0.95 * float(ratio.min())), None)
     for place, word in ((int(np.argmin(ratio)), "least"), (int(np.argmax(ratio)), "greatest")):
-        _mark(below, D[place], ratio[place], f"{word} {ratio[place]:.3f} at {D[place]:.0f} mm")
+        _mark(below, float(D[place]), float(ratio[place]), f"{word} {ratio[place]:.3f} at {D[place]:.0f} mm")
     for ax, words in ((above, "moment about the hinge, kN m"), (below, "M_g / M_1")):
-        ax.set_xlim(float(D.min()), float(D.max()))
         ax.set_ylabel(words, fontsize=style.TEXT, color=style.MUTED)
     below.set_xlabel("diameter of the stem, mm", fontsize=style.TEXT, color=style.MUTED)
     return page
@@ -201,11 +209,11 @@ def moments(grapple: Grapple) -> Figure:
 
 def _mark(ax: Axes, D: float, ratio: float, text: str) -> None:
     low, high = ax.get_xlim()
-    right = 0.5 * (low + high) < D
+    share = (D - low) / (high - low)
+    side, aside = ("left", 9) if share < 0.2 else ("right", -9) if share > 0.8 else ("center", 0)
     ax.plot(D, ratio, "o", color=style.INK, markersize=7, markeredgecolor=style.PAPER, zorder=8.0, clip_on=False)
     ax.annotate(
-        text, (D, ratio), xytext=(-9 if right else 9, -13), textcoords="offset points", ha="right" if right else "left",
-        fontsize=style.SMALL, color=style.INK, zorder=8.0,
+        text, (D, ratio), xytext=(aside, -18), textcoords="offset points", ha=side, fontsize=style.SMALL, color=style.INK, zorder=8.0,
     )  # fmt: skip
 
 

@@ -88,6 +88,8 @@ class Grapple(Mechanism):
     D = (x(A)**2 + below**2) / below                            # the stem that it holds there
     x_in = -2.0 * x(A) / D                                      # from A to the stem's centre, of length one
     y_in = 2.0 * below / D - 1.0
+    x_E, y_E, y_D = x(E), y(E), (D_0 - D) / 2                   # the stem's centre stands at (0, y_D)
+    room = abs(x_E * (y(C) - y_E) - (y_E - y_D) * (x(C) - x_E)) / EC - D / 2  # of the cylinder's axis beside the stem
     arm = (x(O) - x(A)) * y_in - (y(O) - y(A)) * x_in           # of the stem's push on the lever about O
     N_0 = Dimension(6000.0, unit="N")
     N_2 = Dimension(40000.0)                                    # N/m2
@@ -119,17 +121,21 @@ class Grapple(Mechanism):
 
 
 class InnerGrapple(Grapple):
-    """The hinges exchanged: the cylinder at the inner one, C between O and A; it closes by drawing in, with its rod side.
+    """The hinges exchanged: the cylinder at the inner one, on the stem's side of O; it closes by drawing in, with its rod side.
 
-    Dimensions of the shipped stems, for the assumed M_1; E may lie farther out than in the other layout.
+    The hinge O stands farther off the stem, and the lever is bent, so that the cylinder passes beside the stem. The dimensions are for the
+    shipped stems and the assumed M_1.
     """
 
-    bore = Dimension(70 * mm, unit="mm")
-    rod = Dimension(40 * mm, unit="mm")
-    S = Dimension(200 * mm, unit="mm")
-    rho = Dimension(140 * mm, unit="mm")
+    theta = Stroke(19.579188239550977 * deg, -57.92040145485795 * deg)
+
+    hinge_gap = Dimension(180 * mm, unit="mm")
+    bore = Dimension(80 * mm, unit="mm")
+    rod = Dimension(45 * mm, unit="mm")
+    S = Dimension(160 * mm, unit="mm")
+    rho = Dimension(130 * mm, unit="mm")
     side_E = Dimension(1.0)
-    bend = Dimension(0 * deg, unit="deg")
+    bend = Dimension(-20 * deg, unit="deg")
     open_length = ref("closed") + ref("S")
     shut_length = ref("closed") + 0.0
     lift = Cylinder("E", "C", bore="bore", rod="rod", works="rod")

@@ -45,7 +45,8 @@ def _over(motion: Motion, start: FloatArray, end: FloatArray, count: int) -> Mot
         raise DefinitionError(f"count={count!r}: a whole number of poses is expected, at least 2.")
     shape = motion._design_shape
     first, last = (each.reshape(shape)[..., None] for each in (start, end))
-    return motion.moved({"theta": first + (last - first) * np.linspace(0.0, 1.0, count)})
+    theta = first + (last - first) * np.linspace(0.0, 1.0, count)
+    return Motion(motion.plan, motion.designs, {"theta": theta}, motion.unreachable, per_design=bool(shape))
 
 
 def unplaced_words(motion: Motion) -> str:
@@ -127,7 +128,10 @@ def grapple_verdicts(motion: Motion) -> list[Verdict]:
     words = unplaced_words(motion)
     if words:
         return [Verdict("cylinder", False, words)]
-    return [moment_verdict(motion), passing_verdict(motion), opening_verdict(motion), stroke_verdict(motion), hinge_verdict(motion)]
+    return [
+        moment_verdict(motion), passing_verdict(motion), room_verdict(motion), opening_verdict(motion), stroke_verdict(motion),
+        hinge_verdict(motion),
+    ]  # fmt: skip
 
 
 def moment_verdict(motion: Motion) -> Verdict:
@@ -147,6 +151,15 @@ def passing_verdict(motion: Motion) -> Verdict:
     room, needed = float(least.value), float(motion.inputs["bush"] + motion.inputs["rod"] / 2.0)
     text = f"the cylinder's line passes the hinge at {room / mm:.1f} mm at the least, at theta = {least.strokes['theta'] / deg:.1f} deg"
     return Verdict("passing", room >= needed - MET, f"{text}; bush and rod need {needed / mm:.1f} mm.")
+
+
+def room_verdict(motion: Motion) -> Verdict:
+    """Return whether the cylinder keeps off every stem that is held."""
+    least = lowest(gripping(motion), lambda each: each["room"])
+    room, needed = float(least.value), float(motion.inputs["bore"] / 2.0)
+    said = "" if room >= needed else ": it runs into the stem; give a greater hinge_gap or another bend"
+    text = f"the cylinder's axis keeps {room / mm:.1f} mm off the stems, at theta = {least.strokes['theta'] / deg:.1f} deg the least"
+    return Verdict("room", room >= needed, f"{text}; half its bore is {needed / mm:.1f} mm{said}.")
 
 
 def opening_verdict(motion: Motion) -> Verdict:

@@ -22,7 +22,7 @@ FOUND = {
     ">=": (AT_LEAST, 3.755721473767066, (273.6588, 393.7792533335193, 301.8421, 208.60374222598432),
            (1974.8449866993078, 199.6558522288168, 705.4080754003634, 370.9682375173292, 205.10157487797144)),
 }  # fmt: skip
-KEPT = ["over_stakes", "below_legal", "above_cab", "above_load", "telescope_over", "telescope_under", "boom_over_arm", "arm_over_column"]
+KEPT = [*CraneSkeleton.margins]
 
 # Cranes from 23.5 to 185 kN m: L [mm], M [kN m], l_c, l_t, h_0 [mm]; b_0, b_c, b_p, b_t [mm] and W [kg].
 FAMILY = [
@@ -61,14 +61,12 @@ def minimum(machine, vary, equal, kept, starts=12, fixed=None):
     """Return W_m and the variables of the best of several SLSQP runs, all designs of a gradient in one call."""
     low, high = np.array([*vary.values()]).T
     names, fixed = [*equal, *kept], fixed or {}
-    flip = np.array([-1.0 if name.startswith("-") else 1.0 for name in names])
-    asked = ["W_m", *(name.removeprefix("-") for name in names)]
+    asked = ["W_m", *names]
 
     def table(x):
         steps = np.vstack([x, x + 1e-6 * np.eye(len(x)), x - 1e-6 * np.eye(len(x))])
         there = machine().replaced(**dict(zip(vary, steps.T, strict=True)), **fixed).outputs(*asked)
         rows = np.array([np.broadcast_to(there[name], len(steps)) for name in asked])
-        rows[1:] *= flip[:, None]
         n = len(x)
         return rows[:, 0], (rows[:, 1 : n + 1] - rows[:, n + 1 :]) / 2e-6
 
@@ -96,8 +94,7 @@ VARY = {"l_c": (2.0, 6.0), "l_p": (1.9, 5.0), "l_t": (0.8, 4.0), "h_0": (1.0, 2.
 @pytest.mark.parametrize("reading", FOUND)
 def test_skeleton_of_least_mass(reading):
     design, W_m, *_ = FOUND[reading]
-    guard = "past_guard" if reading == ">=" else "-past_guard"
-    value, x = minimum(CraneSkeleton, VARY, ["reach_error"], [*KEPT, guard, "boom_turns"], 4)
+    value, x = minimum(CraneSkeleton, VARY, [*CraneSkeleton.errors], [*CraneSkeleton.conditions(reading), "boom_turns"], 4)
     assert value == pytest.approx(W_m, rel=1e-6)
     assert_allclose([x[name] for name in design], [*design.values()], rtol=1e-4)
 
@@ -165,7 +162,7 @@ def test_transport_pose_of_the_back_broken_crane():
 
 
 BACK = {**VARY, "phi_k": (91 * deg, 180 * deg), "psi_k": (180 * deg, 270 * deg), "Delta": (0.0, 2.0)}
-BROKEN = ["reach_error", "joint_error", "tool_error"]
+BROKEN = [*BackBrokenSkeleton.errors]
 
 
 def brute_force(A_k):
@@ -204,14 +201,14 @@ def brute_force(A_k):
 
 @pytest.mark.parametrize("A_k", [6.9, pytest.param(6.5, marks=pytest.mark.slow)])
 def test_back_broken_skeleton_of_least_mass(A_k):
-    value, x = minimum(BackBrokenSkeleton, BACK, BROKEN, [*KEPT, "past_guard", "before_cab"], 5, {"A_k": A_k})
+    value, x = minimum(BackBrokenSkeleton, BACK, BROKEN, [*BackBrokenSkeleton.conditions(">=")], 5, {"A_k": A_k})
     assert x is not None
     assert value * (1.0 - 1e-9) <= brute_force(A_k) <= value * (1.0 + 1e-4)
 
 
 def test_default_back_broken_skeleton_is_the_best_of_its_cab():
     crane = BackBrokenSkeleton()
-    kept = [*KEPT, "past_guard", "before_cab"]
+    kept = [*BackBrokenSkeleton.conditions(">=")]
     value, _ = minimum(BackBrokenSkeleton, BACK, BROKEN, kept, 5, {"A_k": float(crane["A_k"])})
     assert crane.output("W_m") == pytest.approx(value, rel=1e-9)
     assert min(crane.outputs(*kept).values()) > -1e-9
@@ -260,3 +257,12 @@ def test_a_boom_outside_the_regression_is_refused():
 def test_positions_are_four():
     with pytest.raises(DefinitionError, match="Position 5 is unknown"):
         CraneSkeleton().position(5)
+
+
+def test_verdicts_say_what_is_kept_and_what_is_missing():
+    lines = CraneSkeleton(h_0=1.80, H_k=3.0).verdicts(CraneSkeleton().position(1))
+    assert "FAIL above_cab: the boom lies above the cab in transport (2.15): 100.0 mm are missing." in lines
+    assert any(line.startswith("FAIL reach_error") for line in lines)
+    assert all(line.startswith("ok ") for line in CraneSkeleton().verdicts(CraneSkeleton().position(1)))
+    with pytest.raises(DefinitionError, match=r"\(2.13\) is read as"):
+        CraneSkeleton.conditions("=")

@@ -1,0 +1,187 @@
+"""Tolerances as pictures: bands of quantities over the stroke, and the bars of a tornado."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from textwrap import fill
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from ..errors import DefinitionError, cited, unknown
+from ..program import FloatArray
+from ..study.measured import is_traced, number_bound
+from ..study.monte_carlo import Band, MonteCarlo, Within, share_words
+from ..study.sensitivity import Bar, Tornado
+from ..study.tolerances import tolerance_words
+from ..units import factor, show, unit_or_none
+from . import style
+from .curves import locator, panel_grid, typeset
+from .sheet import panels
+from .strokes import StrokeAxis
+
+LETTERS = 13
+"""Letters of a small line of words on an inch."""
+WIDEST = 36
+"""Letters of a panel's heading on one line."""
+NARROW = 0.12
+"""Of the nominal curve's range: a worst case that is narrower is drawn as the deviation from the nominal curve."""
+
+
+def plot_bands(found: MonteCarlo, names: Sequence[str] = (), *, units: Mapping[str, str] | None = None) -> Figure:
+    """Return a figure of the bands of a Monte Carlo over the stroke, a panel each: median, percentiles, worst case, limits.
+
+    `names` choose some of its quantities, `units` say in which each is shown. A band too narrow to be seen on its curve is drawn as
+    the deviation from the nominal machine. Raises DefinitionError for an unknown name, strokes that are no row, and where there is no
+    curve.
+    """
+    if not isinstance(found, MonteCarlo):
+        raise DefinitionError(f"{cited(found)} has no bands; give the result of monte_carlo(...).")
+    for name in (*names, *(units or {})):
+        if name not in found.bands:
+            raise unknown("Quantity", name, found.bands, where="the study")
+    along = StrokeAxis.of(found.machine.at(unreachable="nan", **found.strokes))
+    shown = [found.bands[name] for name in names or found.bands if found.bands[name].nominal.shape == along.values.shape]
+    if not shown:
+        raise DefinitionError(f"{found.machine.plan.title}: there is no curve to draw over {along.name}; give quantities of each pose.")
+    figure, cells = panel_grid(len(shown))
+    words = ", ".join(tolerance_words(found.machine.plan, name, each) for name, each in found.tolerances.items())
+    title = found.machine.plan.heading + (f" at {along.held}" if along.held else "")
+    figure.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
+    for ax, band in zip(cells, shown, strict=True):
+        unit = unit_or_none((units or {}).get(band.quantity, band.unit), where="units")
+        band_panel(ax, along, Drawn.of(band, unit), [limit for limit in found.keep if is_of(found, limit, band)])
+    good = f"; {share_words(found.yield_rate)} are good" if found.keep else ""
+    text = fill(f"{found.count} machines with {words}{good}", int(LETTERS * figure.get_figwidth()))
+    legend = figure.legend(
+        handles=cells[0].get_legend_handles_labels()[0], title=text, loc="outside lower left", ncols=4, alignment="left",
+        fontsize=style.SMALL, title_fontsize=style.SMALL, frameon=False, labelcolor=style.INK,
+    )  # fmt: skip
+    legend.get_title().set_color(style.MUTED)
+    return figure
+
+
+def is_of(found: MonteCarlo, limit: Within, band: Band) -> bool:
+    """Return whether a limit is one of the quantity of a band."""
+    plan, quantity = found.machine.plan, found.of[band.quantity]
+    if not is_traced(quantity) or not is_traced(limit.quantity):
+        return quantity is limit.quantity
+    return number_bound(plan, quantity).key == number_bound(plan, limit.quantity).key
+
+
+class Drawn(NamedTuple):
+    """A band in the unit it is drawn in, less the nominal curve where it is `narrow`."""
+
+    band: Band
+    unit: str
+    narrow: bool
+
+    @classmethod
+    def of(cls, band: Band, unit: str) -> Drawn:
+        """Return a band in a unit; whether it is drawn as a deviation follows from its width."""
+        return cls(band, unit, bool(np.nanmax(band.high - band.low) < NARROW * np.ptp(band.nominal)))
+
+    def values(self, values: FloatArray | float) -> FloatArray:
+        """Return values [SI] as they are drawn."""
+        return np.asarray((values - self.band.nominal * self.narrow) / factor(self.unit))
+
+    @property
+    def heading(self) -> str:
+        """What is drawn, with its unit."""
+        text = self.band.quantity + (", deviation from nominal" if self.narrow else "")
+        return fill(typeset(f"{text}, {self.unit}" if self.unit else text), WIDEST)
+
+
+def band_panel(ax: Axes, along: StrokeAxis, drawn: Drawn, limits: Sequence[Within]) -> None:
+    """Draw a band over the stroke: its worst case, the percentiles in pairs from outside, the median, the nominal curve, its limits."""
+    band, at = drawn.band, along.values
+    low, high = drawn.values(band.low), drawn.values(band.high)
+    ax.fill_between(at, low, high, color=style.CURVE, alpha=0.12, linewidth=0, zorder=2.0, label="worst case")
+    for edge in (low, high):
+        ax.plot(at, edge, color=style.CURVE, linewidth=style.THIN, alpha=0.6, zorder=2.5)
+    outside = sorted(band.percentiles)
+    for least, most in zip(outside[: len(outside) // 2], outside[::-1], strict=False):
+        lower, upper = drawn.values(band.percentiles[least]), drawn.values(band.percentiles[most])
+        ax.fill_between(at, lower, upper, color=style.CURVE, alpha=0.30, linewidth=0, zorder=3.0, label=f"{least:g} to {most:g} %")
+    middle, word = (band.percentiles[50.0], "median") if 50.0 in band.percentiles else (band.mean, "mean")
+    ax.plot(at, drawn.values(middle), color=style.CURVE, linewidth=style.BOLD, zorder=5.0, label=word)
+    ax.plot(at, drawn.values(band.nominal), color=style.INK, linewidth=1.0, linestyle=(0, (4, 3)), zorder=5.5, label="nominal")
+    ax.set_title(drawn.heading, loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
+    ax.set_xlabel(f"{along.name}, {along.unit}", fontsize=style.TEXT, color=style.MUTED)
+    if np.ptp(at) > 0.0:
+        ax.set_xlim(float(at.min()), float(at.max()))
+    ax.xaxis.set_major_locator(locator(along.is_turning))
+    ax.yaxis.set_major_locator(locator())
+    air = 0.12 * float(np.nanmax(high) - np.nanmin(low)) or 1.0
+    ax.set_ylim(float(np.nanmin(low)) - air, float(np.nanmax(high)) + air)
+    for limit in limits:
+        for end, fails in ((limit.low, "below"), (limit.high, "above")):
+            if end is not None:
+                limit_line(ax, at, drawn, float(end), fails)
+
+
+def limit_line(ax: Axes, at: FloatArray, drawn: Drawn, end: float, fails: str) -> None:
+    """Draw a limit [SI] over the stroke and shade the side that fails; the panel keeps its range, widened by as much again at most."""
+    line = np.broadcast_to(drawn.values(end), at.shape)
+    bottom, top = ax.get_ylim()
+    if not drawn.narrow:
+        bottom, top = max(min(bottom, line.min()), 2.0 * bottom - top), min(max(top, line.max()), 2.0 * top - bottom)
+        ax.set_ylim(bottom, top)
+    if not np.any((line > bottom) & (line < top)):
+        return
+    beyond = top if fails == "above" else bottom
+    where = line < top if fails == "above" else line > bottom
+    ax.fill_between(at, line, beyond, where=where, color=style.ACCENT, alpha=0.10, linewidth=0, zorder=1.0, interpolate=True)
+    ax.plot(at, line, color=style.ACCENT, linewidth=1.3, linestyle=(0, (5, 2.5)), zorder=4.0)
+
+
+# A tornado: a bar for each dimension, the longest at the top.
+
+ROW = 0.36
+"""The height of a bar with its share of the margins [inch]."""
+MOST = 20
+"""Bars of one picture; what does less is left out."""
+
+
+def plot_tornado(found: Tornado) -> Figure:
+    """Return a figure of a tornado's bars, the longest at the top: real changes at both limits, and marks where the gradient tells them."""
+    if not isinstance(found, Tornado):
+        raise DefinitionError(f"{cited(found)} has no bars; give the result of tornado(...).")
+    bars = [bar for bar in found.bars if bar.length > 0.0][:MOST] or list(found.bars[:1])
+    figure, (ax,) = panels((7.6, ROW * len(bars) + 1.9), 1, w_pad=0.12, h_pad=0.12)
+    scale, unit = factor(found.unit), f", {found.unit}" if found.unit else ""
+    for place, bar in enumerate(bars):
+        draw_bar(ax, bar, place, scale)
+    ax.axvline(0.0, color=style.INK, linewidth=1.0, zorder=6.0)
+    ax.set_yticks(range(len(bars)), [tolerance_words(found.plan, bar.name, bar.tolerance) for bar in bars])
+    ax.tick_params(axis="y", labelsize=style.TEXT, labelcolor=style.INK)
+    ax.set_ylim(len(bars) - 0.4, -0.6)
+    reach = 1.18 * max(bar.length for bar in bars) / scale or 1.0
+    ax.set_xlim(-reach, reach)
+    ax.grid(False, axis="y")
+    ax.xaxis.set_major_locator(MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]))
+    ax.set_xlabel(typeset(f"change of {found.quantity}{unit}"), fontsize=style.TEXT, color=style.MUTED)
+    at = f"{found.quantity} = {show(found.nominal, found.unit, 5)} at {found.at}"
+    ax.set_title(typeset(at), loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=22)
+    said = f"sigma of all together {show(found.sigma, found.unit, 3)}; at the right each one's share of the variance"
+    ax.annotate(typeset(said), (0.0, 1.0), (0, 7), "axes fraction", textcoords="offset points", fontsize=style.SMALL, color=style.MUTED)
+    names = {"at the lower limit": style.CURVE, "at the upper limit": style.ACCENT}
+    handles: list[Any] = [ax.barh([np.nan], [0.0], color=colour, label=text) for text, colour in names.items()]
+    handles.append(ax.plot([], [], "|", color=style.INK, markersize=9, markeredgewidth=1.6, label="as the gradient tells")[0])
+    figure.legend(handles=handles, loc="outside lower right", ncols=3, fontsize=style.SMALL, frameon=False, labelcolor=style.INK)
+    return figure
+
+
+def draw_bar(ax: Axes, bar: Bar, place: int, scale: float) -> None:
+    """Draw a bar: the changes at either limit, marks of the linear ones, and its share of the variance."""
+    for change, linear, colour in ((bar.low, bar.linear_low, style.CURVE), (bar.high, bar.linear_high, style.ACCENT)):
+        if np.isfinite(change):
+            ax.barh(place, change / scale, height=0.62, color=colour, alpha=0.85, linewidth=0, zorder=4.0)
+        ax.plot([linear / scale], [place], "|", color=style.INK, markersize=11, markeredgewidth=1.6, zorder=5.0)
+    ax.annotate(
+        f"{100.0 * bar.share:.0f} %", (1.0, place), (-4, 0), ("axes fraction", "data"), textcoords="offset points",
+        ha="right", va="center", fontsize=style.SMALL, color=style.MUTED, zorder=6.0,
+    )  # fmt: skip

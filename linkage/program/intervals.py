@@ -1,0 +1,156 @@
+"""Between which values nodes lie while their inputs lie between two values each: interval arithmetic, rounded outwards.
+
+What it cannot bound it bounds by nothing, so that what it says always holds; it may be wider than need be.
+Source: R. E. Moore, R. B. Kearfott, M. J. Cloud, "Introduction to Interval Analysis", SIAM 2009.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from math import inf, isnan, log
+from types import MappingProxyType
+from typing import Any, final
+
+import numpy as np
+
+from .node import Node
+from .schedule import ancestors
+
+OUTWARDS = 1e-14
+"""By what part of its size an end is moved outwards, for rounding."""
+
+
+@final
+@dataclass(frozen=True)
+class Enclosure:
+    """What lies between two values, these included."""
+
+    low: float
+    high: float
+
+    @classmethod
+    def of(cls, given: Any) -> Enclosure:
+        """Return a number as what lies between it and itself."""
+        return given if isinstance(given, Enclosure) else cls(float(given), float(given))
+
+    @classmethod
+    def around(cls, ends: Sequence[float]) -> Enclosure:
+        """Return what lies between the least and the greatest of some values, moved outwards; anything where one has no value."""
+        if any(isnan(each) for each in ends):
+            return ANYTHING
+        low, high = min(ends), max(ends)
+        return cls(low - OUTWARDS * abs(low), high + OUTWARDS * abs(high))
+
+    def __add__(self, other: Any) -> Enclosure:
+        other = Enclosure.of(other)
+        return Enclosure.around([self.low + other.low, self.high + other.high])
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Enclosure:
+        return Enclosure(-self.high, -self.low)
+
+    def __sub__(self, other: Any) -> Enclosure:
+        return self + -Enclosure.of(other)
+
+    def __rsub__(self, other: Any) -> Enclosure:
+        return Enclosure.of(other) - self
+
+    def __mul__(self, other: Any) -> Enclosure:
+        other = Enclosure.of(other)
+        return Enclosure.around([bounded_product(a, b) for a in (self.low, self.high) for b in (other.low, other.high)])
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Enclosure:
+        other = Enclosure.of(other)
+        if other.low <= 0.0 <= other.high:
+            return ANYTHING
+        return self * Enclosure.around([1.0 / other.low, 1.0 / other.high])
+
+    def __rtruediv__(self, other: Any) -> Enclosure:
+        return Enclosure.of(other) / self
+
+    def __pow__(self, other: Any) -> Enclosure:
+        exponent = Enclosure.of(other)
+        if exponent.low != exponent.high:
+            return (
+                ANYTHING
+                if self.low <= 0.0
+                else Enclosure.around([a**b for a in (self.low, self.high) for b in (exponent.low, exponent.high)])
+            )
+        power = exponent.low
+        if self.low > 0.0 or (self.low >= 0.0 and power > 0.0):
+            return Enclosure.around([self.low**power, self.high**power])
+        if power == int(power) and power > 0.0:
+            ends = [self.low**power, self.high**power]
+            return Enclosure.around([*ends, 0.0] if self.low < 0.0 < self.high and power % 2.0 == 0.0 else ends)
+        return ANYTHING
+
+
+ANYTHING = Enclosure(-inf, inf)
+
+
+def bounded_product(a: float, b: float) -> float:
+    """Return a product; of zero and no bound zero."""
+    return 0.0 if a == 0.0 or b == 0.0 else a * b
+
+
+def squared(a: Enclosure) -> Enclosure:
+    """Return what squares lie between."""
+    return a**2.0
+
+
+def root_of(a: Enclosure) -> Enclosure:
+    """Return what roots lie between; of what may be negative those of the rest, there being none otherwise."""
+    return Enclosure.around([max(a.low, 0.0) ** 0.5, max(a.high, 0.0) ** 0.5])
+
+
+def without_sign(a: Enclosure) -> Enclosure:
+    """Return what sizes without a sign lie between."""
+    return Enclosure(0.0 if a.low <= 0.0 <= a.high else min(abs(a.low), abs(a.high)), max(abs(a.low), abs(a.high)))
+
+
+def logarithm(a: Enclosure) -> Enclosure:
+    """Return what logarithms lie between."""
+    return ANYTHING if a.low <= 0.0 else Enclosure.around([log(a.low), log(a.high) if a.high < inf else inf])
+
+
+RULES: Mapping[str, Callable[..., Enclosure]] = MappingProxyType(
+    {
+        "add": lambda a, b: a + b,
+        "subtract": lambda a, b: a - b,
+        "multiply": lambda a, b: a * b,
+        "negative": lambda a: -a,
+        "divide": lambda a, b: a / b,
+        "reciprocal": lambda a: 1.0 / a,
+        "square": squared,
+        "sqrt": root_of,
+        "sin": lambda a: Enclosure(-1.0, 1.0),
+        "cos": lambda a: Enclosure(-1.0, 1.0),
+        "exp": lambda a: Enclosure.around([float(np.exp(min(a.low, 700.0))), inf if a.high > 700.0 else float(np.exp(a.high))]),
+        "log": logarithm,
+        "power": lambda a, b: a**b,
+        "absolute": without_sign,
+        "sign": lambda a: Enclosure(-1.0, 1.0),
+        "minimum": lambda a, b: Enclosure(min(a.low, b.low), min(a.high, b.high)),
+        "maximum": lambda a, b: Enclosure(max(a.low, b.low), max(a.high, b.high)),
+        "pick": lambda a, b, x, y: Enclosure(min(x.low, y.low), max(x.high, y.high)),
+    }
+)
+
+
+def enclosures(outputs: Sequence[Node], inputs: Mapping[str, Enclosure]) -> list[Enclosure]:
+    """Return between which values some nodes lie while their inputs do; an input that is not named may be anything."""
+    values: dict[Node, Enclosure] = {}
+    for node in ancestors(outputs):
+        if node.op == "constant":
+            values[node] = Enclosure.of(node.value)
+        elif node.op == "input":
+            values[node] = inputs.get(str(node.value), ANYTHING)
+        elif node.op in RULES:
+            values[node] = RULES[node.op](*(values[arg.origin] for arg in node.args))
+        else:
+            values[node] = ANYTHING
+    return [values[node.origin] for node in outputs]

@@ -1,0 +1,173 @@
+"""Several objectives: the front of designs of which none is better in all, by NSGA-II (extra `pareto`), each then made exact.
+
+The genetic search finds where the front is; a local search with exact derivatives then makes the first objective as good as it can be
+with the others held at what they are, so that its points stand on the front and not near it.
+Source: K. Deb et al., A fast and elitist multiobjective genetic algorithm: NSGA-II, IEEE Trans. Evol. Comp. 6 (2002) 182-197.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import AssemblyError, DefinitionError, LinkageError
+from ..mechanism import Mechanism
+from ..program import FloatArray
+from ..units import show
+from .batching import Progress
+from .infeasible import infeasible_error
+from .measures import CombinedMeasure, Constraint, Given, Measure
+from .optimum import true_values, unit_of_measure
+from .problem import COARSE, Problem
+from .solver import MET, Found, Local, missing_of, scale_of
+
+POPULATION, GENERATIONS = 64, 60
+POINTS = 15
+"""Designs of a front."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class FrontPoint:
+    """A design of a front: the machine, assembled over the whole stroke, and its objectives [SI]."""
+
+    machine: Mechanism
+    values: tuple[float, ...]
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Front:
+    """The designs of which none is better in all objectives, in the order of the first: `front.points[0].machine`."""
+
+    title: str
+    objectives: tuple[Measure, ...]
+    units: tuple[str, ...]
+    points: tuple[FrontPoint, ...]
+    evaluations: int
+
+    @property
+    def values(self) -> FloatArray:
+        """The objectives [SI], shape (points, objectives)."""
+        return np.array([each.values for each in self.points])
+
+    def __str__(self) -> str:
+        lines = [f"{self.title}: {len(self.points)} designs of which none is better in all of {', '.join(map(str, self.objectives))}"]
+        for each in self.points:
+            lines.append("  " + ", ".join(show(value, unit) for value, unit in zip(each.values, self.units, strict=True)))
+        return "\n".join([*lines, f"  {self.evaluations} designs looked at."])
+
+    __repr__ = __str__
+
+
+def front(problem: Problem, seed: int, solver: str, tell: Progress) -> Front:
+    """Return the front of a problem's objectives, each to be least; those whose sign was changed are told with their own."""
+    from_pymoo()
+    coarse, found = problem.with_counts(COARSE), []
+    combinations = [*problem.space.combinations()]
+    tell(0, len(combinations))
+    for done, combination in enumerate(combinations):
+        found += exact_points(problem, combination, evolved_front(coarse, combination, seed), solver)
+        tell(done + 1, len(combinations))
+    if not found:
+        present = problem.space.unit(problem.space.present(problem.machine))
+        raise infeasible_error(problem, [(each, Found(present, np.nan, np.inf, True)) for each in combinations])
+    best = not_dominated(np.array([values for values, _ in found]))
+    shown = [own_sign(each) for each in problem.objectives]
+    points = [
+        FrontPoint(found[place][1], tuple(sign * value for (_, sign), value in zip(shown, found[place][0], strict=True))) for place in best
+    ]
+    measures = tuple(measure for measure, _ in shown)
+    units = tuple(unit_of_measure(problem.plan, each) for each in measures)
+    return Front(problem.plan.title, measures, units, tuple(points), problem.looked_at + coarse.looked_at)
+
+
+def from_pymoo() -> Any:
+    """Return pymoo; DefinitionError where it is not installed."""
+    try:
+        import pymoo
+    except ImportError:
+        raise DefinitionError('Several objectives need pymoo: pip install "hydrolinkage[pareto]".') from None
+    return pymoo
+
+
+def own_sign(measure: Measure) -> tuple[Measure, float]:
+    """Return a measure, and the one that was turned round to be least with -1."""
+    if isinstance(measure, CombinedMeasure) and isinstance(measure.left, Given) and measure.left.value == -1.0 and measure.symbol == "*":
+        return measure.right, -1.0
+    return measure, 1.0
+
+
+def evolved_front(problem: Problem, combination: Sequence[int], seed: int) -> FloatArray:
+    """Return unit coordinates (m, n) of designs near the front of one combination, generations looked at all at once."""
+    from pymoo.algorithms.moo.nsga2 import NSGA2
+    from pymoo.core.problem import Problem as Asked
+    from pymoo.optimize import minimize
+
+    n, many = len(problem.space.variables), len(problem.objectives)
+    if not n:
+        return np.zeros((1, 0))
+
+    class Generation(Asked):  # type: ignore[misc]
+        """A generation's objectives and what is missing, as pymoo asks for them."""
+
+        def _evaluate(self, x: FloatArray, out: dict[str, Any], *args: Any, **options: Any) -> None:
+            values, missing, reached = problem.merits_of_each(combination, np.asarray(x, float))
+            out["F"] = np.where(np.isfinite(values), values, 1e30).T
+            out["G"] = np.stack([np.nan_to_num(missing, nan=1e6, posinf=1e6) - MET, 1e6 * (1.0 - reached)], axis=1)
+
+    found = minimize(
+        Generation(n_var=n, n_obj=many, n_ieq_constr=2, xl=0.0, xu=1.0), NSGA2(pop_size=POPULATION), ("n_gen", GENERATIONS), seed=seed
+    )
+    return np.empty((0, n)) if found.X is None else np.atleast_2d(np.asarray(found.X, float))
+
+
+def exact_points(problem: Problem, combination: Sequence[int], units: FloatArray, solver: str) -> list[tuple[tuple[float, ...], Mechanism]]:
+    """Return points on the front of one combination: each objective's best, and others spread between; with their machines."""
+    if not len(units):
+        return []
+    values, _, _ = problem.merits_of_each(combination, units)
+    found = [on_front(problem, combination, units[int(np.argmin(values[place]))], place, None, solver) for place in range(len(values))]
+    order = np.argsort(values[0])
+    for place in order[np.unique(np.linspace(0, len(order) - 1, POINTS).astype(int))]:
+        found.append(on_front(problem, combination, units[place], 0, values[:, place], solver))
+    return [each for each in found if each is not None]
+
+
+def on_front(
+    problem: Problem, combination: Sequence[int], unit: FloatArray, place: int, held: FloatArray | None, solver: str
+) -> tuple[tuple[float, ...], Mechanism] | None:
+    """Return a design with one objective as good as it can be, the others no worse than held; None where it cannot be built."""
+    objectives = problem.objectives
+    limits = [] if held is None else [Constraint(each, "<=", Given(float(limit))) for each, limit in zip(objectives, held, strict=True)]
+    own = [*problem.constraints, *(each for number, each in enumerate(limits) if number != place)]
+    one = Problem(problem.machine, [objectives[place]], own, problem.space, 1.0, problem.over)
+    try:
+        local = Local(one, combination, unit)
+        result = local.run(solver) if problem.space.variables else local.judged(unit, truly=True)
+        machine = problem.machine_of(result.unit, combination)
+        problem.assembled(machine)
+    except (AssemblyError, LinkageError):
+        return None
+    problem.looked_at += one.looked_at
+    values = true_values(problem, machine)
+    scales = [scale_of(each, lambda leaf: values[leaf]) or 1.0 for each in problem.constraints]
+    if missing_of(problem.constraints, scales, values) > MET:
+        return None
+    return tuple(float(each.of(lambda leaf: values[leaf])) for each in objectives), machine
+
+
+def not_dominated(values: FloatArray) -> list[int]:
+    """Return the numbers of points (m, k) that no other betters in all, in the order of the first objective; equal ones once."""
+    kept: list[int] = []
+    size = np.abs(values).max(axis=0) + 1e-300
+    for place in np.lexsort(values.T[::-1]):
+        others = values / size
+        better = (others <= others[place] + 1e-9).all(axis=1) & (others < others[place] - 1e-9).any(axis=1)
+        same = any(np.abs(others[each] - others[place]).max() <= 1e-9 for each in kept)
+        if not better.any() and not same:
+            kept.append(int(place))
+    return kept

@@ -1,0 +1,56 @@
+"""`hydrolinkage grapple`: what a grapple's lever gives and what its stems need over its angle, its verdicts and figures."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+
+from linkage import Motion
+from linkage.cli.command import Command, figure_path, machine_arguments, motion_arguments, picture_argument
+from linkage.cli.machines import find_like
+from linkage.cli.settings import design, motion_at
+from linkage.cli.table import csv_argument, write_table
+from linkage.units import deg, mm
+
+from . import FIGURES, figure
+from .machine import Grapple
+
+LEGEND = """theta lever's angle, 0 at the largest stem; D stem it holds; EC cylinder's length; H = |dEC/dtheta|; M_g moment that the full
+pressure gives about the hinge; M_1 moment that the stem needs (an assumed law: the source's own is not at hand). All of one lever;
+pressures are gauge."""
+
+
+class Gripping(Command):
+    """Prints what a grapple's lever gives and what its stems need."""
+
+    name = "grapple"
+    help = "a harvester head's grapple: hinge, moments over the stems, verdicts, figures"
+
+    def add(self, parser: ArgumentParser) -> None:
+        machine_arguments(parser, default="grapple")
+        csv_argument(parser)
+        picture_argument(parser, "the figure")
+        parser.add_argument("--figure", choices=FIGURES, help="which figure (default: stems)")
+        motion_arguments(parser, 11)
+
+    def run(self, options: Namespace) -> int:
+        machine = design(find_like(options.machine, Grapple, "grapple"), options.settings)
+        assert isinstance(machine, Grapple)
+        path = figure_path(options, type(machine), self.name)
+        over = motion_at(machine, options.strokes, options.count)
+        columns = machine.columns(over)
+        print(f"{layout_words(over)}\n{LEGEND}\n")
+        write_table(columns, over.reached.size, options.csv)
+        print("", *machine.verdicts(over), sep="\n")
+        if path is not None:
+            figure(options.figure or "stems", machine).savefig(path)
+            print(path)
+        return 0
+
+
+def layout_words(motion: Motion) -> str:
+    """Return where the pins are and how far the lever goes."""
+    (x_O, y_O), (x_E, y_E) = ([float(part.ravel()[0]) / mm for part in motion[name]] for name in "OE")
+    opened, closing = (float(motion[name].ravel()[0]) / deg for name in ("opening_angle", "closing_angle"))
+    arms = f"OA {float(motion['OA'].ravel()[0]) / mm:.2f} mm, OC {float(motion.inputs['rho']) / mm:.2f} mm"
+    pins = f"O ({x_O:.2f}, {y_O:.2f}) mm, E ({x_E:.2f}, {y_E:.2f}) mm"
+    return f"{pins}, {arms}; opens by {opened:.3f} deg, closes by {closing:.3f} deg."

@@ -42,15 +42,14 @@ from ..study.measures import (
     words_of,
     worst,
 )
-from ..study.problem import Problem
+from ..study.problem import NOWHERE, Problem
 from ..study.sampling import strokes_behind
-from ..study.space import Space
 from ..units import UNITS
 from .callables import request_function
 from .expression import BINARY, CONSTANTS, NUMBER, Grammar, tokens
 
 CRITERION_GRAMMAR = (
-    "a criterion is made of least(...), most(...), integral(...), at(..., S=...), names, numbers with units, + - * / **, and one of <= >= =="
+    "a criterion is made of least(...), most(...), integral(...), at(..., S=...), names, numbers with units, + - * / **, and <= >= =="
 )
 _CRITERION = re.compile(
     rf"\s*(?:{NUMBER}|(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*)|(?P<text>'[^'\n]*'|\"[^\"\n]*\")"
@@ -71,7 +70,6 @@ NUMERIC: Mapping[str, str] = MappingProxyType(
 """NumPy's functions by the names that a file may give them."""
 CONDITIONS: Mapping[str, Condition] = MappingProxyType({"reachable": reachable})
 AXES = {"_x": x, "_y": y}
-EMPTY = Space((), (), ())
 
 
 def measure_said(text: Any, machine: Mechanism, over: Mapping[str, Any] | None = None) -> Measure:
@@ -122,7 +120,7 @@ def checked_text(text: Any) -> str:
 
 def check_measures(machine: Mechanism, measures: list[Measure], constraints: list[Constraint], over: Mapping[str, Any] | None) -> None:
     """Raise DefinitionError where measures or constraints ask for what a machine has not: an unknown point, no such stroke."""
-    Problem(machine, measures, constraints, EMPTY, over=over)
+    Problem(machine, measures, constraints, NOWHERE, over=over)
 
 
 @final
@@ -177,7 +175,8 @@ class CriterionParser(Grammar):
         if isinstance(measure, CombinedMeasure):
             kinds = {self.measured(each) for each in (measure.left, measure.right) if each.leaves}
             both = bool(measure.left.leaves and measure.right.leaves)
-            is_same = measure.symbol in ("+", "-") or (not both and measure.symbol == "*") or (measure.symbol == "/" and not measure.right.leaves)
+            is_scaled = (measure.symbol == "*" and not both) or (measure.symbol == "/" and not measure.right.leaves)
+            is_same = measure.symbol in ("+", "-") or is_scaled
             return kinds.pop() if is_same and len(kinds) == 1 else ""
         if not isinstance(measure, Leaf) or isinstance(measure, Integral):
             return ""
@@ -245,7 +244,7 @@ class CriterionParser(Grammar):
             self.kinds += [UNITS[name][1]] if name in UNITS else []
             return CONSTANTS[name]
         quantities = [each for each, one in plan.members.items() if isinstance(one, Quantity)]
-        raise unknown("Quantity", name, [*quantities, *plan.table.spellings], where=plan.title)
+        raise unknown("Quantity", name, list(dict.fromkeys([*quantities, *plan.table.names()])), where=plan.title)
 
     # -- functions -------------------------------------------------------------------------------------
 

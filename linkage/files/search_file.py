@@ -23,6 +23,7 @@ from ..study import Optimum
 from ..study.batching import Progress
 from ..study.optimise import METHODS as SEARCH_METHODS
 from ..study.optimise import SOLVERS, optimise
+from ..study.pareto import Front
 from .criterion import condition_said, measure_said
 from .names import shortened
 from .study_file import (
@@ -34,12 +35,14 @@ from .study_file import (
     count_said,
     outputs_said,
     over_said,
+    tolerances_said,
     vary_said,
     word_said,
 )
 
 SEARCH_KEYS = (
-    "minimise", "maximise", "vary", "subject_to", "case", "over", "method", "solver", "starts", "seed", "folder", "round", "outputs",
+    "minimise", "maximise", "vary", "subject_to", "case", "over", "robust", "sigmas", "method", "solver", "starts", "seed", "folder",
+    "round", "outputs",
 )  # fmt: skip
 SEARCH_OUTPUTS: Mapping[str, tuple[str, ...]] = {
     "table": (".csv",),
@@ -61,8 +64,8 @@ class SearchFile:
     rounding: Mapping[str, float] | None
     outputs: Mapping[str, tuple[Path, ...]]
 
-    def run(self, folder: str | os.PathLike[str] | None = None, progress: bool | Progress = False) -> Optimum:
-        """Return the best design; `folder` stands above the file's own."""
+    def run(self, folder: str | os.PathLike[str] | None = None, progress: bool | Progress = False) -> Optimum | Front:
+        """Return the best design, of several objectives the front; `folder` stands above the file's own."""
         own = self.arguments.get("folder")
         return optimise(self.machine, **{**self.arguments, "folder": folder or own}, progress=progress)
 
@@ -80,18 +83,17 @@ def read_search(
     over = over_said(head, data["over"]) if "over" in data else None
     if over is not None:
         arguments["over"] = over
-    both = [key for key in ("minimise", "maximise") if key in data]
-    if len(both) != 1:
-        faults.add((both[1],) if both else (), 'say either minimise or maximise, one measure such as maximise = "least(...)".')
-    for key in both[:1]:
-        with faults.at(key):
-            arguments[key] = measure_said(data[key], head.machine, over)
+    objectives = objectives_listed(head, over)
+    arguments |= objectives
+    several = sum(len(each) for each in objectives.values()) > 1
     arguments["subject_to"] = conditions_listed(head, data.get("subject_to", []), over)
     arguments["vary"] = vary_said(head, data.get("vary", {}))
     readers: Mapping[str, Callable[[Any], Any]] = {
         "case": lambda given: case_said(head, given),
         "method": word_said(SEARCH_METHODS),
         "solver": word_said(SOLVERS),
+        "sigmas": lambda given: amount_said(given, ""),
+        "robust": lambda given: tolerances_said(head, given, "robust"),
         "starts": lambda given: count_said(given, 1),
         "seed": lambda given: count_said(given, 0),
         "folder": head.path_of,
@@ -102,8 +104,26 @@ def read_search(
                 arguments[key] = read(data[key])
     rounding = rounding_said(head)
     outputs = outputs_said(head, SEARCH_OUTPUTS)
+    for name in outputs:
+        if several and name != "designs":
+            faults.add(("outputs", name), "of several objectives there is no single best design; write its front by designs = ...")
+    if several and "folder" in arguments:
+        faults.add(("folder",), "the search of several objectives is not kept in a folder; leave it out.")
     faults.check()
     return SearchFile(head.machine, arguments, rounding, outputs)
+
+
+def objectives_listed(head: StudyHead, over: Mapping[str, Any] | None) -> dict[str, list[Any]]:
+    """Return what is to be least and what greatest; mistakes are noted."""
+    found: dict[str, list[Any]] = {}
+    for key in ("minimise", "maximise"):
+        given = head.data.get(key, [])
+        for number, text in enumerate(given if isinstance(given, list) else [given], 1):
+            with head.faults.at(key, *([str(number)] if isinstance(given, list) else [])):
+                found.setdefault(key, []).append(measure_said(text, head.machine, over))
+    if not any(head.data.get(key) for key in ("minimise", "maximise")):
+        head.faults.add((), 'say minimise or maximise, one measure such as maximise = "least(...)", or a list of several.')
+    return found
 
 
 def conditions_listed(head: StudyHead, given: Any, over: Mapping[str, Any] | None) -> list[Any]:

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, TypeAlias, final
 
 from ..disk import check_place
-from ..errors import AssemblyError, DefinitionError, known_name, one_word, unknown
+from ..errors import DefinitionError, FileError, known_name, one_word, unknown
 from ..loads import LoadCase
 from ..mechanism import Mechanism
 from ..motion import stroke_unit
@@ -24,6 +24,7 @@ from ..plan import Plan, plan_measure
 from ..quantities import is_number, is_whole
 from ..study.problem import ranges_of
 from ..study.space import Space, around, known_dimension
+from ..study.tolerances import Tolerance, tolerances_of
 from ..units import parse
 from .criterion import CriterionParser
 from .names import shortened
@@ -66,15 +67,13 @@ class StudyHead:
         for key in data:
             if key not in known:
                 faults.add((str(key),), str(unknown("Key", shortened(key, quote=False), known)))
-        machine = machine_said(data, faults, find, base)
-        if machine is None:
-            faults.check()
-            raise AssertionError  # a machine that is missing is a mistake
-        with faults.at("set"):
-            machine = machine(**settings_said(machine.plan, data.get("set", {}), faults))
+        kind = machine_said(data, faults, find, base)
+        machines: list[Mechanism] = []
+        if kind is not None:
+            with faults.at("set"):
+                machines.append(kind(**settings_said(kind.plan, data.get("set", {}), faults)))
         faults.check()
-        assert isinstance(machine, Mechanism)
-        return cls(data, faults, machine.replaced(**settings(type(machine))), base)
+        return cls(data, faults, machines[0].replaced(**settings(type(machines[0]))), base)
 
     @property
     def plan(self) -> Plan:
@@ -88,15 +87,16 @@ class StudyHead:
         return self.base / given
 
 
-def machine_said(data: Mapping[str, Any], faults: Faults, find: FindMachine, base: Path) -> Any:
+def machine_said(data: Mapping[str, Any], faults: Faults, find: FindMachine, base: Path) -> type[Mechanism] | None:
     """Return the class of the machine that a file names; None, noted, where there is none."""
+    found = None
     with faults.at("machine"):
         given = data.get("machine")
         if not isinstance(given, str) or not given:
             what = "the machine is missing" if given is None else f"{shortened(given)} is no name in quotes"
             raise DefinitionError(f'{what}; begin with machine = "three_point_hitch", a name of `hydrolinkage list` or a file.')
-        return find(given, base)
-    return None
+        found = find(given, base)
+    return found
 
 
 def settings_said(plan: Plan, given: Any, faults: Faults) -> dict[str, Any]:
@@ -145,7 +145,7 @@ def value_said(given: Any, plan: Plan, name: str) -> Any:
             raise DefinitionError(f"{shortened(given)}: {'one value' if name in plan.table.spellings else 'two coordinates'} expected.")
         return tuple(amount_said(each, measures) for each in given)
     if f"{name}.x" in plan.table.spellings:
-        raise DefinitionError(f"{shortened(given)}: {name} is a point; write its two coordinates, [\"220 mm\", \"950 mm\"].")
+        raise DefinitionError(f'{shortened(given)}: {name} is a point; write its two coordinates, ["220 mm", "950 mm"].')
     return amount_said(given, measures)
 
 
@@ -226,6 +226,43 @@ def rows_said(given: Any, plan: Plan, names: Sequence[str]) -> list[Any]:
             raise DefinitionError(f"{shortened(row)} is no row of {', '.join(names)}; it has a value for each of them.")
         rows.append([amount_said(value, measure_of_name(plan, name)) for name, value in zip(names, row, strict=True)])
     return rows
+
+
+# Tolerances.
+
+TOLERANCE_KEYS = ("limits", "law")
+
+
+def tolerances_said(head: StudyHead, given: Any, key: str) -> dict[str, Any]:
+    """Return tolerances by the names of dimensions; mistakes are noted, each under its name."""
+    found: dict[str, Any] = {}
+    for name, value in flattened(given, head.plan, key, TOLERANCE_KEYS):
+        with head.faults.at(key, name):
+            found[name] = tolerance_said(value, measure_of_name(head.plan, name))
+            tolerances_of(head.plan, {name: found[name]})
+    if not found and not head.faults.found:
+        raise DefinitionError(f'no tolerance is given; write [{key}] OB = "0.1 mm", to either side, or ["-0.1 mm", "0.2 mm"].')
+    return found
+
+
+def tolerance_said(given: Any, measures: str) -> Tolerance:
+    """Return a tolerance: how far to either side, the two limits, or { limits, law }."""
+    if isinstance(given, Mapping):
+        for each in given:
+            known_name("Key", each, TOLERANCE_KEYS)
+        if "limits" not in given:
+            raise DefinitionError(f'{shortened(dict(given))}: write {{ limits = "0.1 mm", law = "uniform" }}.')
+        return Tolerance(limits_said(given["limits"], measures), given.get("law", "normal"))
+    return Tolerance(limits_said(given, measures))
+
+
+def limits_said(given: Any, measures: str) -> float | tuple[float, float]:
+    """Return how far a dimension may lie from its value [SI]: to either side, or its two limits."""
+    if isinstance(given, list):
+        if len(given) != 2:
+            raise DefinitionError(f'{shortened(given)}: two limits are expected, such as ["-0.1 mm", "0.2 mm"].')
+        return amount_said(given[0], measures), amount_said(given[1], measures)
+    return amount_said(given.strip().removeprefix("+-").removeprefix("±") if isinstance(given, str) else given, measures)
 
 
 # Strokes, load cases, words and numbers.
@@ -321,15 +358,8 @@ def outputs_said(head: StudyHead, kinds: Mapping[str, Sequence[str]]) -> dict[st
 
 def check_output(path: Path) -> None:
     """Raise DefinitionError where a file cannot be written."""
-    from ..errors import FileError
-
     try:
         check_place(path)
     except FileError as error:
         raise DefinitionError(str(error)) from None
 
-
-def check_assembled(head: StudyHead) -> None:
-    """Raise AssemblyError where the machine as it is set cannot be assembled at its sketch."""
-    if not head.machine.strokes:
-        raise AssemblyError(f"{head.plan.title} has no stroke.")

@@ -30,6 +30,10 @@ PANELS, NODES = 24, 5
 """An integral's panels, and the Gauss points of each."""
 
 
+NOWHERE = Space((), (), ())
+"""A space without variables: that of one design."""
+
+
 @final
 @dataclass(frozen=True, eq=False)
 class Range:
@@ -164,7 +168,8 @@ class Problem:
         """What makes a search the same, as text."""
         said = [self.plan.title, self.plan, self.sense, *self.objectives, *self.constraints, self.space.variables, self.space.choices]
         ends = [(name, *(end if is_number(end) else words_of(end) for end in (one.low, one.high))) for name, one in self.ranges.items()]
-        return "; ".join(map(str, [*said, ends, sorted(self.machine.dimensions.items())]))
+        exact = [repr(each) for one in (*self.objectives, *(held.margin for held in self.constraints)) for each in one.numbers]
+        return "; ".join(map(str, [*said, *exact, ends, sorted(self.machine.dimensions.items())]))
 
     def value(self, numbers: Callable[[Leaf], Any]) -> Any:
         """Return the objective from the leaves' numbers: of several the worst."""
@@ -406,6 +411,36 @@ class Problem:
         at: dict[str, Any] = {name: next(arrays) if axis.ndim else float(axis) for name, axis in zip(self.ranges, axes, strict=True)}
         return machine.at(**at)
 
+    def along(self, machine: Mechanism, name: str, count: int) -> Motion:
+        """Return a machine's motion along one stroke's range, the others in the middle of theirs, NaN where it is not reached."""
+        ends = self._ends(machine.dimensions, slopes=False)
+        at: dict[str, Any] = {}
+        for stroke, one in self.ranges.items():
+            low, high = (float(np.ravel(self._end(end, ends, 0, 0))[0]) for end in (one.low, one.high))
+            at[stroke] = np.linspace(low, high, count) if stroke == name else 0.5 * (low + high)
+        return machine.at(unreachable="nan", **at)
+
+    def over_stroke(self, leaf: Leaf, design: Mapping[str, Any], count: int) -> tuple[str, FloatArray, FloatArray] | None:
+        """Return a stroke that a leaf's quantity depends on, its values (n,) and the quantity's (n,) of a design [SI]; None of a constant.
+
+        Over further strokes that value is taken which is the worst for the leaf, of others than an extreme the greatest.
+        """
+        kind = Least if isinstance(leaf, Least) else Most
+        counts = {each: count if each < 2 else max(SAMPLES.get(each, 3), 33 // each) for each in range(6)}
+        alone = Problem(self.machine, [kind(leaf.quantity)], [], NOWHERE, over=self.over, counts=counts)
+        asked = alone.leaves[0]
+        poses, _ = alone._of_leaf[asked]
+        names = [name for name in poses.axes if name != poses.inner]
+        if not names:
+            return None
+        axis = poses.axes[names[0]]
+        values = alone.look(design).rows[asked].values.reshape(len(axis), -1)
+        with np.errstate(all="ignore"):
+            worst = (np.fmin if kind is Least else np.fmax).reduce(values, axis=1)
+        strokes = alone.where(asked, design, {names[0]: 0.0}), alone.where(asked, design, {names[0]: 1.0})
+        low, high = (each[names[0]] for each in strokes)
+        return names[0], low + axis * (high - low), worst
+
     # -- the whole truth ---------------------------------------------------------------------------------
 
     def motion(self, design: Mapping[str, Any], names: Sequence[str], fixed: Mapping[str, float], count: int = 33) -> Motion:
@@ -432,6 +467,19 @@ class Problem:
             part = (float(found.strokes[name]) - low) / (high - low) if high > low else 0.0
             parts[name] = 1.0 - part if turned else part
         return float(found.value), parts
+
+    @property
+    def poses(self) -> list[dict[str, list[float]]]:
+        """The parts of the strokes' ranges that are looked at, by stroke, of each set of poses."""
+        return [{name: axis.tolist() for name, axis in each.axes.items()} for each in self.sets]
+
+    def take_poses(self, axes: Sequence[Mapping[str, Sequence[float]]]) -> None:
+        """Look at these parts from now on; ValueError where they are those of other sets of poses."""
+        found = [{name: np.array(axis, float) for name, axis in each.items()} for each in axes]
+        if [list(each) for each in found] != [list(each.axes) for each in self.sets]:
+            raise ValueError("the poses are those of another problem")
+        for own, new in zip(self.sets, found, strict=True):
+            own.axes = new
 
     def refinable(self, leaf: Leaf) -> bool:
         """Return whether poses between the samples can be looked for."""

@@ -26,7 +26,7 @@ from .checks import check_one_design
 from .infeasible import infeasible_error
 from .measures import At, CombinedMeasure, Constraint, Leaf, Measure, Worst, conditions_of, require_quantity, words_of
 from .optimum import Optimum, in_units, polished, unit_of_constraint
-from .problem import COARSE, Problem, reduced
+from .problem import COARSE, SAMPLES, Problem, reduced
 from .solver import Found, Graded, Local
 from .space import Space
 from .spread import sigma
@@ -225,13 +225,15 @@ class Journal:
         facts = {"search": blake2b(f"{problem.facts} {seed}".encode(), digest_size=16).hexdigest()}
         with in_words(path):
             path.parent.mkdir(parents=True, exist_ok=True)
-            lines = path.read_text().splitlines() if path.exists() else []
-        entries = [entry for entry in map(entry_of, lines) if entry is not None]
+            text = path.read_text() if path.exists() else ""
+        entries = [entry for entry in map(entry_of, text.splitlines()) if entry is not None]
         if entries and entries[0] != facts:
             raise DefinitionError(f"{path} holds another search, of other variables, conditions, dimensions or seed; give another folder.")
-        if not entries:
-            with in_words(path):
-                path.write_text(json.dumps(facts) + "\n")
+        with in_words(path), path.open("a") as file:
+            if text and not text.endswith("\n"):
+                file.write("\n")  # after a line that was torn
+            if not entries:
+                file.write(json.dumps(facts) + "\n")
         return cls(path, {entry["task"]: entry for entry in entries if "task" in entry})
 
     def result(self, task: str) -> Found | None:
@@ -431,16 +433,19 @@ class DesignSearch:
 
     def locally(self, combination: tuple[int, ...], unit: FloatArray) -> Found:
         """Return what a local search comes to; where the samples are kept but what lies between them fails, what stands there."""
+        problem = self.problem.with_counts(SAMPLES)  # its samples are its own: no search depends on those before it
         try:
-            local = Local(self.problem, combination, unit)
+            local = Local(problem, combination, unit)
         except LinkageError:
             return Found(unit, np.nan, np.inf, False)
-        if not self.problem.space.variables:
-            return local.judged(unit, truly=True)
-        found = local.run(self.plan.solver)
-        if self.plan.solver == "slsqp" and found.whole and not found.feasible and found.missing < NEARLY:
-            again = Local(self.problem, combination, found.unit).run("trust-constr")
-            found = min(found, again, key=lambda each: (not each.feasible, each.missing))
+        if problem.space.variables:
+            found = local.run(self.plan.solver)
+            if self.plan.solver == "slsqp" and found.whole and not found.feasible and found.missing < NEARLY:
+                again = Local(problem, combination, found.unit).run("trust-constr")
+                found = min(found, again, key=lambda each: (not each.feasible, each.missing))
+        else:
+            found = local.judged(unit)
+        self.problem.looked_at += problem.looked_at
         return found
 
     # -- the winner -----------------------------------------------------------------------------------------

@@ -174,6 +174,7 @@ def polished(
         raise AssemblyError(f"{problem.plan.title}: the design on its steps misses the conditions.")
     now = true_values(problem, machine)
     local = Local(problem, combination, found.unit)
+    local.refine(found.unit)
     prices, ends = multipliers(local, found.unit)
     value = float(problem.value(lambda leaf: now[leaf]))
     part = local.size / (abs(value) or 1.0)
@@ -288,7 +289,7 @@ def on_steps(problem: Problem, combination: Sequence[int], found: Found, solver:
             local = Local(inner, whole, unit)
         except DefinitionError:
             continue
-        tried.append((inner, whole, local.run(solver) if rest else local.judged(unit, truly=True)))
+        tried.append((inner, whole, local.run(solver) if rest else local.judged(unit)))
     if not tried:
         raise AssemblyError(f"{problem.plan.title}: none of the steps about the design can be assembled.")
     best = min(tried, key=lambda each: (not each[2].feasible, problem.sense * each[2].value))

@@ -253,7 +253,7 @@ ARM_BOUNDS: Mapping[str, tuple[float, float]] = MappingProxyType(
 """The source's bounds of the lengths [m]; of the lug's direction on the folded arm [rad]."""
 
 TRAVELS = ("free", "travels", "angles")
-FINE = 1.0 * kN
+FINE = 10.0 * kN
 """N m, added to both sides of what would be compared with zero: conditions are met to a small part of their size."""
 STEP = 1e-6
 """rad: over which a condition sets in."""

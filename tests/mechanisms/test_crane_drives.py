@@ -180,19 +180,24 @@ def test_four_bar_and_cylinder_by_the_closed_formulas():
             assert_allclose(motion.ratio("length"), -lever * transfer, rtol=1e-8, atol=1e-12)
 
 
-def test_printed_plus_of_the_errata_breaks_the_coupler():
-    """(2.63), (2.66) print r_1^2 + r_2^2: with the plus the coupler has another length."""
-    r_1, r_2, r_3, r_4, alpha_1 = 0.5, 0.5, 0.23, 0.15, 75 * deg
+def test_printed_plus_of_the_errata_has_no_angle():
+    """(2.63), (2.66) print r_1^2 + r_2^2: with the plus the sine is 1 + ((a - r_3)^2 + r_2^2) / (2 a r_3), whatever the lengths."""
+    rng = np.random.default_rng(3)
+    r_1, r_2, r_3, r_4 = rng.uniform(0.05, 1.0, (4, 500))
+    alpha_1 = rng.uniform(0.1, 3.0, 500)
     x, y = r_1 * np.cos(alpha_1), r_1 * np.sin(alpha_1)
+    a = np.hypot(x - r_4, y)
 
-    def coupler(sign):
-        a = np.hypot(x - r_4, y)
-        K = (r_1**2 + sign * r_2**2 + r_3**2 + r_4**2 - 2 * r_1 * r_4 * np.cos(alpha_1)) / (2 * r_3 * a)
-        alpha_2 = np.arcsin(np.clip(K, -1.0, 1.0)) - np.arctan2(x - r_4, y)
-        return np.hypot(r_4 + r_3 * np.cos(alpha_2) - x, r_3 * np.sin(alpha_2) - y)
+    def sine(sign):
+        return (r_1**2 + sign * r_2**2 + r_3**2 + r_4**2 - 2 * r_4 * x) / (2 * r_3 * a)
 
-    assert_allclose(coupler(-1.0), r_2, rtol=1e-14)
-    assert abs(coupler(1.0) - r_2) > 0.05
+    assert_allclose(sine(1.0), 1.0 + ((a - r_3) ** 2 + r_2**2) / (2 * a * r_3), rtol=1e-10)
+    assert np.all(sine(1.0) > 1.0)
+    there = np.abs(sine(-1.0)) < 1.0
+    assert there.sum() > 100
+    alpha_2 = np.arcsin(sine(-1.0)[there]) - np.arctan2(x - r_4, y)[there]
+    coupler = np.hypot((r_4 - x)[there] + r_3[there] * np.cos(alpha_2), r_3[there] * np.sin(alpha_2) - y[there])
+    assert_allclose(coupler, r_2[there], rtol=1e-9)
 
 
 @pytest.mark.parametrize(("machine", "side"), [(DirectArmDrive, 1.0), (DirectArmDriveAbove, -1.0)])

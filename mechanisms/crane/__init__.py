@@ -3,9 +3,24 @@
 Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse bioenergetiki", chapter 2.
 """
 
+from .arm_drive import ArmDrive as ArmDrive
+from .arm_drive import ArmDriveByCylinder as ArmDriveByCylinder
+from .arm_drive import BellCrankArmDrive as BellCrankArmDrive
+from .arm_drive import BellCrankArmDriveByCylinder as BellCrankArmDriveByCylinder
+from .arm_drive import DirectArmDrive as DirectArmDrive
+from .arm_drive import DirectArmDriveAbove as DirectArmDriveAbove
+from .boom_drive import BoomDrive as BoomDrive
 from .cylinders import arm_moment as arm_moment
 from .cylinders import boom_moment as boom_moment
 from .cylinders import drive_limits as drive_limits
+from .drive_design import ArmRules as ArmRules
+from .drive_design import DriveDesign as DriveDesign
+from .drive_design import arm_drive_front as arm_drive_front
+from .drive_design import design_arm_drive as design_arm_drive
+from .drive_design import design_boom_drive as design_boom_drive
+from .drive_duty import DriveCylinders as DriveCylinders
+from .drive_duty import DriveDuty as DriveDuty
+from .drive_duty import duty_of as duty_of
 from .duty import Duty as Duty
 from .load_map import LoadMap as LoadMap
 from .load_map import load_map as load_map

@@ -5,6 +5,7 @@ from .infeasible import InfeasibleError
 from .measures import at, integral, least, most, reachable, worst
 from .monte_carlo import Band, MonteCarlo, monte_carlo
 from .optimum import Optimum
+from .pareto import Front
 from .sensitivity import Effect, SobolIndices, Tornado, sobol, tornado
 from .settings import Settings, settings_for
 from .space import around

@@ -34,6 +34,10 @@ PANELS, NODES = 24, 5
 """An integral's panels, and the Gauss points of each."""
 
 
+NOWHERE = Space((), (), ())
+"""A space without variables: that of one design."""
+
+
 @final
 @dataclass(frozen=True, eq=False)
 class Range:
@@ -168,7 +172,8 @@ class Problem:
         """What makes a search the same, as text."""
         said = [self.plan.title, self.plan, self.sense, *self.objectives, *self.constraints, self.space.variables, self.space.choices]
         ends = [(name, *(end if is_number(end) else words_of(end) for end in (one.low, one.high))) for name, one in self.ranges.items()]
-        return "; ".join(map(str, [*said, ends, sorted(self.machine.dimensions.items())]))
+        exact = [repr(each) for one in (*self.objectives, *(held.margin for held in self.constraints)) for each in one.numbers]
+        return "; ".join(map(str, [*said, *exact, ends, sorted(self.machine.dimensions.items())]))
 
     def value(self, numbers: Callable[[Leaf], Any]) -> Any:
         """Return the objective from the leaves' numbers: of several the worst."""
@@ -409,6 +414,36 @@ class Problem:
         arrays = iter(np.meshgrid(*[axis for axis in axes if axis.ndim], indexing="ij")) if any(axis.ndim for axis in axes) else iter(())
         at: dict[str, Any] = {name: next(arrays) if axis.ndim else float(axis) for name, axis in zip(self.ranges, axes, strict=True)}
         return machine.at(**at)
+
+    def along(self, machine: Mechanism, name: str, count: int) -> Motion:
+        """Return a machine's motion along one stroke's range, the others in the middle of theirs, NaN where it is not reached."""
+        ends = self._ends(machine.dimensions, slopes=False)
+        at: dict[str, Any] = {}
+        for stroke, one in self.ranges.items():
+            low, high = (float(np.ravel(self._end(end, ends, 0, 0))[0]) for end in (one.low, one.high))
+            at[stroke] = np.linspace(low, high, count) if stroke == name else 0.5 * (low + high)
+        return machine.at(unreachable="nan", **at)
+
+    def over_stroke(self, leaf: Leaf, design: Mapping[str, Any], count: int) -> tuple[str, FloatArray, FloatArray] | None:
+        """Return a stroke that a leaf's quantity depends on, its values (n,) and the quantity's (n,) of a design [SI]; None of a constant.
+
+        Over further strokes that value is taken which is the worst for the leaf, of others than an extreme the greatest.
+        """
+        kind = Least if isinstance(leaf, Least) else Most
+        counts = {each: count if each < 2 else max(SAMPLES.get(each, 3), 33 // each) for each in range(6)}
+        alone = Problem(self.machine, [kind(leaf.quantity)], [], NOWHERE, over=self.over, counts=counts)
+        asked = alone.leaves[0]
+        poses, _ = alone._of_leaf[asked]
+        names = [name for name in poses.axes if name != poses.inner]
+        if not names:
+            return None
+        axis = poses.axes[names[0]]
+        values = alone.look(design).rows[asked].values.reshape(len(axis), -1)
+        with np.errstate(all="ignore"):
+            worst = (np.fmin if kind is Least else np.fmax).reduce(values, axis=1)
+        strokes = alone.where(asked, design, {names[0]: 0.0}), alone.where(asked, design, {names[0]: 1.0})
+        low, high = (each[names[0]] for each in strokes)
+        return names[0], low + axis * (high - low), worst
 
     # -- the whole truth ---------------------------------------------------------------------------------
 

@@ -586,3 +586,24 @@ def test_figures_show_ends_and_worst_movements():
     figure = drive_figure("positions", ArmDrive())
     titles = [ax.get_title(loc="left") for ax in figure.axes]
     assert titles == ["$\\psi$ = 0.0°: start, folding: least over", "$\\psi$ = 84.7°: opening: least over", "$\\psi$ = 180.0°: end"]
+
+
+def test_readings_of_the_arms_conditions():
+    """Each option of the lost signs changes the conditions that it speaks of, and no others."""
+
+    def texts(**options):
+        return {str(each) for each in ArmRules(**options).conditions(DriveDuty())}
+
+    usual = texts()
+    (excess,) = (each for each in usual if each.startswith("most((opens"))
+    (whole,) = texts(excess_from="psi_0") - usual
+    assert usual - texts(excess_from="psi_0") == {excess}
+    assert "phi" not in whole and "0.2617993877991494" in excess
+    assert texts(angles="travels") - usual == {
+        "at(alpha_1, psi=3.14159) - at(alpha_1, psi=0) >= 1.5708",
+        "at(alpha_2, psi=3.14159) - at(alpha_2, psi=0) >= 1.74533",
+    }
+    assert texts(angles="angles") - usual == {"at(alpha_1, psi=3.14159) <= 1.5708", "at(alpha_2, psi=3.14159) <= 1.74533"}
+    assert usual - texts(above=None) == {"at(y(L), psi=0) >= 0.15", "at(y(L), psi=3.14159) >= 0.15"}
+    assert texts(above=0.0) - usual == {"at(y(L), psi=0) >= 0", "at(y(L), psi=3.14159) >= 0"}
+    assert usual - texts(transmission=0.0) == {"least(mu) >= 0.436332", "most(mu) <= 2.70526"}

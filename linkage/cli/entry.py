@@ -23,6 +23,8 @@ HOMES = {
     "plot": "plot:PlotCommand",
     "animate": "plot:AnimateCommand",
     "save": "show:SaveCommand",
+    "optimise": "optimise:OptimiseCommand",
+    "study": "study:StudyCommand",
 }
 BUILT_IN = {name: EntryPoint(name, f"{__package__}.{home}", GROUP) for name, home in HOMES.items()}
 

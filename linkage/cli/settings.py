@@ -10,8 +10,8 @@ import numpy as np
 from ..errors import DefinitionError, unknown
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, stroke_unit
-from ..plan import Plan
-from ..reports import NOTHING, At, measure, results, run_of
+from ..plan import Plan, plan_measure
+from ..reports import NOTHING, At, results, run_of
 from ..units import parse
 
 
@@ -24,7 +24,7 @@ def parsed_setting(plan: Plan, text: str) -> tuple[str, Any]:
     """Return a setting as a name and its SI value; a point's value is a pair."""
     name, value = pair(text, "--set", "OB=180mm")
     if name in plan.table.spellings:
-        return name, si_value(value, measure(plan, plan.table.spellings[name][0]), f"--set {name}")
+        return name, si_value(value, plan_measure(plan, plan.table.spellings[name][0]), f"--set {name}")
     if f"{name}.x" in plan.table.spellings or f"{name}.y" in plan.table.spellings:
         return name, point_setting(name, value)
     if name in plan.strokes:

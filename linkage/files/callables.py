@@ -13,13 +13,13 @@ from types import MappingProxyType
 from typing import Any
 
 from ..errors import DefinitionError, unknown
-from ..motion import condition, ratio, transmission
+from ..motion import condition, gap, ratio, transmission
 from ..statics import drive_force, pin_force
 
 REQUESTS_GROUP = "hydrolinkage.requests"
 
 REQUESTS: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {"ratio": ratio, "drive_force": drive_force, "pin_force": pin_force, "transmission": transmission, "condition": condition}
+    {"ratio": ratio, "drive_force": drive_force, "pin_force": pin_force, "transmission": transmission, "gap": gap, "condition": condition}
 )
 """The requests of this package by name."""
 

@@ -22,18 +22,34 @@ import numpy as np
 from ..errors import DefinitionError, unknown
 from ..mechanism import Mechanism
 from ..motion import Request
-from ..quantities import Quantity, angle, distance, is_number, ref, x, y
+from ..plan import plan_measure
+from ..quantities import Quantity, angle, distance, is_number, x, y
 from ..steps import Point
-from ..study.measures import Condition, Constraint, Measure, Worst, as_measure, at, integral, least, most, reachable, words_of, worst
-from ..study.optimum import unit_of_measure
-from ..study.problem import Problem
-from ..study.space import Space
+from ..study.measures import (
+    CombinedMeasure,
+    Condition,
+    Constraint,
+    Integral,
+    Leaf,
+    Measure,
+    Worst,
+    as_measure,
+    at,
+    integral,
+    least,
+    most,
+    reachable,
+    words_of,
+    worst,
+)
+from ..study.problem import NOWHERE, Problem
+from ..study.sampling import strokes_behind
 from ..units import UNITS
 from .callables import request_function
 from .expression import BINARY, CONSTANTS, NUMBER, Grammar, tokens
 
 CRITERION_GRAMMAR = (
-    "a criterion is made of least(...), most(...), integral(...), at(..., S=...), names, numbers with units, + - * / **, and one of <= >= =="
+    "a criterion is made of least(...), most(...), integral(...), at(..., S=...), names, numbers with units, + - * / **, and <= >= =="
 )
 _CRITERION = re.compile(
     rf"\s*(?:{NUMBER}|(?P<name>[^\W\d]\w*(?:\.[^\W\d]\w*)*)|(?P<text>'[^'\n]*'|\"[^\"\n]*\")"
@@ -54,7 +70,6 @@ NUMERIC: Mapping[str, str] = MappingProxyType(
 """NumPy's functions by the names that a file may give them."""
 CONDITIONS: Mapping[str, Condition] = MappingProxyType({"reachable": reachable})
 AXES = {"_x": x, "_y": y}
-EMPTY = Space((), (), ())
 
 
 def measure_said(text: Any, machine: Mechanism, over: Mapping[str, Any] | None = None) -> Measure:
@@ -65,18 +80,15 @@ def measure_said(text: Any, machine: Mechanism, over: Mapping[str, Any] | None =
     found = CriterionParser(checked_text(text), machine).whole()
     if isinstance(found, Condition):
         raise DefinitionError(f"{text!r} is a condition; a measure is expected, such as least(...), with no <=, >= or ==.")
-    measure = found if isinstance(found, Measure) else as_number_or_constant(found, machine)
+    measure = measure_or_constant(found, machine)
     check_measures(machine, [measure], [], over)
     return measure
 
 
-def as_number_or_constant(found: Any, machine: Mechanism) -> Measure:
-    """Return what has one value for a design as a measure; DefinitionError for what has one at every pose."""
-    from ..study.sampling import strokes_behind
-
-    if not is_number(found) and not isinstance(found, Worst) and not strokes_behind(machine.plan, found):
-        return at(found)
-    return as_measure(found)
+def measure_or_constant(found: Any, machine: Mechanism) -> Measure:
+    """Return a measure, or what has one value for a design as one; DefinitionError for what has a value at every pose."""
+    is_quantity = isinstance(found, (str, Quantity, Request))
+    return at(found) if is_quantity and not strokes_behind(machine.plan, found) else as_measure(found)
 
 
 def condition_said(text: Any, machine: Mechanism, over: Mapping[str, Any] | None = None) -> Condition:
@@ -108,7 +120,7 @@ def checked_text(text: Any) -> str:
 
 def check_measures(machine: Mechanism, measures: list[Measure], constraints: list[Constraint], over: Mapping[str, Any] | None) -> None:
     """Raise DefinitionError where measures or constraints ask for what a machine has not: an unknown point, no such stroke."""
-    Problem(machine, measures, constraints, EMPTY, over=over)
+    Problem(machine, measures, constraints, NOWHERE, over=over)
 
 
 @final
@@ -148,15 +160,30 @@ class CriterionParser(Grammar):
             raise DefinitionError("one comparison makes a condition; write two conditions for a value between two limits.")
         if is_number(left) and is_number(right):
             raise DefinitionError("two numbers are compared; one side is a measure such as least(...).")
-        one, other = as_measure(left), as_measure(right)
+        one, other = (measure_or_constant(each, self.machine) for each in (left, right))
         self.check_units(one, other, self.kinds if is_number(right) else kinds if is_number(left) else [])
         return BOUNDS[sign](one, other)
 
     def check_units(self, left: Measure, right: Measure, kinds: list[str]) -> None:
         """Raise DefinitionError where a limit's only unit measures something else than what it limits; `kinds` are those of its units."""
-        measured = {UNITS[unit][1] for unit in (unit_of_measure(self.plan, each) for each in (left, right) if each.leaves) if unit}
+        measured = {self.measured(each) for each in (left, right) if each.leaves} - {""}
         if len(measured) == 1 and len(set(kinds)) == 1 and set(kinds) != measured:
-            raise DefinitionError(f"a limit of the kind {kinds[0]} is given for what is of the kind {next(iter(measured))}; look at its unit.")
+            raise DefinitionError(f"the limit has the unit of a value of kind {kinds[0]}, and it limits one of kind {measured.pop()}.")
+
+    def measured(self, measure: Measure) -> str:
+        """Return what a measure measures where that is plain, "" elsewhere."""
+        if isinstance(measure, CombinedMeasure):
+            kinds = {self.measured(each) for each in (measure.left, measure.right) if each.leaves}
+            both = bool(measure.left.leaves and measure.right.leaves)
+            is_scaled = (measure.symbol == "*" and not both) or (measure.symbol == "/" and not measure.right.leaves)
+            is_same = measure.symbol in ("+", "-") or is_scaled
+            return kinds.pop() if is_same and len(kinds) == 1 else ""
+        if not isinstance(measure, Leaf) or isinstance(measure, Integral):
+            return ""
+        quantity = measure.quantity.quantity if isinstance(measure.quantity, Worst) else measure.quantity
+        if isinstance(quantity, str):
+            return plan_measure(self.plan, self.plan.table.spellings[quantity][0]) if quantity in self.plan.table.spellings else ""
+        return quantity.measures if isinstance(quantity, (Quantity, Request)) else ""
 
     # -- parts -----------------------------------------------------------------------------------------
 
@@ -203,10 +230,10 @@ class CriterionParser(Grammar):
         plan = self.plan
         member = plan.members.get(name)
         if isinstance(member, Quantity):
-            return ref(name)
+            return member
         if member is not None:
             remedy = f"x({name}) or y({name})" if isinstance(member, Point) else f"a request of it, such as thrust({name})"
-            raise DefinitionError(f"{name} is a {type(member).__name__} and no number; write {remedy}.")
+            raise DefinitionError(f"{name} = {member} is no number; write {remedy}.")
         if name in CONDITIONS:
             return CONDITIONS[name]
         if name in plan.table.spellings:
@@ -217,7 +244,7 @@ class CriterionParser(Grammar):
             self.kinds += [UNITS[name][1]] if name in UNITS else []
             return CONSTANTS[name]
         quantities = [each for each, one in plan.members.items() if isinstance(one, Quantity)]
-        raise unknown("Quantity", name, [*quantities, *plan.table.spellings], where=plan.title)
+        raise unknown("Quantity", name, list(dict.fromkeys([*quantities, *plan.table.names()])), where=plan.title)
 
     # -- functions -------------------------------------------------------------------------------------
 

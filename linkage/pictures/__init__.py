@@ -4,5 +4,6 @@ from .browser import page_html
 from .curves import Limit, plot
 from .drawing import Drawing, mechanism
 from .film import animate, page
+from .optimum import draw_optimum, plot_optimum
 from .poses import draw
 from .tolerances import plot_bands, plot_tornado

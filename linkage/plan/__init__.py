@@ -1,6 +1,7 @@
 """The ordered steps, their dimensions, and their program."""
 
 from .bodies import Body, gruebler, merged
+from .measure import plan_measure
 from .members import construction_order, needed_names, printed, strokes_text
 from .missing import Mask, called, failures, missing_words, negative, opening
 from .plan import Plan

@@ -3,4 +3,4 @@
 from .ranges import NOTHING, At, Run, closely, first_stroke, ranges_below_zero, reached_span, run_of, spans_in_words, stroke_middles
 from .results import results
 from .table import rich_tables, text_table, write_csv
-from .values import design_rows, measure, stroke_rows
+from .values import design_rows, stroke_rows

@@ -46,6 +46,11 @@ class Measure(ABC):
         """Return the number that the values of its leaves make; of anything that adds and multiplies."""
 
     @property
+    def numbers(self) -> tuple[float, ...]:
+        """The numbers in it, in order."""
+        return ()
+
+    @property
     def binds(self) -> int:
         """How strongly it binds as text."""
         return 9
@@ -126,6 +131,10 @@ class Given(Measure):
     def leaves(self) -> tuple[Leaf, ...]:
         return ()
 
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        return (self.value,)
+
     def of(self, value: Callable[[Leaf], Any]) -> Any:
         return self.value
 
@@ -145,6 +154,10 @@ class CombinedMeasure(Measure):
     @property
     def leaves(self) -> tuple[Leaf, ...]:
         return tuple(dict.fromkeys((*self.left.leaves, *self.right.leaves)))
+
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        return (*self.left.numbers, *self.right.numbers)
 
     def of(self, value: Callable[[Leaf], Any]) -> Any:
         return OPERATIONS[self.symbol](self.left.of(value), self.right.of(value))
@@ -209,6 +222,10 @@ class At(Leaf):
 
     strokes: Mapping[str, float] = field(default_factory=dict)
     word: ClassVar[str] = "at"
+
+    @property
+    def numbers(self) -> tuple[float, ...]:
+        return tuple(self.strokes.values())
 
     def __str__(self) -> str:
         return f"at({', '.join([words_of(self.quantity), *(f'{name}={value:.6g}' for name, value in self.strokes.items())])})"

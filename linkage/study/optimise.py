@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
 
-from ..disk import check_name, in_words
+from ..disk import check_name, in_words, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, cited, one_word
 from ..mechanism import Mechanism
 from ..motion import Request
@@ -26,15 +26,17 @@ from .checks import check_one_design
 from .infeasible import infeasible_error
 from .measures import At, CombinedMeasure, Constraint, Leaf, Measure, Worst, conditions_of, require_quantity, words_of
 from .optimum import Optimum, in_units, polished, unit_of_constraint
-from .problem import COARSE, Problem, reduced
+from .problem import COARSE, SAMPLES, Problem, reduced
 from .solver import Found, Graded, Local
 from .space import Space
 from .spread import sigma
+from .tried import Tried
 
 if TYPE_CHECKING:
     from .pareto import Front
 
 METHODS = ("auto", "local", "multistart", "evolution")
+SOLVERS = ("slsqp", "trust-constr")
 SCREENED = 256
 """Designs looked at for each combination before the local searches begin; fewer each where there are many combinations."""
 SCREENED_IN_ALL = 1 << 14
@@ -70,7 +72,7 @@ def optimise(
     check_one_design(machine)
     title = machine.plan.title
     one_word("method", method, METHODS)
-    one_word("solver", solver, ("slsqp", "trust-constr"))
+    one_word("solver", solver, SOLVERS)
     check_counts(title, starts, seed)
     objectives, sense = objectives_of(machine, minimise, maximise)
     space = Space.of(machine, vary)
@@ -90,7 +92,7 @@ def optimise(
     if robust is not None:
         problem = with_spread(problem, robust, sigmas)
     with progress_told(progress, machine.plan.heading) as tell:
-        return DesignSearch(problem, plan, Journal.of(folder, problem, seed), tell).run()
+        return DesignSearch(problem, plan, Journal.of(folder, problem, plan), tell).run()
 
 
 def objectives_of(machine: Mechanism, minimise: Any, maximise: Any) -> tuple[list[Measure], float]:
@@ -214,7 +216,7 @@ class Journal:
         self.path, self.known = path, known
 
     @classmethod
-    def of(cls, folder: str | os.PathLike[str] | None, problem: Problem, seed: int) -> Journal:
+    def of(cls, folder: str | os.PathLike[str] | None, problem: Problem, plan: SearchPlan) -> Journal:
         """Return the journal of a search; DefinitionError where the folder holds that of another one."""
         if folder is None:
             return cls(None, {})
@@ -222,31 +224,41 @@ class Journal:
             raise DefinitionError(f"folder={cited(folder)}: the path of a folder is expected.")
         path = Path(folder) / "search.jsonl"
         check_name(path)
-        facts = {"search": blake2b(f"{problem.facts} {seed}".encode(), digest_size=16).hexdigest()}
+        facts = {"search": blake2b(f"{problem.facts} {plan}".encode(), digest_size=16).hexdigest()}
         with in_words(path):
             path.parent.mkdir(parents=True, exist_ok=True)
-            lines = path.read_text().splitlines() if path.exists() else []
-        entries = [entry for entry in map(entry_of, lines) if entry is not None]
+            text = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
+        entries = [entry for entry in map(entry_of, text.splitlines()) if entry is not None]
         if entries and entries[0] != facts:
             raise DefinitionError(f"{path} holds another search, of other variables, conditions, dimensions or seed; give another folder.")
-        if not entries:
-            with in_words(path):
-                path.write_text(json.dumps(facts) + "\n")
-        return cls(path, {entry["task"]: entry for entry in entries if "task" in entry})
+        if not entries or not text.endswith("\n"):  # a line that was torn would take the next one with it
+            with replacing_text(path) as file:
+                file.writelines(json.dumps(entry) + "\n" for entry in (entries or [facts]))
+        return cls(path, {str(entry["task"]): entry for entry in entries if "task" in entry})
 
-    def result(self, task: str) -> Found | None:
-        """Return what a local search came to, as it is kept."""
-        entry = self.known.get(task)
-        if entry is None:
+    def result(self, task: str, problem: Problem) -> Found | None:
+        """Return what a local search came to, as it is kept, with the designs that it looked at."""
+        try:
+            entry = self.known[task]
+            unit = np.array(entry["unit"], float)
+            found = Found(unit, float(entry["value"]), float(entry["missing"]), bool(entry["whole"]))
+            looked_at = int(entry["looked_at"])
+            if unit.shape != (len(problem.space.variables),):
+                return None
+        except (KeyError, TypeError, ValueError):
             return None
-        return Found(np.array(entry["unit"], float), float(entry["value"]), float(entry["missing"]), bool(entry["whole"]))
+        problem.looked_at += looked_at
+        return found
 
-    def keep(self, task: str, found: Found) -> None:
-        """Write down what a local search came to."""
+    def keep(self, task: str, found: Found, looked_at: int) -> None:
+        """Write down what a local search came to, and how many designs it looked at."""
         if self.path is None:
             return
-        entry = {"task": task, "unit": list(found.unit), "value": found.value, "missing": found.missing, "whole": found.whole}
-        with in_words(self.path), self.path.open("a") as file:
+        entry = {
+            "task": task, "unit": list(found.unit), "value": found.value, "missing": found.missing, "whole": found.whole,
+            "looked_at": looked_at,
+        }  # fmt: skip
+        with in_words(self.path), self.path.open("a", encoding="utf-8") as file:
             file.write(json.dumps(entry) + "\n")
             file.flush()
             os.fsync(file.fileno())
@@ -318,6 +330,7 @@ class DesignSearch:
         self.problem, self.plan, self.journal, self.tell = problem, plan, journal, tell
         self.coarse = problem.with_counts(COARSE)
         self.cut: list[str] = []
+        self.looked: list[Screened] = []
         self.present = problem.space.present(problem.machine)
 
     def run(self) -> Optimum:
@@ -367,7 +380,8 @@ class DesignSearch:
             unit = present[None]
         elif np.allclose(space.values(present), self.present, rtol=0.0, atol=1e-9 * np.array([each.span for each in space.variables])):
             unit = np.concatenate([present[None], unit])
-        return self.looked_at(combination, unit)
+        self.looked.append(self.looked_at(combination, unit))
+        return self.looked[-1]
 
     def looked_at(self, combination: tuple[int, ...], unit: FloatArray) -> Screened:
         """Return designs with what they are worth at few poses."""
@@ -422,25 +436,29 @@ class DesignSearch:
     def ended(self, combination: tuple[int, ...], unit: FloatArray, number: int) -> Found:
         """Return what the local search from a start comes to, or came to before."""
         task = f"{list(combination)} {number}"
-        known = self.journal.result(task)
+        known = self.journal.result(task, self.problem)
         if known is not None:
             return known
+        before = self.problem.looked_at
         found = self.locally(combination, np.ravel(unit))
-        self.journal.keep(task, found)
+        self.journal.keep(task, found, self.problem.looked_at - before)
         return found
 
     def locally(self, combination: tuple[int, ...], unit: FloatArray) -> Found:
         """Return what a local search comes to; where the samples are kept but what lies between them fails, what stands there."""
+        problem = self.problem.with_counts(SAMPLES)  # its samples are its own: no search depends on those before it
         try:
-            local = Local(self.problem, combination, unit)
+            local = Local(problem, combination, unit)
         except LinkageError:
             return Found(unit, np.nan, np.inf, False)
-        if not self.problem.space.variables:
-            return local.judged(unit, truly=True)
-        found = local.run(self.plan.solver)
-        if self.plan.solver == "slsqp" and found.whole and not found.feasible and found.missing < NEARLY:
-            again = Local(self.problem, combination, found.unit).run("trust-constr")
-            found = min(found, again, key=lambda each: (not each.feasible, each.missing))
+        if problem.space.variables:
+            found = local.run(self.plan.solver)
+            if self.plan.solver == "slsqp" and found.whole and not found.feasible and found.missing < NEARLY:
+                again = Local(problem, combination, found.unit).run("trust-constr")
+                found = min(found, again, key=lambda each: (not each.feasible, each.missing))
+        else:
+            found = local.judged(unit)
+        self.problem.looked_at += problem.looked_at
         return found
 
     # -- the winner -----------------------------------------------------------------------------------------
@@ -453,7 +471,8 @@ class DesignSearch:
                 everyone = [one.found for one in ended]
                 self.problem.looked_at += self.coarse.looked_at
                 self.coarse.looked_at = 0
-                return polished(self.problem, each.combination, each.found, everyone, searched, self.plan.solver, self.cut)
+                best = polished(self.problem, each.combination, each.found, everyone, searched, self.plan.solver, self.cut)
+                return replace(best, tried=self.tried(ended))
             except AssemblyError as error:
                 lost.append(str(error))
         if lost:
@@ -462,6 +481,16 @@ class DesignSearch:
             )
             raise StudyError(text)
         raise infeasible_error(self.problem, [(each.combination, each.found) for each in ended])
+
+    def tried(self, ended: Sequence[Ended]) -> tuple[Tried, ...]:
+        """Return the designs that were looked at, then what the local searches came to."""
+        sense = self.problem.sense
+        looked = [Tried("looked at", each.combination, each.unit, sense * each.value, each.missing) for each in self.looked]
+        ends = [(each.combination, each.found) for each in ended]
+        return (
+            *looked,
+            *(Tried("searched", at, one.unit[None], np.array([one.value]), np.array([one.missing])) for at, one in ends),
+        )
 
     def unreachable(self, screened: Sequence[Screened]) -> StudyError:
         """Return the error for a box without a design that can be assembled over the whole stroke."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, product
@@ -9,6 +11,7 @@ from typing import Any, final
 
 import numpy as np
 
+from ..disk import Place, replacing_text
 from ..errors import AssemblyError, DefinitionError, cited
 from ..mechanism import Mechanism
 from ..motion import Request
@@ -19,8 +22,10 @@ from ..units import deg, display_unit, mm, show
 from .checks import unit_of
 from .measures import Constraint, Given, Integral, Leaf, Measure, Worst
 from .problem import Problem
+from .result_rows import ResultRow, result_text, write_result
 from .solver import MET, Found, Local, missing_of, scale_of
 from .space import Space, Varied
+from .tried import Tried, tried_header, tried_names, tried_rows
 
 ACTIVE = 1e-6
 """A condition with no more than this part of its size to spare is active."""
@@ -103,6 +108,7 @@ class Optimum:
     problem: Problem
     unit: FloatArray
     combination: tuple[int, ...]
+    tried: tuple[Tried, ...] = ()
 
     @property
     def gain(self) -> float:
@@ -152,6 +158,36 @@ class Optimum:
         """
         return rounded_design(self, to, angle)
 
+    def rows(self, rounded: Rounded | None = None) -> tuple[ResultRow, ...]:
+        """Return what varied, the objective and the conditions, before and after, and of a rounded design too."""
+        return result_rows(self, rounded)
+
+    def table(self, rounded: Rounded | None = None) -> str:
+        """Return the rows as aligned text."""
+        return result_text(self.rows(rounded))
+
+    def csv(self, path: Place, rounded: Rounded | None = None) -> None:
+        """Write the rows into a CSV file, in full precision; FileError where it cannot be written."""
+        with replacing_text(path) as stream:
+            write_result(self.rows(rounded), stream)
+
+    def designs_csv(self, path: Place) -> None:
+        """Write every design that was looked at into a CSV file: its dimensions, its objective, and the part missing of a condition."""
+        units = unit_of_measure(self.problem.plan, self.problem.objectives[0])
+        with replacing_text(path) as stream:
+            writer = csv.writer(stream)
+            writer.writerow(tried_header(self.problem.space, self.problem.plan, str(self.problem.objectives[0]), units))
+            for row in tried_rows(self.problem.space, self.problem.plan, units, self.tried):
+                writer.writerow("" if each != each else each if isinstance(each, str) else repr(each) for each in row)
+
+    def designs_jsonl(self, path: Place) -> None:
+        """Write every design that was looked at into a file of JSON lines, in SI; null stands for what has no value."""
+        names = [*tried_names(self.problem.space), "value", "missing"]
+        with replacing_text(path) as stream:
+            for stage, *row in tried_rows(self.problem.space, None, "", self.tried):
+                numbers = (each if isinstance(each, float) and np.isfinite(each) else None for each in row)
+                stream.write(json.dumps({"stage": stage, **dict(zip(names, numbers, strict=True))}) + "\n")
+
 
 # The winner, on its steps and judged.
 
@@ -174,6 +210,7 @@ def polished(
         raise AssemblyError(f"{problem.plan.title}: the design on its steps misses the conditions.")
     now = true_values(problem, machine)
     local = Local(problem, combination, found.unit)
+    local.refine(found.unit)
     prices, ends = multipliers(local, found.unit)
     value = float(problem.value(lambda leaf: now[leaf]))
     part = local.size / (abs(value) or 1.0)
@@ -288,7 +325,7 @@ def on_steps(problem: Problem, combination: Sequence[int], found: Found, solver:
             local = Local(inner, whole, unit)
         except DefinitionError:
             continue
-        tried.append((inner, whole, local.run(solver) if rest else local.judged(unit, truly=True)))
+        tried.append((inner, whole, local.run(solver) if rest else local.judged(unit)))
     if not tried:
         raise AssemblyError(f"{problem.plan.title}: none of the steps about the design can be assembled.")
     best = min(tried, key=lambda each: (not each[2].feasible, problem.sense * each[2].value))
@@ -369,6 +406,42 @@ def steps_about(value: float, step: float) -> list[float]:
     if abs(place - round(place)) < 1e-6:
         return [round(place) * step]
     return sorted((float(np.floor(place)) * step, float(np.ceil(place)) * step), key=lambda each: abs(each - value))
+
+
+# Rows, for tables.
+
+
+def result_rows(optimum: Optimum, rounded: Rounded | None) -> tuple[ResultRow, ...]:
+    """Return an optimum as rows; see `Optimum.rows`."""
+    problem, plan = optimum.problem, optimum.problem.plan
+    machines = [optimum.start, optimum.machine, *([rounded.machine] if rounded else [])]
+    at_end = {each.variable.name: each for each in optimum.bounds}
+    nan, rows = float("nan"), []
+    for name in tried_names(problem.space):
+        owner, sign = plan.table.spellings[name]
+        before, after, last = [*(sign * float(each.dimensions[owner]) for each in machines), nan][:3]
+        end = at_end.get(name)
+        by = f"{end.variable.show(end.by)} {'more' if end.is_upper else 'less'}" if end else ""
+        gain = end.gain if end else 0.0
+        rows.append(ResultRow("variable", name, unit_of(plan, name), before, after, last, gain=gain, by=by))
+    last, unit = rounded.value if rounded else nan, unit_of_measure(plan, problem.objectives[0])
+    rows.append(ResultRow("objective", str(problem.objectives[0]), unit, optimum.start_value, optimum.value, last))
+    known = [true_values(problem, each) if is_assembled(problem, each) else None for each in machines]
+    for kept in optimum.conditions:
+        side = kept.constraint.left
+        before, after, last = [*(nan if each is None else float(side.of(each.__getitem__)) for each in known), nan][:3]
+        name, gain = f"{side} {kept.constraint.symbol}", kept.gain
+        rows.append(ResultRow("condition", name, kept.units, before, after, last, kept.right, kept.spare, gain, "1 % less strict"))
+    return tuple(rows)
+
+
+def is_assembled(problem: Problem, machine: Mechanism) -> bool:
+    """Return whether a machine can be assembled over the whole stroke."""
+    try:
+        problem.assembled(machine)
+    except AssemblyError:
+        return False
+    return True
 
 
 # Units of measures, for sentences.

@@ -24,10 +24,18 @@ from .space import Space
 
 SAMPLES = {0: 1, 1: 49, 2: 17, 3: 9, 4: 5}
 COARSE = {0: 1, 1: 17, 2: 7, 3: 5, 4: 3}
+NEAR_TOP, TOPS, ZOOMS = 0.05, 6, 7
+"""Of the range of a leaf's values: tops that come so near to the worst are samples too; how many of them, and how often they are zoomed."""
+CLOSEST = 1e-6
+"""Samples are not nearer to one another, in parts of the range."""
 INNER = 65
 """Samples of the stroke over which the worst value is taken."""
 PANELS, NODES = 24, 5
 """An integral's panels, and the Gauss points of each."""
+
+
+NOWHERE = Space((), (), ())
+"""A space without variables: that of one design."""
 
 
 @final
@@ -164,7 +172,8 @@ class Problem:
         """What makes a search the same, as text."""
         said = [self.plan.title, self.plan, self.sense, *self.objectives, *self.constraints, self.space.variables, self.space.choices]
         ends = [(name, *(end if is_number(end) else words_of(end) for end in (one.low, one.high))) for name, one in self.ranges.items()]
-        return "; ".join(map(str, [*said, ends, sorted(self.machine.dimensions.items())]))
+        exact = [repr(each) for one in (*self.objectives, *(held.margin for held in self.constraints)) for each in one.numbers]
+        return "; ".join(map(str, [*said, *exact, ends, sorted(self.machine.dimensions.items())]))
 
     def value(self, numbers: Callable[[Leaf], Any]) -> Any:
         """Return the objective from the leaves' numbers: of several the worst."""
@@ -251,8 +260,8 @@ class Problem:
                 continue
             margins.append(seen.margins.min(axis=2).T if not slopes else np.moveaxis(seen.margins, 0, 1).reshape(m, -1))
             if slope is not None:
-                total = self._by_unit(slope.margins, poses, ends)
-                margin_slopes.append(np.moveaxis(total, 1, 0).reshape(total.shape[1], -1))
+                total = np.moveaxis(self._by_unit(slope.margins, poses, ends), 1, 0)
+                margin_slopes.append(total.reshape(len(total), int(np.prod(total.shape[1:]))))  # of no variable too
         rows = {leaf: self._rows(leaf, found, ends) for leaf in self.leaves}
         return Evaluated(
             rows, np.concatenate(margins, axis=1), np.concatenate(margin_slopes, axis=1) if slopes else None, whole, reached
@@ -406,6 +415,36 @@ class Problem:
         at: dict[str, Any] = {name: next(arrays) if axis.ndim else float(axis) for name, axis in zip(self.ranges, axes, strict=True)}
         return machine.at(**at)
 
+    def along(self, machine: Mechanism, name: str, count: int) -> Motion:
+        """Return a machine's motion along one stroke's range, the others in the middle of theirs, NaN where it is not reached."""
+        ends = self._ends(machine.dimensions, slopes=False)
+        at: dict[str, Any] = {}
+        for stroke, one in self.ranges.items():
+            low, high = (float(np.ravel(self._end(end, ends, 0, 0))[0]) for end in (one.low, one.high))
+            at[stroke] = np.linspace(low, high, count) if stroke == name else 0.5 * (low + high)
+        return machine.at(unreachable="nan", **at)
+
+    def over_stroke(self, leaf: Leaf, design: Mapping[str, Any], count: int) -> tuple[str, FloatArray, FloatArray] | None:
+        """Return a stroke that a leaf's quantity depends on, its values (n,) and the quantity's (n,) of a design [SI]; None of a constant.
+
+        Over further strokes that value is taken which is the worst for the leaf, of others than an extreme the greatest.
+        """
+        kind = Least if isinstance(leaf, Least) else Most
+        counts = {each: count if each < 2 else max(SAMPLES.get(each, 3), 33 // each) for each in range(6)}
+        alone = Problem(self.machine, [kind(leaf.quantity)], [], NOWHERE, over=self.over, counts=counts)
+        asked = alone.leaves[0]
+        poses, _ = alone._of_leaf[asked]
+        names = [name for name in poses.axes if name != poses.inner]
+        if not names:
+            return None
+        axis = poses.axes[names[0]]
+        values = alone.look(design).rows[asked].values.reshape(len(axis), -1)
+        with np.errstate(all="ignore"):
+            worst = (np.fmin if kind is Least else np.fmax).reduce(values, axis=1)
+        strokes = alone.where(asked, design, {names[0]: 0.0}), alone.where(asked, design, {names[0]: 1.0})
+        low, high = (each[names[0]] for each in strokes)
+        return names[0], low + axis * (high - low), worst
+
     # -- the whole truth ---------------------------------------------------------------------------------
 
     def motion(self, design: Mapping[str, Any], names: Sequence[str], fixed: Mapping[str, float], count: int = 33) -> Motion:
@@ -433,10 +472,36 @@ class Problem:
             parts[name] = 1.0 - part if turned else part
         return float(found.value), parts
 
-    def refinable(self, leaf: Leaf) -> bool:
-        """Return whether poses between the samples can be looked for."""
-        poses, _ = self._of_leaf[leaf]
-        return isinstance(leaf, (Least, Most)) and not poses.inner and bool(poses.axes)
+    def tops(self, leaf: Leaf, design: Mapping[str, Any]) -> list[float]:
+        """Return where between its samples a leaf of one design has tops that come near its worst value, as parts of its stroke's range."""
+        poses, place = self._of_leaf[leaf]
+        if len(poses.axes) != 1 or poses.inner:
+            return []
+        ((name, axis),) = poses.axes.items()
+        sampling, ends = self._sampling(self.sets.index(poses)), self._ends(design, slopes=False)
+        sense = -1.0 if isinstance(leaf, Least) else 1.0
+
+        def values(at: FloatArray) -> FloatArray:
+            found = sampling.seen(self._grid(PoseSet({name: at}, poses.fixed), design, ends)).values[place, 0]
+            return np.where(np.isfinite(found), sense * found, -np.inf)
+
+        seen = values(axis)
+        band = np.ptp(seen[np.isfinite(seen)]) * NEAR_TOP if np.isfinite(seen).any() else 0.0
+        inner = np.flatnonzero((seen[1:-1] >= seen[:-2]) & (seen[1:-1] >= seen[2:]) & (seen[1:-1] >= seen.max() - band)) + 1
+        found = []
+        for one in inner[np.argsort(-seen[inner], kind="stable")][:TOPS]:
+            low, high = float(axis[one - 1]), float(axis[one + 1])
+            for _ in range(ZOOMS):
+                at = np.linspace(low, high, 17)
+                best = int(np.argmax(values(at)))
+                low, high = float(at[max(best - 1, 0)]), float(at[min(best + 1, 16)])
+            found.append(0.5 * (low + high))
+        return found
+
+    def axis_of(self, leaf: Leaf) -> str:
+        """Return the only stroke that a leaf is looked at over."""
+        ((name, _),) = self._of_leaf[leaf][0].axes.items()
+        return name
 
     def refined(self, leaf: Leaf, parts: Mapping[str, float]) -> bool:
         """Add a pose between the samples to those of a leaf; return whether it is new."""
@@ -444,7 +509,7 @@ class Problem:
         new = False
         for name, part in parts.items():
             axis = poses.axes[name]
-            if np.abs(axis - part).min() > 1e-9:
+            if np.abs(axis - part).min() > CLOSEST:
                 poses.axes[name] = np.sort(np.append(axis, part))
                 new = True
         return new

@@ -3,6 +3,10 @@
 Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse bioenergetiki", chapter 2.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from .arm_drive import ArmDrive as ArmDrive
 from .arm_drive import ArmDriveByCylinder as ArmDriveByCylinder
 from .arm_drive import BellCrankArmDrive as BellCrankArmDrive
@@ -22,6 +26,12 @@ from .drive_duty import DriveCylinders as DriveCylinders
 from .drive_duty import DriveDuty as DriveDuty
 from .drive_duty import duty_of as duty_of
 from .duty import Duty as Duty
+from .flow import CraneDesign as CraneDesign
+from .flow import arm_drive_of as arm_drive_of
+from .flow import boom_drive_of as boom_drive_of
+from .flow import design_crane as design_crane
+from .flow import design_skeleton as design_skeleton
+from .flow import with_drives as with_drives
 from .load_map import LoadMap as LoadMap
 from .load_map import load_map as load_map
 from .machine import BellCrankCrane as BellCrankCrane
@@ -29,5 +39,24 @@ from .machine import ChainCrane as ChainCrane
 from .machine import Crane as Crane
 from .moments import arm_bound as arm_bound
 from .moments import boom_bound as boom_bound
+from .reach import Envelope as Envelope
+from .reach import envelope as envelope
 from .skeleton import BackBrokenSkeleton as BackBrokenSkeleton
 from .skeleton import CraneSkeleton as CraneSkeleton
+from .strength import strength as strength
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FIGURES = ("positions", "moments", "map", "reach")
+
+
+def crane_figure(name: str, crane: Crane | None = None) -> Figure:
+    """Return a figure of a crane, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch.
+
+    "positions" are those that its skeleton is laid out by, "moments" what boom and arm are given and asked for, "map" the load map,
+    "reach" all that the tip reaches.
+    """
+    from .figures import crane_figure
+
+    return crane_figure(name, crane)

@@ -19,14 +19,8 @@ from linkage.quantities import Function, Operand, Quantity, quantity
 from linkage.units import deg, kN
 
 from .moments import LIFTING, boom_bound, moments
-from .skeleton import CraneSkeleton
+from .skeleton import AT_ARM, AT_BOOM, AT_DRIVE, GRAVITY, JOINT, OF_DRIVE, CraneSkeleton
 
-GRAVITY = 9.81
-"""m/s2, the source's."""
-JOINT = 300.0
-"""Weight of the parts at the joint of boom and arm, G_m [N] (2.24)."""
-OF_DRIVE, AT_BOOM, AT_DRIVE, AT_ARM = 0.025, 0.4, 0.7, 0.45
-"""The boom drive's share of the crane's mass; where the centres of gravity lie: of boom and drive in l_c, of the arm in its length."""
 LONGEST_BOOM = 40.0
 """m; a longer boom, arm or telescope was given in millimetres."""
 

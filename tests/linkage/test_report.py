@@ -11,10 +11,10 @@ from hypothesis.extra.numpy import arrays
 from rich.console import Console
 
 from linkage import Column, Crank, DefinitionError, Dimension, Dyad, Ground, Mechanism, Stroke, deg, kgf, kgf_cm2
+from linkage.plan import plan_measure
 from linkage.reports import (
     closely,
     design_rows,
-    measure,
     ranges_below_zero,
     reached_span,
     rich_tables,
@@ -144,7 +144,7 @@ def test_strokes_in_fitting_units():
     ],
 )
 def test_what_a_variable_measures(machine, name, kind):
-    assert measure(machine.plan, name) == kind
+    assert plan_measure(machine.plan, name) == kind
 
 
 def test_unit_of_a_dimension_is_a_known_one():

@@ -1,0 +1,163 @@
+"""`hydrolinkage optimise FILE`: the search that a study file asks for, and its results as text, tables and pictures."""
+
+from __future__ import annotations
+
+import csv
+import json
+import sys
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, final
+
+from ..disk import replacing_text
+from ..errors import DefinitionError, StudyError, unknown
+from ..files import save
+from ..files.read import load
+from ..files.search_file import SearchFile, read_search
+from ..mechanism import Mechanism
+from ..study import Front, Optimum
+from ..study.batching import Progress as ProgressLike
+from ..study.checks import unit_of
+from ..study.optimum import Rounded
+from ..study.space import Space
+from ..study.tried import heading_with_unit, tried_names
+from ..units import factor
+from .command import Command, progress_bar
+from .listing import OWN, registered
+from .machines import find, machine, split
+from .settings import parsed_setting
+
+NOT_FEASIBLE = 1
+"""The exit code where the study came to its end and found no design."""
+
+
+def study_arguments(parser: ArgumentParser) -> None:
+    """Declare the arguments that every command on a study file has."""
+    parser.add_argument("file", metavar="FILE", help="a study file, .toml or .json")
+    parser.add_argument(
+        "--set", dest="settings", metavar="OB=180mm", action="append", default=[],
+        help="change a design variable, above the file's own `set`; repeatable",
+    )  # fmt: skip
+    parser.add_argument(
+        "--trust", metavar="PACKAGE", action="append", default=[],
+        help="a package, or a .py file, that the study file may name as its machine and that is run for it; repeatable",
+    )  # fmt: skip
+    parser.add_argument("--folder", metavar="DIR", help="keep what is done there, and go on from it (default: the file's own `folder`)")
+    parser.add_argument("--progress", action="store_true", help="say how far it is where stderr is no terminal, too")
+
+
+def finder(trust: list[str]) -> Callable[[str, Path], type[Mechanism]]:
+    """Return what finds a study file's machine: an installed one, a file beside it, or a class of what is trusted."""
+
+    def find_machine(text: str, base: Path) -> type[Mechanism]:
+        place, name = split(text)
+        if text in registered():
+            return find(text)
+        if text.endswith((".toml", ".json")):
+            return machine(load(base / text, trust), text)
+        if place.endswith(".py"):
+            require_trust(place, place in trust)
+            return find(str(base / place) + (f":{name}" if name else ""))
+        if name:
+            require_trust(place, any(place == each or place.startswith(f"{each}.") for each in trust))
+            return find(text)
+        raise DefinitionError(f"{unknown('Machine', text, registered())} {OWN}")
+
+    return find_machine
+
+
+def require_trust(place: str, is_trusted: bool) -> None:
+    """Raise DefinitionError for code that nobody allowed a file to run."""
+    if not is_trusted:
+        word = place if place.endswith(".py") else place.partition(".")[0]
+        raise DefinitionError(f"{place} is code, and a file runs none unasked; say --trust {word} if you trust it.")
+
+
+def settings_of(texts: list[str]) -> Callable[[type[Mechanism]], Mapping[str, Any]]:
+    """Return what reads settings such as `OB=180mm` for a machine."""
+    return lambda found: dict(parsed_setting(found.plan, text) for text in texts)
+
+
+@contextmanager
+def study_progress(title: str, *, asked: bool) -> Iterator[ProgressLike | bool]:
+    """Yield what is told how far a study is: a bar on a terminal, where it is asked for lines elsewhere."""
+    with progress_bar(title) as bar:
+        yield bar or (say_progress if asked else False)
+
+
+def say_progress(done: int, total: int) -> None:
+    """Say on stderr how far a study is."""
+    print(f"{done} of {total}", file=sys.stderr, flush=True)
+
+
+@final
+class OptimiseCommand(Command):
+    """Searches the best design."""
+
+    name = "optimise"
+    help = "the best dimensions: the search that a file asks for"
+
+    def add(self, parser: ArgumentParser) -> None:
+        study_arguments(parser)
+
+    def run(self, options: Namespace) -> int:
+        search = read_search(options.file, finder(options.trust), settings_of(options.settings))
+        try:
+            with study_progress(f"searching {Path(options.file).stem}", asked=options.progress) as progress:
+                found = search.run(options.folder, progress)
+        except StudyError as error:
+            print(f"hydrolinkage: {' '.join(str(error).split())}", file=sys.stderr)
+            return NOT_FEASIBLE
+        print(found)
+        if isinstance(found, Front):
+            write_front(search, found)
+        else:
+            tell_optimum(search, found)
+        return 0
+
+
+def tell_optimum(search: SearchFile, found: Optimum) -> None:
+    """Print the rounded design, and write the files that are asked for."""
+    rounded = None if search.rounding is None else found.rounded(**search.rounding)
+    if rounded is not None:
+        print(f"Rounded: {rounded}")
+    writers = optimum_writers(found, rounded)
+    for name, paths in search.outputs.items():
+        for path in paths:
+            writers[name](path)
+            print(path)
+
+
+def optimum_writers(found: Optimum, rounded: Rounded | None) -> Mapping[str, Callable[[Path], object]]:
+    """Return what writes each kind of result."""
+    from ..pictures import draw_optimum, plot_optimum
+
+    best = rounded.machine if rounded is not None and rounded.feasible else found.machine
+    return {
+        "table": lambda path: found.csv(path, rounded),
+        "designs": lambda path: found.designs_csv(path) if path.suffix.lower() == ".csv" else found.designs_jsonl(path),
+        "drawing": lambda path: draw_optimum(found).savefig(path),
+        "curves": lambda path: plot_optimum(found).savefig(path),
+        "machine": lambda path: save(best, path),
+    }
+
+
+def write_front(search: SearchFile, found: Front) -> None:
+    """Write the designs of a front: their objectives and what varied, in CSV with units, in JSON lines in SI."""
+    plan = search.machine.plan
+    names = tried_names(Space.of(search.machine, search.arguments["vary"]))
+    units = [*found.units, *(unit_of(plan, name) for name in names)]
+    heads = [*map(str, found.objectives), *names]
+    rows = [[*each.values, *(sign * float(each.machine.dimensions[owner]) for owner, sign in map(plan.table.spellings.__getitem__, names))]
+            for each in found.points]  # fmt: skip
+    for path in search.outputs.get("designs", ()):
+        with replacing_text(path) as stream:
+            if path.suffix.lower() == ".csv":
+                lines = csv.writer(stream)
+                lines.writerow(map(heading_with_unit, zip(heads, units, strict=True)))
+                lines.writerows([repr(value / factor(unit)) for value, unit in zip(row, units, strict=True)] for row in rows)
+            else:
+                stream.writelines(json.dumps(dict(zip(heads, row, strict=True))) + "\n" for row in rows)
+        print(path)

@@ -1,0 +1,365 @@
+"""What every study file has: the machine and its settings, ranges and values in an engineer's words, and where results go.
+
+    machine = "three_point_hitch"               # of `hydrolinkage list`, a machine's file, or package.module:Class of a trusted package
+    set = { OB = "310 mm", M = ["220 mm", "950 mm"] }
+
+A range is `"270 mm to 330 mm"`, `"270 to 330 mm in steps of 5 mm"`, `"within 60 mm"` of the present value; a list is the choices.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeAlias, final
+
+from ..disk import check_place
+from ..errors import DefinitionError, FileError, known_name, one_word, unknown
+from ..loads import LoadCase
+from ..mechanism import Mechanism
+from ..motion import stroke_unit
+from ..plan import Plan, plan_measure
+from ..quantities import is_number, is_whole
+from ..study.problem import ranges_of
+from ..study.space import Space, around, known_dimension
+from ..study.tolerances import Tolerance, tolerances_of
+from ..units import parse
+from .criterion import CriterionParser
+from .names import shortened
+from .source import Faults, source
+
+FindMachine: TypeAlias = Callable[[str, Path], type[Mechanism]]
+"""What returns the class of a machine by its text and the folder of the file that names it."""
+
+PICTURE_SUFFIXES = (".png", ".svg", ".pdf")
+RANGE_WORDS = 'a range such as "270 to 330 mm", "270 to 330 mm in steps of 5 mm" or "within 60 mm", or a list of choices'
+
+_SPAN = re.compile(r"\s*(?P<low>.+?)\s+to\s+(?P<high>.+?)(?:\s+(?:in steps of|by)\s+(?P<step>.+?))?\s*\Z")
+_AROUND = re.compile(r"\s*(?:within|around|\+-|\+/-|±)\s*(?P<by>.+?)(?:\s+(?:in steps of|by)\s+(?P<step>.+?))?\s*\Z")
+_BARE = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?\Z")
+_UNIT_PART = re.compile(r"[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*(?P<unit>[^\s\d]\S*)\s*\Z")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class StudyHead:
+    """A study file as it is read: its tables, the mistakes found so far, the machine, and the folder that its paths start from."""
+
+    data: Mapping[str, Any]
+    faults: Faults
+    machine: Mechanism
+    base: Path
+
+    @classmethod
+    def of(
+        cls, path: str | os.PathLike[str], keys: Sequence[str], find: FindMachine, settings: Callable[[type[Mechanism]], Mapping[str, Any]]
+    ) -> StudyHead:
+        """Return the head of a file that may have some keys beside `machine`, `set` and `doc`; FileError where there is no machine.
+
+        `settings` are dimensions [SI] that stand above those of the file.
+        """
+        found = source(path)
+        faults, base = Faults(source=found.name, line_of=found.line_of), Path(path).parent
+        known = ("machine", "set", "doc", *keys)
+        data = found.data if isinstance(found.data, Mapping) else {}
+        for key in data:
+            if key not in known:
+                faults.add((str(key),), str(unknown("Key", shortened(key, quote=False), known)))
+        kind = machine_said(data, faults, find, base)
+        machines: list[Mechanism] = []
+        if kind is not None:
+            with faults.at("set"):
+                machines.append(kind(**settings_said(kind.plan, data.get("set", {}), faults)))
+        faults.check()
+        return cls(data, faults, machines[0].replaced(**settings(type(machines[0]))), base)
+
+    @property
+    def plan(self) -> Plan:
+        """The machine's plan."""
+        return self.machine.plan
+
+    def path_of(self, given: Any) -> Path:
+        """Return a path as it is meant: relative to the file's own folder. DefinitionError for what is none."""
+        if not isinstance(given, str) or not given.strip():
+            raise DefinitionError(f"{shortened(given)} is no path in quotes.")
+        return self.base / given
+
+
+def machine_said(data: Mapping[str, Any], faults: Faults, find: FindMachine, base: Path) -> type[Mechanism] | None:
+    """Return the class of the machine that a file names; None, noted, where there is none."""
+    found = None
+    with faults.at("machine"):
+        given = data.get("machine")
+        if not isinstance(given, str) or not given:
+            what = "the machine is missing" if given is None else f"{shortened(given)} is no name in quotes"
+            raise DefinitionError(f'{what}; begin with machine = "three_point_hitch", a name of `hydrolinkage list` or a file.')
+        found = find(given, base)
+    return found
+
+
+def settings_said(plan: Plan, given: Any, faults: Faults) -> dict[str, Any]:
+    """Return dimensions [SI] by name; mistakes are noted."""
+    found: dict[str, Any] = {}
+    for name, value in flattened(given, plan, "set"):
+        with faults.at("set", name):
+            found[name] = value_said(value, plan, name)
+    return found
+
+
+# Values: numbers in SI, or texts with a unit that measures what it should.
+
+
+def flattened(given: Any, plan: Plan, what: str, words: Sequence[str] = ()) -> Iterator[tuple[str, Any]]:
+    """Yield the entries of a table of dimensions; `lift.bore = 1`, which TOML keeps as a table in a table, by its whole name."""
+    if not isinstance(given, Mapping):
+        raise DefinitionError(f"{what} = {shortened(given)}: a table by the names of dimensions is expected, such as [{what}] OB = ...")
+    for name, value in given.items():
+        if isinstance(value, Mapping) and not set(value) & set(words):
+            yield from ((f"{name}.{part}", each) for part, each in value.items())
+        else:
+            yield name, value
+
+
+def measure_of_name(plan: Plan, name: str) -> str:
+    """Return what a dimension measures, "length" for a point; "" where nothing says so."""
+    known = name in plan.table.spellings
+    return plan_measure(plan, plan.table.spellings[name][0]) if known else "length" if f"{name}.x" in plan.table.spellings else ""
+
+
+def amount_said(given: Any, measures: str) -> float:
+    """Return a number as it is [SI], or that of a text whose unit measures what it should; DefinitionError for anything else."""
+    if isinstance(given, str):
+        return parse(given, measures)
+    if not is_number(given):
+        raise DefinitionError(f'{shortened(given)} is no number and no text with a unit, such as "60 mm".')
+    return float(given)
+
+
+def value_said(given: Any, plan: Plan, name: str) -> Any:
+    """Return the value of a dimension [SI], of a point a pair."""
+    measures = measure_of_name(plan, name)
+    if isinstance(given, (list, tuple)):
+        if name in plan.table.spellings or len(given) != 2:
+            raise DefinitionError(f"{shortened(given)}: {'one value' if name in plan.table.spellings else 'two coordinates'} expected.")
+        return tuple(amount_said(each, measures) for each in given)
+    if f"{name}.x" in plan.table.spellings:
+        raise DefinitionError(f'{shortened(given)}: {name} is a point; write its two coordinates, ["220 mm", "950 mm"].')
+    return amount_said(given, measures)
+
+
+# Ranges and choices.
+
+RANGE_KEYS = ("from", "to", "step", "around", "choices")
+
+
+def vary_said(head: StudyHead, given: Any) -> dict[Any, Any]:
+    """Return what varies as `optimise` takes it; mistakes are noted, each under its name."""
+    found: dict[Any, Any] = {}
+    with head.faults.at("vary"):
+        entries = list(flattened(given, head.plan, "vary", RANGE_KEYS))
+        if not entries:
+            raise DefinitionError(f'nothing varies; write [vary] OB = "270 to 330 mm": {RANGE_WORDS}.')
+        for name, value in entries:
+            with head.faults.at("vary", name):
+                names = tuple(part.strip() for part in name.split(","))
+                for part in names:
+                    known_dimension(head.machine, part) if part not in head.plan.points else None
+                key = names if len(names) > 1 else names[0]
+                said = rows_said(value, head.plan, names) if len(names) > 1 else range_said(value, head.plan, names[0])
+                Space.of(head.machine, {key: said})
+                found[key] = said
+    return found
+
+
+def range_said(given: Any, plan: Plan, name: str) -> Any:
+    """Return what a dimension ranges over as `optimise` takes it: a tuple, `around(...)`, or a list of choices."""
+    measures = measure_of_name(plan, name)
+    if isinstance(given, (list, tuple)):
+        return [value_said(each, plan, name) for each in given]
+    if isinstance(given, Mapping):
+        return range_of_table(given, plan, name, measures)
+    text = given if isinstance(given, str) else ""
+    near = _AROUND.match(text)
+    if near is not None:
+        step = near.group("step")
+        return around(parse(near.group("by"), measures), None if step is None else parse(step, measures))
+    ends = span_said(text, measures)
+    if ends is None:
+        raise DefinitionError(f"{shortened(given)} is no range; write {RANGE_WORDS}.")
+    return ends
+
+
+def span_said(text: str, measures: str) -> tuple[float, ...] | None:
+    """Return the ends and the step [SI] of a text such as `270 to 330 mm`; None of any other one."""
+    found = _SPAN.match(text)
+    if found is None:
+        return None
+    parts = [found.group("low"), found.group("high"), *([found.group("step")] if found.group("step") else [])]
+    unit = next((match.group("unit") for match in map(_UNIT_PART.match, parts[1:]) if match), "")
+    return tuple(parse(f"{part} {unit}" if unit and _BARE.match(part) else part, measures) for part in parts)
+
+
+def range_of_table(given: Mapping[str, Any], plan: Plan, name: str, measures: str) -> Any:
+    """Return a range of a table: { from, to, step }, { around, step } or { choices }."""
+    for key in given:
+        known_name("Key", key, RANGE_KEYS)
+    kinds = [keys for keys in (("from", "to"), ("around",), ("choices",)) if any(key in given for key in keys)]
+    if len(kinds) != 1 or not set(kinds[0]) <= set(given) or ("step" in given and kinds[0] == ("choices",)):
+        raise DefinitionError(f"{shortened(dict(given))}: write {{ from, to, step }}, {{ around, step }} or {{ choices = [...] }}.")
+    if kinds[0] == ("choices",):
+        return range_said(list(given["choices"]) if isinstance(given["choices"], list) else given["choices"], plan, name)
+    step = [amount_said(given["step"], measures)] if "step" in given else []
+    if kinds[0] == ("around",):
+        return around(amount_said(given["around"], measures), *step)
+    return (*(amount_said(given[key], measures) for key in ("from", "to")), *step)
+
+
+def rows_said(given: Any, plan: Plan, names: Sequence[str]) -> list[Any]:
+    """Return the rows of a catalogue, each with a value for each of some names."""
+    if not isinstance(given, list):
+        raise DefinitionError(f"{shortened(given)}: rows are expected, a list [...] with {len(names)} values each.")
+    rows = []
+    for row in given:
+        if not isinstance(row, list) or len(row) != len(names):
+            raise DefinitionError(f"{shortened(row)} is no row of {', '.join(names)}; it has a value for each of them.")
+        rows.append([amount_said(value, measure_of_name(plan, name)) for name, value in zip(names, row, strict=True)])
+    return rows
+
+
+# Tolerances.
+
+TOLERANCE_KEYS = ("limits", "law")
+
+
+def tolerances_said(head: StudyHead, given: Any, key: str) -> dict[str, Any]:
+    """Return tolerances by the names of dimensions; mistakes are noted, each under its name."""
+    found: dict[str, Any] = {}
+    for name, value in flattened(given, head.plan, key, TOLERANCE_KEYS):
+        with head.faults.at(key, name):
+            found[name] = tolerance_said(value, measure_of_name(head.plan, name))
+            tolerances_of(head.plan, {name: found[name]})
+    if not found and not head.faults.found:
+        raise DefinitionError(f'no tolerance is given; write [{key}] OB = "0.1 mm", to either side, or ["-0.1 mm", "0.2 mm"].')
+    return found
+
+
+def tolerance_said(given: Any, measures: str) -> Tolerance:
+    """Return a tolerance: how far to either side, the two limits, or { limits, law }."""
+    if isinstance(given, Mapping):
+        for each in given:
+            known_name("Key", each, TOLERANCE_KEYS)
+        if "limits" not in given:
+            raise DefinitionError(f'{shortened(dict(given))}: write {{ limits = "0.1 mm", law = "uniform" }}.')
+        return Tolerance(limits_said(given["limits"], measures), given.get("law", "normal"))
+    return Tolerance(limits_said(given, measures))
+
+
+def limits_said(given: Any, measures: str) -> float | tuple[float, float]:
+    """Return how far a dimension may lie from its value [SI]: to either side, or its two limits."""
+    if isinstance(given, list):
+        if len(given) != 2:
+            raise DefinitionError(f'{shortened(given)}: two limits are expected, such as ["-0.1 mm", "0.2 mm"].')
+        return amount_said(given[0], measures), amount_said(given[1], measures)
+    return amount_said(given.strip().removeprefix("+-").removeprefix("±") if isinstance(given, str) else given, measures)
+
+
+# Strokes, load cases, words and numbers.
+
+
+def over_said(head: StudyHead, given: Any) -> dict[str, Any]:
+    """Return the parts of the strokes that are looked at, as `optimise` takes them; mistakes are noted."""
+    found: dict[str, Any] = {}
+    if not isinstance(given, Mapping):
+        head.faults.add(("over",), f'{shortened(given)}: a table of strokes is expected, such as over = {{ S = "0 to 200 mm" }}.')
+        return found
+    for name, value in given.items():
+        with head.faults.at("over", name):
+            said = part_said(head, known_name("Stroke", name, head.plan.strokes, where=head.plan.title), value)
+            ranges_of(head.machine, {name: said})
+            found[name] = said
+    return found
+
+
+def part_said(head: StudyHead, stroke: str, given: Any) -> Any:
+    """Return a part of a stroke: one value, or two ends, which may be quantities that follow the design."""
+    measures = stroke_measure(head.plan, stroke)
+    if isinstance(given, Mapping):
+        if set(given) != {"from", "to"}:
+            raise DefinitionError(f'{shortened(dict(given))}: write {{ from = "0 mm", to = "200 mm" }}.')
+        given = [given["from"], given["to"]]
+    if isinstance(given, (list, tuple)):
+        if len(given) != 2:
+            raise DefinitionError(f"{shortened(given)}: two ends are expected.")
+        return tuple(end_said(head, each, measures) for each in given)
+    span = span_said(given, measures) if isinstance(given, str) else None
+    if span is not None and len(span) == 3:
+        raise DefinitionError(f"{shortened(given)}: a search looks at the whole of a stroke, not at steps of it.")
+    return amount_said(given, measures) if span is None else span
+
+
+def end_said(head: StudyHead, given: Any, measures: str) -> Any:
+    """Return an end of a stroke's part: a number [SI], or a quantity."""
+    if isinstance(given, str) and re.match(r"\s*[^\W\d]", given):
+        return CriterionParser(given, head.machine).whole()
+    return amount_said(given, measures)
+
+
+def stroke_measure(plan: Plan, stroke: str) -> str:
+    """Return what a stroke measures: "angle" or "length"."""
+    return "angle" if stroke_unit(plan, stroke) == "rad" else "length"
+
+
+def case_said(head: StudyHead, given: Any) -> Any:
+    """Return the name of a load case, or a list of names; DefinitionError for an unknown one."""
+    cases = head.plan.of_kind(LoadCase)
+    if isinstance(given, list) and given:
+        return [known_name("Load case", each, cases, where=head.plan.title) for each in given]
+    return known_name("Load case", given, cases, where=head.plan.title)
+
+
+def count_said(given: Any, least: int) -> int:
+    """Return a whole number of at least so much."""
+    if not is_whole(given) or given < least:
+        raise DefinitionError(f"{shortened(given)}: a whole number is expected, at least {least}.")
+    return int(given)
+
+
+def word_said(words: Sequence[str]) -> Callable[[Any], str]:
+    """Return what reads one of a few words."""
+    return lambda given: one_word("it", given, words)
+
+
+# Where results go.
+
+
+def outputs_said(head: StudyHead, kinds: Mapping[str, Sequence[str]]) -> dict[str, tuple[Path, ...]]:
+    """Return the files of [outputs] by what they hold, each checked to be writable; mistakes are noted.
+
+    `kinds` are the endings that a file's name may have, by what it holds.
+    """
+    found: dict[str, tuple[Path, ...]] = {}
+    given = head.data.get("outputs", {})
+    if not isinstance(given, Mapping):
+        head.faults.add(("outputs",), f"{shortened(given)}: a table is expected, such as [outputs] {next(iter(kinds))} = ...")
+        return found
+    for name, value in given.items():
+        with head.faults.at("outputs", name):
+            suffixes = kinds[known_name("Output", name, kinds)]
+            paths = [head.path_of(each) for each in (value if isinstance(value, list) else [value])]
+            for path in paths:
+                if path.suffix.lower() not in suffixes:
+                    raise DefinitionError(f"{path.name}: the file's name ends in one of {', '.join(suffixes)}.")
+                check_output(path)
+            found[name] = tuple(paths)
+    return found
+
+
+def check_output(path: Path) -> None:
+    """Raise DefinitionError where a file cannot be written."""
+    try:
+        check_place(path)
+    except FileError as error:
+        raise DefinitionError(str(error)) from None
+

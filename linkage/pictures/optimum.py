@@ -1,0 +1,285 @@
+"""What a search changed: the machine before and after at the stroke's ends, and what counted over the stroke, before and after."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patheffects import withStroke
+
+from ..errors import DefinitionError, cited
+from ..motion import Column, Motion, stroke_display_unit
+from ..program import FloatArray
+from ..quantities import is_whole
+from ..study import Optimum
+from ..study.measures import At, Constraint, Given, Leaf, Least, Measure, Most, words_of
+from ..study.optimum import unit_of_leaf
+from ..units import factor, mm
+from . import style
+from .curves import Limit, axis_range, locator, mark_limit, panel_grid, typeset
+from .drawing import Drawing
+from .free_space import cloud, label_free
+from .labels import offsets
+from .scene import Bounds, Places, Scene
+from .sheet import Picture, points_a_metre, quiet, sheet
+from .strokes import StrokeAxis, stroke_words
+from .style import FAINT, STRONG
+
+WIDE = 12.0
+ROOM = (0.75, 0.2, 0.65, 0.55, 0.75)
+"""Room around the two sheets [inch]: left, right, between, below, above."""
+HEIGHTS = (3.6, 9.0)
+POSES = 101
+LEAST_MOVE = 0.05 * mm
+"""A pin that moved by less did not move."""
+
+
+# The machine, before and after.
+
+
+def draw_optimum(optimum: Optimum, count: int = POSES) -> Figure:
+    """Return the machine before, faint, and after, bold, at both ends of its stroke, with how far each pin moved [mm].
+
+    Of several strokes it is the first, the others in the middle of their ranges. Where the machine before cannot be assembled its frame
+    alone is drawn.
+    """
+    require_optimum(optimum)
+    if not is_whole(count) or count < 2:
+        raise DefinitionError(f"count={cited(count)}: a whole number of poses is expected, at least 2.")
+    name = next(iter(optimum.machine.strokes))
+    before, after = (optimum.problem.along(each, name, count) for each in (optimum.start, optimum.machine))
+    box = joined_box([Scene(each).box() for each in (before, after)])
+    figure, axes = two_sheets(box)
+    for ax, pose in zip(axes, (0, count - 1), strict=True):
+        overlaid(ax, before, after, pose)
+        ax.set_title(stroke_words(after.plan, name, float(after.strokes[name][pose])), fontsize=style.TEXT, color=style.MUTED, loc="right")
+    top = 1.0 - 0.24 / float(figure.get_figheight())
+    figure.text(ROOM[0] / WIDE, top, after.plan.heading, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
+    before_and_after_key(axes[0])
+    return figure
+
+
+def require_optimum(optimum: Any) -> None:
+    """Raise DefinitionError for what is no optimum."""
+    if not isinstance(optimum, Optimum):
+        raise DefinitionError(f"{cited(optimum)} is no result of a search; give what optimise(...) returns.")
+
+
+def joined_box(boxes: Sequence[Bounds]) -> Bounds:
+    """Return the box around several [m]."""
+    left, right, bottom, top = np.array(boxes).T
+    return float(left.min()), float(right.max()), float(bottom.min()), float(top.max())
+
+
+def two_sheets(box: Bounds) -> tuple[Figure, list[Axes]]:
+    """Return a figure with two sheets of the same box [m] side by side."""
+    left, right, between, below, above = ROOM
+    wide = 0.5 * (WIDE - left - right - between)
+    x0, x1, y0, y1 = box
+    high = float(np.clip(wide * (y1 - y0) / (x1 - x0), HEIGHTS[0] - below - above, HEIGHTS[1] - below - above))
+    height = high + below + above
+    figure = Picture(figsize=(WIDE, height), dpi=style.DPI, facecolor=style.PAPER)
+    FigureCanvasAgg(figure)
+    axes = []
+    for place in range(2):
+        ax = figure.add_axes(((left + place * (wide + between)) / WIDE, below / height, wide / WIDE, high / height))
+        sheet(ax, box)
+        axes.append(ax)
+    return figure, axes
+
+
+def overlaid(ax: Axes, before: Motion, after: Motion, pose: int) -> None:
+    """Draw a machine before and after at a pose, and how far its pins moved."""
+    old, new = Scene(before), Scene(after)
+    shadow = Drawing(ax, old, FAINT)
+    shadow.ground()
+    shadow.update(pose)
+    bold = Drawing(ax, new, STRONG)
+    bold.ground()
+    bold.update(pose)
+    here, there = old.at(pose), new.at(pose)
+    if not np.isfinite(list(there.values())).all():
+        return
+    moves = {name: float(np.hypot(*(there[name] - here[name]))) for name in new.places}
+    moves = {name: far for name, far in moves.items() if far > LEAST_MOVE}
+    clouds = [cloud(old, here)[::3], *label_free(new, [there]), *(path_between(here[name], there[name]) for name in moves)]
+    name_points(ax, new, there, moves, np.concatenate([each[np.isfinite(each).all(axis=1)] for each in clouds]))
+    for name in moves:
+        arrow(ax, here[name], there[name])
+
+
+def name_points(ax: Axes, scene: Scene, at: Places, moves: Mapping[str, float], taken: FloatArray) -> None:
+    """Name the points at a pose, those that moved with how far [mm], where they cover nothing of some points (n, 2) [m]."""
+    names = {name: f"{name} {millimetres_moved(moves[name])}" if name in moves else name for name in scene.places}
+    scale, font = points_a_metre(ax), style.LABEL
+    places = {text: at[name] for name, text in names.items()}
+    spots = offsets(list(places), [places], [taken], scale, 1.15 * scene.size * scale + 1.5)
+    for name, text in names.items():
+        middle, height = spots[text].tolist()
+        split = middle - 0.5 * CHARACTER * font * len(text) + CHARACTER * font * (len(name) + 0.4)
+        look = {"fontstyle": "italic", "fontsize": font, "color": style.INK}
+        write(ax, at[name], name, (split, height), "right" if name in moves else "center", **look)
+        if name in moves:
+            write(ax, at[name], text.removeprefix(name).strip(), (split, height), "left", fontsize=style.SMALL, color=style.ACCENT)
+
+
+def millimetres_moved(far: float) -> str:
+    """Return a distance [m] as text in mm, a short one with a decimal."""
+    return f"{far / mm:.{0 if far >= 9.95 * mm else 1}f}"
+
+
+CHARACTER = 0.6
+"""The width of a character, in sizes of its font."""
+
+
+def write(ax: Axes, place: FloatArray, text: str, offset: tuple[float, float], side: str, **look: Any) -> None:
+    """Write a text at an offset [points] from a place [m]."""
+    ax.annotate(
+        text, (float(place[0]), float(place[1])), xytext=offset, textcoords="offset points", ha=side, va="center_baseline",
+        zorder=STRONG.level + 1.0, annotation_clip=False, path_effects=[withStroke(linewidth=2.5, foreground=style.PAPER)], **look,
+    )  # fmt: skip
+
+
+def path_between(start: FloatArray, end: FloatArray) -> FloatArray:
+    """Return points from one place to another, shape (n, 2) [m]."""
+    return np.asarray(start + np.linspace(0.0, 1.0, 9)[:, None] * (end - start))
+
+
+def arrow(ax: Axes, start: FloatArray, end: FloatArray) -> None:
+    """Draw how a pin moved."""
+    ax.annotate(
+        "", (float(end[0]), float(end[1])), xytext=(float(start[0]), float(start[1])), zorder=STRONG.level + 0.9,
+        arrowprops={"arrowstyle": "-|>", "color": style.ACCENT, "linewidth": 1.4, "mutation_scale": 9, "shrinkA": 0, "shrinkB": 0},
+    )  # fmt: skip
+
+
+def before_and_after_key(ax: Axes) -> None:
+    """Write above a sheet which machine is which."""
+    keys = [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in (FAINT, STRONG)]
+    keys.append(Line2D([], [], color=style.ACCENT, linewidth=1.4))
+    ax.legend(
+        keys, ["before", "after", "moved, mm"], loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, frameon=False, borderaxespad=0.0,
+        borderpad=0.25, fontsize=style.TEXT, labelcolor=style.INK, handlelength=1.6, columnspacing=1.8, handletextpad=0.6,
+    )  # fmt: skip
+
+
+# What counted, before and after.
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Course:
+    """A quantity over a stroke before and after [SI], the limits it is held to, and the poses at which a value is prescribed."""
+
+    leaf: Leaf
+    stroke: str
+    unit: str
+    before: tuple[FloatArray, FloatArray]
+    after: tuple[FloatArray, FloatArray]
+    limits: tuple[Limit, ...]
+    marks: tuple[tuple[float, float], ...]
+
+
+def plot_optimum(optimum: Optimum, count: int = POSES) -> Figure:
+    """Return the objective's quantity and each condition's over the stroke, before and after, the failing side of each limit shaded.
+
+    Of several strokes it is the first that a quantity depends on; of the others that value counts which is the worst.
+    """
+    require_optimum(optimum)
+    courses = list(courses_of(optimum, count))
+    if not courses:
+        title = optimum.problem.plan.title
+        raise DefinitionError(f"{title}: neither the objective nor a condition is of something that changes over a stroke.")
+    figure, cells = panel_grid(len(courses))
+    figure.suptitle(optimum.problem.plan.heading, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
+    for ax, course in zip(cells, courses, strict=True):
+        course_panel(ax, optimum, course)
+    lines = [Line2D([], [], color=colour, linewidth=width) for colour, width in (BEFORE, AFTER)]
+    figure.legend(lines, ["before", "after"], loc="upper right", ncols=2, frameon=False, fontsize=style.TEXT, labelcolor=style.INK)
+    return figure
+
+
+BEFORE, AFTER = (style.MUTED, 1.4), (style.CURVE, style.BOLD)
+
+
+def courses_of(optimum: Optimum, count: int) -> Iterator[Course]:
+    """Yield each quantity that depends on a stroke, once: those of the objectives first."""
+    problem = optimum.problem
+    measures: list[Measure] = [*problem.objectives, *(each.margin for each in problem.constraints)]
+    groups: dict[str, list[Leaf]] = {}
+    for leaf in dict.fromkeys(leaf for each in measures for leaf in each.leaves):
+        groups.setdefault(words_of(leaf.quantity), []).append(leaf)
+    for leaves in groups.values():
+        old, new = (problem.over_stroke(leaves[0], machine.dimensions, count) for machine in (optimum.start, optimum.machine))
+        if old is None or new is None:
+            continue
+        (stroke, *before), (_, *after) = old, new
+        limits = tuple(limit for each in problem.constraints for limit in limits_of(each, leaves, optimum))
+        marks = tuple(mark for each in problem.constraints for mark in marks_of(each, leaves, stroke))
+        yield Course(leaves[0], stroke, unit_of_leaf(problem.plan, leaves[0]), (before[0], before[1]), (after[0], after[1]), limits, marks)
+
+
+def sides_of(constraint: Constraint, leaves: Sequence[Leaf]) -> tuple[Leaf, Given, str] | None:
+    """Return the leaf, the number and the sign of a constraint that holds one of some leaves against a number; None of any other."""
+    left, right, turned = constraint.left, constraint.right, {"<=": ">=", ">=": "<=", "==": "=="}[constraint.symbol]
+    for one, other, sign in ((left, right, constraint.symbol), (right, left, turned)):
+        if isinstance(one, Leaf) and isinstance(other, Given) and any(one is each for each in leaves):
+            return one, other, sign
+    return None
+
+
+def limits_of(constraint: Constraint, leaves: Sequence[Leaf], optimum: Optimum) -> Iterator[Limit]:
+    """Yield the limit that a constraint is for a quantity at every pose."""
+    found = sides_of(constraint, leaves)
+    if found is None:
+        return
+    leaf, number, sign = found
+    if isinstance(leaf, Most) and sign == "<=":
+        yield Limit(number.value, "", "above")
+    if isinstance(leaf, Least) and sign == ">=":
+        yield Limit(number.value, "", "below")
+
+
+def marks_of(constraint: Constraint, leaves: Sequence[Leaf], stroke: str) -> Iterator[tuple[float, float]]:
+    """Yield the stroke and the value [SI] that a constraint prescribes at one pose."""
+    found = sides_of(constraint, leaves)
+    if found is not None and isinstance(found[0], At) and stroke in found[0].strokes:
+        yield float(found[0].strokes[stroke]), found[1].value
+
+
+def course_panel(ax: Axes, optimum: Optimum, course: Course) -> None:
+    """Draw one quantity over its stroke before and after, with its limits."""
+    unit = stroke_display_unit(optimum.problem.plan, course.stroke, "mm")
+    name = typeset(words_of(course.leaf.quantity))
+    both = Column(name, np.concatenate([course.before[1], course.after[1]]), course.unit)
+    along = StrokeAxis(course.stroke, unit, course.after[0] / factor(unit), "")
+    column = Column(name, course.after[1], course.unit)
+    quiet(ax)
+    old = Column(name, course.before[1], course.unit)
+    ax.plot(course.before[0] / factor(unit), old.drawn, color=BEFORE[0], linewidth=BEFORE[1], zorder=4.5)
+    ax.plot(along.values, column.drawn, color=AFTER[0], linewidth=AFTER[1], zorder=5.0)
+    ax.set_title(column.heading, loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
+    ax.set_xlabel(f"{along.name}, {along.unit}", fontsize=style.TEXT, color=style.MUTED)
+    ax.xaxis.set_major_locator(locator(along.is_turning))
+    ax.yaxis.set_major_locator(locator())
+    ends = [course.before[0] / factor(unit), along.values]
+    ax.set_xlim(float(min(map(np.min, ends))), float(max(map(np.max, ends))))
+    ax.set_ylim(*room_for(axis_range(both), [limit.drawn(both) for limit in course.limits]))
+    for limit in course.limits:
+        mark_limit(ax, along, column, limit)
+    for place, value in course.marks:
+        spot = [place / factor(unit)], [value / factor(course.unit)]
+        ax.plot(*spot, "x", color=style.ACCENT, markersize=7, markeredgewidth=1.8, zorder=6.0)
+
+
+def room_for(shown: tuple[float, float], limits: Sequence[float]) -> tuple[float, float]:
+    """Return the range of an axis with room for limits, and for some of the side that fails."""
+    low, high = min([shown[0], *limits]), max([shown[1], *limits])
+    beyond = 0.07 * (high - low)
+    return min([low, *(each - beyond for each in limits)]), max([high, *(each + beyond for each in limits)])

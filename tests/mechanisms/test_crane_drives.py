@@ -607,3 +607,12 @@ def test_readings_of_the_arms_conditions():
     assert usual - texts(above=None) == {"at(y(L), psi=0) >= 0.15", "at(y(L), psi=3.14159) >= 0.15"}
     assert texts(above=0.0) - usual == {"at(y(L), psi=0) >= 0", "at(y(L), psi=3.14159) >= 0"}
     assert usual - texts(transmission=0.0) == {"least(mu) >= 0.436332", "most(mu) <= 2.70526"}
+
+
+@pytest.mark.slow
+def test_tighter_excess_leaves_no_arm_drive():
+    """With k_r = 1.4 in the place of 1.6 the source's example has no drive: what is given at phi_0 is too much, and that is said."""
+    design = design_arm_drive(cylinders=DriveCylinders(sizes=BORES[7:]), rules=ArmRules(excess=1.4), starts=2)
+    (sentence,) = design.sentences
+    assert sentence.startswith("140/80 mm cannot: no pins found keep everything, the nearest miss most((M_g2 - M_l2)")
+    assert sentence.endswith("short.")

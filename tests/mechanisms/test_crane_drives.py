@@ -8,6 +8,7 @@ from scipy.optimize import minimize
 
 from linkage import RIGHT, DefinitionError, Dyad, OnLink, Weight, deg, ratio
 from linkage.motion import lowest
+from linkage.study import Target, settings_for
 from mechanisms.crane.arm_drive import ArmDrive, BellCrankArmDrive, BellCrankArmDriveByCylinder, DirectArmDrive, DirectArmDriveAbove
 from mechanisms.crane.boom_drive import BoomDrive
 from mechanisms.crane.drive_design import ArmRules, arm_drive_front, design_arm_drive, design_boom_drive
@@ -417,6 +418,19 @@ def test_a_search_through_the_boom_finds_the_reference(bore):
     )  # fmt: skip
     for name in BOOM_NAMES:
         assert_allclose(at(result.x)[name], boom_of(bore)[name], rtol=1e-7)
+
+
+def test_two_pairs_of_pins_for_a_stroke():
+    """The long r_2 with the short r_3, and the reverse; the second one stands too high on the column for (2.37)."""
+    boom = boom_of(125)
+    ends = [Target("length", boom["S"] + 0.4, phi=PHI_K), Target("length", 2 * boom["S"] + 0.4, phi=PHI_0)]
+    found = settings_for(boom, {"r_2": (0.2, 2.5), "r_3": (0.3, 3.0)}, ends)
+    high, low = sorted(found.settings, key=lambda each: each["r_2"])
+    assert_allclose([low["r_2"], low["r_3"]], [boom["r_2"], boom["r_3"]], rtol=1e-9)
+    assert_allclose([high["r_2"], high["r_3"]], [0.631988, 1.62511], atol=1e-5)
+    lengths = boom.replaced(r_2=high["r_2"], r_3=high["r_3"]).at(phi=np.array([PHI_0, PHI_K]))["length"]
+    assert_allclose(lengths, boom.at(phi=np.array([PHI_0, PHI_K]))["length"], rtol=1e-10)
+    assert high["r_2"] < 0.5 * lengths[1]
 
 
 # -- the design -----------------------------------------------------------------------------------------------

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import refuses_changes
 from linkage.loads import AT_REST, ForceElement, Load, Parameter, Poses, Push, Rate, Rates, require_poses
+from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
 from linkage.motion import Motion
 from linkage.plan import ArrayReading
@@ -132,6 +133,13 @@ class FloatCircuit(Circuit):
             return np.asarray(free)
         friction = all_finite(self.number(motion, "seal_friction"), "Seal friction") * size.area
         return np.asarray(free - np.sign(ram.growth(motion, rates)) * friction)
+
+    def formulas(self, written: Formulas) -> None:
+        """Write the cylinder's thrust of the line's pressure, which the gas laws of the block give: a given number here. (37)"""
+        ram = self.ram(written)
+        pressure = written.given(f"p_{ram.name}", self.pressure, "bar")
+        area, _ = ram.sides_written(written, pressure)
+        written.carry(ram, -pressure * area if ram.works == "rod" else pressure * area)
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
         return [Push(self.ram(motion), self.thrust(motion, rates if rates.has_friction else AT_REST))]

@@ -12,8 +12,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from types import MappingProxyType
-from typing import ClassVar, TypeAlias, TypedDict, Unpack, cast, final
+from typing import Any, ClassVar, TypeAlias, TypedDict, Unpack, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,6 +22,7 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, cited, known_name, one_word
 from linkage.frozen import refuses_changes
 from linkage.loads import Force, ForceElement, Load, Parameter, Poses, require_poses
+from linkage.loads.element import Formulas
 from linkage.motion import Motion
 from linkage.plan import Mask
 from linkage.program import is_traced
@@ -40,7 +42,7 @@ from .inputs import (
     only_where,
     positive,
 )
-from .member import DIRECTIONS, Circuit, Cylinder, the_cylinder
+from .member import DIRECTIONS, Circuit, Cylinder, the_cylinder, thrust_along
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
 
@@ -112,6 +114,27 @@ class LiftCircuit(Circuit):
     def __str__(self) -> str:
         names = ", ".join(label(each) for each in self.references)
         return f"LiftCircuit({', '.join([f'[{names}]' if len(self.references) > 1 else names, *self.words()])})"
+
+    def formulas(self, written: Formulas) -> None:
+        """Write of each of its cylinders, while it lifts against the load: rod force, pressure, greatest rod force and reserve.
+
+        Efficiencies of one and a back pressure of none are left out.
+        """
+        for ram in self.members(written.plan.members):
+            thrust = written.thrust(ram)
+            if thrust is not None:
+                self._written_of(ram, thrust, written)
+
+    def _written_of(self, ram: Cylinder, thrust: Array, written: Formulas) -> None:
+        number = partial(ForceElement.number, self, written)
+        k_m, k_h = (divisor(written, number(f"{kind}_efficiency")) for kind in ("mechanical", "hydraulic"))
+        area, other = ram.sides_written(written, thrust)
+        against: Any = 0.0 if written.equals(number("back_pressure"), 0.0) else number("back_pressure") * other
+        supply = number("pressure") if self.relief is None else np.minimum(number("pressure"), number("relief"))
+        force = written.line(f"F_{ram.name}", thrust_along(ram, thrust) / k_m, "kN")
+        written.line(f"p_{ram.name}", (force + against) / (area * k_h), "bar")
+        most = written.line(f"Fmax_{ram.name}", supply * area * k_h - against, "kN")
+        written.line(f"kz_{ram.name}", most / force)
 
     # -- what it is made of --------------------------------------------------------------------------------
 
@@ -417,6 +440,11 @@ IDLE = 1e-12
 """A ratio this small lifts nothing."""
 ROUNDS = 12
 """How often a capacity with friction is put right; each makes it better by the share of the friction."""
+
+
+def divisor(written: Formulas, value: Array) -> Any:
+    """Return a factor as it stands in an equation: a plain 1 where it is one."""
+    return 1.0 if written.equals(value, 1.0) else value
 
 
 def proper_share(share: float) -> None:

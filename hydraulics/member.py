@@ -23,6 +23,7 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, cited, unknown, unwarned
 from linkage.frozen import refuses_changes
 from linkage.loads import AT_REST, Declared, DrawnAs, ForceElement, LoadCase, Parameter, Poses, Push, Rates, TwoPoint, require_poses
+from linkage.loads.element import Formulas
 from linkage.motion import Column, Motion, Tabled, greatest, lowest, require_motion
 from linkage.quantities import Member, Reference, label, name_of
 from linkage.statics import AnyMotion, Case, Loads, elements_of, member_thrust, same
@@ -195,6 +196,30 @@ class Cylinder(TwoPoint, Tabled):
         thrust = Column("thrust", self.thrust(motion), "kN")
         return [thrust, Column("pressure", self.pressure(motion), "bar", 2)] if pressed else [thrust]
 
+    def formulas(self, written: Formulas) -> None:
+        """Write its area, and its pressure where no circuit says it."""
+        thrust, members = written.thrust(self), written.plan.members
+        on_circuit = (one for each in written.plan.of_kind(Circuit).values() for one in each.members(members))
+        if thrust is None or any(same(self, one) for one in on_circuit):
+            return
+        area, _ = self.sides_written(written, thrust)
+        written.line(f"p_{self.name}", thrust_along(self, thrust) / area, "bar")
+
+    def area_written(self, written: Formulas) -> Array:
+        area, _ = self.sides_written(written, np.ones(()))
+        return -area if self.works == "rod" else area
+
+    def sides_written(self, written: Formulas, thrust: Array) -> tuple[Array, Array]:
+        """Write the area of the side that works, and return its symbol with the area of the other side [m2]."""
+        bore, rod = self.number(written, "bore"), self.number(written, "rod")
+        piston, annulus = (self.count * written.pi / 4.0 * each for each in (bore**2, bore**2 - rod**2))
+        if self.works == "both":
+            pulls = thrust < 0.0
+            working, other = np.where(pulls, annulus, piston), np.where(pulls, piston, annulus)
+        else:
+            working, other = (annulus, piston) if self.works == "rod" else (piston, annulus)
+        return written.line(f"A_{self.name}", working, "m2"), other
+
     # -- checks --------------------------------------------------------------------------------------------
 
     def checks(self, motion: Motion, loads: Loads = None, *, case: Case = None) -> list[Verdict]:
@@ -291,6 +316,11 @@ class Cylinder(TwoPoint, Tabled):
     @property
     def _pins(self) -> str:
         return "".join(label(end) for end in (self.A, self.B))
+
+
+def thrust_along(cylinder: Cylinder, thrust: Array) -> Array:
+    """Return a thrust in the direction in which the working side pushes or pulls [N]."""
+    return np.abs(thrust) if cylinder.works == "both" else -thrust if cylinder.works == "rod" else thrust
 
 
 def pressure_of(cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:

@@ -13,12 +13,12 @@ from typing import Self, cast, final
 from linkage.errors import DefinitionError, known_name, unknown
 from linkage.mechanism import Mechanism
 from linkage.plan import Plan
-from linkage.quantities import Reference, distance, name_of
+from linkage.quantities import Quantity, Reference, distance, name_of, quantity
 from linkage.statics import AnyMotion, Case, LawRequest, case_words, loads_identity, same
 from linkage.study import at, least, most
 from linkage.study.measures import Condition, Constraint
 
-from .inputs import Array
+from .inputs import Array, follows
 from .lift import LiftCircuit, direction_of, proper_share
 from .member import DIRECTIONS, Cylinder, circuit_having, found_in
 
@@ -251,7 +251,7 @@ def buckling(cylinder: Reference, *, case: Case = None, direction: str | None = 
 @final
 @dataclass(frozen=True)
 class Fits(Condition):
-    """A cylinder's closed and open length serve the whole stroke."""
+    """A cylinder's closed and open length serve the whole stroke, and it comes out by no more than it is long closed."""
 
     cylinder: str
 
@@ -261,10 +261,11 @@ class Fits(Condition):
         length, name = distance(ram.A, ram.B), ram.name
         if ram.stroke is None:
             raise DefinitionError(f"{plan.title}: fits({name}): {name} says no stroke; declare it, Cylinder(..., closed=0.5, stroke=0.25).")
+        stroke = at(quantity(cast("Quantity | str", ram.stroke)) if follows(ram.stroke) else f"{name}.stroke")
         if ram.closed is None:
-            return (most(length) - least(length) <= at(f"{name}.stroke"),)
-        closed, stroke = at(f"{name}.closed"), at(f"{name}.stroke")
-        return least(length) >= closed, most(length) <= closed + stroke
+            return (most(length) - least(length) <= stroke,)
+        closed = at(quantity(cast("Quantity | str", ram.closed)) if follows(ram.closed) else f"{name}.closed")
+        return least(length) >= closed, most(length) <= closed + stroke, stroke <= closed
 
     def __str__(self) -> str:
         return f"fits({self.cylinder})"

@@ -16,6 +16,8 @@ import numpy.typing as npt
 
 from .assembly import Assembly, assembled, assemblies
 from .errors import DefinitionError, cited, told, unknown
+from .loads import ForceElement
+from .loads.element import Formulas
 from .mobility import FourBar, Mobility, check, four_bars, mobility
 from .motion import Column, Motion, PoseFunction, RequestLike, at_values, columns_of, evaluate, require_motion, source_of, sweep_values
 from .plan import Body, Plan
@@ -274,6 +276,13 @@ class Mechanism(metaclass=MechanismType):
         """Return what an engineer should know of this motion, in sentences. A machine replaces it by its own."""
         require_motion(motion)
         return []
+
+    @of_a_design
+    def formulas(self, written: Formulas) -> None:
+        """Write what the equations of forces say beyond the driving forces: that of its elements. A machine replaces it by its own."""
+        for element in self.plan.of_kind(ForceElement).values():
+            if not element.feeds(self.plan.members):
+                element.formulas(written)
 
     @property
     def strokes(self) -> Mapping[str, Stroke]:

@@ -22,6 +22,7 @@ from linkage import (
     DefinitionError,
     Dimension,
     Dyad,
+    ForceElement,
     Ground,
     Mechanism,
     Motion,
@@ -31,6 +32,7 @@ from linkage import (
     angle,
     distance,
 )
+from linkage.loads.element import Formulas
 from linkage.motion import Span, lowest, reached
 from linkage.reports import reached_span
 from linkage.units import cm, deg, g0, kgf, kgf_cm2, litre, minute, mm
@@ -110,6 +112,19 @@ class MowerLift(Mechanism):
             Column("pd", supplied, "kgf/cm2", 3),
             Column("kz", circuit.reserve(motion), "", 3),
         ]
+
+    def formulas(self, written: Formulas) -> None:
+        """Write the worksheet's forces and pressures: P I is what the rod carries without friction."""
+        (thrust, k_m, k_g), p_max = (written.thrust("lift"), written.inputs["k_m"], written.inputs["k_g"]), written.inputs["p_max"]
+        if thrust is not None:
+            area = written.line("SS", written.pi * written.inputs["bore"] ** 2 / 4.0, "cm2")
+            written.line("F_max", k_g * p_max * area, "kgf")
+            force = written.line("F", thrust / (k_g * k_m), "kgf")
+            needed = written.line("pd", force / area, "kgf/cm2")
+            written.line("kz", p_max / needed)
+        for name, element in self.plan.of_kind(ForceElement).items():
+            if name not in ("lift", "circuit"):
+                element.formulas(written)
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return whether the section can be lifted, where not, the remedy, and the oil it takes; looked for between the poses too.

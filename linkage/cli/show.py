@@ -5,7 +5,7 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Iterator
 from inspect import cleandoc
-from typing import Any, final
+from typing import TYPE_CHECKING, Any, final
 
 from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
@@ -14,7 +14,10 @@ from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
 from .command import Command, lined_up, machine_arguments
 from .machines import find
-from .settings import design, motion_at
+from .settings import design, motion_at, stroke_values
+
+if TYPE_CHECKING:
+    from ..formulas import Equations
 
 POSES = {0: 1, 1: 101, 2: 21}
 MANY = 7  # poses of each of three or more strokes
@@ -29,19 +32,59 @@ class ShowCommand(Command):
 
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
-        parser.add_argument("--equations", action="store_true", help="the vector equations too, numbered")
+        group = parser.add_argument_group("equations")
+        group.add_argument("--equations", action="store_true", help="the vector equations too, numbered")
+        group.add_argument("--start", metavar="N", type=int, help="the first equation's number (default 1)")
+        group.add_argument("--ratio", metavar="G", action="append", help="the derivatives of a point or an output too; repeatable")
+        group.add_argument("--wrt", metavar="S", help="the stroke of these derivatives, where there are several")
+        group.add_argument("--forces", action="store_true", help="the loads, the driving forces, what cylinders and circuits have")
+        group.add_argument("--numbers", action="store_true", help="with the numbers filled in, at the start of each stroke")
+        group.add_argument("--at", dest="strokes", metavar="S=0.6", action="append", default=[], help="numbers at this stroke; repeatable")
+        group.add_argument("--latex", action="store_true", help="as LaTeX, and nothing else")
 
     def run(self, options: Namespace) -> int:
+        check_asked(options)
         machine = design(find(options.machine), options.settings)
+        if options.latex:
+            print(listed(machine, options).latex())
+            return 0
         for title, lines in sections(machine):
             print_section(title, lines)
         if options.equations:
-            from ..formulas import equations
-
-            print_section("Equations", str(equations(machine)).splitlines())
+            print_section("Equations", str(listed(machine, options)).splitlines())
         poses = POSES.get(len(machine.strokes), MANY)
         print_section("Verdict", verdict_lines(machine, machine.verdicts(motion_at(machine, [], poses))))
         return 0
+
+
+def check_asked(options: Namespace) -> None:
+    """Raise DefinitionError for options of equations without these, and for numbers in LaTeX."""
+    given = {"--start": options.start, "--ratio": options.ratio, "--wrt": options.wrt, "--forces": options.forces}
+    given |= {"--numbers": options.numbers, "--at": options.strokes, "--latex": options.latex}
+    named = [name for name, value in given.items() if value not in (None, False, [])]
+    if named and not options.equations:
+        raise DefinitionError(f"{named[0]} says how equations are printed; say --equations too.")
+    if options.latex and (options.numbers or options.strokes):
+        raise DefinitionError("--latex prints symbols, not numbers; leave out --numbers and --at, or --latex.")
+
+
+def listed(machine: Mechanism, options: Namespace) -> Equations:
+    """Return the equations as they are asked for."""
+    from ..formulas import equations
+
+    at = dict(value_at(machine, text) for text in options.strokes)
+    return equations(
+        machine, start=1 if options.start is None else options.start, ratio=options.ratio or (), wrt=options.wrt, forces=options.forces,
+        numbers=options.numbers, at=at or None,
+    )  # fmt: skip
+
+
+def value_at(machine: Mechanism, text: str) -> tuple[str, float]:
+    """Return a stroke's name and its one value [m or rad]."""
+    name, values = stroke_values(machine.plan, text)
+    if len(values) != 1:
+        raise DefinitionError(f"--at {text}: numbers are filled in at one pose; give one value.")
+    return name, float(values[0])
 
 
 def sections(machine: Mechanism) -> Iterator[tuple[str, Iterable[str]]]:

@@ -82,6 +82,17 @@ class SymbolNames:
         """Return the symbol of a transfer ratio: I_G for dG_y/dS."""
         return sympy.Symbol(self._text(("ratio", point), f"I_{point}", f"I_{{{self._scalar_latex(point)}}}"), real=True)
 
+    def force(self, name: str) -> Any:
+        """Return the symbol of a scalar that the equations of forces bring: P_load, Q_S, T_lift."""
+        return sympy.Symbol(self._text(("force", name), name, self._scalar_latex(name)), real=True)
+
+    def force_vector(self, name: str) -> Any:
+        """Return the symbol of a force as a vector: F_pull."""
+        text = self._text(("force vector", name), name, self._vector_latex(name))
+        for axis in "xy":
+            self.latex.setdefault(f"{text}.{axis}", self._component_latex(name, axis))
+        return vector_symbol(text)
+
     def _text(self, key: Any, wanted: str, latex: str = "") -> str:
         """Return the text of a thing; a stroke is added where another thing has it already."""
         if key not in self._texts:

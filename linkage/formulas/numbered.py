@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from textwrap import wrap
+from types import MappingProxyType
 from typing import Any, final
 
 import mpmath
@@ -15,6 +16,7 @@ from ..errors import DefinitionError, cited, unknown
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..motion.requests import stroke_of
 from ..quantities import is_whole
+from .forces import WORDS, ForceLines, GivenNumber
 from .listing import X_AXIS, Listing, Written
 from .printing import Latex, Text, plain_number
 from .rates import lines_needed, ratio_lines
@@ -30,6 +32,7 @@ def equations(
     at: Mapping[str, float] | None = None,
     ratio: str | Sequence[str] = (),
     wrt: str | None = None,
+    forces: bool = False,
 ) -> Equations:
     """Return a mechanism's equations, numbered from `start`, in the vector method's primitives; see `linkage.equations`."""
     design = machine() if isinstance(machine, type) and issubclass(machine, Mechanism) else machine
@@ -40,7 +43,12 @@ def equations(
     for target in [ratio] if isinstance(ratio, str) else ratio:
         added = differentiated(design, listing, target, wrt)
         lines += [line for line in added if line.lhs not in {each.lhs for each in lines}]
-    return Equations(design, lines, listing, start, {} if numbers and at is None else at if numbers or at else None)
+    written = ForceLines(design, listing) if forces else None
+    if written is not None:
+        count = len(listing.lines)
+        written.write()
+        lines += [line for line in (*listing.lines[count:], *written.lines) if line.lhs not in {each.lhs for each in lines}]
+    return Equations(design, lines, listing, start, {} if numbers and at is None else at if numbers or at else None, written)
 
 
 def check_given(design: Any, start: Any, at: Any) -> None:
@@ -110,23 +118,31 @@ class Equation:
         arguments = rf"\left({', '.join(map(latex.doprint, self.follows))}\right)" if self.follows else ""
         return f"{latex.doprint(self.lhs)}{arguments} &= {latex.doprint(self.rhs)}"
 
-    def filled(self, values: Mapping[str, str]) -> str:
-        """Return the equation with the numbers put in, and the result with its unit."""
+    def filled(self, values: Mapping[str, str], shown: Mapping[str, str] = MappingProxyType({})) -> str:
+        """Return the equation with the numbers put in, and the result with its unit: SI, and as it is `shown` where that is another."""
         result = values[self.name]
-        unit = "" if result.endswith(" deg") or not self.unit.text else f" {self.unit.text}"
+        unit = "" if result.endswith(" deg") or not self.unit.si else f" {self.unit.si}"
         steps = [str(self), Text(values).doprint(self.rhs), result]
         kept = [step for place, step in enumerate(steps) if place == 0 or not f" = {steps[place - 1]}".endswith(f" = {step}")]
-        return " = ".join(kept) + unit
+        own = shown.get(self.name, "") if self.unit.si_factor != self.unit.factor else ""
+        return " = ".join(kept) + unit + (f" = {own}" if own else "")
 
     def __repr__(self) -> str:
         return f"({self.number}) {self}"
 
 
 def value_in_equation(value: Any, unit: Unit) -> str:
-    """Return a value as it stands in an equation: a pair, an angle in degrees, a plain number [SI or its own unit]."""
+    """Return a value as it stands in an equation: a pair, an angle in degrees, a plain number [SI]."""
     if np.ndim(value):
-        return f"({', '.join(plain_number(float(part) / unit.factor) for part in value)})"
-    return plain_number(float(value) / unit.factor) + (" deg" if unit.text == "deg" else "")
+        return f"({', '.join(plain_number(float(part) / unit.si_factor) for part in value)})"
+    return plain_number(float(value) / unit.si_factor) + (" deg" if unit.text == "deg" else "")
+
+
+def value_shown(value: Any, unit: Unit) -> str:
+    """Return a value in the unit it is shown in, with that unit."""
+    if np.ndim(value):
+        return f"({', '.join(plain_number(float(part) / unit.factor) for part in value)}) {unit.text}".rstrip()
+    return f"{plain_number(float(value) / unit.factor)} {unit.text}".rstrip()
 
 
 @final
@@ -136,8 +152,16 @@ class Equations(Sequence[Equation]):
     Index by place or by name: `equations(hitch)["OAB"].rhs`.
     """
 
-    def __init__(self, machine: Mechanism, lines: Sequence[Written], listing: Listing, start: int, poses: Mapping[str, Any] | None) -> None:
-        self.machine, self._listing, self._lines, self._poses = machine, listing, tuple(lines), poses
+    def __init__(
+        self,
+        machine: Mechanism,
+        lines: Sequence[Written],
+        listing: Listing,
+        start: int,
+        poses: Mapping[str, Any] | None,
+        forces: ForceLines | None = None,
+    ) -> None:
+        self.machine, self._listing, self._lines, self._poses, self._forces = machine, listing, tuple(lines), poses, forces
         strokes = [listing.names.quantity(name) for name in machine.plan.strokes]
         numbered = enumerate(lines, start)
         self._items = tuple(Equation(number, line.lhs, line.rhs, line.unit, strokes_followed(line, strokes)) for number, line in numbered)
@@ -192,7 +216,14 @@ class Equations(Sequence[Equation]):
             given |= dict(zip(explicit(names.vector(point)), motion[point], strict=True))
         for guide in self._listing.fixed_guides:
             given |= dict(zip(explicit(names.vector(guide)), (self.machine[f"{guide}.x"], self.machine[f"{guide}.y"]), strict=True))
+        for each in self._givens:
+            given |= each.parts(motion)
         return given
+
+    @property
+    def _givens(self) -> Sequence[GivenNumber]:
+        """The numbers that no formula gives."""
+        return [] if self._forces is None else self._forces.givens
 
     # -- closed forms ----------------------------------------------------------------------------------
 
@@ -217,25 +248,30 @@ class Equations(Sequence[Equation]):
     def text(self, numbers: bool | None = None, at: Mapping[str, Any] | None = None) -> str:
         """Return the legend and the numbered equations; with `numbers` each followed by its evaluation at a pose."""
         filled = numbers if numbers is not None else self._poses is not None or at is not None
-        values = self._shown(at or self._poses) if filled else {}
+        values, shown = self._filled(at or self._poses) if filled else ({}, {})
         width = len(f"({self._items[-1].number})") if self._items else 0
-        lines = [f"{f'({each.number})':<{width}} {each.filled(values) if filled else each}" for each in self._items]
-        return "\n".join([*legend(self, self._listing, values), "", *lines])
+        lines = [f"{f'({each.number})':<{width}} {each.filled(values, shown) if filled else each}" for each in self._items]
+        return "\n".join([*legend(self, self._listing, shown, self._forces), "", *lines])
 
-    def _shown(self, at: Mapping[str, Any] | None) -> dict[str, str]:
+    def _filled(self, at: Mapping[str, Any] | None) -> tuple[dict[str, str], dict[str, str]]:
+        """Return every symbol's value as it stands in an equation, and as it is shown with its unit."""
         pose, names, units = self._pose(at), self._listing.names, self._listing.units
         if any(np.ndim(value) for value in pose.values()):
             raise DefinitionError(f"{self.machine.plan.title}: numbers are filled in at one pose; give one value for each stroke.")
         inputs = self._inputs(at)
-        texts = {"i": "(1, 0)"} if "i" not in self.machine.plan.members else {}
+        found: list[tuple[str, Any, Unit]] = []
         for name in (*self.machine.dimensions, *self.machine.plan.strokes):
             symbol = names.quantity(name)
-            texts[symbol.name] = value_in_equation(inputs[symbol], units[name])
-        for point in self._listing.given_points:
-            symbol = names.vector(point)
-            texts[symbol.name] = value_in_equation([inputs[part] for part in explicit(symbol)], LENGTH)
+            found.append((symbol.name, inputs[symbol], units[name]))
+        vectors = [(names.vector(point), LENGTH) for point in self._listing.given_points]
+        for symbol, unit in [*vectors, *((each.symbol, each.unit) for each in self._givens)]:
+            parts = [inputs[part] for part in explicit(symbol)]
+            found.append((symbol.name, parts if symbol.is_Matrix else parts[0], unit))
         values = evaluated(self._lines, inputs)
-        return texts | {line.name: value_in_equation(values[line.lhs], line.unit) for line in self._lines}
+        found += [(line.name, values[line.lhs], line.unit) for line in self._lines]
+        texts = {"i": "(1, 0)"} if "i" not in self.machine.plan.members else {}
+        texts |= {name: value_in_equation(value, unit) for name, value, unit in found}
+        return texts, {name: value_shown(value, unit) for name, value, unit in found}
 
     def __str__(self) -> str:
         return self.text()
@@ -296,17 +332,20 @@ def uses(equations: Any, words: tuple[Any, ...]) -> bool:
     return any(each.rhs.has(*words) for each in equations)
 
 
-def legend(equations: Any, listing: Listing, values: dict[str, str]) -> list[str]:
+def legend(equations: Any, listing: Listing, values: dict[str, str], forces: ForceLines | None = None) -> list[str]:
     """Return the lines in front: conventions, definitions, and what is given, with `values` where there are any."""
     lines = [*CONVENTION, *(text for words, text in DEFINITIONS if uses(equations, words))]
     if uses(equations, (X_AXIS,)):
         lines.append("i: the unit vector of the x axis")
     if listing.unknowns:
         lines.append(f"{', '.join(listing.unknowns)}: found together, so that the equations in which they stand hold.")
-    return [*lines, *given_lines(equations, listing, values)]
+    if forces is not None:
+        lines += [*WORDS, *([f"Left out: the friction of {', '.join(forces.friction)}."] if forces.friction else [])]
+    others = [] if forces is None else [each.symbol for each in forces.givens]
+    return [*lines, *given_lines(equations, listing, values, others)]
 
 
-def given_lines(equations: Any, listing: Listing, values: dict[str, str]) -> list[str]:
+def given_lines(equations: Any, listing: Listing, values: dict[str, str], others: Sequence[Any]) -> list[str]:
     """Return what the equations start from: strokes, points, dimensions; `Given: S; A, O; L0, L_OB`."""
     plan, names = listing.plan, listing.names
     made = {each.lhs for each in equations}
@@ -314,20 +353,15 @@ def given_lines(equations: Any, listing: Listing, values: dict[str, str]) -> lis
     strokes = [names.quantity(name) for name in plan.strokes]
     points = [names.vector(name) for name in listing.given_points if name not in listing.unknowns]
     dimensions = [names.quantity(name) for name in plan.table.entries]
-    units = {names.quantity(name).name: unit for name, unit in listing.units.items()}
-    groups = [[given_words(symbol, values, units) for symbol in group if symbol in used] for group in (strokes, points, dimensions)]
+    groups = [[given_words(symbol, values) for symbol in group if symbol in used] for group in (strokes, points, dimensions, others)]
     listed = "; ".join(", ".join(group) for group in groups if group)
     lines = wrap(f"Given: {listed}.", width=WIDTH, subsequent_indent="  ", break_long_words=False) if listed else []
     return [line.replace(TOGETHER, " ") for line in lines]
 
 
-def given_words(symbol: Any, values: dict[str, str], units: dict[str, Unit]) -> str:
+def given_words(symbol: Any, values: dict[str, str]) -> str:
     """Return a given symbol, with its value and unit where that is known."""
-    if symbol.name not in values:
-        return str(symbol.name)
-    value, unit = values[symbol.name], LENGTH if symbol.is_Matrix else units[symbol.name]
-    text = f"{symbol.name} = {value}" if value.endswith(" deg") else f"{symbol.name} = {value} {unit.text}".rstrip()
-    return text.replace(" ", TOGETHER)
+    return f"{symbol.name} = {values[symbol.name]}".replace(" ", TOGETHER) if symbol.name in values else str(symbol.name)
 
 
 def latex_legend(equations: Any) -> list[str]:

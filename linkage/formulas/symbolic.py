@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import isnan
 from typing import Any, ClassVar, final
 
+import numpy as np
 import sympy
 from sympy.matrices.expressions.matadd import MatAdd
 from sympy.matrices.expressions.matmul import MatMul
@@ -16,6 +17,7 @@ from sympy.matrices.expressions.matmul import MatMul
 from ..errors import DefinitionError
 from ..motion import stroke_unit
 from ..plan import Plan
+from ..program.traced import elementwise
 from ..quantities import Quantity, Tabulated, unnamed
 from ..units import UNITS, deg
 from .words import Cross, Deg, Dot, Norm, TurnV
@@ -62,6 +64,16 @@ class Unit:
         under = "*".join(power_text(name, -power) for name, power in powers if power < 0)
         return f"{over or '1'}/{under}" if under else over
 
+    @property
+    def si(self) -> str:
+        """Its text in SI; an angle stays in degrees."""
+        return self.text if not self.named or self.text == "deg" else SI[UNITS[self.named][1]]
+
+    @property
+    def si_factor(self) -> float:
+        """The unit that numbers in an equation are in, in SI: 1 but for an angle in degrees."""
+        return deg if self.text == "deg" else 1.0
+
 
 def power_text(name: str, power: Fraction) -> str:
     return name + (str(power) if power != 1 else "")
@@ -72,6 +84,18 @@ LENGTH = Unit(Fraction(1))
 ANGLE = Unit(angle=Fraction(1))
 UNKNOWN = Unit(known=False)
 
+SI: Mapping[str, str] = {
+    "length": "m", "angle": "rad", "time": "s", "mass": "kg", "force": "N", "moment": "Nm", "pressure": "Pa", "volume": "m3", "area": "m2",
+    "angle per length": "rad/m",
+}  # fmt: skip
+"""What a unit's kind is measured in."""
+
+
+def unit_named(name: str) -> Unit:
+    """Return a unit by its name; a plain number for none."""
+    return Unit(named=name) if name else NUMBER
+
+
 KINDS = {"length": LENGTH, "coordinate": LENGTH, "angle": ANGLE}
 
 
@@ -81,7 +105,8 @@ def input_units(plan: Plan) -> dict[str, Unit]:
     units = {name: ANGLE if stroke_unit(plan, name) == "rad" else LENGTH for name in plan.strokes}
     for name, entry in plan.table.entries.items():
         used = ANGLE if name in plan.turning else LENGTH if name in lengths else NUMBER
-        units[name] = Unit(known=True, named=entry.unit) if entry.unit and UNITS[entry.unit][0] != 1.0 else KINDS.get(entry.kind, used)
+        own = entry.unit and (UNITS[entry.unit][0] != 1.0 or UNITS[entry.unit][1] not in ("length", "angle"))
+        units[name] = Unit(named=entry.unit) if own else KINDS.get(entry.kind, used)
     return units
 
 
@@ -175,7 +200,20 @@ class Term:
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Term:
         if method != "__call__" or options or ufunc.__name__ not in FUNCTIONS:
             raise DefinitionError(f"{ufunc.__name__} has no symbolic form; use one of: {', '.join(FUNCTIONS)}.")
-        return FUNCTIONS[ufunc.__name__](*map(term, inputs))
+        found: Term = elementwise(lambda *numbers: FUNCTIONS[ufunc.__name__](*map(term, numbers)), inputs)
+        return found
+
+    def __lt__(self, other: Any) -> Relation:
+        return Relation(self.expr < term(other).expr)
+
+    def __le__(self, other: Any) -> Relation:
+        return Relation(self.expr <= term(other).expr)
+
+    def __gt__(self, other: Any) -> Relation:
+        return Relation(self.expr > term(other).expr)
+
+    def __ge__(self, other: Any) -> Relation:
+        return Relation(self.expr >= term(other).expr)
 
     def __repr__(self) -> str:
         return f"{self.expr} {self.unit.text}".strip()
@@ -184,6 +222,37 @@ class Term:
 def term(value: Any) -> Term:
     """Return a number as a term."""
     return value if isinstance(value, Term) else Term(exact_number(float(value)))
+
+
+@final
+class Relation:
+    """A comparison of terms: np.where chooses by it. A test by np.any is of input that is refused, and taken to be in order."""
+
+    __array_ufunc__ = None
+
+    def __init__(self, truth: Any) -> None:
+        self.truth = truth
+
+    def __and__(self, other: Any) -> Relation:
+        return Relation(sympy.And(self.truth, other.truth if isinstance(other, Relation) else bool(other)))
+
+    def __or__(self, other: Any) -> Relation:
+        return Relation(sympy.Or(self.truth, other.truth if isinstance(other, Relation) else bool(other)))
+
+    __rand__, __ror__ = __and__, __or__
+
+    def __invert__(self) -> Relation:
+        return Relation(sympy.Not(self.truth))
+
+    def __array_function__(self, function: Any, types: Any, args: Any, options: Any) -> Any:
+        if function in (np.any, np.all):
+            return function is np.all
+        if function is not np.where or options or len(args) != 3 or not isinstance(args[0], Relation):
+            raise DefinitionError(f"np.{function.__name__} of a comparison has no symbolic form; np.where chooses by one.")
+        return elementwise(lambda a, b: Term(sympy.Piecewise((term(a).expr, self.truth), (term(b).expr, True))), args[1:])
+
+    def __bool__(self) -> bool:
+        raise DefinitionError("A comparison in an `if` has no symbolic form; np.where chooses by one.")
 
 
 def as_number(function: Any) -> Callable[..., Term]:
@@ -205,6 +274,8 @@ FUNCTIONS: dict[str, Callable[..., Term]] = {
     "power": lambda a, b: a**b,
     "negative": lambda a: -a,
     "sqrt": lambda a: Term(sympy.sqrt(a.expr), a.unit ** Fraction(1, 2)),
+    "square": lambda a: a**2,
+    "hypot": lambda a, b: (a**2 + b**2) ** 0.5,
     "sin": as_number(sympy.sin),
     "cos": as_number(sympy.cos),
     "tan": as_number(sympy.tan),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, Protocol, Self, TypeAlias, TypeVar, final
@@ -160,6 +160,35 @@ class Poses(Protocol):
         """Return the derivative of a point or a quantity by a stroke."""
 
 
+class Formulas(Poses, Protocol):
+    """What the equations of forces are written on: poses whose numbers are symbols, and the lines that are there already."""
+
+    @property
+    def pi(self) -> Array:
+        """The circle's number, as a symbol."""
+
+    def between(self, P: Reference, Q: Reference) -> Array:
+        """Return both parts of the vector from one point to another [m], shape (2,)."""
+
+    def line(self, name: str, value: Array, unit: str = "") -> Array:
+        """Write the equation `name = value` and return its symbol, which stands for the value in what follows; `unit` is shown."""
+
+    def given(self, name: str, value: Callable[[Any], Array], unit: str = "") -> Array:
+        """Return the symbol of a number that no formula gives, such as one found by iteration; `value(motion)` tells it [SI]."""
+
+    def equals(self, value: Array, number: float) -> bool:
+        """Return whether a value is a number in this design, whatever the pose, so that it need not be written."""
+
+    def weight(self, name: str) -> Array:
+        """Return the symbol of the force that an element puts on a point downwards [N]."""
+
+    def thrust(self, member: Reference) -> Array | None:
+        """Return the symbol of what a two-point member carries [N], positive where it pushes; None where it carries nothing."""
+
+    def carry(self, member: TwoPinned, thrust: Array) -> None:
+        """Write what a two-point member carries by the law of an element [N]."""
+
+
 @final
 class Rates(dict[str, Rate]):
     """How strokes move, by name [1/s], a number or an array over the poses each; empty at rest.
@@ -235,6 +264,13 @@ class ForceElement(Jointed):
     def holds(self) -> bool:
         """Whether it holds what the mechanism needs, as a cylinder does, and takes over the drive of a stroke."""
         return False
+
+    def formulas(self, written: Formulas) -> None:
+        """Write what the equations of forces say of this element beyond its loads: nothing, unless it has something to say.
+
+        An element that feeds others writes first what they carry, `written.carry(...)`; all others come after the driving forces.
+        """
+        return None
 
     # -- what follows --------------------------------------------------------------------------------------
 

@@ -17,7 +17,7 @@ import numpy as np
 from ..errors import DefinitionError, cited, told
 from ..frozen import refuses_changes
 from ..quantities import Distance, Joint, Reference, name_of, pinned
-from .element import AT_REST, Array, ForceElement, Load, Parameter, Poses, Push, Rate, Rates, TwoPinned
+from .element import AT_REST, Array, ForceElement, Formulas, Load, Parameter, Poses, Push, Rate, Rates, TwoPinned
 
 DrawnAs: TypeAlias = Literal["strut", "spring", "damper", "cylinder"]
 
@@ -62,6 +62,10 @@ class TwoPoint(ForceElement):
     def area_in(self, motion: Poses, sense: Array) -> Array:
         """Return, for what holds, its thrust at one unit of pressure [m2], where `sense` is 1 while it pushes and -1 while it pulls."""
         return sense
+
+    def area_written(self, written: Formulas) -> Array:
+        """Return, for what holds, its thrust at one unit of pressure [m2] as it stands in the equations of forces."""
+        return self.area_in(written, np.ones(()))
 
     @property
     def works_both(self) -> bool:

@@ -13,9 +13,10 @@ from matplotlib.ticker import MaxNLocator
 
 from ..errors import DefinitionError, cited, unknown
 from ..program import FloatArray
-from ..study.measured import is_traced, number_bound
-from ..study.monte_carlo import Band, MonteCarlo, Within, share_words
-from ..study.sensitivity import Bar, Tornado
+from ..study.measured import number_bound
+from ..study.measures import Given, Least, Most
+from ..study.monte_carlo import Band, MonteCarlo, share_words
+from ..study.sensitivity import Effect, Tornado
 from ..study.tolerances import tolerance_words
 from ..units import factor, show, unit_or_none
 from . import style
@@ -53,8 +54,8 @@ def plot_bands(found: MonteCarlo, names: Sequence[str] = (), *, units: Mapping[s
     figure.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
     for ax, band in zip(cells, shown, strict=True):
         unit = unit_or_none((units or {}).get(band.quantity, band.unit), where="units")
-        band_panel(ax, along, Drawn.of(band, unit), [limit for limit in found.keep if is_of(found, limit, band)])
-    good = f"; {share_words(found.yield_rate)} are good" if found.keep else ""
+        band_panel(ax, along, BandShown.of(band, unit), limits_of(found, band))
+    good = f"; {share_words(found.yield_rate)} are good" if found.conditions else ""
     text = fill(f"{found.count} machines with {words}{good}", int(LETTERS * figure.get_figwidth()))
     legend = figure.legend(
         handles=cells[0].get_legend_handles_labels()[0], title=text, loc="outside lower left", ncols=4, alignment="left",
@@ -64,15 +65,24 @@ def plot_bands(found: MonteCarlo, names: Sequence[str] = (), *, units: Mapping[s
     return figure
 
 
-def is_of(found: MonteCarlo, limit: Within, band: Band) -> bool:
-    """Return whether a limit is one of the quantity of a band."""
-    plan, quantity = found.machine.plan, found.of[band.quantity]
-    if not is_traced(quantity) or not is_traced(limit.quantity):
-        return quantity is limit.quantity
-    return number_bound(plan, quantity).key == number_bound(plan, limit.quantity).key
+def limits_of(found: MonteCarlo, band: Band) -> list[tuple[float, str]]:
+    """Return the values [SI] that conditions set a quantity over the whole stroke, each with the side that fails."""
+    said = []
+    for each in found.conditions:
+        leaf, end = each.left, each.right
+        word = {">=": (Least, "below"), "<=": (Most, "above")}.get(each.symbol)
+        if word and isinstance(leaf, word[0]) and isinstance(end, Given) and is_same(found, leaf.quantity, band):
+            said.append((end.value, word[1]))
+    return said
 
 
-class Drawn(NamedTuple):
+def is_same(found: MonteCarlo, quantity: Any, band: Band) -> bool:
+    """Return whether a quantity is that of a band."""
+    one, other = (number_bound(found.machine.plan, each) for each in (quantity, found.of[band.quantity]))
+    return quantity is found.of[band.quantity] if one is None or other is None else one.key == other.key
+
+
+class BandShown(NamedTuple):
     """A band in the unit it is drawn in, less the nominal curve where it is `narrow`."""
 
     band: Band
@@ -80,7 +90,7 @@ class Drawn(NamedTuple):
     narrow: bool
 
     @classmethod
-    def of(cls, band: Band, unit: str) -> Drawn:
+    def of(cls, band: Band, unit: str) -> BandShown:
         """Return a band in a unit; whether it is drawn as a deviation follows from its width."""
         return cls(band, unit, bool(np.nanmax(band.high - band.low) < NARROW * np.ptp(band.nominal)))
 
@@ -95,7 +105,7 @@ class Drawn(NamedTuple):
         return fill(typeset(f"{text}, {self.unit}" if self.unit else text), WIDEST)
 
 
-def band_panel(ax: Axes, along: StrokeAxis, drawn: Drawn, limits: Sequence[Within]) -> None:
+def band_panel(ax: Axes, along: StrokeAxis, drawn: BandShown, limits: Sequence[tuple[float, str]]) -> None:
     """Draw a band over the stroke: its worst case, the percentiles in pairs from outside, the median, the nominal curve, its limits."""
     band, at = drawn.band, along.values
     low, high = drawn.values(band.low), drawn.values(band.high)
@@ -117,13 +127,11 @@ def band_panel(ax: Axes, along: StrokeAxis, drawn: Drawn, limits: Sequence[Withi
     ax.yaxis.set_major_locator(locator())
     air = 0.12 * float(np.nanmax(high) - np.nanmin(low)) or 1.0
     ax.set_ylim(float(np.nanmin(low)) - air, float(np.nanmax(high)) + air)
-    for limit in limits:
-        for end, fails in ((limit.low, "below"), (limit.high, "above")):
-            if end is not None:
-                limit_line(ax, at, drawn, float(end), fails)
+    for end, fails in limits:
+        limit_line(ax, at, drawn, end, fails)
 
 
-def limit_line(ax: Axes, at: FloatArray, drawn: Drawn, end: float, fails: str) -> None:
+def limit_line(ax: Axes, at: FloatArray, drawn: BandShown, end: float, fails: str) -> None:
     """Draw a limit [SI] over the stroke and shade the side that fails; the panel keeps its range, widened by as much again at most."""
     line = np.broadcast_to(drawn.values(end), at.shape)
     bottom, top = ax.get_ylim()
@@ -175,7 +183,7 @@ def plot_tornado(found: Tornado) -> Figure:
     return figure
 
 
-def draw_bar(ax: Axes, bar: Bar, place: int, scale: float) -> None:
+def draw_bar(ax: Axes, bar: Effect, place: int, scale: float) -> None:
     """Draw a bar: the changes at either limit, marks of the linear ones, and its share of the variance."""
     for change, linear, colour in ((bar.low, bar.linear_low, style.CURVE), (bar.high, bar.linear_high, style.ACCENT)):
         if np.isfinite(change):

@@ -61,7 +61,7 @@ class Loop:
 
 @final
 class Trace(Reading):
-    """A reading whose scalars are the nodes of one graph."""
+    """A reading whose scalars are the nodes of one graph; `kept` is what others have made of it, by what asked for it."""
 
     def __init__(self, members: Mapping[str, Member], lengths: Mapping[frozenset[str], Quantity], levels: Mapping[str, Level]) -> None:
         self.graph = Graph()
@@ -72,6 +72,7 @@ class Trace(Reading):
         self.loops: list[Loop] = []
         self.noted: dict[str, Node] = {}
         self.angles: list[Node] = []
+        self.kept: dict[object, object] = {}
         self._tangents: dict[str, Tangent] = {}
 
     def tangent(self, name: str) -> Tangent:

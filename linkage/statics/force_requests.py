@@ -173,6 +173,7 @@ class PinForce(Request):
     component: str = "size"
     loads: Loads = None
     case: Case = None
+    measures = "force"
 
     def identity(self, plan: Plan) -> Hashable:
         loads = loads_identity(self.loads, self.case)

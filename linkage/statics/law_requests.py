@@ -81,7 +81,11 @@ class LawOf(BoundRequest):
         return "law", self.traced_key
 
     def _traced(self, plan: Plan) -> TracedLaw:
-        return self.request.traced(TracedMotion(plan, plan.trace))
+        """Return the formula on a plan's program, traced there once."""
+        found = plan.trace.kept.get(self)
+        if not isinstance(found, TracedLaw):
+            found = plan.trace.kept[self] = self.request.traced(TracedMotion(plan, plan.trace))
+        return found
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
         return (self._traced(plan).node,)

@@ -88,12 +88,12 @@ def rate_name(stroke: str) -> str:
 
 
 def traced_parts(motion: TracedMotion, movement: Movement, each: ActingElement) -> Parts:
-    """Return the loads and the thrusts of one element, as nodes; DefinitionError, with its name, for a law that cannot be traced."""
+    """Return the loads and the thrusts of one element, as nodes; UntracedError, with its name, for a law that cannot be traced."""
     motion.notes.owner, motion.notes.tests = each.name, 0
     try:
         return element_parts(each, motion, movement, motion.fit)
     except Exception as error:
-        raise DefinitionError(
+        raise UntracedError(
             f"{motion.plan.title}: the law of {each.name} cannot be traced: {str(error).rstrip('.')}. "
             "Write it in plain arithmetic of numbers at one pose, or take finite differences of driving_force and pin_forces."
         ) from error

@@ -3,10 +3,10 @@
 from .box import Box
 from .infeasible import InfeasibleError
 from .measures import at, integral, least, most, reachable, worst
-from .monte_carlo import Band, MonteCarlo, Within, monte_carlo
+from .monte_carlo import Band, MonteCarlo, monte_carlo
 from .optimum import Optimum
 from .pareto import Front
-from .sensitivity import Bar, SobolIndices, Tornado, sobol, tornado
+from .sensitivity import Effect, SobolIndices, Tornado, sobol, tornado
 from .settings import Settings, settings_for
 from .space import around
 from .spread import sigma, spread

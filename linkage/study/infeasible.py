@@ -50,7 +50,7 @@ def infeasible_error(problem: Problem, ended: Sequence[tuple[tuple[int, ...], Fo
     for combination, found in reached[:4]:
         try:
             local = Local(problem, combination, found.unit, elastic=True)
-            soft = local.run() if problem.space.variables else local.judged(found.unit, truly=True)
+            soft = local.run() if problem.space.variables else local.judged(found.unit)
         except LinkageError:
             continue
         total = given_way(problem, combination, soft)

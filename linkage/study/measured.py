@@ -12,55 +12,53 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, unwarned
 from ..mechanism import Mechanism
-from ..motion import BoundRequest, Motion, Request, evaluate_grid, stroke_display_unit
-from ..motion.grid import Grid, JoinedTo
-from ..motion.requests import Value, bound
+from ..motion import BoundRequest, Grid, Motion, Request, at_values, evaluate_grid, stroke_display_unit
+from ..motion.grid import JoinedTo
 from ..plan import Plan
 from ..program import FloatArray, Way
 from ..quantities import Quantity
 from ..units import show
 from .checks import check_one_design, function_value
+from .measures import At, Integral, Leaf, Least, Measure, Most, Worst, words_of
+from .sampling import eager, strokes_behind, traced
 
-Measured: TypeAlias = str | Quantity | Request | Callable[[Motion], Any]
-"""An output by its name, a quantity, a request such as `drive_force()`, or a function of a motion of many designs.
+Measured: TypeAlias = str | Quantity | Request | Measure | Callable[[Motion], Any]
+"""An output by its name, a quantity, a request such as `drive_force()`, a measure such as `most("tilt")`, or a function of a motion.
 
 The function returns a number for each pose, or one for each design: `lambda motion: np.ptp(motion["tilt"], axis=-1)`.
 """
 
 
-def number_bound(plan: Plan, quantity: Any) -> BoundRequest:
-    """Return a quantity that is traced, bound to a plan; DefinitionError for what is none, and for a point, which has two coordinates."""
-    if not isinstance(quantity, (str, Quantity, Request)):
-        what = f"{plan.title}: {cited(quantity)} is no output, quantity, request or function of a motion"
+def number_bound(plan: Plan, quantity: Any) -> BoundRequest | None:
+    """Return a quantity bound to a plan as nodes of its program; None of what has none: a measure, a function of a motion.
+
+    DefinitionError for what is no quantity, and for a point, which has two coordinates.
+    """
+    if isinstance(quantity, (str, Quantity, Request)):
+        return traced(plan, quantity)
+    if isinstance(quantity, type) or not (isinstance(quantity, Measure) or callable(quantity)):
+        what = f"{plan.title}: {cited(quantity)} is no output, quantity, request, measure or function of a motion"
         raise DefinitionError(f"{what}; give one, such as 'tilt' or drive_force().")
-    found = bound(plan, quantity)
-    if found.rows > 1:
-        raise DefinitionError(f"{plan.title}: {found} has two coordinates; ask for a number, such as y({cited(quantity)}).")
-    return found
-
-
-def is_traced(quantity: Any) -> bool:
-    """Return whether a quantity is part of the program, not a function of a motion."""
-    return not callable(quantity) or isinstance(quantity, (Quantity, Request))
-
-
-def measure_of(request: BoundRequest) -> str:
-    """Return what a request measures: "length", "angle", or "" where that is not known."""
-    member = request.member if isinstance(request, Value) and not request.along else None
-    return str(member.measures or "") if isinstance(member, Quantity) else ""
+    return None
 
 
 def measured_title(plan: Plan, quantity: Any) -> str:
-    """Return a quantity in words."""
-    if is_traced(quantity):
-        return str(number_bound(plan, quantity))
-    name = str(getattr(quantity, "__name__", ""))
-    return name.replace("_", " ") if name.isidentifier() else "the quantity"
+    """Return a quantity in words; DefinitionError for what is none."""
+    found = number_bound(plan, quantity)
+    return str(quantity) if isinstance(quantity, Measure) else words_of(quantity) if found is None else str(found)
+
+
+def measure_of(plan: Plan, quantity: Any) -> str:
+    """Return what a quantity measures: "length", "angle", "force", "pressure", or "" where that is not known."""
+    if isinstance(quantity, Leaf) and not isinstance(quantity, Integral):
+        return measure_of(plan, quantity.quantity)
+    known = plan.members.get(quantity) if isinstance(quantity, str) else quantity
+    return str(known.measures or "") if isinstance(known, (Quantity, Request)) else ""
 
 
 @final
 @dataclass(frozen=True, eq=False)
-class Poses:
+class StudyPoses:
     """The poses that a study looks at: the motion of the machine as it is set, which can be assembled at all of them.
 
     Angles of other designs lie within 180 deg of those of this one.
@@ -69,7 +67,7 @@ class Poses:
     base: Motion
 
     @classmethod
-    def of(cls, machine: Mechanism, strokes: Mapping[str, Any], count: int) -> Poses:
+    def of(cls, machine: Mechanism, strokes: Mapping[str, Any], count: int) -> StudyPoses:
         """Return the poses at strokes [SI], by default `count` of them over a single stroke.
 
         Raises DefinitionError for no poses, AssemblyError where the machine as it is set cannot be assembled.
@@ -116,14 +114,55 @@ class Poses:
         joining = JoinedTo(base._grid, np.arange(self.count).reshape(self.shape))
         return Motion(base.plan, machine.dimensions, base.strokes, "nan", joining=joining)
 
-    def of_function(self, machine: Mechanism, function: Callable[[Motion], Any]) -> FloatArray:
-        """Return what a function of a motion gives of m designs, shape (m, n), or (m, 1) of one number for each design."""
-        return function_array(function, self.motion(machine))
+    def of_function(self, machine: Mechanism, quantity: Any) -> FloatArray:
+        """Return what a function of a motion, or a request without a program, gives of m designs: (m, n), or a number each, (m, 1)."""
+        motion = self.motion(machine)
+        if isinstance(quantity, Request):
+            return eager(motion, quantity).reshape(-1, self.count)
+        return function_array(quantity, motion)
+
+    def of_measure(self, machine: Mechanism, measure: Measure, way: Way) -> FloatArray:
+        """Return a measure of m designs, shape (m, 1), over the poses that are looked at."""
+        found = measure.of(lambda leaf: self.of_leaf(machine, leaf, way))
+        return np.array(np.broadcast_to(found, prod(np.broadcast_shapes(*map(np.shape, machine.dimensions.values()))))).reshape(-1, 1)
+
+    def of_leaf(self, machine: Mechanism, leaf: Leaf, way: Way) -> FloatArray:
+        """Return what is taken of a quantity over the poses, of m designs, shape (m,)."""
+        if isinstance(leaf, At):
+            return self.at(leaf).values(machine, leaf.quantity, way)[:, 0]
+        total: Any = fold_start(leaf)
+        for place, column in enumerate(self.values(machine, leaf.quantity, way).T):
+            total = fold(leaf, total, column, self.weight(leaf, place))
+        return np.asarray(total)
+
+    def at(self, leaf: At) -> StudyPoses:
+        """Return the pose of a value at one pose; DefinitionError where a stroke is not said."""
+        plan = self.base.plan
+        only = next(iter(self.flat)) if len(self.flat) == 1 else ""
+        missing = [name for name in self.flat if name not in leaf.strokes and name != only]
+        if missing or (only and not leaf.strokes and only in strokes_behind(plan, leaf.quantity)):
+            raise DefinitionError(f"{plan.title}: {leaf}: say the pose, {', '.join(f'{name}=...' for name in missing or [only])}.")
+        strokes = {name: leaf.strokes.get(name, float(value[0])) for name, value in self.flat.items()}
+        return StudyPoses(Motion(plan, self.base.designs, at_values(strokes, plan), "raise"))
+
+    def weight(self, leaf: Leaf, place: int) -> float:
+        """Return what one pose counts in an integral over a row of poses, by trapezia; 1 of anything else."""
+        if not isinstance(leaf, Integral):
+            return 1.0
+        by = leaf.by or (next(iter(self.flat)) if len(self.flat) == 1 else "")
+        if by not in self.flat or len(self.shape) != 1:
+            raise DefinitionError(
+                f"{self.base.plan.title}: {leaf}: give one row of strokes, and say by which, by= one of {', '.join(self.flat)}."
+            )
+        values = self.flat[by]
+        return float(0.5 * (values[min(place + 1, self.count - 1)] - values[max(place - 1, 0)]))
 
     def values(self, machine: Mechanism, quantity: Any, way: Way) -> FloatArray:
         """Return a quantity of m designs at the poses, shape (m, n), or (m, 1) of one number for each design."""
         with unwarned(), np.errstate(all="ignore"):
-            if is_traced(quantity):
+            if isinstance(quantity, Measure):
+                return self.of_measure(machine, quantity, way)
+            if number_bound(self.base.plan, quantity) is not None:
                 return self.traced(machine, [quantity], way)[0]
             return self.of_function(machine, quantity)
 
@@ -152,3 +191,23 @@ def function_array(function: Callable[[Motion], Any], motion: Motion) -> FloatAr
         raise DefinitionError(f"{text}; return a number for each pose, or one for each design.")
     lost = ~motion.reached.reshape(m, -1).all(axis=1)
     return np.where(lost | ~np.isfinite(result.ravel()), np.nan, result.ravel())[:, None]
+
+
+# What a measure takes of its quantity, pose by pose.
+
+
+def fold_start(leaf: Leaf) -> float:
+    """Return what a leaf has before the first pose; DefinitionError for one over another stroke."""
+    if isinstance(leaf.quantity, Worst):
+        raise DefinitionError(
+            f"{leaf}: a study of tolerances looks at the strokes it is given; take most(...) over a grid of both strokes."
+        )
+    return np.inf if isinstance(leaf, Least) else -np.inf if isinstance(leaf, Most) else 0.0
+
+
+def fold(leaf: Leaf, total: Any, values: FloatArray, weight: float) -> FloatArray:
+    """Return what a leaf has after one more pose; NaN where one of them has no value."""
+    if isinstance(leaf, (Least, Most)):
+        best = np.minimum if isinstance(leaf, Least) else np.maximum
+        return np.asarray(best(total, values, out=total if isinstance(total, np.ndarray) else None))
+    return np.asarray(total + weight * values)

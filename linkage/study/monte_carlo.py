@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, TypeVar, final
+from typing import Any, TypeAlias, TypeVar, final
 
 import numpy as np
 
@@ -15,8 +15,9 @@ from ..mechanism import Mechanism
 from ..plan import Mask, Plan
 from ..program import FloatArray, Way
 from ..quantities import is_number
-from ..units import display_unit, show, unit_or_none
-from .measured import Measured, Poses, is_traced, measure_of, measured_title, number_bound
+from ..units import display_unit
+from .measured import Measured, StudyPoses, fold, fold_start, measure_of, measured_title, number_bound
+from .measures import At, Condition, Constraint, Leaf, Measure, conditions_of
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, shifted_designs, tolerance_words, tolerances_of
 
 Task = TypeVar("Task")
@@ -28,42 +29,6 @@ BLOCK = 1 << 17
 """Poses that are worked out at a time: their results fit a processor's cache."""
 MEMORY = 1 << 28
 """Bytes of results that are kept at a time: of so many strokes as fit all designs are looked at together."""
-
-
-@final
-@refuses_changes
-@dataclass(frozen=True)
-class Within:
-    """A limit that a good machine keeps at every stroke looked at: a quantity from `low` to `high` [SI], None where it has no such end.
-
-    `Within(drive_force(), high=40 * kN, unit="kN")`; `unit` is that of the words, `name` stands for the quantity in them.
-    """
-
-    quantity: Measured
-    low: float | None = None
-    high: float | None = None
-    unit: str = ""
-    name: str = ""
-
-    def __post_init__(self) -> None:
-        unit_or_none(self.unit, where="Within(unit=...)")
-        ends = [end for end in (self.low, self.high) if end is not None]
-        if not ends or not all(map(is_number, ends)) or (len(ends) == 2 and ends[0] > ends[1]):
-            said = f"low={cited(self.low)}, high={cited(self.high)}"
-            raise DefinitionError(f"Within({cited(self.quantity)}, {said}): give a low or a high end [SI], or both, the low one first.")
-
-    def holds(self, values: FloatArray) -> Mask:
-        """Return where values [SI] keep the limit; NaN does not."""
-        least, most = (-np.inf if self.low is None else self.low), (np.inf if self.high is None else self.high)
-        return np.asarray((values >= least) & (values <= most))
-
-    def words(self, plan: Plan) -> str:
-        """Return the limit in words: `tilt from -2 deg to 2 deg`, `the driving force of S at most 40 kN`."""
-        title = self.name or measured_title(plan, self.quantity)
-        if self.low is None or self.high is None:
-            end, side = (self.low, "at least") if self.high is None else (self.high, "at most")
-            return f"{title} {side} {show(float(end), self.unit)}"  # type: ignore[arg-type]
-        return f"{title} from {show(float(self.low), self.unit)} to {show(float(self.high), self.unit)}"
 
 
 @final
@@ -93,8 +58,8 @@ class Band:
 class MonteCarlo:
     """Machines with tolerances: a `Band` of each quantity, and the share of machines that are good.
 
-    `yield_rate` is the share of the designs that can be assembled and keep every limit, `assembled` that of those that have a value of
-    every quantity at every stroke, `kept` that of those that keep a limit, by its words. `good` is the mask of the good designs, shape
+    `yield_rate` is the share of the designs that can be assembled and keep every condition, `assembled` that of those that have a value of
+    every quantity at every stroke, `kept` that of those that keep a condition, by its words. `good` is the mask of the good designs, shape
     (count,), and `designs` their dimensions by name.
     """
 
@@ -103,7 +68,7 @@ class MonteCarlo:
     strokes: Mapping[str, FloatArray]
     of: Mapping[str, Measured]
     bands: Mapping[str, Band]
-    keep: tuple[Within, ...]
+    conditions: tuple[Constraint, ...]
     designs: Mapping[str, FloatArray]
     good: Mask
     assembled: float
@@ -151,7 +116,7 @@ def monte_carlo(
     of: Sequence[Measured] | Mapping[str, Measured],
     tolerances: Mapping[str, ToleranceLike],
     *,
-    keep: Sequence[Within] = (),
+    subject_to: Sequence[Condition] = (),
     count: int = DESIGNS,
     percentiles: Sequence[float] = (5.0, 50.0, 95.0),
     method: str = "sobol",
@@ -160,37 +125,37 @@ def monte_carlo(
     threads: int = 1,
     **strokes: Any,
 ) -> MonteCarlo:
-    """Return the bands of quantities over machines with tolerances, and how many of them keep limits.
+    """Return the bands of quantities over machines with tolerances, and how many of them keep conditions.
 
-    `monte_carlo(hitch, ["tilt", drive_force()], {"OB": 0.1 * mm, "M": 0.5 * mm}, keep=[Within("tilt", high=18 * deg)])`. Quantities, in a
-    list or by names of your own, are outputs, requests, or functions of a motion of many designs, which give a number for each pose or
-    for each design. Dimensions are independent of each other; a tolerance's law is normal with three sigmas to its limit unless
+    `monte_carlo(hitch, ["tilt", drive_force()], {"OB": 0.1 * mm, "M": 0.5 * mm}, subject_to=[most("tilt") <= 18 * deg])`. Quantities, in a
+    list or by names of your own, are outputs, requests, measures, or functions of a motion of many designs, which give a number for each
+    pose or for each design. Dimensions are independent of each other; a tolerance's law is normal with three sigmas to its limit unless
     `Tolerance` says another. `method` is "sobol", "latin" or "random", `count` the number of designs; strokes as in `machine.at`, by
     default 21 over a single one. A design that cannot be assembled at one of the strokes is lost, and no good machine; percentiles
-    are of the others there. Limits are looked at at the strokes alone.
+    are of the others there. Measures and conditions look at these strokes alone.
 
     The worst case begins at the corner of the tolerances where each dimension's own effect is the worst, and is bettered by true
     evaluation of the neighbouring corners and middles until none is worse. Beside the results it needs the dimensions of all designs, and
     256 MB. The results are the same for the same seed, whatever the number of threads.
     """
-    poses, plan = Poses.of(machine, strokes, POSES), machine.plan
+    poses, plan = StudyPoses.of(machine, strokes, POSES), machine.plan
     named = tolerances_of(plan, tolerances)
-    asked, limits = quantities_listed(plan, of), limits_listed(plan, keep)
+    asked, conditions = quantities_listed(plan, of), limits_listed(machine, subject_to)
     order = percentages(percentiles)
     way = Way(one_word("backend", backend, ("numpy", "numba")), threads)
     designs = sampled_designs(machine, named, count, method, seed, threads)
     with unwarned(), np.errstate(all="ignore"):
-        run = Run(poses, machine.replaced(**designs), count, way, order)
-        run.measure(asked, limits)
+        run = MonteCarloRun(poses, machine.replaced(**designs), count, way, order)
+        run.measure(asked, conditions)
         ends = {title: worst_case(machine, poses, quantity, named) for title, quantity in asked.items()}
         nominal = {title: poses.values(machine, quantity, Way())[0] for title, quantity in asked.items()}
-    units = {title: unit_shown(plan, quantity, limits) for title, quantity in asked.items()}
+    units = {title: display_unit(measure_of(plan, quantity), "mm") for title, quantity in asked.items()}
     bands = {title: band_of(title, units[title], poses, nominal[title], run.moments[title], order, ends[title]) for title in asked}
-    kept = {limit.words(plan): float(np.mean(good)) for limit, good in zip(limits, run.kept, strict=True)}
-    good = ~run.lost & np.all(run.kept, axis=0) if limits else ~run.lost
+    kept = {str(each): float(np.mean(good)) for each, good in zip(conditions, run.kept, strict=True)}
+    good = ~run.lost & np.all([np.ones(count, bool), *run.kept], axis=0)
     assembled = float(np.mean(~run.lost))
     return MonteCarlo(
-        machine, FrozenDict(named), FrozenDict(poses.base.strokes), FrozenDict(asked), FrozenDict(bands), limits, FrozenDict(designs),
+        machine, FrozenDict(named), FrozenDict(poses.base.strokes), FrozenDict(asked), FrozenDict(bands), conditions, FrozenDict(designs),
         good, assembled, FrozenDict(kept), poses.words(),
     )  # fmt: skip
 
@@ -209,15 +174,13 @@ def quantities_listed(plan: Plan, of: Any) -> dict[str, Measured]:
     return found
 
 
-def limits_listed(plan: Plan, keep: Any) -> tuple[Within, ...]:
-    """Return limits; DefinitionError for what is no list of them."""
-    if not isinstance(keep, (list, tuple)) or not all(isinstance(each, Within) for each in keep):
-        raise DefinitionError(f'{plan.title}: keep={cited(keep)}: a list of limits is expected, such as [Within("tilt", high=18 * deg)].')
-    words = [each.words(plan) for each in keep]
-    for each in words:
-        if words.count(each) > 1:
-            raise DefinitionError(f'{plan.title}: keep= says "{each}" twice; leave one out, or give them names, Within(..., name="...").')
-    return tuple(keep)
+def limits_listed(machine: Mechanism, given: Any) -> tuple[Constraint, ...]:
+    """Return conditions as constraints; DefinitionError for what is none, and for an equation, which no machine keeps."""
+    found = tuple(conditions_of(given, machine))
+    for each in found:
+        if each.symbol == "==":
+            raise DefinitionError(f"{machine.plan.title}: {each}: no machine keeps an equation to the last digit; write two limits.")
+    return found
 
 
 def percentages(given: Any) -> tuple[float, ...]:
@@ -227,19 +190,10 @@ def percentages(given: Any) -> tuple[float, ...]:
     return tuple(sorted({float(each) for each in given}))
 
 
-def unit_shown(plan: Plan, quantity: Measured, limits: Sequence[Within]) -> str:
-    """Return the unit that a quantity is shown in: a limit's of it, mm or deg, "" where nothing says."""
-    if not is_traced(quantity):
-        return next((limit.unit for limit in limits if limit.quantity is quantity), "")
-    what = number_bound(plan, quantity)
-    said = [each.unit for each in limits if each.unit and is_traced(each.quantity) and number_bound(plan, each.quantity).key == what.key]
-    return (said or [display_unit(measure_of(what), "mm")])[0]
-
-
 def band_of(
     title: str,
     unit: str,
-    poses: Poses,
+    poses: StudyPoses,
     nominal: FloatArray,
     moments: FloatArray,
     order: Sequence[float],
@@ -253,38 +207,56 @@ def band_of(
 
 # The designs, block by block, and what is kept of them: of the results themselves nothing.
 
+Stored: TypeAlias = Mapping[Hashable, list[FloatArray]]
+"""Moments of each quantity, as they come in."""
+
 
 @final
-class Run:
+class MonteCarloRun:
     """The designs of a Monte Carlo: `moments` of each quantity, `lost` and `kept` designs."""
 
-    def __init__(self, poses: Poses, designs: Mechanism, count: int, way: Way, order: Sequence[float]) -> None:
+    def __init__(self, poses: StudyPoses, designs: Mechanism, count: int, way: Way, order: Sequence[float]) -> None:
         self.poses, self.designs, self.count, self.order = poses, designs, count, order
         self.threads, self.way = way.threads, Way(way.backend)
         self.moments: dict[str, FloatArray] = {}
         self.lost = np.zeros(count, bool)
         self.kept: list[Mask] = []
+        self._leaves: dict[Leaf, Any] = {}
 
-    def measure(self, asked: Mapping[str, Measured], limits: Sequence[Within]) -> None:
-        """Measure quantities and limits of all designs."""
-        self.kept = [np.ones(self.count, bool) for _ in limits]
-        every = {self._key(each): each for each in (*asked.values(), *(limit.quantity for limit in limits))}
-        traced = {key: each for key, each in every.items() if is_traced(each)}
-        found: dict[Hashable, list[FloatArray]] = {key: [] for key in every}
-        if traced:
-            width = min(max(1, MEMORY // (8 * len(traced) * self.count)), self.poses.count)
-            store = np.empty((len(traced), width, self.count))
+    def measure(self, asked: Mapping[str, Measured], conditions: Sequence[Constraint]) -> None:
+        """Measure quantities and conditions of all designs."""
+        measures = [each for each in asked.values() if isinstance(each, Measure)] + [each.margin for each in conditions]
+        leaves = list(dict.fromkeys(leaf for measure in measures for leaf in measure.leaves))
+        self._leaves = {leaf: fold_start(leaf) for leaf in leaves if not isinstance(leaf, At)}
+        every = [each for each in asked.values() if not isinstance(each, Measure)] + [leaf.quantity for leaf in self._leaves]
+        quantities = {self._key(each): each for each in every}
+        bound = [key for key, each in quantities.items() if self._is_traced(each)]
+        found: Stored = {key: [] for key in quantities}
+        if bound:
+            width = min(max(1, MEMORY // (8 * len(bound) * self.count)), self.poses.count)
+            store = np.empty((len(bound), width, self.count))
             for first in range(0, self.poses.count, width):
                 part = slice(first, min(first + width, self.poses.count))
-                self._take([*traced], self._traced([*traced.values()], part, store), limits, found)
-        for key, quantity in every.items():
-            if key not in traced:
-                self._take([key], self._of_function(quantity)[None], limits, found)
-        self.moments = {title: np.concatenate(found[self._key(each)], axis=1) for title, each in asked.items()}
+                self._take(bound, self._traced([quantities[key] for key in bound], part, store), first, found)
+        for key, quantity in quantities.items():
+            if key not in bound:
+                self._take([key], self._of_function(quantity)[None], 0, found)
+        self._leaves |= {leaf: self._at(leaf) for leaf in leaves if isinstance(leaf, At)}
+        self.kept = [np.asarray(each.margin.of(self._leaves.__getitem__) >= 0.0) & np.ones(self.count, bool) for each in conditions]
+        for title, each in asked.items():
+            if isinstance(each, Measure):
+                column = np.array(np.broadcast_to(each.of(self._leaves.__getitem__), (self.count,)), float)
+                self.moments[title] = np.array([self._moments(column)]).T
+            else:
+                self.moments[title] = np.concatenate(found[self._key(each)], axis=1)
 
-    def _key(self, quantity: Measured) -> Hashable:
+    def _is_traced(self, quantity: Any) -> bool:
+        return number_bound(self.poses.base.plan, quantity) is not None
+
+    def _key(self, quantity: Any) -> Hashable:
         """Return what tells a quantity from others."""
-        return number_bound(self.poses.base.plan, quantity).key if is_traced(quantity) else id(quantity)
+        found = number_bound(self.poses.base.plan, quantity)
+        return id(quantity) if found is None else found.key
 
     def _traced(self, traced: Sequence[Any], part: slice, store: FloatArray) -> FloatArray:
         """Return quantities at some of the poses, shape (quantities, poses, designs), in the array that is there for them."""
@@ -298,22 +270,28 @@ class Run:
         self._on_threads(fill, blocks(self.count, part.stop - part.start))
         return place
 
-    def _of_function(self, function: Any) -> FloatArray:
+    def _of_function(self, quantity: Any) -> FloatArray:
         """Return a function of motions, shape (poses, designs), or (1, designs)."""
-        found = [self.poses.of_function(self._block(block), function).T for block in blocks(self.count, self.poses.count)]
+        found = [self.poses.of_function(self._block(block), quantity).T for block in blocks(self.count, self.poses.count)]
         return np.concatenate(found, axis=1)
+
+    def _at(self, leaf: At) -> FloatArray:
+        """Return a quantity at its own pose, shape (designs,)."""
+        pose = self.poses.at(leaf)
+        found = np.concatenate([pose.values(self._block(block), leaf.quantity, self.way)[:, 0] for block in blocks(self.count, 1)])
+        self.lost |= np.isnan(found)
+        return found
 
     def _block(self, block: slice) -> Mechanism:
         return self.designs._part(block.start, block.stop)
 
-    def _take(
-        self, keys: Sequence[Hashable], store: FloatArray, limits: Sequence[Within], found: Mapping[Hashable, list[FloatArray]]
-    ) -> None:
-        """Take in the results of some quantities, shape (quantities, poses, designs), which are used up."""
-        for limit, kept in zip(limits, self.kept, strict=True):
-            key = self._key(limit.quantity)
-            for column in store[keys.index(key)] if key in keys else ():
-                kept &= limit.holds(column)
+    def _take(self, keys: Sequence[Hashable], store: FloatArray, first: int, found: Stored) -> None:
+        """Take in the results of some quantities from a pose on, shape (quantities, poses, designs), which are used up."""
+        for leaf in [*self._leaves]:
+            key = self._key(leaf.quantity)
+            if key in keys and not isinstance(leaf, At):
+                for place, column in enumerate(store[keys.index(key)], start=first):
+                    self._leaves[leaf] = fold(leaf, self._leaves[leaf], column, self.poses.weight(leaf, place))
         columns = [column for row in store for column in row]
         for column in columns:
             self.lost |= np.isnan(column)
@@ -360,7 +338,9 @@ def blocks(count: int, poses: int) -> list[slice]:
 ROUNDS = 20
 
 
-def worst_case(machine: Mechanism, poses: Poses, quantity: Measured, tolerances: Mapping[str, Tolerance]) -> tuple[FloatArray, FloatArray]:
+def worst_case(
+    machine: Mechanism, poses: StudyPoses, quantity: Measured, tolerances: Mapping[str, Tolerance]
+) -> tuple[FloatArray, FloatArray]:
     """Return the least and the greatest value at every pose, shapes (n,), with every deviation at a limit or in the middle of them."""
     k = len(tolerances)
     steps = np.concatenate([-np.eye(k), np.eye(k)])
@@ -377,14 +357,14 @@ def worst_case(machine: Mechanism, poses: Poses, quantity: Measured, tolerances:
         ends = extreme_rows(values)
         near = np.unique(np.concatenate([neighbours(levels[row]) for row in ends]), axis=0) if k else levels
         found = at(near)
-        better = (lowest(found) < lowest(values)) | (-lowest(-found) > -lowest(-values))
+        better = (least_by_column(found) < least_by_column(values)) | (-least_by_column(-found) > -least_by_column(-values))
         if not better.any():
             break
         levels, values = np.concatenate([levels, near]), np.concatenate([values, found])
-    return lowest(values), -lowest(-values)
+    return least_by_column(values), -least_by_column(-values)
 
 
-def lowest(values: FloatArray) -> FloatArray:
+def least_by_column(values: FloatArray) -> FloatArray:
     """Return the least value of each column that has one, else NaN."""
     least = np.min(np.where(np.isnan(values), np.inf, values), axis=0)
     return np.where(np.isinf(least), np.nan, least)

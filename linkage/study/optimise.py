@@ -26,7 +26,7 @@ from .checks import check_one_design
 from .infeasible import infeasible_error
 from .measures import At, CombinedMeasure, Constraint, Leaf, Measure, Worst, conditions_of, require_quantity, words_of
 from .optimum import Optimum, in_units, polished, unit_of_constraint
-from .problem import COARSE, Problem, reduced
+from .problem import COARSE, SAMPLES, Problem, reduced
 from .solver import Found, Graded, Local
 from .space import Space
 from .spread import sigma
@@ -237,27 +237,26 @@ class Journal:
         return cls(path, {str(entry["task"]): entry for entry in entries if "task" in entry})
 
     def result(self, task: str, problem: Problem) -> Found | None:
-        """Return what a local search came to, as it is kept; the problem then looks at the poses that it looked at after it."""
+        """Return what a local search came to, as it is kept, with the designs that it looked at."""
         try:
             entry = self.known[task]
             unit = np.array(entry["unit"], float)
             found = Found(unit, float(entry["value"]), float(entry["missing"]), bool(entry["whole"]))
-            axes, looked_at = entry["poses"], int(entry["looked_at"])
+            looked_at = int(entry["looked_at"])
             if unit.shape != (len(problem.space.variables),):
                 return None
-            problem.take_poses(axes)
         except (KeyError, TypeError, ValueError):
             return None
         problem.looked_at += looked_at
         return found
 
-    def keep(self, task: str, found: Found, problem: Problem, looked_at: int) -> None:
-        """Write down what a local search came to, how many designs it looked at, and the poses that are looked at after it."""
+    def keep(self, task: str, found: Found, looked_at: int) -> None:
+        """Write down what a local search came to, and how many designs it looked at."""
         if self.path is None:
             return
         entry = {
             "task": task, "unit": list(found.unit), "value": found.value, "missing": found.missing, "whole": found.whole,
-            "looked_at": looked_at, "poses": problem.poses,
+            "looked_at": looked_at,
         }  # fmt: skip
         with in_words(self.path), self.path.open("a", encoding="utf-8") as file:
             file.write(json.dumps(entry) + "\n")
@@ -442,21 +441,24 @@ class DesignSearch:
             return known
         before = self.problem.looked_at
         found = self.locally(combination, np.ravel(unit))
-        self.journal.keep(task, found, self.problem, self.problem.looked_at - before)
+        self.journal.keep(task, found, self.problem.looked_at - before)
         return found
 
     def locally(self, combination: tuple[int, ...], unit: FloatArray) -> Found:
         """Return what a local search comes to; where the samples are kept but what lies between them fails, what stands there."""
+        problem = self.problem.with_counts(SAMPLES)  # its samples are its own: no search depends on those before it
         try:
-            local = Local(self.problem, combination, unit)
+            local = Local(problem, combination, unit)
         except LinkageError:
             return Found(unit, np.nan, np.inf, False)
-        if not self.problem.space.variables:
-            return local.judged(unit, truly=True)
-        found = local.run(self.plan.solver)
-        if self.plan.solver == "slsqp" and found.whole and not found.feasible and found.missing < NEARLY:
-            again = Local(self.problem, combination, found.unit).run("trust-constr")
-            found = min(found, again, key=lambda each: (not each.feasible, each.missing))
+        if problem.space.variables:
+            found = local.run(self.plan.solver)
+            if self.plan.solver == "slsqp" and found.whole and not found.feasible and found.missing < NEARLY:
+                again = Local(problem, combination, found.unit).run("trust-constr")
+                found = min(found, again, key=lambda each: (not each.feasible, each.missing))
+        else:
+            found = local.judged(unit)
+        self.problem.looked_at += problem.looked_at
         return found
 
     # -- the winner -----------------------------------------------------------------------------------------

@@ -33,6 +33,8 @@ SAME = 1e-6
 """Objectives that differ by less than this part of their size are the same."""
 SHOWN = 1e-6
 """A gain of less than this part of the objective is none."""
+NOISE = 1e-9
+"""A number [SI] that is smaller is shown as zero."""
 MOST_ROUNDINGS = 4096
 
 
@@ -57,11 +59,13 @@ class Kept:
         return self.gain > 0.0
 
     def __str__(self) -> str:
-        value, limit = show(self.left, self.units), show(self.right, self.units)
+        value, limit = (show(without_noise(each), self.units) for each in (self.left, self.right))
         said = f"{in_units(self.constraint, self.units)}: {value}"
         if not isinstance(self.constraint.right, Given):
             said += f" against {limit}"
-        return f"{said}, active: 1 % less strict gives {100.0 * self.gain:.2g} % more" if self.active else said
+        if not self.active or self.constraint.symbol == "==" or max(abs(self.left), abs(self.right)) < NOISE:
+            return f"{said}, active" if self.active else said
+        return f"{said}, active: 1 % less strict gives {100.0 * self.gain:.2g} % more"
 
 
 @final
@@ -210,6 +214,7 @@ def polished(
         raise AssemblyError(f"{problem.plan.title}: the design on its steps misses the conditions.")
     now = true_values(problem, machine)
     local = Local(problem, combination, found.unit)
+    local.refine(found.unit)
     prices, ends = multipliers(local, found.unit)
     value = float(problem.value(lambda leaf: now[leaf]))
     part = local.size / (abs(value) or 1.0)
@@ -324,7 +329,7 @@ def on_steps(problem: Problem, combination: Sequence[int], found: Found, solver:
             local = Local(inner, whole, unit)
         except DefinitionError:
             continue
-        tried.append((inner, whole, local.run(solver) if rest else local.judged(unit, truly=True)))
+        tried.append((inner, whole, local.run(solver) if rest else local.judged(unit)))
     if not tried:
         raise AssemblyError(f"{problem.plan.title}: none of the steps about the design can be assembled.")
     best = min(tried, key=lambda each: (not each[2].feasible, problem.sense * each[2].value))
@@ -441,6 +446,11 @@ def is_assembled(problem: Problem, machine: Mechanism) -> bool:
     except AssemblyError:
         return False
     return True
+
+
+def without_noise(value: float) -> float:
+    """Return a value to show: zero for what is rounding."""
+    return 0.0 if abs(value) < NOISE else value
 
 
 # Units of measures, for sentences.

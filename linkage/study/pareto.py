@@ -147,7 +147,7 @@ def on_front(
     one = Problem(problem.machine, [objectives[place]], own, problem.space, 1.0, problem.over)
     try:
         local = Local(one, combination, unit)
-        result = local.run(solver) if problem.space.variables else local.judged(unit, truly=True)
+        result = local.run(solver) if problem.space.variables else local.judged(unit)
         machine = problem.machine_of(result.unit, combination)
         problem.assembled(machine)
     except (AssemblyError, LinkageError):

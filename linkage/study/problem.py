@@ -24,6 +24,10 @@ from .space import Space
 
 SAMPLES = {0: 1, 1: 49, 2: 17, 3: 9, 4: 5}
 COARSE = {0: 1, 1: 17, 2: 7, 3: 5, 4: 3}
+NEAR_TOP, TOPS, ZOOMS = 0.05, 6, 7
+"""Of the range of a leaf's values: tops that come so near to the worst are samples too; how many of them, and how often they are zoomed."""
+CLOSEST = 1e-6
+"""Samples are not nearer to one another, in parts of the range."""
 INNER = 65
 """Samples of the stroke over which the worst value is taken."""
 PANELS, NODES = 24, 5
@@ -256,8 +260,8 @@ class Problem:
                 continue
             margins.append(seen.margins.min(axis=2).T if not slopes else np.moveaxis(seen.margins, 0, 1).reshape(m, -1))
             if slope is not None:
-                total = self._by_unit(slope.margins, poses, ends)
-                margin_slopes.append(np.moveaxis(total, 1, 0).reshape(total.shape[1], -1))
+                total = np.moveaxis(self._by_unit(slope.margins, poses, ends), 1, 0)
+                margin_slopes.append(total.reshape(len(total), int(np.prod(total.shape[1:]))))  # of no variable too
         rows = {leaf: self._rows(leaf, found, ends) for leaf in self.leaves}
         return Evaluated(
             rows, np.concatenate(margins, axis=1), np.concatenate(margin_slopes, axis=1) if slopes else None, whole, reached
@@ -468,23 +472,36 @@ class Problem:
             parts[name] = 1.0 - part if turned else part
         return float(found.value), parts
 
-    @property
-    def poses(self) -> list[dict[str, list[float]]]:
-        """The parts of the strokes' ranges that are looked at, by stroke, of each set of poses."""
-        return [{name: axis.tolist() for name, axis in each.axes.items()} for each in self.sets]
+    def tops(self, leaf: Leaf, design: Mapping[str, Any]) -> list[float]:
+        """Return where between its samples a leaf of one design has tops that come near its worst value, as parts of its stroke's range."""
+        poses, place = self._of_leaf[leaf]
+        if len(poses.axes) != 1 or poses.inner:
+            return []
+        ((name, axis),) = poses.axes.items()
+        sampling, ends = self._sampling(self.sets.index(poses)), self._ends(design, slopes=False)
+        sense = -1.0 if isinstance(leaf, Least) else 1.0
 
-    def take_poses(self, axes: Sequence[Mapping[str, Sequence[float]]]) -> None:
-        """Look at these parts from now on; ValueError where they are those of other sets of poses."""
-        found = [{name: np.array(axis, float) for name, axis in each.items()} for each in axes]
-        if [list(each) for each in found] != [list(each.axes) for each in self.sets]:
-            raise ValueError("the poses are those of another problem")
-        for own, new in zip(self.sets, found, strict=True):
-            own.axes = new
+        def values(at: FloatArray) -> FloatArray:
+            found = sampling.seen(self._grid(PoseSet({name: at}, poses.fixed), design, ends)).values[place, 0]
+            return np.where(np.isfinite(found), sense * found, -np.inf)
 
-    def refinable(self, leaf: Leaf) -> bool:
-        """Return whether poses between the samples can be looked for."""
-        poses, _ = self._of_leaf[leaf]
-        return isinstance(leaf, (Least, Most)) and not poses.inner and bool(poses.axes)
+        seen = values(axis)
+        band = np.ptp(seen[np.isfinite(seen)]) * NEAR_TOP if np.isfinite(seen).any() else 0.0
+        inner = np.flatnonzero((seen[1:-1] >= seen[:-2]) & (seen[1:-1] >= seen[2:]) & (seen[1:-1] >= seen.max() - band)) + 1
+        found = []
+        for one in inner[np.argsort(-seen[inner], kind="stable")][:TOPS]:
+            low, high = float(axis[one - 1]), float(axis[one + 1])
+            for _ in range(ZOOMS):
+                at = np.linspace(low, high, 17)
+                best = int(np.argmax(values(at)))
+                low, high = float(at[max(best - 1, 0)]), float(at[min(best + 1, 16)])
+            found.append(0.5 * (low + high))
+        return found
+
+    def axis_of(self, leaf: Leaf) -> str:
+        """Return the only stroke that a leaf is looked at over."""
+        ((name, _),) = self._of_leaf[leaf][0].axes.items()
+        return name
 
     def refined(self, leaf: Leaf, parts: Mapping[str, float]) -> bool:
         """Add a pose between the samples to those of a leaf; return whether it is new."""
@@ -492,7 +509,7 @@ class Problem:
         new = False
         for name, part in parts.items():
             axis = poses.axes[name]
-            if np.abs(axis - part).min() > 1e-9:
+            if np.abs(axis - part).min() > CLOSEST:
                 poses.axes[name] = np.sort(np.append(axis, part))
                 new = True
         return new

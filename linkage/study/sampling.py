@@ -122,8 +122,8 @@ class Sampling:
         keys = tuple(each.key for each in self._traced.values())
 
         def make(plan: Plan) -> tuple[Kernel, Angles]:
+            loops = Margin.each_of(plan) if margins else []  # before anything else is read, which may have triangles of its own
             shares = [node for each in self._traced.values() for node in Slope(each, self.owners).nodes(plan)]
-            loops = Margin.each_of(plan) if margins else []
             return Kernel([*shares, *(node for each in loops for node in Slope(each, self.owners).nodes(plan))]), angles_of(plan, shares)
 
         return self.plan.made(("search slopes", keys, self.owners, margins), make)

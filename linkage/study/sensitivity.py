@@ -9,14 +9,14 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, one_word, unwarned
+from ..errors import DefinitionError, cited, one_word, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
 from ..plan import Plan
 from ..program import FloatArray, Way
 from ..quantities import is_whole
-from ..units import show, unit_or_none
-from .measured import Measured, Poses, is_traced, measured_title, number_bound
+from ..units import display_unit, show, unit_or_none
+from .measured import Measured, StudyPoses, measure_of, measured_title, number_bound
 from .tolerances import Tolerance, ToleranceLike, shifted_designs, tolerance_words, tolerances_of
 
 POSES = 21
@@ -24,7 +24,7 @@ POSES = 21
 
 @final
 @dataclass(frozen=True)
-class Bar:
+class Effect:
     """What one dimension does to a quantity: its gradient, and the quantity's change [SI] at either limit of the tolerance.
 
     `low` and `high` are the real changes, `linear_low` and `linear_high` those that the gradient tells; `share` is the dimension's of the
@@ -66,13 +66,13 @@ class Tornado:
     at: str
     nominal: float
     sigma: float
-    bars: tuple[Bar, ...]
+    bars: tuple[Effect, ...]
 
-    def __iter__(self) -> Iterator[Bar]:
+    def __iter__(self) -> Iterator[Effect]:
         """Return the bars one by one."""
         return iter(self.bars)
 
-    def __getitem__(self, name: str) -> Bar:
+    def __getitem__(self, name: str) -> Effect:
         """Return the bar of a dimension."""
         found = {bar.name: bar for bar in self.bars}
         if name not in found:
@@ -84,7 +84,7 @@ class Tornado:
         width = max(len(tolerance_words(self.plan, bar.name, bar.tolerance)) for bar in self.bars)
         return "\n".join([f"{head}.", *(self._line(bar, width) for bar in self.bars)])
 
-    def _line(self, bar: Bar, width: int) -> str:
+    def _line(self, bar: Effect, width: int) -> str:
         """Return a bar as text."""
         ends = " to ".join(show(end, self.unit, 3) if np.isfinite(end) else "out of reach" for end in (bar.low, bar.high))
         return f"{tolerance_words(self.plan, bar.name, bar.tolerance):<{width}}  {ends}, {100.0 * bar.share:.0f} % of the variance"
@@ -93,18 +93,18 @@ class Tornado:
 def tornado(machine: Mechanism, quantity: Measured, tolerances: Mapping[str, ToleranceLike], *, unit: str = "", **strokes: Any) -> Tornado:
     """Return what every tolerance by itself does to a quantity at one pose, the dimension that does most first.
 
-    `tornado(hitch, "tilt", {"OB": 0.1 * mm, "CD": 0.2 * mm}, unit="deg", S=0.1)`. Gradients are exact; of a function of a motion, which may
-    return one number for each design over the strokes, they are central differences over a thousandth of the tolerance. `unit` is
-    that of the words. Raises AssemblyError where the machine as it is set cannot be assembled.
+    `tornado(hitch, "tilt", {"OB": 0.1 * mm, "CD": 0.2 * mm}, unit="deg", S=0.1)`. Gradients are exact; those of a measure over the strokes
+    looked at, `most("tilt")`, and of a function of a motion are central differences over a thousandth of the tolerance. `unit` is that
+    of the words, by default the quantity's own. Raises AssemblyError where the machine as it is set cannot be assembled.
     """
-    poses, plan = Poses.of(machine, strokes, POSES), machine.plan
+    poses, plan = StudyPoses.of(machine, strokes, POSES), machine.plan
     unit_or_none(unit, where="tornado(unit=...)")
     named = tolerances_of(plan, tolerances)
     k = len(named)
     levels = np.concatenate([np.zeros((1, k)), -np.eye(k), np.eye(k)])
     values = poses.values(machine.replaced(**shifted_designs(machine, named, levels)), quantity, Way())
     if values.shape[1] != 1:
-        said = "say one pose, or give a function of a motion that returns one number for each design"
+        said = "say one pose, or give a measure such as most(...)"
         raise DefinitionError(f"{plan.title}: {measured_title(plan, quantity)} at {poses.count} poses; {said}.")
     nominal = float(values[0, 0])
     low, high = values[1 : 1 + k, 0] - nominal, values[1 + k :, 0] - nominal
@@ -113,19 +113,19 @@ def tornado(machine: Mechanism, quantity: Measured, tolerances: Mapping[str, Tol
     total = float(parts.sum())
     shares = parts / total if total else parts
     rows = np.stack([slopes, low, high, shares], axis=1).tolist()
-    bars = [Bar(name, each, *row) for (name, each), row in zip(named.items(), rows, strict=True)]
+    bars = [Effect(name, each, *row) for (name, each), row in zip(named.items(), rows, strict=True)]
     ordered = tuple(sorted(bars, key=lambda bar: -bar.length))
-    return Tornado(plan, measured_title(plan, quantity), unit, poses.words(), nominal, float(np.sqrt(total)), ordered)
+    shown = unit or display_unit(measure_of(plan, quantity), "mm")
+    return Tornado(plan, measured_title(plan, quantity), shown, poses.words(), nominal, float(np.sqrt(total)), ordered)
 
 
 STEP = 1e-3
 """Of a tolerance: the difference that the gradient of a function of a motion is taken over."""
 
 
-def gradient_at(machine: Mechanism, poses: Poses, quantity: Measured, tolerances: Mapping[str, Tolerance]) -> FloatArray:
+def gradient_at(machine: Mechanism, poses: StudyPoses, quantity: Measured, tolerances: Mapping[str, Tolerance]) -> FloatArray:
     """Return the derivatives of a quantity at one pose by dimensions, shape (k,): exact, or of a function differences."""
-    if is_traced(quantity):
-        number_bound(machine.plan, quantity)
+    if number_bound(machine.plan, quantity) is not None:
         return poses.base.gradient(quantity, wrt=list(tolerances)).reshape(-1)  # type: ignore[arg-type]
     k = len(tolerances)
     steps = {name: Tolerance(STEP * max(each.high, -each.low)) for name, each in tolerances.items()}
@@ -176,16 +176,18 @@ def sobol(
 ) -> SobolIndices:
     """Return the Sobol indices of a quantity over tolerances, at every stroke looked at; by default 21 over a single one.
 
-    `sobol(hitch, "tilt", {"OB": 5 * mm, "CD": 5 * mm}, S=0.1)`; a function of a motion may return one number for each design. The number of
-    designs is `count`, a power of two, times two more than there are dimensions. Source: Saltelli and others, Computer Physics
+    `sobol(hitch, "tilt", {"OB": 5 * mm, "CD": 5 * mm}, S=0.1)`; a measure such as `most("tilt")` is one number over the strokes. The
+    number of designs is `count`, a power of two, times two more than there are dimensions. Source: Saltelli and others, Computer Physics
     Communications 181 (2010), 259-270, by `scipy.stats.sobol_indices`.
 
     Raises DefinitionError where designs cannot be assembled, so that the variance is not known, or where nothing varies.
     """
-    poses, plan = Poses.of(machine, strokes, POSES), machine.plan
+    poses, plan = StudyPoses.of(machine, strokes, POSES), machine.plan
     named, title = tolerances_of(plan, tolerances), measured_title(plan, quantity)
     if not is_whole(count) or count < 2 or count & (count - 1):
-        raise DefinitionError(f"count={count!r}: a power of two is expected, such as {SAMPLES}.")
+        raise DefinitionError(f"count={cited(count)}: a power of two is expected, such as {SAMPLES}.")
+    if not is_whole(seed) or seed < 0:
+        raise DefinitionError(f"seed={cited(seed)}: a whole number is expected, at least 0.")
     way, sigmas = Way(one_word("backend", backend, ("numpy", "numba")), threads), []
 
     def values(x: FloatArray) -> FloatArray:
@@ -209,7 +211,7 @@ def sobol(
     return SobolIndices(title, FrozenDict(poses.base.strokes), first, total, poses.shaped(sigmas[0]))
 
 
-def shares_by_name(poses: Poses, names: Mapping[str, Any], indices: Any) -> FrozenDict[str, FloatArray]:
+def shares_by_name(poses: StudyPoses, names: Mapping[str, Any], indices: Any) -> FrozenDict[str, FloatArray]:
     """Return the shares of a variance by the names of dimensions, from twice the poses times the dimensions, in that order."""
     rows = np.reshape(indices, (2, -1, len(names)))[0].T
     return FrozenDict({name: poses.shaped(row) for name, row in zip(names, rows, strict=True)})

@@ -69,10 +69,15 @@ def settings_for(
     targets such as `Target("tilt", 0.0, S=0.1)` returns all `Solutions` in the box that are found from `points` of it, for every choice,
     or the nearest setting with what is missing of each target. There are at least as many targets as ranges, DefinitionError for fewer.
     """
-    if not isinstance(name, str):
+    if isinstance(name, Mapping):
+        single = [*(["between"] if between is not None else []), *(["unit"] if unit else []), *strokes]
+        if single or target:
+            said = ", ".join(f"{each}=..." for each in single) or f"target={cited(target)}"
+            remedy = "of several settings every target says it itself, Target(quantity, value, S=0.1)"
+            raise DefinitionError(f"settings_for(..., {said}): {remedy}.")
         return solutions_for(machine, name, quantity, points)
-    if between is None:
-        raise DefinitionError(f"{name}: say the range that is looked at, between=(low, high).")
+    if points is not None:
+        raise DefinitionError(f"settings_for(..., points={cited(points)}): points are those of a box of several settings; leave it out.")
     check_one_design(machine)
     known_name("Dimension", name, machine.plan.table.spellings, where=machine.plan.title)
     unit_or_none(unit, where="settings_for(unit=...)")

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, final
+from warnings import catch_warnings, simplefilter
 
 import numpy as np
 
@@ -359,23 +360,17 @@ class Local:
             if self._stacked(z, equations)[0].size:
                 one = self._held("ineq", equations)
                 held.append(NonlinearConstraint(one["fun"], 0.0, upper, jac=one["jac"]))
-        result = minimize(
-            lambda at: self.objective(at)[0], z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
-            method="trust-constr", options={"maxiter": 5 * most, "gtol": 1e-9, "xtol": 1e-11},
-        )  # fmt: skip
+        with catch_warnings():
+            simplefilter("ignore", UserWarning)  # of functions that happen to be linear
+            result = minimize(
+                lambda at: self.objective(at)[0], z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
+                method="trust-constr", options={"maxiter": 5 * most, "gtol": 1e-9, "xtol": 1e-11},
+            )  # fmt: skip
         return np.asarray(result.x, float)
 
-    def judged(self, unit: FloatArray, *, truly: bool = False) -> Found:
-        """Return the objective and what is missing at unit coordinates, at the samples or between them too."""
-        problem, design = self.problem, self.problem.designs(unit, self.combination)
-        look = self.look(unit)
-        if not bool(look.whole[0]):
-            return Found(unit, np.nan, np.inf, False)
-        values = self.leaf_values(look)
-        if truly:
-            values = {leaf: problem.true(leaf, design)[0] for leaf in problem.leaves}
-        value = float(problem.value(lambda leaf: values[leaf]))
-        return Found(unit, value, missing_of(problem.constraints, self.scales, values), True)
+    def judged(self, unit: FloatArray) -> Found:
+        """Return the objective and what is missing at unit coordinates, between the samples too."""
+        return self._truth(unit)[0]
 
     def run(self, method: str = "slsqp") -> Found:
         """Return what a search from the start comes to, with poses between the samples added until none is worse than these."""
@@ -385,25 +380,46 @@ class Local:
             if not bool(self.look(unit).whole[0]):
                 assert self._good is not None
                 unit = np.clip(self._good[0], 0.0, 1.0)
-            if not self._refine(unit):
-                break
-        return self.judged(unit, truly=True)
+            if self.refine(unit):
+                continue
+            found, missed = self._truth(unit)
+            if not missed:
+                return found
+        return self.judged(unit)
 
-    def _refine(self, unit: FloatArray) -> bool:
-        """Add the worst poses between the samples; return whether one of them is worse than those by what counts."""
+    def refine(self, unit: FloatArray) -> bool:
+        """Add the tops between the samples; return whether one of them is worse than these by what counts."""
         problem, design = self.problem, self.problem.designs(unit, self.combination)
-        values, added = self.leaf_values(self.look(unit)), False
+        before, added = self.leaf_values(self.look(unit)), False
         for leaf in problem.leaves:
-            if isinstance(leaf, (Least, Most)) and problem.refinable(leaf):
-                true, parts = problem.true(leaf, design)
-                if not np.isfinite(true):
-                    continue
-                worse = (values[leaf] - true) * (1.0 if isinstance(leaf, Least) else -1.0)
-                if worse > 0.1 * MET * max(self.leaf_scales[leaf], abs(true)):
-                    added = problem.refined(leaf, parts) or added
-        if added:
+            for part in problem.tops(leaf, design) if isinstance(leaf, (Least, Most)) else ():
+                added = problem.refined(leaf, {problem.axis_of(leaf): part}) or added
+        if not added:
+            return False
+        self._cache.clear()
+        after = self.leaf_values(self.look(unit))
+        return any(self._is_worse(leaf, after[leaf], before[leaf]) for leaf in problem.leaves)
+
+    def _is_worse(self, leaf: Leaf, value: float, known: float) -> bool:
+        """Return whether a leaf's value is worse than what is known of it, by what counts."""
+        worse = (known - value) * (1.0 if isinstance(leaf, Least) else -1.0)
+        return isinstance(leaf, (Least, Most)) and bool(worse > 0.1 * MET * max(self.leaf_scales[leaf], abs(value)))
+
+    def _truth(self, unit: FloatArray) -> tuple[Found, bool]:
+        """Return the truth between the samples too, and whether it is worse than what was known; its poses are samples from then on."""
+        problem, design = self.problem, self.problem.designs(unit, self.combination)
+        look = self.look(unit)
+        if not bool(look.whole[0]):
+            return Found(unit, np.nan, np.inf, False), False
+        known, values, worse = self.leaf_values(look), {}, False
+        for leaf in problem.leaves:
+            values[leaf], parts = problem.true(leaf, design)
+            if self._is_worse(leaf, values[leaf], known[leaf]) and problem.refined(leaf, parts):
+                worse = True
+        if worse:
             self._cache.clear()
-        return added
+        value = float(problem.value(lambda leaf: values[leaf]))
+        return Found(unit, value, missing_of(problem.constraints, self.scales, values), True), worse
 
 
 def without_gaps(values: FloatArray, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:

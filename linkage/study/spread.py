@@ -8,16 +8,16 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, unwarned
+from ..errors import DefinitionError, cited, unwarned
 from ..mechanism import Mechanism
 from ..motion import BoundRequest, Request, RequestLike, require_motion
 from ..motion.grid import MotionLike
 from ..motion.requests import dimensions_of, identity_of
 from ..plan import Plan
 from ..program import FloatArray, Node, Notes, gradient
-from ..quantities import Quantity
 from .checks import check_mechanism
 from .measured import number_bound
+from .measures import words_of
 from .tolerances import ToleranceLike, tolerances_of
 
 
@@ -33,11 +33,11 @@ class Sigma(Request):
         of = identity_of(plan, self.quantity)
         return None if of is None else ("sigma", of, deviations_of(plan, self.tolerances))
 
-    def __str__(self) -> str:
-        return f"sigma({self.quantity.name or self.quantity if isinstance(self.quantity, Quantity) else self.quantity})"
-
     def bound(self, plan: Plan) -> SigmaOf:
-        return SigmaOf(number_bound(plan, self.quantity), self.quantity, deviations_of(plan, self.tolerances))
+        return SigmaOf(traced_number(plan, self.quantity), self.quantity, deviations_of(plan, self.tolerances))
+
+    def __str__(self) -> str:
+        return f"sigma({words_of(self.quantity)})"
 
 
 def sigma(quantity: RequestLike, tolerances: Mapping[str, ToleranceLike]) -> Sigma:
@@ -47,6 +47,15 @@ def sigma(quantity: RequestLike, tolerances: Mapping[str, ToleranceLike]) -> Sig
     are independent of each other. Source: the law of propagation of uncertainty, ISO/IEC Guide 98-3 (GUM), 5.1.2.
     """
     return Sigma(quantity, tolerances)
+
+
+def traced_number(plan: Plan, quantity: Any) -> BoundRequest:
+    """Return a quantity bound to a plan; DefinitionError for what has no gradient in the program."""
+    found = number_bound(plan, quantity)
+    if found is None:
+        what = f"{plan.title}: {words_of(quantity)} is no part of the program, so that its gradient is not known"
+        raise DefinitionError(f"{what}; give an output, a quantity or a request.")
+    return found
 
 
 def deviations_of(plan: Plan, tolerances: Any) -> tuple[tuple[str, float], ...]:
@@ -114,7 +123,11 @@ def spread(
     its gradient has no value. It is `evaluate([sigma(...)])` of these designs.
     """
     check_mechanism(machine)
-    if not isinstance(quantity, (str, Quantity, Request)):
-        raise DefinitionError(f"{machine.plan.title}: a spread is of an output, a quantity or a request, whose gradient is known.")
+    traced_number(machine.plan, quantity)
+    for what, given in (("designs", designs), ("strokes", strokes)):
+        if not isinstance(given, Mapping):
+            raise DefinitionError(
+                f"{machine.plan.title}: {what}={cited(given)}: a dictionary of {what} by name is expected, such as {{...: 0.1}}."
+            )
     with unwarned(), np.errstate(all="ignore"):
         return machine.replaced(**designs).evaluate([sigma(quantity, tolerances)], unreachable="nan", **strokes)[0]

@@ -14,12 +14,14 @@ from ..mechanism import Mechanism
 from ..motion import BoundRequest, Motion, RequestLike, evaluate_grid, stroke_display_unit
 from ..motion.grid import Grid, JoinedTo
 from ..motion.requests import dimensions_of, slopes_of
+from ..plan import Plan
 from ..program import FloatArray, Way
 from ..quantities import is_number
 from ..units import deg, display_unit, mm, show, unit_or_none
 from .box import Box, setting_words, unit_points
 from .checks import check_one_design, is_one
-from .measured import measure_of, number_bound
+from .measured import measure_of
+from .spread import traced_number
 
 
 @final
@@ -134,9 +136,9 @@ class Aim:
         for each in targets:
             if set(each.strokes) != set(machine.strokes):
                 raise DefinitionError(f"{plan.title}: {each!r}: say the pose, {', '.join(f'{name}=...' for name in machine.strokes)}.")
-        bound = tuple(number_bound(plan, each.quantity) for each in targets)
+        bound = tuple(traced_number(plan, each.quantity) for each in targets)
         strokes = {name: np.array([each.strokes[name] for each in targets]) for name in machine.strokes}
-        scale = [each.within or usual_miss(request, each) for each, request in zip(targets, bound, strict=True)]
+        scale = [each.within or usual_miss(plan, each) for each in targets]
         with unwarned():
             base = Motion(plan, machine.dimensions, strokes, "nan")
         return cls(machine, tuple(targets), bound, strokes, base, np.array([each.value for each in targets]), np.array(scale))
@@ -172,12 +174,13 @@ class Aim:
 
     def unit(self, place: int) -> str:
         """Return the unit that a target is told in."""
-        return self.targets[place].unit or display_unit(measure_of(self.bound[place]), "mm")
+        return self.targets[place].unit or display_unit(measure_of(self.machine.plan, self.targets[place].quantity), "mm")
 
 
-def usual_miss(request: BoundRequest, target: Target) -> float:
+def usual_miss(plan: Plan, target: Target) -> float:
     """Return how far off a target may be where nothing is said [SI]."""
-    return {"length": 1.0 * mm, "angle": 0.1 * deg}.get(measure_of(request), 1e-3 * abs(target.value) or 1e-3)
+    kind = measure_of(plan, target.quantity)
+    return {"length": 1.0 * mm, "angle": 0.1 * deg}.get(kind, 1e-3 * abs(target.value) or 1e-3)
 
 
 def nowhere(box: Box, aim: Aim) -> str:

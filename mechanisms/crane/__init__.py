@@ -3,10 +3,35 @@
 Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse bioenergetiki", chapter 2.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .arm_drive import ArmDrive as ArmDrive
+from .arm_drive import ArmDriveByCylinder as ArmDriveByCylinder
+from .arm_drive import BellCrankArmDrive as BellCrankArmDrive
+from .arm_drive import BellCrankArmDriveByCylinder as BellCrankArmDriveByCylinder
+from .arm_drive import DirectArmDrive as DirectArmDrive
+from .arm_drive import DirectArmDriveAbove as DirectArmDriveAbove
+from .boom_drive import BoomDrive as BoomDrive
 from .cylinders import arm_moment as arm_moment
 from .cylinders import boom_moment as boom_moment
 from .cylinders import drive_limits as drive_limits
+from .drive_design import ArmRules as ArmRules
+from .drive_design import DriveDesign as DriveDesign
+from .drive_design import arm_drive_front as arm_drive_front
+from .drive_design import design_arm_drive as design_arm_drive
+from .drive_design import design_boom_drive as design_boom_drive
+from .drive_duty import DriveCylinders as DriveCylinders
+from .drive_duty import DriveDuty as DriveDuty
+from .drive_duty import duty_of as duty_of
 from .duty import Duty as Duty
+from .flow import CraneDesign as CraneDesign
+from .flow import arm_drive_of as arm_drive_of
+from .flow import boom_drive_of as boom_drive_of
+from .flow import design_crane as design_crane
+from .flow import design_skeleton as design_skeleton
+from .flow import with_drives as with_drives
 from .load_map import LoadMap as LoadMap
 from .load_map import load_map as load_map
 from .machine import BellCrankCrane as BellCrankCrane
@@ -14,5 +39,24 @@ from .machine import ChainCrane as ChainCrane
 from .machine import Crane as Crane
 from .moments import arm_bound as arm_bound
 from .moments import boom_bound as boom_bound
+from .reach import Envelope as Envelope
+from .reach import envelope as envelope
 from .skeleton import BackBrokenSkeleton as BackBrokenSkeleton
 from .skeleton import CraneSkeleton as CraneSkeleton
+from .strength import strength as strength
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+FIGURES = ("positions", "moments", "map", "reach")
+
+
+def crane_figure(name: str, crane: Crane | None = None) -> Figure:
+    """Return a figure of a crane, by default the shipped one, as a matplotlib figure; DefinitionError for an unknown name, a batch.
+
+    "positions" are those that its skeleton is laid out by, "moments" what boom and arm are given and asked for, "map" the load map,
+    "reach" all that the tip reaches.
+    """
+    from .figures import crane_figure
+
+    return crane_figure(name, crane)

@@ -125,7 +125,7 @@ class ArmDrive(DrivenArm):
     mass = 7800.0 * steel  # kg
 
     folds, opens = ref("push"), -ref("pull")
-    fold = Cylinder(C, L, bore="D", rod="d", works="both")
+    fold = Cylinder(C, L, bore="D", rod="d", works="both", closed="l", stroke="S")
     circuit = LiftCircuit(fold, pressure="p", mechanical_efficiency="n")
 
     def columns(self, motion: Motion) -> list[Column]:
@@ -168,7 +168,7 @@ class BellCrankArmDrive(ArmDrive):
     Z: Point = OnLink("O", "L", OZ=r_8, LZ=r_7, side=LEFT)
     length = distance("C", Z)
     gamma = CosineAngle(distance("O", "C"), r_8, length)
-    fold = Cylinder("C", Z, bore="D", rod="d", works="both")
+    fold = Cylinder("C", Z, bore="D", rod="d", works="both", closed="l", stroke="S")
 
 
 class BellCrankArmDriveByCylinder(BellCrankArmDrive):
@@ -206,7 +206,7 @@ class DirectArmDrive(DrivenArm):
     length = distance(A, B)
 
     folds, opens = -ref("pull"), ref("push")
-    fold = Cylinder(A, B, bore="D", rod="d", works="both")
+    fold = Cylinder(A, B, bore="D", rod="d", works="both", closed="l", stroke="S")
     circuit = LiftCircuit(fold, pressure="p", mechanical_efficiency="n")
 
     def columns(self, motion: Motion) -> list[Column]:
@@ -236,4 +236,4 @@ class DirectArmDriveAbove(DirectArmDrive):
     B = OnLink("P", "T", PB=np.sqrt(ref("r_3") ** 2 + ref("r_4") ** 2), TPB=Function("arctan2", ref("r_4"), ref("r_3")))
     length = distance(A, B)
     folds, opens = ref("push"), -ref("pull")
-    fold = Cylinder(A, B, bore="D", rod="d", works="both")
+    fold = Cylinder(A, B, bore="D", rod="d", works="both", closed="l", stroke="S")

@@ -57,7 +57,7 @@ class BoomDrive(Mechanism):
     M_l = K_B * np.sin(phi) + K_A * np.sin(psi_k - clipped(phi, psi_k - 90 * deg))
 
     load = Moment("O P", M=-M_l)  # it turns the boom down, clockwise
-    lift = Cylinder(A, B, bore=D, rod=d)
+    lift = Cylinder(A, B, bore=D, rod=d, closed=l, stroke=S)
     circuit = LiftCircuit(lift, pressure=p, mechanical_efficiency=n)
 
     def working(self, count: int = 101) -> Motion:

@@ -81,9 +81,10 @@ def drive_limits(crane: Crane) -> dict[str, tuple[float, float]]:
 def within(crane: Crane, stroke: str, start: float, end: float) -> tuple[float, float]:
     """Return the part of start..end of a stroke in which its cylinder's length lies between closed and open."""
     cylinder = crane.plan.of_kind(Cylinder)[DRIVEN[stroke][0]]
-    if cylinder.closed is None or end <= start:
+    closed, way = cylinder.closed_and_stroke(crane.position(1))
+    if closed is None or end <= start:
         return start, end
-    least, most = cylinder.closed - PLAY, cylinder.closed + PLAY + (np.inf if cylinder.stroke is None else cylinder.stroke)
+    least, most = float(closed) - PLAY, float(closed) + PLAY + (np.inf if way is None else float(way))
 
     def slack(at: FloatArray) -> FloatArray:
         """Return by how much its length lies within its own [m], of strokes."""

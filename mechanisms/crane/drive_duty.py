@@ -10,18 +10,17 @@ from dataclasses import dataclass, fields
 from math import pi
 from typing import final
 
+import numpy as np
+
 from hydraulics import CylinderSize
 from hydraulics.inputs import efficient, in_pascals, not_negative, one_number, positive
 from linkage import DefinitionError, MPa, mm
 from linkage.quantities import Function, Operand, Quantity, quantity
-from linkage.units import deg
+from linkage.units import deg, kN
 
-GRAVITY = 9.81
-"""m/s2, the source's."""
-JOINT = 300.0
-"""Weight of the parts at the joint of boom and arm, G_m [N] (2.24)."""
-OF_DRIVE, AT_BOOM, AT_DRIVE, AT_ARM = 0.025, 0.4, 0.7, 0.45
-"""The boom drive's share of the crane's mass; where the centres of gravity lie: of boom and drive in l_c, of the arm in its length."""
+from .moments import LIFTING, boom_bound, moments
+from .skeleton import AT_ARM, AT_BOOM, AT_DRIVE, GRAVITY, JOINT, OF_DRIVE, CraneSkeleton
+
 LONGEST_BOOM = 40.0
 """m; a longer boom, arm or telescope was given in millimetres."""
 
@@ -92,6 +91,33 @@ class DriveDuty:
         K_B = GRAVITY * (AT_BOOM * W_c + AT_DRIVE * OF_DRIVE * W) * l_c + (JOINT + arm + Q) * l_c
         K_A, K_A1 = ((Q + AT_ARM * arm) * reach for reach in (l_p + l_t, l_p))
         return cls(l_c=l_c, l_p=l_p, l_t=l_t, K_B=K_B, K_A=K_A, K_A1=K_A1, **others)
+
+
+FAITHFUL = 1e-6
+"""How closely, as a part of the greatest moment, a crane's own bound is met by the coefficients."""
+
+
+def duty_of(crane: CraneSkeleton) -> DriveDuty:
+    """Return what a crane asks of its drives, one design: its lengths and angles, and the moments of its own weights and load.
+
+    K_A, K_A1 and K_B are its drives' forces with the arm level, telescope out or in, and the boom level. DefinitionError where its bound
+    of moments is not of that form, as with loads of another kind.
+    """
+    limits = crane.limits_of()
+    (phi_0, phi_k), (psi_0, psi_k), (_, t_k) = limits["phi"], limits["psi"], limits["t"]
+    level, straight = np.array([90 * deg]), np.array([180 * deg])
+    K_A, K_A1 = (float(moments(crane, "psi", level, straight, t, LIFTING)[0]) for t in (t_k, 0.0))
+    K_B = -float(moments(crane, "phi", level, straight, t_k, LIFTING)[0]) - K_A
+    lengths = {name: float(crane[name]) for name in ("l_c", "l_p", "l_t", "h_0")}
+    sections = {name: crane.output(name) for name in ("b_0", "b_c")}
+    duty = DriveDuty(**lengths, **sections, phi_0=phi_0, phi_k=phi_k, psi_0=psi_0, psi_k=psi_k, K_B=K_B, K_A=K_A, K_A1=K_A1)
+    phi = np.linspace(phi_0, phi_k, 5)
+    asked = K_B * np.sin(phi) + K_A * np.sin(psi_k - np.maximum(phi, psi_k - 90 * deg))
+    off = float(np.abs(boom_bound(crane, phi) - asked).max())
+    if off > FAITHFUL * (K_A + K_B):
+        what = f"{crane.plan.title}: its bound of moments is {off / kN:.3g} kN m off K_B sin(phi) + K_A"
+        raise DefinitionError(f"{what}; give the moments of its loads yourself, DriveDuty(K_B=..., K_A=..., K_A1=...).")
+    return duty
 
 
 SIZES_MM = ((63, 36), (70, 40), (80, 45), (90, 50), (100, 56), (110, 63), (125, 70), (140, 80))

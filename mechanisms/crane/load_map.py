@@ -29,7 +29,7 @@ OUT_OF_REACH = "out of reach"
 LIMITERS = ("boom cylinder", "arm cylinder", "telescope cylinder", "stability", "rated load", OUT_OF_REACH)
 """What may limit a load."""
 
-FIRST, ROUNDS, NEAR = 17, 5, 4
+FIRST, ROUNDS, NEAR = 17, 6, 4
 """Positions of the telescope in the first look, rounds of looking closer, positions on either side of the best one in each."""
 
 
@@ -97,13 +97,14 @@ class Limits:
 
 @final
 class Carrying:
-    """What one crane carries at its tip, by poses."""
+    """What one crane carries at its tip against a `pull` of one newton, by default a load's down the slope of the load case."""
 
-    def __init__(self, crane: Crane, limits: Limits, case: str) -> None:
+    def __init__(self, crane: Crane, limits: Limits, case: str, pull: tuple[float, float] | None = None) -> None:
         self.crane, self.limits, self.reach = crane.replaced(Q=0.0), limits, Reach(crane)
         pose = crane.position(1)
         self.sides = {stroke: sides(pose, stroke) for stroke in DRIVEN}
-        self.down = np.array(on_slope((0.0, -1.0), crane.plan.of_kind(LoadCase)[case].slope))
+        down = on_slope((0.0, -1.0), crane.plan.of_kind(LoadCase)[case].slope)
+        self.pull = np.array(down if pull is None else pull)
         rams = crane.plan.of_kind(Cylinder)
         self.requests = [
             each
@@ -121,11 +122,11 @@ class Carrying:
         for k, stroke in enumerate(DRIVEN):
             force, way, grows = found[3 * k : 3 * k + 3]
             with np.errstate(divide="ignore", invalid="ignore"):  # a cylinder at its dead point holds nothing
-                own, share = force / grows, -along(self.down, way) / grows
+                own, share = force / grows, -along(self.pull, way) / grows
             most[k] = np.where(grows == 0.0, 0.0, held_by(own, share, self.sides[stroke].push, self.sides[stroke].pull))
         if self.limits.stability is not None:
             most[3] = held_by(
-                -found[0], along(self.down, found[1]), self.limits.stability, np.inf
+                -found[0], along(self.pull, found[1]), self.limits.stability, np.inf
             )  # all turns about O, on the axis, with phi
         if self.limits.rated is not None:
             most[4] = self.limits.rated

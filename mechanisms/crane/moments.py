@@ -43,11 +43,11 @@ def worst_over(of: Curve, start: float, end: float, count: int) -> FloatArray:
     return best
 
 
-def moments(crane: CraneSkeleton, drive: str, phi: FloatArray, psi: FloatArray, t: float, case: str) -> FloatArray:
+def moments(crane: CraneSkeleton, drive: str, phi: ArrayLike, psi: ArrayLike, t: float, case: str) -> FloatArray:
     """Return a drive's force at poses [N m], the shape of phi and psi together."""
-    phi, psi = np.broadcast_arrays(phi, psi)
-    (found,) = crane.evaluate([drive_force(drive, case=case)], phi=phi.ravel(), psi=psi.ravel(), t=t)
-    return found.reshape(phi.shape)
+    boom, arm = np.broadcast_arrays(np.asarray(phi, float), np.asarray(psi, float))
+    (found,) = crane.evaluate([drive_force(drive, case=case)], phi=boom.ravel(), psi=arm.ravel(), t=t)
+    return found.reshape(boom.shape)
 
 
 def boom_bound(crane: CraneSkeleton, phi: ArrayLike, *, case: str = LIFTING) -> FloatArray:

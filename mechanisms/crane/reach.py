@@ -1,8 +1,12 @@
-"""Where the crane reaches: boom and arm for a place of the tip, how far the telescope may be out there, and the area of it all."""
+"""Where the crane reaches: boom and arm for a place of the tip, how far the telescope may be out there, and the area of it all.
+
+The reach is what the tip, T, covers in the crane's plane; what stands in the way, the vehicle and the ground, is not looked at.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TypeAlias, final
 
 import numpy as np
@@ -93,9 +97,71 @@ class Reach:
             np.concatenate([high[chosen], at[edge]]),
         )
 
+    def on_rays(self, angle: FloatArray, radius: FloatArray) -> Flags:
+        """Return whether the tip can be on rays from O, by their direction [rad] and the distance on them [m]; they broadcast."""
+        return self.reaches(radius * np.cos(angle), self.height + radius * np.sin(angle))
+
     def reaches(self, x: FloatArray, y: FloatArray) -> Flags:
         """Return whether the tip can be at places (x, y) [m], their shape."""
         flat_x, flat_y = (np.ravel(each) for each in np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float)))
         found = np.zeros(flat_x.size, bool)
         found[self.windows(flat_x, flat_y).place] = True
         return found.reshape(np.broadcast_shapes(np.shape(x), np.shape(y)))
+
+
+RAYS, SAMPLES, HALVINGS = 361, 401, 40
+"""Rays from O over the full circle, places on each, and how often an edge between two of them is halved."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Envelope:
+    """All that a crane's tip reaches, with its border and its area.
+
+    `spans` are the parts of every ray that lie within, (ray, nearest, farthest) with the rays' directions in `angles` [rad], from `centre`.
+    """
+
+    centre: tuple[float, float]
+    angles: FloatArray
+    spans: tuple[tuple[int, float, float], ...]
+
+    @property
+    def area(self) -> float:
+        """The area within reach [m2]."""
+        first, last = 0, self.angles.size - 1  # the same ray
+        swept = sum(0.5 * (far**2 - near**2) for ray, near, far in self.spans if first < ray <= last)
+        return float(swept * (self.angles[1] - self.angles[0]))
+
+    @property
+    def border(self) -> FloatArray:
+        """The border in straight pieces, shape (n, 2, 2) [m]: pieces, their two ends, x and y.
+
+        Of two neighbouring rays the parts that only one of them has within are pairs of ends in order of distance: a piece each.
+        """
+        ends: list[list[tuple[float, int]]] = [[] for _ in self.angles]
+        for ray, near, far in self.spans:
+            ends[ray] += [(near, ray), (far, ray)]
+        joined = [sorted(one + other) for one, other in pairwise(ends)]
+        pieces = [pair for row in joined for pair in zip(row[::2], row[1::2], strict=True)]
+        radius = np.array([[end[0] for end in piece] for piece in pieces])
+        angle = self.angles[[[end[1] for end in piece] for piece in pieces]]
+        return np.stack([self.centre[0] + radius * np.cos(angle), self.centre[1] + radius * np.sin(angle)], axis=-1)
+
+
+def envelope(crane: Crane) -> Envelope:
+    """Return all that the tip of one crane reaches, its edges to a micrometre along the rays."""
+    reach = Reach(crane)
+    most = reach.l_c + reach.l_p + reach.limits["t"][1]
+    angles, radii = np.linspace(-np.pi, np.pi, RAYS), np.linspace(0.0, 1.001 * most, SAMPLES)
+    inside = reach.on_rays(angles[:, None], radii[None, :])
+    ray, place = np.nonzero(inside[:, 1:] != inside[:, :-1])
+    low, high, grows = radii[place], radii[place + 1], inside[ray, place + 1]
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        beyond = reach.on_rays(angles[ray], middle) == grows
+        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+    ends: list[list[float]] = [[0.0] if first else [] for first in inside[:, 0]]
+    for each, at in zip(ray, 0.5 * (low + high), strict=True):
+        ends[each].append(float(at))
+    spans = tuple((k, near, far) for k, row in enumerate(ends) for near, far in zip(row[::2], row[1::2], strict=True))
+    return Envelope((0.0, reach.height), angles, spans)

@@ -34,17 +34,14 @@ from linkage.errors import cited
 from linkage.program import FloatArray
 from linkage.units import deg, kN, mm
 
-GRAVITY = (0.0, -9.81)
+GRAVITY = 9.81
 """m/s2, the source's."""
-
-JOINT_WEIGHT = 300.0
-"""What the parts at the joint of boom and arm weigh [N], G_m of (2.24)."""
-
-AT_BOOM, AT_DRIVE, AT_ARM = 0.4, 0.7, 0.45
-"""Where the centres of gravity lie: of the boom and of its drive in l_c, of arm and telescope in what is out of both. (2.22)-(2.27)"""
-
-DRIVE_SHARE = 0.025
-"""The boom drive's share of the crane's mass, G_g."""
+JOINT = 300.0
+"""Weight of the parts at the joint of boom and arm, G_m [N] (2.24)."""
+OF_DRIVE, AT_BOOM, AT_DRIVE, AT_ARM = 0.025, 0.4, 0.7, 0.45
+"""The boom drive's share of the crane's mass; where the centres of gravity lie: of boom and drive in l_c, of the arm in its length."""
+DOWNWARDS = (0.0, -GRAVITY)
+"""m/s2, the source's gravity as load cases take it."""
 
 GUARDS: Mapping[str, tuple[str, str]] = MappingProxyType(
     {
@@ -105,12 +102,13 @@ class CraneSkeleton(Mechanism):
     OC = OnLink(O, J, OOC=AT_BOOM * l_c)                  # centres of gravity of the boom and of its drive
     OG = OnLink(O, J, OOG=AT_DRIVE * l_c)
     boom = Weight(OC, mass=W_c)
-    drive = Weight(OG, mass=DRIVE_SHARE * W)
-    joint = Weight(J, mass=JOINT_WEIGHT / -GRAVITY[1])
+    drive = Weight(OG, mass=OF_DRIVE * W)
+    joint = Weight(J, mass=JOINT / GRAVITY)
     root = LinkMass((J, K), mass=(1.0 - AT_ARM) * (W_p + W_t), at=(0.0, 0.0)) # arm and telescope: their centre at 0.45 JT
     end = Weight(T, mass=AT_ARM * (W_p + W_t))
-    load = Weight(T, mass=Q / -GRAVITY[1])
-    lifting = LoadCase("lifting", gravity=GRAVITY)
+    load = Weight(T, mass=Q / GRAVITY)
+    lifting = LoadCase("lifting", gravity=DOWNWARDS)
+    side_slope = LoadCase("on a side slope", gravity=DOWNWARDS, slope=-10 * deg)             # reaching downhill
 
     reach_error = l_c + l_p + l_t - np.sqrt(L**2 + (H_p + h_0 - H_w) ** 2)    # (2.10)
     over_stakes = H_p + h_0 + l_c * np.cos(phi_0) - l_p - H_w - h_s           # (2.11)

@@ -8,6 +8,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .design import Combination as Combination
+from .design import design as design
+from .design import feasible as feasible
 from .duty import Duty as Duty
 from .duty import assumed_moment as assumed_moment
 from .duty import grapple_for as grapple_for

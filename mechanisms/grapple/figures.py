@@ -80,7 +80,7 @@ def _room(way: Motion) -> tuple[float, float, float, float]:
     half = float(way.inputs["D_0"]) / 2.0
     pad = 0.16 * half
     wide = max(float(np.abs(way.x(point)).max()) for point in "ACEO") + 2.0 * pad
-    low = min(-half, *(float(way.y(point).min()) for point in "AC")) - pad
+    low = min(-half, *(float(way.y(point).min()) for point in "AC")) - 1.8 * pad
     high = max(half, *(float(way.y(point).max()) for point in "CE")) + 2.2 * pad
     return -wide, wide, low, high
 

@@ -97,7 +97,7 @@ class Grapple(Mechanism):
     push = ref("M_1") / arm
 
     stem = Force(A, (-push * x_in, -push * y_in))
-    lift = Cylinder(E, C, bore=bore, rod=rod)
+    lift = Cylinder(E, C, bore=bore, rod=rod, closed=closed, stroke=S)
     circuit = LiftCircuit(lift, pressure=20 * MPa, mechanical_efficiency=0.95)
 
     def __init__(self, **dimensions: Any) -> None:
@@ -138,4 +138,4 @@ class InnerGrapple(Grapple):
     bend = Dimension(-20 * deg, unit="deg")
     open_length = ref("closed") + ref("S")
     shut_length = ref("closed") + 0.0
-    lift = Cylinder("E", "C", bore="bore", rod="rod", works="rod")
+    lift = Cylinder("E", "C", bore="bore", rod="rod", closed="closed", stroke="S", works="rod")

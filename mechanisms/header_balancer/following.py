@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from hydraulics import Cylinder, FloatCircuit
-from linkage import Column, DefinitionError, ForceElement, Motion
+from linkage import Column, DefinitionError, ForceElement, GuideFriction, Motion, ref
 from linkage.errors import cited
 from linkage.loads import PinFriction, Support
+from linkage.loads.element import Formulas
 from linkage.motion import greatest, require_motion
 from linkage.program import FloatArray
 from linkage.quantities import Coordinate, Distance, is_number, is_whole
@@ -83,6 +84,29 @@ def at_horizon(motion: Motion) -> Motion:
     """Return the same design at the horizon, one pose."""
     require_header(motion)
     return motion.moved({"h": np.array([stroke_of(motion, 0.0)])})
+
+
+def write_reaction(written: Formulas) -> None:
+    """Write the arm H (34), the fluid dV (36), the reaction F_R (38), and while the header goes up and down with its seals (39).
+
+    Where other loads than the machine's own weights act, nothing: the paper's equations do not have them.
+    """
+    lift, thrust = written.plan.members["lift"], written.thrust("lift")
+    frictions = [name for name, each in written.plan.of_kind(ForceElement).items() if isinstance(each, (PinFriction, GuideFriction))]
+    if thrust is None or set(written.plan.of_kind(ForceElement)) != {"feeder", "header", "lift", LINE, SHOE, *frictions}:
+        return
+    assert isinstance(lift, Cylinder)
+    area, _ = lift.sides_written(written, thrust)
+    (OBx, OBy), (ABx, ABy) = written.between("O", "B"), written.between("A", "B")
+    arm = written.line("H", (OBx * ABy - OBy * ABx) / written.distance("A", "B"), "m")
+    written.line("dV", (written.inputs["h"] - written.value(ref("h_horizon"))) * area, "l")
+    arms = [written.between("O", point)[0] for point in ("G1", "G2")]
+    moment = written.line("M_O", written.weight("feeder") * arms[0] + written.weight("header") * arms[1], "Nm")
+    out, seals = written.between("O", "R")[0], written.inputs["seals"] * area
+    written.line("F_R", (moment - arm * thrust) / out, "kgf")
+    written.line("F_R_up", (moment - arm * (thrust - seals)) / out, "kgf")
+    written.line("F_R_down", (moment - arm * (thrust + seals)) / out, "kgf")
+    written.line("P_req", moment / (arm * area), "kgf/cm2")
 
 
 def own_loads(motion: Motion, *but: str) -> list[str]:

@@ -10,10 +10,11 @@ from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, is
 from hydraulics.inputs import in_pascals, positive
 from linkage import LEFT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, Motion, OnLink, Stroke, Vector, angle, distance, y
 from linkage.loads import PinFriction, Support, Weight
+from linkage.loads.element import Formulas
 from linkage.units import deg, kg, kgf_cm2, litre, mm
 
 from .criteria import criteria
-from .following import reaction_columns, stroke_at
+from .following import reaction_columns, stroke_at, write_reaction
 
 
 class HeaderBalancer(Mechanism):
@@ -92,6 +93,11 @@ class HeaderBalancer(Mechanism):
     def columns(self, motion: Motion) -> list[Column]:
         """Return stroke, shoe, arm, pressures and reactions, of all shoes and of one."""
         return reaction_columns(motion)
+
+    def formulas(self, written: Formulas) -> None:
+        """Write, after what its elements say, (34), (36), (38) and (39), and the pressure at which the shoe carries nothing."""
+        super().formulas(written)
+        write_reaction(written)
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return the paper's five criteria in words, over the following range of one design."""

@@ -10,11 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from hydraulics import LiftCircuit
+from hydraulics.member import found_in
 from linkage import DefinitionError, Force, ForceElement, Motion, angle
 from linkage.errors import cited, unwarned
+from linkage.loads.element import Formulas
 from linkage.motion import greatest, lowest, require_motion
 from linkage.program import FloatArray
-from linkage.quantities import is_number
+from linkage.quantities import Distance, is_number
 from linkage.reports import closely
 from linkage.units import deg, g0, kN, mm
 
@@ -47,6 +49,19 @@ def capacity(motion: Motion, point: str = "G", share: float = 1.0) -> FloatArray
     F_cyl = p_max area (29), I = dy/dS of the point. NaN where I is not above zero: not limited by this cylinder.
     """
     return circuit_of(motion).capacity(motion, point, own_loads(motion), share=share)
+
+
+def write_capacity(written: Formulas) -> None:
+    """Write F_cyl (29) and G_g (28), as `capacity` has it: what other loads than the implement take of the cylinders counts off."""
+    lift, thrust = found_in(written.plan.members, "lift", written.plan.title), written.thrust("lift")
+    if thrust is None:
+        return
+    area, _ = lift.sides_written(written, thrust)
+    force = written.line("F_cyl", written.inputs["circuit.pressure"] * area, "kN")
+    most, lever = force * written.inputs["circuit.mechanical_efficiency"], written.ratio("G")[1] / written.ratio(Distance("A", "B"))
+    others = [name for name in written.plan.of_kind(ForceElement) if name not in NOT_OWN]
+    spare = most - (thrust - written.weight("load") * lever) if others else most
+    written.line("G_g", spare / lever, "kN")
 
 
 def at_hitch_points(motion: Motion, share: float = SHARE) -> FloatArray:

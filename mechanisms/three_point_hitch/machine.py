@@ -12,9 +12,10 @@ import numpy as np
 from hydraulics import Cylinder, LiftCircuit
 from hydraulics.inputs import positive
 from linkage import LEFT, RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, Motion, OnLink, Stroke, Weight, angle
+from linkage.loads.element import Formulas
 from linkage.units import MPa, deg, kg, litre, minute, mm
 
-from .capacity import capacity
+from .capacity import capacity, write_capacity
 from .report import verdicts
 
 
@@ -76,6 +77,11 @@ class ThreePointHitch(Mechanism):
         points = [each for each in super().columns(motion) if each.name != "tilt"]
         lifted = Column("capacity", capacity(motion), "kN", 3)
         return [*points, Column("I", motion.ratio("G")[1], "", 4), lifted, Column("tilt", motion["tilt"], "deg", 3)]
+
+    def formulas(self, written: Formulas) -> None:
+        """Write, after what its elements say, F_cyl = p_max area (29) and the lifting capacity G_g = F_cyl eta / I_G (28)."""
+        super().formulas(written)
+        write_capacity(written)
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return what an engineer should know: capacity and its weakest point, pressure, oil, upper link, mast, front axle."""

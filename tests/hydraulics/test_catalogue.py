@@ -4,9 +4,19 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from hydraulics import CatalogueRow, Cylinder, catalogue, standard_bores, standard_rods, standard_strokes
-from linkage import RIGHT, DefinitionError, Dyad, Ground, Mechanism, Stroke
-from linkage.units import mm
+from hydraulics import (
+    CatalogueRow,
+    Cylinder,
+    LiftCircuit,
+    catalogue,
+    fits,
+    pressure,
+    standard_bores,
+    standard_rods,
+    standard_strokes,
+)  # fmt: skip
+from linkage import RIGHT, DefinitionError, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, Weight, at, most, optimise
+from linkage.units import bar, deg, mm
 
 NAMES = ("lift.bore", "lift.rod", "lift.stroke", "lift.closed")
 
@@ -58,6 +68,35 @@ def test_all_rows_are_one_batch():
     closed, stroke = Arm.lift.closed_and_stroke(batch)
     assert_allclose(np.ravel(closed), rows[:, 3])
     assert_allclose(np.ravel(stroke), rows[:, 2])
+
+
+class Loaded(Arm):
+    """It lifts a load; in `Followed` the closed length follows the stroke."""
+
+    G = OnLink("O", "B", OG=0.9, BOG=-40 * deg)
+    load = Weight(G, mass=1200)
+    pump = LiftCircuit("lift", pressure=180 * bar)
+
+
+class Followed(Loaded):
+    out = Dimension(0.27)
+    lift = Cylinder("A", "B", bore=110 * mm, rod=63 * mm, stroke=out, closed=out + 0.2)
+
+
+def test_a_search_takes_the_row_that_is_best_among_those_that_fit():
+    rows = catalogue([63 * mm, 80 * mm, 90 * mm], [45 * mm, 50 * mm], strokes=[0.2, 0.255, 0.32], dead=(0.145, 1.2))
+    found = optimise(Loaded(), minimise=most(pressure("lift")), vary={NAMES: rows}, subject_to=[fits("lift")])
+
+    def judged(row):
+        design = Loaded(**dict(zip(NAMES, row, strict=True)))
+        return np.max(design.lift.pressure(design.sweep(101))) if all(design.lift.fits(design.sweep(5))) else np.inf
+
+    assert tuple(found.machine[name] for name in NAMES) == min(rows, key=judged)
+
+
+def test_a_search_varies_what_stroke_and_closed_length_follow():
+    found = optimise(Followed(), maximise=at("out"), vary={"out": (0.1, 0.4)}, subject_to=[fits("lift")])
+    assert found.machine["out"] == pytest.approx(0.3, abs=1e-6)  # closed 500 mm, the least distance of its pins
 
 
 def test_a_row_says_what_it_is():

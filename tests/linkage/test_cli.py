@@ -169,6 +169,40 @@ def test_equations_are_printed_when_asked(said):
     assert "Equations" in out and "(1)" in out
 
 
+def test_equations_are_numbered_differentiated_and_filled_in(said):
+    _, out, _ = said("show", "mower_lift", "--equations", "--start", "4", "--ratio", "FI3", "--ratio", "G", "--forces", "--at", "S=550mm")
+    assert "  (4)  AO = O - A = " in out
+    assert "dFI3/dS = dFIS/dS = 6.6806 rad/m" in out
+    assert "pd = F/SS = 79370.9/0.00502655 = 1.57903e+07 Pa = 161.017 kgf/cm2" in out
+    _, numbers, _ = said("show", "mower_lift", "--equations", "--numbers")
+    assert "FI3 = FI0 + FIS + 180 deg = 7.68672 deg + 45.648 deg + 180 deg = 233.335 deg" in numbers and "Q_S" not in numbers
+
+
+def test_equations_as_latex_stand_alone(said):
+    code, out, _ = said("show", "three_point_hitch", "--equations", "--latex", "--start", "4", "--ratio", "G", "--wrt", "S")
+    assert code == 0
+    assert out.startswith(r"\begin{align*}") and out.endswith("\\end{align}\n")
+    assert r"\tag{4}" in out and r"I_{G} &= \frac{dG_{y}}{dS}" in out
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--start", "4"], "--start says how equations are printed; say --equations too."),
+        (["--latex"], "--latex says how equations are printed; say --equations too."),
+        (["--equations", "--latex", "--numbers"], "--latex prints symbols, not numbers; leave out --numbers"),
+        (["--equations", "--start", "x"], "argument --start: invalid int value: 'x'"),
+        (["--equations", "--ratio", "Z"], "Point or output 'Z' is unknown in MowerLift."),
+        (["--equations", "--at", "S=0.6,0.7"], "--at S=0.6,0.7: numbers are filled in at one pose; give one value."),
+        (["--equations", "--at", "T=0.6"], "Stroke 'T' is unknown in MowerLift. Known: S."),
+        (["--equations", "--at", "S=6"], "B = Dyad"),
+    ],
+)  # fmt: skip
+def test_equations_that_cannot_be_printed_are_refused(said, options, words):
+    code, _, complaint = said("show", "mower_lift", *options)
+    assert code == 2 and words in complaint
+
+
 def test_a_users_machine_with_a_load_shows_the_force_of_its_drive(said, own):
     with (own / "lever.py").open("a", encoding="utf-8") as file:
         file.write("    load = Weight(B, mass=100)\n")

@@ -47,7 +47,7 @@ def loaded(machine):
     last = machine.plan.moving[-1]
     body = next(each.points for each in machine.plan.links[1:] if len(each.points) > 1)[:2]
     members = {f"w{k}": Weight(point, mass=50.0 + 17.0 * k) for k, point in enumerate(machine.plan.moving)}
-    members |= {"pull": Force(last, (300.0, -120.0)), "turn": Moment(body, M=40.0), "own": LinkMass(body, mass=8.0, at=(0.1, 0.02))}
+    members |= {"tug": Force(last, (300.0, -120.0)), "turn": Moment(body, M=40.0), "own": LinkMass(body, mass=8.0, at=(0.1, 0.02))}
     members["spring"] = Spring([*machine.plan.ground, *machine.plan.moving][0], last, stiffness=900.0, free_length=0.13)
     return type(f"Loaded{machine.__name__}", (machine,), members)
 
@@ -179,7 +179,7 @@ def test_a_gradient_over_two_strokes_is_a_grid():
     machine = loaded(next(each for each in SHIPPED if each.__name__ == "FrontLoader"))
     first, second = machine.plan.strokes
     motion = machine().sweep(**{first: 3, second: 4})
-    found = motion.gradient(drive_force(second), ["w0.mass", "pull.x"])
+    found = motion.gradient(drive_force(second), ["w0.mass", "tug.x"])
     assert found.shape == (2, 3, 4)
     assert_allclose(found[0], driving_force(motion, [Weight(machine.plan.moving[0], mass=1.0)], second), atol=1e-9)
 

@@ -208,8 +208,8 @@ TILT = [Target("tilt", 0.0, S=0.1)]
         ({"MK": (0.5, 1.3)}, [], "a list of targets is expected"),
         ({"MK": (0.5, 1.3)}, TILT[0], "a list of targets is expected"),
         ({"MK": (0.5, 1.3)}, [Target("tilt", 0.0)], "say the pose, S=..."),
-        ({"MK": (0.5, 1.3)}, [Target("F", 0.0, S=0.1)], "F has two coordinates; ask for a number, such as y('F')"),
-        ({"MK": (0.5, 1.3)}, [Target(len, 0.0, S=0.1)], "is no output, quantity, request"),
+        ({"MK": (0.5, 1.3)}, [Target("F", 0.0, S=0.1)], 'F has two components; say which, x("F") or y("F")'),
+        ({"MK": (0.5, 1.3)}, [Target(len, 0.0, S=0.1)], "len is no part of the program"),
         ({"XY": (0.5, 1.3)}, TILT, "Dimension 'XY' is unknown"),
     ],
 )
@@ -232,6 +232,15 @@ def test_a_target_that_cannot_be_is_refused(given, words):
     with pytest.raises(DefinitionError) as refused:
         Target("tilt", **given)
     assert words in str(refused.value)
+
+
+def test_what_belongs_to_one_setting_is_refused_for_several():
+    for given, words in (({"S": 0.1}, "S=..."), ({"between": (0.1, 0.2)}, "between=..."), ({"target": 0.1}, "target=0.1")):
+        with pytest.raises(DefinitionError, match=words) as refused:
+            settings_for(ThreePointHitch(), HITCH, TILT * 2, **given)
+        assert "every target says it itself" in str(refused.value)
+    with pytest.raises(DefinitionError, match="leave it out"):
+        settings_for(ThreePointHitch(), "MK", "tilt", between=(0.5, 1.3), points=3, S=0.1)
 
 
 def test_points_are_a_whole_number():

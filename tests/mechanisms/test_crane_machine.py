@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from scipy.integrate import trapezoid
 
 from linkage import DefinitionError, Force, ForceElement, distance, driving_force, pin_forces
 from linkage.units import deg, kN
@@ -139,8 +140,8 @@ def test_moment_of_a_cylinder_over_its_way_is_its_oil():
     crane = Crane()
     phi, psi = (np.linspace(*crane.limits_of()[name], 4001) for name in ("phi", "psi"))
     area = np.pi / 4 * 22e6 * 0.95
-    assert np.trapezoid(boom_moment(crane, phi), phi) == pytest.approx(area * 0.125**2 * 0.8850545905614509, rel=1e-6)
-    assert np.trapezoid(arm_moment(crane, psi)[1], psi) == pytest.approx(area * (0.14**2 - 0.08**2) * 0.926744269401061, rel=1e-6)
+    assert trapezoid(boom_moment(crane, phi), phi) == pytest.approx(area * 0.125**2 * 0.8850545905614509, rel=1e-6)
+    assert trapezoid(arm_moment(crane, psi)[1], psi) == pytest.approx(area * (0.14**2 - 0.08**2) * 0.926744269401061, rel=1e-6)
 
 
 def test_chains_halve_the_way_and_double_the_force():
@@ -190,13 +191,13 @@ def capacities(crane, x, y, t):
 
 
 def brute_force(crane, heights, radii, count):
-    """Return the greatest load over a grid of telescope positions and a finer one about its best, shape (heights, radii) [N]."""
+    """Return the greatest load over a grid of telescope positions and finer ones about its best, shape (heights, radii) [N]."""
     found = np.full((len(heights), len(radii)), np.nan)
     l_t = float(crane["l_t"])
     for k, y in enumerate(heights):
         for n, x in enumerate(radii):
             t = np.linspace(0.0, l_t, count)
-            for _ in range(2):
+            for _ in range(4):
                 loads = capacities(crane, x, y, t)
                 if np.isfinite(loads).any():
                     best = np.nanargmax(loads) % count
@@ -208,18 +209,18 @@ def brute_force(crane, heights, radii, count):
 @pytest.mark.parametrize("machine", [Crane, ChainCrane])
 def test_load_map_is_brute_force(machine):
     crane, heights, radii = machine(), HEIGHTS[1::4], RADII[::4]
-    found, slow = load_map(crane, heights, radii).load, brute_force(crane, heights, radii, 121)
+    found, slow = load_map(crane, heights, radii).load, brute_force(crane, heights, radii, 61)
     both = np.isfinite(slow)
     assert both.sum() >= 9
     assert np.isfinite(found[both]).all()
-    assert np.all(found[both] >= slow[both] * (1.0 - 1e-6))
+    assert np.all(found[both] >= slow[both] * (1.0 - 1e-5))
     assert_allclose(found[both], slow[both], rtol=1e-3)
 
 
 @pytest.mark.slow
 def test_whole_load_map_is_brute_force():
     crane = Crane()
-    found, slow = load_map(crane, HEIGHTS, RADII).load, brute_force(crane, HEIGHTS, RADII, 1001)
+    found, slow = load_map(crane, HEIGHTS, RADII).load, brute_force(crane, HEIGHTS, RADII, 401)
     both = np.isfinite(slow)
     assert_allclose(found[both], slow[both], rtol=1e-3)
 

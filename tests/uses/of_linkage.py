@@ -803,6 +803,62 @@ USES = [
         '"ell"; 3; None; []',
         ("is unknown in settings_for(unit=...).", "Known: m, mm, cm, inch, rad, deg, °,", "kgf/cm2, l, litre, cm3, m3, cm2, m2, rad/m."),
     ),
+    (
+        'study.settings_for(lifting, {"OB": (0.25, 0.35)}, @)',
+        '"tilt"; None; 3; []; ["tilt"]; {}',
+        ("Lift:", 'a list of targets is expected, such as [Target("tilt", 0.0, S=0.1)].'),
+    ),
+    (
+        'study.settings_for(lifting, {"OB": (0.25, 0.35)}, [study.Target("tilt", @, S=0.1)])',
+        '"a"; None; nan; [1.0]; 1j',
+        ("Target('tilt',", "one number is expected for the value, in SI."),
+    ),
+    (
+        'study.monte_carlo(lifting, ["tilt"], @, S=0.1)',
+        'None; 3; []; {}; "OB"',
+        ("Lift:", "tolerances by the names of dimensions are expected,"),
+    ),
+    (
+        'study.monte_carlo(lifting, ["tilt"], {"OB": @}, S=0.1)',
+        '"a"; None; nan; -0.1; (0.2, 0.1); (0.1,)',
+        ("Lift: OB:", "is no tolerance; give how far it may lie to either side [SI], such as 0.1 * mm,"),
+    ),
+    (
+        'study.monte_carlo(lifting, ["tilt"], {"OB": 1e-4}, threads=@, S=0.1)',
+        'None; 0; "a"; 1.5; True',
+        ("a whole number of at least 1 is expected.",),
+    ),
+    (
+        'study.monte_carlo(lifting, ["tilt"], {"OB": 1e-4}, count=@, S=0.1)',
+        'None; 0; "a"; 1.5; True',
+        ("a whole number of designs is expected, at least 1.",),
+    ),
+    (
+        'study.monte_carlo(lifting, @, {"OB": 1e-4}, S=0.1)',
+        'None; 3; "tilt"; []; {}',
+        ("Lift:", "a list of quantities is expected, such as"),
+    ),
+    (
+        'study.tornado(lifting, @, {"OB": 1e-4}, S=0.1)',
+        'None; 3; []; {}; 1j',
+        ("Lift:", "is no output, quantity, request, measure or function of a motion;"),
+    ),
+    (
+        'study.sobol(lifting, "tilt", {"OB": 1e-4}, count=@, S=0.1)',
+        'None; 0; "a"; 1.5; 100; True',
+        ("a power of two is expected, such as 4096.",),
+    ),
+    (
+        'study.sobol(lifting, "tilt", {"OB": 1e-4}, seed=@, S=0.1)',
+        'None; -1; "a"; 1.5',
+        ("a whole number is expected, at least 0.",),
+    ),
+    ('study.spread(@, {}, "tilt", {"OB": 1e-4}, {"S": 0.1})', 'None; 3; "Lift"; Lift', ("A study is of a mechanism:",)),
+    (
+        'study.spread(lifting, {}, "tilt", {"OB": 1e-4}, @)',
+        'None; 3; []; "S"',
+        ("Lift: strokes=", "a dictionary of strokes by name is expected"),
+    ),
     ('study.survey(@, {"OB": np.array([0.3])}, len)', 'None; 3; "Lift"; Lift; []', ("A study is of a mechanism:",)),
     (
         'study.survey(@, {"OB": np.array([0.3])}, len)',

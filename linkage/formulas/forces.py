@@ -1,0 +1,386 @@
+"""The equations of forces: what acts, the driving forces by virtual work, what cylinders carry, and what elements add to that.
+
+The laws of force run on the symbols of the listing, as they run on arrays and on the nodes of a program; one that has no formula is a given
+number. A load that is vertical is a weight P, times the transfer ratio of its point; any other a vector F. Signs and frictionless virtual
+work are those of `linkage.statics.work`. Source of notation: Dyuzhev, Kotov, Chuprynin (Minsk, 2008), (27) to (29).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, cast, final
+
+import numpy as np
+import sympy
+
+from ..errors import DefinitionError
+from ..loads import ForceElement, Rates, TwoPinned, TwoPoint
+from ..mechanism import Mechanism
+from ..motion import Motion, stroke_unit
+from ..motion.requests import stroke_of
+from ..program import FloatArray
+from ..quantities import Angle, Distance, Quantity, Reference, name_of
+from ..statics.acting import AT_REST, acting_loads
+from ..statics.holding import Holders, PressureLine, holders_of
+from .listing import Listing, Written
+from .rates import LineDerivatives
+from .symbolic import NUMBER, Term, Unit, term, unit_named
+from .words import Dot, explicit
+
+MOST = 3
+"""More cylinders that hold their strokes together have no equations that one would read."""
+WORDS = (
+    "Forces in N, pressures in Pa gauge, without friction. P: a force downwards, F: another one; Q: the force of a drive by virtual work,",
+    "positive the way its stroke grows; T: what a member carries, positive where it pushes its ends apart. Pressures and reserves hold",
+    "while the load resists.",
+)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class GivenNumber:
+    """A symbol that no line gives, what its value is at the poses of a motion [SI], and what it measures."""
+
+    symbol: Any
+    value: Callable[[Motion], Any]
+    unit: Unit
+
+    def parts(self, motion: Motion) -> dict[Any, Any]:
+        """Return the plain symbols with their values at the poses of a motion."""
+        value = np.asarray(self.value(motion))
+        return dict(zip(explicit(self.symbol), value if self.symbol.is_Matrix else (value,), strict=True))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Pulled:
+    """A load as it is written: its point, its symbol, and its direction: -1 downwards, 1 upwards, 0 a vector's own."""
+
+    point: str
+    symbol: Any
+    way: int
+
+
+@final
+class ForceLines:
+    """The equations of a design's forces, on a listing; one pose of symbols for the laws (see `linkage.loads.element.Formulas`)."""
+
+    shape: tuple[int, ...] = ()
+
+    def __init__(self, design: Mechanism, listing: Listing) -> None:
+        self.design, self.listing, self.plan = design, listing, design.plan
+        self.inputs: Mapping[str, Any] = {name: listing.input(name) for name in listing.units}
+        self.lines: list[Written] = []
+        self.givens: list[GivenNumber] = []
+        self._thrusts: dict[str, Term] = {}
+        self._weights: dict[str, Term] = {}
+        self._members: dict[str, TwoPinned] = {}
+        self._chains: Mapping[str, Chain] = {}
+
+    def write(self) -> None:
+        """Write all lines; DefinitionError for what has no chain of derivatives, and for cylinders that hold strokes together."""
+        elements = self.plan.of_kind(ForceElement)
+        for element in elements.values():
+            if element.feeds(self.plan.members):
+                element.formulas(self)
+        pulled = [each for name, element in elements.items() for each in self._acting(name, element)]
+        holders = holders_of(self.plan)
+        chains = self._chains = {stroke: Chain(self, stroke, pulled, holders) for stroke in self.plan.strokes}
+        for stroke, chain in chains.items():
+            self.lines += chain.lines
+            self._write(f"Q_{stroke}", chain.need(pulled), "Nm" if stroke_unit(self.plan, stroke) == "rad" else "kN")
+        self._hold(holders.lines)
+        self.design.formulas(self)
+
+    @property
+    def friction(self) -> list[str]:
+        """The elements whose dry friction is left out."""
+        return [name for name, each in self.plan.of_kind(ForceElement).items() if each.frictions(self._somewhere())]
+
+    # -- what acts -------------------------------------------------------------------------------------
+
+    def _acting(self, name: str, element: ForceElement) -> Iterator[Pulled]:
+        """Write what an element does at rest, and yield its loads; members with a thrust of their own are kept."""
+        if element.feeds(self.plan.members):
+            return
+        try:
+            pushes, loads = element.pushes(self, Rates()), []
+            loads = [] if pushes else element.loads(self)
+            terms = [self._terms(each.force) for each in loads]
+            thrusts = [term(np.asarray(each.thrust, object)[()]) for each in pushes]
+        except Exception:  # whatever a law of a user's own stumbles on: it has numbers all the same
+            yield from self._numbers(name)
+            return
+        for push, thrust in zip(pushes, thrusts, strict=True):
+            if not self.equals(cast(Any, thrust), 0.0):
+                self.carry(push.member, cast(Any, thrust))
+        both = zip(loads, terms, strict=True)
+        live = [(load, parts) for load, parts in both if not all(self.equals(cast(Any, each), 0.0) for each in parts)]
+        for load, (x, y) in live:
+            yield self._pulled(name if len(live) == 1 else f"{name}_{load.point}", load.point, x, y)
+
+    def _terms(self, force: Any) -> tuple[Term, Term]:
+        x, y = (term(part) for part in np.asarray(force, object))
+        return x, y
+
+    def _pulled(self, title: str, point: str, x: Term, y: Term) -> Pulled:
+        """Write the line of a load: a weight, an upward force, or a vector."""
+        if self.equals(cast(Any, x), 0.0):
+            down = bool(y.expr.could_extract_minus_sign())
+            found = self._write(f"P_{title}" if down else f"F_{title}", -y if down else y, "N")
+            self._weights[title] = found if down else -found
+            return Pulled(point, found.expr, -1 if down else 1)
+        symbol = self.listing.names.force_vector(f"F_{title}")
+        self.lines.append(Written(symbol, sympy.ImmutableMatrix([whole_numbers(x.expr), whole_numbers(y.expr)]), unit_named("N")))
+        return Pulled(point, symbol, 0)
+
+    def _numbers(self, name: str) -> Iterator[Pulled]:
+        """Keep what an element without a formula does as given numbers, told by the engine; yield its loads."""
+        acting = acting_loads(self._somewhere(), [name], None, AT_REST)
+        for place, thrust in enumerate(acting.thrusts):
+            value = given_thrust(name, place)
+            self._thrusts[thrust.name] = cast(Term, self.given(f"T_{thrust.name}", value, "N"))
+            self._members[thrust.name] = thrust.member
+        for place, load in enumerate(acting.loads):
+            point = load.load.point
+            symbol = self.listing.names.force_vector(f"F_{name}" if len(acting.loads) == 1 else f"F_{name}_{point}")
+            self.givens.append(GivenNumber(symbol, given_load(name, place), unit_named("N")))
+            yield Pulled(point, symbol, 0)
+
+    def _somewhere(self) -> Motion:
+        strokes: Mapping[str, Any] = {name: stroke.start for name, stroke in self.plan.strokes.items()}
+        return self.design.at(unreachable="nan", **strokes)
+
+    # -- what holds ------------------------------------------------------------------------------------
+
+    def _hold(self, lines: Sequence[PressureLine]) -> None:
+        """Write what the cylinders of all lines carry: one line after the other where their strokes allow it, else together."""
+        left, strokes = list(lines), [line.stroke for line in lines]
+        levers = {line: self._levers(line, strokes) for line in lines}
+        needs = {stroke: self.listing.names.force(f"Q_{stroke}") for stroke in strokes}
+        while left:
+            block, rows = next_block(left, list(needs), levers)
+            for each, unit_thrust in zip(block, self._solved(block, rows, levers, needs), strict=True):
+                for cylinder in each.cylinders:
+                    self.carry(cylinder, cast(Any, Term(unit_thrust * self._area(each, cylinder))))
+            left, known = [each for each in left if each not in block], {each: self._unit_thrust(each) for each in block}
+            needs = {
+                name: need - sympy.Add(*(thrust * levers[each][name] for each, thrust in known.items()))
+                for name, need in needs.items() if name not in rows
+            }  # fmt: skip
+
+    def _solved(self, block: Sequence[PressureLine], rows: Sequence[str], levers: Any, needs: Mapping[str, Any]) -> list[Any]:
+        """Return the thrusts on a unit of area of lines that hold some strokes together, by Cramer's rule."""
+        matrix = sympy.Matrix([[levers[line][stroke] for line in block] for stroke in rows])
+        if len(block) > MOST:
+            names = ", ".join(each.name for line in block for each in line.cylinders)
+            raise DefinitionError(f"{self.plan.title}: {names} hold their strokes together, too many for equations; take thrust(motion).")
+        right, found = sympy.Matrix([needs[stroke] for stroke in rows]), []
+        for place in range(len(block)):
+            changed = matrix.copy()
+            changed[:, place] = right
+            found.append(changed.det() / matrix.det())
+        return found
+
+    def _levers(self, line: PressureLine, strokes: Sequence[str]) -> dict[str, Any]:
+        """Return what a unit of pressure in a line does on a unit of each stroke."""
+        if line.changes_shares:
+            names = " and ".join(each.name for each in line.cylinders)
+            raise DefinitionError(f"{self.plan.title}: {names} share their load by the sides that work; take thrust(motion) of each.")
+        parts = {name: [self._area(line, each) * self._chains[name].growth(each) for each in line.cylinders] for name in strokes}
+        return {name: sympy.Add(*each) for name, each in parts.items()}
+
+    def _area(self, line: PressureLine, cylinder: TwoPoint) -> Any:
+        """Return the thrust of a cylinder at a unit of its line's pressure; of one that is alone on its line at a unit of its own."""
+        return sympy.S.One if len(line.cylinders) == 1 else term(np.asarray(cylinder.area_written(self), object)[()]).expr
+
+    def _unit_thrust(self, line: PressureLine) -> Any:
+        first = line.cylinders[0]
+        return self._thrusts[first.name or "".join(first.ends)].expr / self._area(line, first)
+
+    # -- what elements write on ------------------------------------------------------------------------
+
+    @property
+    def pi(self) -> Any:
+        return Term(sympy.pi)
+
+    def line(self, name: str, value: Any, unit: str = "") -> Any:
+        return self._write(name, term(np.asarray(value, object)[()]), unit)
+
+    def _write(self, name: str, value: Term, unit: str) -> Term:
+        symbol = self.listing.names.force(name)
+        if symbol not in {each.lhs for each in self.lines}:
+            self.lines.append(Written(symbol, whole_numbers(value.expr), unit_named(unit)))
+        return Term(symbol)
+
+    def given(self, name: str, value: Callable[[Any], Any], unit: str = "") -> Any:
+        symbol = self.listing.names.force(name)
+        self.givens.append(GivenNumber(symbol, value, unit_named(unit)))
+        return Term(symbol)
+
+    def equals(self, value: Any, number: float) -> bool:
+        expr = term(np.asarray(value, object)[()]).expr.xreplace(self._values)
+        return not expr.free_symbols and float(expr) == number
+
+    @cached_property
+    def _values(self) -> dict[Any, Any]:
+        return {self.inputs[name].expr: sympy.Float(float(value)) for name, value in self.design.dimensions.items()}
+
+    def weight(self, name: str) -> Any:
+        if name not in self._weights:
+            raise DefinitionError(f"{self.plan.title}: {name} is no force straight up or down, which an equation of its machine expects.")
+        return self._weights[name]
+
+    def thrust(self, member: Reference) -> Any:
+        return self._thrusts.get(name_of(member))
+
+    def carry(self, member: TwoPinned, thrust: Any) -> None:
+        title = member.name or "".join(member.ends)
+        self._thrusts[title] = self.line(f"T_{title}", thrust, "kN")
+        self._members[title] = member
+
+    @property
+    def acting(self) -> Iterator[tuple[TwoPinned, Term]]:
+        """The members whose thrust follows from a law."""
+        return ((self._members[name], thrust) for name, thrust in self._thrusts.items())
+
+    # -- what a motion tells ---------------------------------------------------------------------------
+
+    def __getitem__(self, name: str) -> Any:
+        place = self.listing.at(name)
+        return np.array([place.x, place.y], object)
+
+    def value(self, quantity: Quantity) -> Any:
+        return self.listing.value(quantity)
+
+    def angle(self, P: Reference, Q: Reference) -> Any:
+        return self.value(Angle(P, Q))
+
+    def distance(self, P: Reference, Q: Reference) -> Any:
+        return self.value(Distance(P, Q))
+
+    def sketched(self, quantity: Quantity) -> Any:
+        strokes: Mapping[str, Any] = self.plan.sketch_strokes
+        return term(float(self.design.at(**strokes).value(quantity)))
+
+    def ratio(self, target: Reference, *, wrt: str | None = None) -> Any:
+        """Return the derivative of a loaded point, shape (2,), or of a member's length; DefinitionError for what no line gives."""
+        chain = self._chains.get(stroke_of(self.plan, wrt))
+        if chain is not None and isinstance(target, Distance):
+            ends = name_of(target.P), name_of(target.Q)
+            if ends in chain.growths:
+                return Term(chain.growths[ends])
+        elif chain is not None and name_of(target) in chain.points:
+            return np.array([Term(each) for each in chain.rates_of(name_of(target))], object)
+        raise DefinitionError(f"{self.plan.title}: {target} carries nothing here, so that no equation gives its ratio.")
+
+    def between(self, P: Reference, Q: Reference) -> Any:
+        vector = self.listing.between(name_of(P), name_of(Q))
+        return np.array([Term(vector[0, 0]), Term(vector[1, 0])], object)
+
+
+def next_block(lines: Sequence[PressureLine], strokes: Sequence[str], levers: Mapping[PressureLine, Mapping[str, Any]]) -> Any:
+    """Return lines and as many strokes that are solved next: one line that holds a stroke alone, else all that are left."""
+    for stroke in strokes:
+        holding = [line for line in lines if levers[line][stroke] != 0]
+        if len(holding) == 1:
+            return holding, [stroke]
+    return list(lines), list(strokes)
+
+
+def given_thrust(name: str, place: int) -> Callable[[Motion], FloatArray]:
+    """Return what tells the thrust of an element over a motion [N]."""
+    return lambda motion: acting_loads(motion, [name], None, AT_REST).thrusts[place].thrust
+
+
+def given_load(name: str, place: int) -> Callable[[Motion], FloatArray]:
+    """Return what tells a load of an element over a motion, shape (2, ...) [N]."""
+    return lambda motion: acting_loads(motion, [name], None, AT_REST).loads[place].force
+
+
+def whole_numbers(expr: Any) -> Any:
+    """Return an expression whose decimals that are whole numbers stand as such: 1.0 m is m."""
+    whole = {each: sympy.Integer(round(float(each))) for each in expr.atoms(sympy.Float) if float(each) == round(float(each))}
+    return expr.xreplace(whole)
+
+
+@final
+class Chain:
+    """The derivatives by one stroke that forces need: of the points that carry loads, and of the lengths of members."""
+
+    def __init__(self, forces: ForceLines, stroke: str, pulled: Sequence[Pulled], holders: Holders) -> None:
+        listing = self.listing = forces.listing
+        names = listing.names
+        self.symbol = names.quantity(stroke)
+        held = [each for line in holders.lines for each in line.cylinders]
+        self._acting = list(forces.acting)
+        lengths = {member.ends: listing.value(Distance(*member.ends)).expr for member in [*held, *(each for each, _ in self._acting)]}
+        points = {each.point: listing.at(each.point).expr for each in pulled}
+        together = {names.vector(pin) for pin in listing.unknowns}
+        free = [each for each in (*points.values(), *lengths.values()) if not together & symbols_behind(listing.lines, each)]
+        rates = LineDerivatives(self.symbol, listing.units[stroke], names)
+        self.lines = rates.lines(needed_by(listing.lines, free))
+        fixed = {line.lhs: line.rhs for line in self.lines if line.rhs.is_number}
+        self.growths = {
+            ends: rates.number(length).xreplace(fixed) if length in free else self._given_growth(forces, stroke, ends)
+            for ends, length in lengths.items()
+        }
+        self.points = {name: rates.known[symbol] for name, symbol in points.items() if symbol in rates.known}
+        self.points |= {name: self._given_rate(forces, stroke, name) for name, symbol in points.items() if symbol not in free}
+        is_only = len(forces.plan.strokes) == 1
+        self._vertical = dict.fromkeys(each.point for each in pulled if is_only and each.way and each.point in self.points)
+        self.lines += [Written(names.ratio(name), self.points[name][1, 0], self._unit(name)) for name in self._vertical]
+
+    def _given_rate(self, forces: ForceLines, stroke: str, point: str) -> Any:
+        """Return the derivative of a point that hangs on pins found together: a given number."""
+        symbol = self.listing.names.derivative(self.listing.names.vector(point), self.symbol)
+        forces.givens.append(GivenNumber(symbol, lambda motion: motion.ratio(point, wrt=stroke), NUMBER))
+        return symbol
+
+    def _given_growth(self, forces: ForceLines, stroke: str, ends: tuple[str, str]) -> Any:
+        """Return how a length grows that hangs on pins found together: a given number."""
+        vector = self.listing.names.vector("".join(ends))
+        symbol = self.listing.names.stretching(vector, self.symbol)
+        forces.givens.append(GivenNumber(symbol, lambda motion: motion.ratio(Distance(*ends), wrt=stroke), NUMBER))
+        return symbol
+
+    def _unit(self, point: str) -> Unit:
+        return next((each.unit for each in self.lines if each.lhs == self.points[point]), NUMBER)
+
+    def growth(self, member: TwoPinned) -> Any:
+        """Return how a member's length grows on a unit of the stroke."""
+        return self.growths[member.ends]
+
+    def rates_of(self, point: str) -> tuple[Any, Any]:
+        """Return both parts of a point's derivative; the second by its own name I_G where it has one."""
+        x, y = self.points[point][0, 0], self.points[point][1, 0]
+        return x, self.listing.names.ratio(point) if point in self._vertical else y
+
+    def need(self, pulled: Sequence[Pulled]) -> Term:
+        """Return the force of the stroke's drive by virtual work: minus the work of all loads on a unit of it."""
+        total = sympy.S.Zero
+        for each in pulled:
+            if each.point not in self.points:
+                continue
+            total -= each.way * each.symbol * self.rates_of(each.point)[1] if each.way else Dot(each.symbol, self.points[each.point])
+        for member, thrust in self._acting:
+            total -= thrust.expr * self.growths[member.ends]
+        return Term(total)
+
+
+def symbols_behind(lines: Sequence[Written], target: Any) -> set[Any]:
+    """Return the symbols that an expression is built from, those of the lines behind it too."""
+    return set(target.free_symbols).union(*(line.rhs.free_symbols for line in needed_by(lines, [target])))
+
+
+def needed_by(lines: Sequence[Written], targets: Sequence[Any]) -> list[Written]:
+    """Return the lines that some expressions are built from, in order."""
+    wanted = set().union(*(each.free_symbols for each in targets)) if targets else set()
+    found = []
+    for line in reversed(lines):
+        if line.lhs in wanted:
+            wanted |= line.rhs.free_symbols
+            found.append(line)
+    return found[::-1]

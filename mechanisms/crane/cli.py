@@ -1,0 +1,173 @@
+"""`hydrolinkage crane`: from a duty to a crane in one flow, or a crane that is there: masses, moments, load map, pin forces, pictures."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+
+from linkage import Column, DefinitionError
+from linkage.cli.command import Command, progress_bar
+from linkage.cli.machines import find
+from linkage.cli.settings import design
+from linkage.cli.table import csv_argument, write_table
+from linkage.disk import check_place
+from linkage.errors import unknown
+from linkage.units import kN, parse
+
+from . import FIGURES, crane_figure
+from .cylinders import arm_moment, boom_moment
+from .duty import Duty
+from .flow import design_crane, design_skeleton
+from .load_map import LoadMap, load_map
+from .machine import Crane
+from .moments import arm_bound, boom_bound
+from .reach import envelope
+from .skeleton import CraneSkeleton
+from .strength import strength_text
+
+KINDS = {"M": "moment", "payload": "mass", "psi_0": "angle", "k_d": "", "rho_w": ""}
+"""What the numbers of a duty measure; those not named here are lengths."""
+
+SHORT = {"boom cylinder": "b", "arm cylinder": "a", "telescope cylinder": "t", "stability": "s", "rated load": "r", "out of reach": ""}
+LEGEND = "Greatest load at the tip, kN, by radius and height in m; limited by the cylinder of the boom b, the arm a, the telescope t."
+COUNT = 9
+
+
+class DesignedCrane(Command):
+    """Designs a crane for a duty, or judges the one that is named."""
+
+    name = "crane"
+    help = "a forestry crane: skeleton, masses, bound of moments, drives, load map, pin forces, pictures"
+
+    def add(self, parser: ArgumentParser) -> None:
+        parser.add_argument("machine", metavar="NAME", nargs="?", help="judge this crane, such as crane, instead of designing one")
+        parser.add_argument(
+            "--set", dest="settings", metavar="L=8.5m", action="append", default=[],
+            help="change a number of the duty, with its unit; of a crane that is named a design variable; repeatable",
+        )  # fmt: skip
+        parser.add_argument(
+            "--reading", choices=(">=", "<="), default=">=", help="how (2.13) is read: the tip clears the guard, or comes as near"
+        )
+        parser.add_argument("--cab", metavar="6.9m", help="column's axis to cab: a back-broken skeleton, and no further stage")
+        parser.add_argument("--skeleton", action="store_true", help="the skeleton and its masses alone, without drives and load map")
+        parser.add_argument("--pins", action="store_true", help="the largest force of every pin in the load cases for strength too")
+        csv_argument(parser)
+        parser.add_argument("--pictures", metavar="FOLDER", help=f"write the pictures there: {', '.join(FIGURES)}")
+
+    def run(self, options: Namespace) -> int:
+        folder = Path(options.pictures) if options.pictures else None
+        if folder is not None:
+            check_place(folder / "map.png")
+        if options.skeleton or options.cab:
+            print_skeleton(bare_skeleton(options))
+            return 0
+        crane = named_crane(options) if options.machine else designed_crane(options)
+        print_skeleton(crane)
+        print_moments(crane)
+        print_map(crane, options)
+        if options.pins:
+            print(f"\n{strength_text(crane)}")
+        if folder is not None:
+            for name in FIGURES:
+                crane_figure(name, crane).savefig(folder / f"{name}.png")
+                print(folder / f"{name}.png")
+        return 0
+
+
+def duty_of_options(options: Namespace) -> Duty:
+    """Return the duty that the options mean."""
+    names, given = [each.name for each in fields(Duty)], {}
+    for text in options.settings:
+        name, equals, value = text.partition("=")
+        if name not in names:
+            raise unknown("Number of the duty", name, names)
+        if not equals:
+            raise DefinitionError(f"--set {text}: write a name and a value, such as L=8.5m.")
+        given[name] = parse(value, KINDS.get(name, "length"))
+    return Duty(**given)
+
+
+def bare_skeleton(options: Namespace) -> CraneSkeleton:
+    """Return the skeleton that the options mean, its search told."""
+    if options.machine:
+        raise DefinitionError(f"{options.machine} has its skeleton already; leave its name out to search one.")
+    cab = parse(options.cab, "length") if options.cab else None
+    with progress_bar("skeleton") as progress:
+        found = design_skeleton(duty_of_options(options), reading=options.reading, cab=cab, progress=progress or False)
+    print(f"{found}\n")
+    assert isinstance(found.machine, CraneSkeleton)
+    return found.machine
+
+
+def named_crane(options: Namespace) -> Crane:
+    """Return the crane that is named."""
+    machine = design(find(options.machine), options.settings)
+    if not isinstance(machine, Crane):
+        raise DefinitionError(f"{options.machine} is no crane with its cylinders; take crane, or a subclass of mechanisms.crane.Crane.")
+    return machine
+
+
+def designed_crane(options: Namespace) -> Crane:
+    """Return the crane designed for the duty, each stage told."""
+    with progress_bar("crane") as progress:
+        found = design_crane(duty_of_options(options), reading=options.reading, progress=progress or False)
+    print(*(f"{each}\n" for each in (found.skeleton, found.boom, found.arm)), sep="\n")
+    return found.crane
+
+
+def print_skeleton(crane: CraneSkeleton) -> None:
+    """Print heights and masses of a skeleton's members, and the conditions that it keeps."""
+    members = {
+        "column": ("h_0", "b_0", "W_0"),
+        "boom": ("l_c", "b_c", "W_c"),
+        "arm": ("l_p", "b_p", "W_p"),
+        "telescope": ("l_t", "b_t", "W_t"),
+    }
+    for words, (length, height, mass) in members.items():
+        numbers = float(crane[length]), crane.output(height) * 1e3, crane.output(mass)
+        print("{:10} {:7.3f} m long, {:6.1f} mm high, {:7.1f} kg".format(words, *numbers))
+    print(f"{'crane':10} {crane.output('W'):.1f} kg with its drives; W_m = {crane.output('W_m'):.6f} m2\n")
+    print(*crane.judged(), sep="\n")
+
+
+def print_moments(crane: Crane) -> None:
+    """Print the bound of moments and what the cylinders give, over boom's and arm's angle."""
+    limits = crane.limits_of()
+    phi, psi = (np.linspace(*limits[name], COUNT) for name in ("phi", "psi"))
+    falls, rises = arm_bound(crane, psi)
+    folds, opens = arm_moment(crane, psi)
+    print("\nBound of moments M_l and what the cylinders give M_g, kNm; phi from the upward vertical, psi from boom to arm, deg\n")
+    columns = [
+        Column("phi", phi, "deg", 2), Column("M_l", boom_bound(crane, phi), "kNm", 2), Column("M_g", boom_moment(crane, phi), "kNm", 2),
+        Column("psi", psi, "deg", 2), Column("M_l1", falls, "kNm", 2), Column("M_g1", folds, "kNm", 2),
+        Column("M_l2", rises, "kNm", 2), Column("M_g2", opens, "kNm", 2),
+    ]  # fmt: skip
+    write_table(columns, COUNT, None)
+
+
+def print_map(crane: Crane, options: Namespace) -> None:
+    """Print the load map with its limiters, or write it as CSV, and the reach's area."""
+    found = envelope(crane)
+    far = float(found.border[..., 0].max())
+    over = load_map(crane, np.linspace(8.0, -1.0, 10), np.linspace(1.0, np.floor(far), 10))
+    print(f"\n{LEGEND}\n")
+    if options.csv:
+        write_table(over.columns(), over.radii.size, options.csv)
+    else:
+        print(map_text(over))
+    print(f"\nThe tip reaches {found.area:.1f} m2.")
+
+
+def map_text(over: LoadMap) -> str:
+    """Return a load map as text: a row each height, a load and the letter of its limiter each radius."""
+    lines = ["   y \\ x" + "".join(f"{radius:8.2f} " for radius in over.radii)]
+    for k, height in enumerate(over.heights):
+        cells = (
+            f"{load / kN:8.1f}{SHORT[str(limiter)]}" if np.isfinite(load) else f"{'':8}-"
+            for load, limiter in zip(over.load[k], over.limiter[k], strict=True)
+        )
+        lines.append(f"{height:8.2f}" + "".join(cells))
+    return "\n".join(lines)

@@ -1,0 +1,431 @@
+"""The design of a crane's drives: every cylinder of a series judged, the pins of each found by `optimise`.
+
+Source: Syunyov, Seliverstov, Gerasimov, Sokolov, "Lesosechnye mashiny v fokuse bioenergetiki", (2.31) to (2.37), (2.60) to (2.66).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import pi
+from types import MappingProxyType
+from typing import Any, final
+
+import numpy as np
+
+from linkage import DefinitionError, Mechanism, StudyError, at, integral, least, most, optimise, ratio, ref, x, y
+from linkage.errors import cited, one_word
+from linkage.quantities import is_number
+from linkage.study import InfeasibleError, Optimum
+from linkage.study.measures import Measure
+from linkage.units import deg, kN, mm
+
+from .arm_drive import ArmDrive
+from .boom_drive import BoomDrive
+from .drive_duty import DriveCylinders, DriveDuty, clipped
+
+GIVEN = -ref("lifts") * ratio("length", wrt="phi")
+"""What the boom's drive gives [N m], a quantity over its poses."""
+FOLDS = -ref("folds") * ratio("length", wrt="psi")
+"""What the arm's drive gives while it folds the arm [N m], against -M_l1."""
+OPENS = ref("opens") * ratio("length", wrt="psi")
+"""What the arm's drive gives while it opens the arm [N m], against M_l2."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class JudgedSize:
+    """One cylinder of a series: bore and rod [m], the best drive with it, or in words why there is none.
+
+    `could` is the work that its longest stroke takes in [J], `asked` the work that the load asks of it.
+    """
+
+    bore: float
+    rod: float
+    could: float
+    asked: float
+    optimum: Optimum | None
+    reason: str = ""
+
+    @property
+    def value(self) -> float:
+        """What was to be least, infinite where there is no drive."""
+        return np.inf if self.optimum is None else self.optimum.value
+
+    @property
+    def is_too_small(self) -> bool:
+        """Whether its longest stroke takes in less than the load asks, so that no pins help."""
+        return self.could < self.asked
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class DriveDesign:
+    """All cylinders of a series judged for one drive, in the order of the series; `best` has the least objective."""
+
+    what: str
+    objective: str
+    sizes: tuple[JudgedSize, ...]
+
+    @property
+    def best(self) -> JudgedSize:
+        """The size that does best; DefinitionError, with all reasons, where none does."""
+        found = min(self.sizes, key=lambda each: each.value)
+        if found.optimum is None:
+            raise DefinitionError(f"No cylinder of the series serves the {self.what} drive. {' '.join(self.sentences)}")
+        return found
+
+    @property
+    def machine(self) -> Mechanism:
+        """The best drive."""
+        optimum = self.best.optimum
+        assert optimum is not None
+        return optimum.machine
+
+    @property
+    def sentences(self) -> list[str]:
+        """What became of every size, in words: those that are too small in one sentence."""
+        small = [each for each in self.sizes if each.is_too_small]
+        return [*([too_small(small)] if small else []), *(self.sentence(each) for each in self.sizes if each not in small)]
+
+    def sentence(self, size: JudgedSize) -> str:
+        """Return what became of one size."""
+        name = f"{size.bore / mm:.0f}/{size.rod / mm:.0f} mm"
+        if size.optimum is None:
+            return f"{name} cannot: {size.reason}"
+        stroke = float(size.optimum.machine["S"])
+        return f"{name}: {self.objective} {OBJECTIVES[self.objective](size.value)}, stroke {stroke / mm:.1f} mm."
+
+    def __str__(self) -> str:
+        best = f"The best {self.what} drive has {self.best.bore / mm:.0f}/{self.best.rod / mm:.0f} mm."
+        return "\n".join([*self.sentences, best])
+
+
+OBJECTIVES: Mapping[str, Callable[[float], str]] = MappingProxyType(
+    {
+        "area": lambda value: f"{value / kN:.2f} kNm rad",
+        "ratio": lambda value: f"{value:.4f}",
+        "difference": lambda value: f"{value / kN:.2f} kNm",
+        "weight": lambda value: f"{7800.0 * value:.2f} kg",
+    }
+)
+"""What a drive may be chosen by, and how its value is said."""
+
+
+def too_small(sizes: Sequence[JudgedSize]) -> str:
+    """Return the energy bound in words: `63 to 100 mm cannot: they would have to swallow ...`."""
+    bores = " to ".join(f"{each.bore / mm:.0f}" for each in ends_of(sizes))
+    could = " to ".join(f"{each.could:.0f}" for each in ends_of(sizes))
+    many, longest = ("they would", "their longest strokes take") if len(sizes) > 1 else ("it would", "its longest stroke takes")
+    return f"{bores} mm cannot: {many} have to swallow the {sizes[0].asked:.0f} J the load asks; {longest} {could} J."
+
+
+def ends_of(sizes: Sequence[JudgedSize]) -> Sequence[JudgedSize]:
+    """Return the first and the last of some sizes; a single one alone."""
+    return sizes if len(sizes) == 1 else (sizes[0], sizes[-1])
+
+
+GAUSS = 16
+PIECES = 64
+
+
+def work_of(moment: Callable[[np.ndarray[Any, Any]], Any], start: float, end: float) -> float:
+    """Return the work of a moment over an angle [J]: Gauss's rule in pieces."""
+    nodes, weights = np.polynomial.legendre.leggauss(GAUSS)
+    edges = np.linspace(start, end, PIECES + 1)
+    half = 0.5 * (edges[1] - edges[0])
+    at_nodes = (edges[:-1, None] + half * (nodes + 1.0)).ravel()
+    return float(np.sum(moment(at_nodes) * np.tile(weights, PIECES)) * half)
+
+
+def judged(
+    cylinders: DriveCylinders, could: Callable[[float, float], float], asked: float, search: Callable[[float, float], Optimum]
+) -> tuple[JudgedSize, ...]:
+    """Return every size of a series judged: by the energy bound first, then by a search."""
+    found = []
+    for bore, rod in cylinders.sizes:
+        size = JudgedSize(bore, rod, could(bore, rod), asked, None)
+        if not size.is_too_small:
+            try:
+                size = replace(size, optimum=search(bore, rod))
+            except StudyError as error:
+                size = replace(size, reason=in_symbols(error))
+        found.append(size)
+    return tuple(found)
+
+
+def found_by(machine: Mechanism, **options: Any) -> Optimum:
+    """Return what `optimise` finds for one objective."""
+    found = optimise(machine, **options)
+    assert isinstance(found, Optimum)
+    return found
+
+
+def in_symbols(error: StudyError) -> str:
+    """Return why a search found nothing: what the drive that misses least falls short of, moments by the source's letters."""
+    missed = "; ".join(each.sentence for each in error.relaxations) if isinstance(error, InfeasibleError) else str(error)
+    text = f"no pins found keep everything, the nearest miss {missed}." if isinstance(error, InfeasibleError) else missed
+    for quantity, letters in ((GIVEN, "M_g"), (FOLDS, "|M_g1|"), (OPENS, "M_g2")):
+        text = text.replace(str(quantity), letters)
+    return text
+
+
+# -- the boom ----------------------------------------------------------------------------------------------
+
+CLEARANCES: Mapping[str, Callable[[float, float], float]] = MappingProxyType(
+    {"b/2 + D": lambda section, bore: 0.5 * section + bore, "(b + D)/2": lambda section, bore: 0.5 * (section + bore)}
+)
+"""The readings of (2.35): how far a pin lies from the axis of a section of the height b, with a bore D."""
+
+
+def design_boom_drive(
+    duty: DriveDuty | None = None,
+    cylinders: DriveCylinders | None = None,
+    *,
+    objective: str = "area",
+    clearance: str = "b/2 + D",
+    lowest_pin: float = 0.5,
+    r_3_min: float = 0.30,
+    starts: int | None = None,
+    seed: int = 0,
+) -> DriveDesign:
+    """Return the boom's drive, every cylinder of the series judged: the stroke S and the pins r_2, r_3 that `optimise` finds for each.
+
+    `objective` is "area", what is given over what is asked integrated over the angle (2.33); "ratio", its greatest M_g / M_l (2.32); or
+    "difference", (2.32) read as the greatest M_g - M_l. Kept are both ends of the cylinder (2.31), M_g >= M_l (2.34), S up to the
+    longest stroke, `lowest_pin` l <= r_2 <= h_0 (2.37), r_3_min <= r_3 <= l_c. `clearance` is how (2.35) is read, "b/2 + D" or
+    "(b + D)/2". `starts` and `seed` are those of `optimise`. Infeasible sizes are told in words, not raised.
+    """
+    duty, cylinders = duty or DriveDuty(), cylinders or DriveCylinders()
+    one_word("objective", objective, ("area", "ratio", "difference"))
+    one_word("clearance", clearance, tuple(CLEARANCES))
+    check_lengths(duty, r_3_min, lowest_pin)
+    pin, over = CLEARANCES[clearance], GIVEN - ref("M_l")
+    least_of = {"area": integral(over), "ratio": most(GIVEN / ref("M_l")), "difference": most(over)}
+
+    def drive(bore: float, rod: float) -> BoomDrive:
+        return BoomDrive(
+            **cylinders.dimensions(bore, rod), **boom_numbers(duty), r_1=pin(duty.b_0, bore), r_4=pin(duty.b_c, bore),
+            S=0.8 * cylinders.longest * bore, r_2=0.85 * duty.h_0, r_3=max(0.14 * duty.l_c, r_3_min),
+        )  # fmt: skip
+
+    def search(bore: float, rod: float) -> Optimum:
+        longest = cylinders.longest * bore
+        return found_by(
+            drive(bore, rod),
+            minimise=least_of[objective],
+            vary={"S": (0.1 * longest, longest), "r_2": (0.05 * duty.h_0, duty.h_0), "r_3": (r_3_min, duty.l_c)},
+            subject_to=[
+                at("length", phi=duty.phi_k) == at("l"),
+                at("length", phi=duty.phi_0) == at(ref("l") + ref("S")),
+                least(GIVEN / ref("M_l")) >= 1.0,
+                at("r_2") >= lowest_pin * at("l"),
+            ],
+            over={"phi": (duty.phi_0, duty.phi_k)},
+            starts=starts,
+            seed=seed,
+        )
+
+    bound = drive(*cylinders.sizes[-1])
+    asked = work_of(lambda phi: bound.at(phi=phi)["M_l"], duty.phi_0, duty.phi_k)
+    sizes = judged(cylinders, lambda bore, rod: cylinders.swallowed(bore), asked, search)
+    return DriveDesign("boom", objective, sizes)
+
+
+def check_lengths(duty: DriveDuty, r_3_min: float, lowest_pin: float) -> None:
+    """Raise DefinitionError for bounds that leave nothing."""
+    if not is_number(r_3_min) or not 0.0 < r_3_min < duty.l_c:
+        raise DefinitionError(f"r_3_min={cited(r_3_min)}: a length below the boom's {duty.l_c:.4g} m is expected, such as 300 * mm.")
+    if not is_number(lowest_pin) or not 0.0 <= lowest_pin <= 1.0:
+        raise DefinitionError(f"lowest_pin={cited(lowest_pin)}: a share of the closed length is expected, 0 to 1; the source has 0.5.")
+
+
+def boom_numbers(duty: DriveDuty) -> dict[str, float]:
+    """Return what a BoomDrive takes of a duty."""
+    return {name: getattr(duty, name) for name in ("l_c", "K_B", "K_A", "phi_0", "phi_k", "psi_k")}
+
+
+# -- the arm -----------------------------------------------------------------------------------------------
+
+ARM_BOUNDS: Mapping[str, tuple[float, float]] = MappingProxyType(
+    {"r_1": (0.15, 0.80), "r_2": (0.15, 1.20), "r_3": (0.12, 0.60), "r_4": (0.10, 0.80), "r_5": (0.50, 4.00), "alpha_20": (-150 * deg, 0.0)}
+)
+"""The source's bounds of the lengths [m]; of the lug's direction on the folded arm [rad]."""
+
+TRAVELS = ("free", "travels", "angles")
+FINE = 10.0 * kN
+"""N m, added to both sides of what would be compared with zero: conditions are met to a small part of their size."""
+STEP = 1e-6
+"""rad: over which a condition sets in."""
+LEAST_TRANSMISSION = 25 * deg
+
+
+@final
+@dataclass(frozen=True)
+class ArmRules:
+    """What an arm drive has to keep beside its moments, and how the source's lost signs are read.
+
+    `excess` is k_r of (2.61): M_g2 is over M_l2 by no more than (k_r - 1) K_A, from `excess_from` on, "phi_0" or "psi_0". `above` is
+    what the lever's pin stays above the boom's axis at both ends (2.63): "r_6", a height [m], or None. `angles` reads (2.65): "free" does
+    not impose it, "travels" asks lever and arm for 90 and 100 deg of travel, "angles" holds alpha_1 under 90 and alpha_2 under 100 deg.
+    `transmission` is the least angle between coupler and lug [rad], 0 for none; r_6 [m], the bend delta [rad] and the eyes that
+    (2.60) counts are given.
+    """
+
+    r_6: float = 150 * mm
+    delta: float = 0.0
+    eyes: float = 1.0
+    excess: float = 1.6
+    excess_from: str = "phi_0"
+    above: str | float | None = "r_6"
+    angles: str = "free"
+    transmission: float = LEAST_TRANSMISSION
+
+    def __post_init__(self) -> None:
+        one_word("excess_from", self.excess_from, ("phi_0", "psi_0"))
+        one_word("angles", self.angles, TRAVELS)
+        if not is_number(self.excess) or self.excess <= 1.0:
+            raise DefinitionError(f"excess={cited(self.excess)}: k_r of (2.61) is a number above 1; the source's example has 1.6.")
+        if not (self.above is None or self.above == "r_6" or is_number(self.above)):
+            raise DefinitionError(f"above={cited(self.above)}: 'r_6', a height in m or None is expected.")
+        if not is_number(self.transmission) or not 0.0 <= self.transmission < 0.5 * pi:
+            raise DefinitionError(f"transmission={cited(self.transmission)}: an angle below 90 * deg is expected, 0 for none.")
+
+    def conditions(self, duty: DriveDuty) -> list[Any]:
+        """Return the conditions (2.61) to (2.65) of a duty, those that are kept."""
+        psi_0, psi_k = duty.psi_0, duty.psi_k
+        counts = clipped(1.0 + (ref("psi") - duty.phi_0) / STEP, 0.0, 1.0) if self.excess_from == "phi_0" else 1.0
+        found = [
+            at("length", psi=psi_k) == at("l"),
+            at("length", psi=psi_0) == at(ref("l") + ref("S")),
+            least(OPENS - ref("M_l2") + FINE) >= FINE,
+            least(FOLDS + ref("M_l1") + FINE) >= FINE,
+            most((OPENS - ref("M_l2")) * counts) <= (self.excess - 1.0) * duty.K_A,
+            at(x("L") + (ref("r_2") - ref("r_3")) * np.cos(ref("alpha_20")), psi=psi_0) >= at("r_4"),
+            at("r_2") <= at(ref("r_1") + ref("r_3") - ref("r_4")),
+            at(ref("r_4") + ref("r_5")) <= duty.l_c,
+            at("alpha_1", psi=psi_0) >= self.delta,
+        ]
+        if self.above is not None:
+            height = self.r_6 if self.above == "r_6" else float(self.above)
+            found += [at(y("L"), psi=psi) >= height for psi in (psi_0, psi_k)]
+        if self.transmission:
+            found += [least("mu") >= self.transmission, most("mu") <= pi - self.transmission]
+        return [*found, *self.lever_angles(duty)]
+
+    def lever_angles(self, duty: DriveDuty) -> list[Any]:
+        """Return the conditions that (2.65) may stand for."""
+        start, end = at("alpha_1", psi=duty.psi_0), at("alpha_1", psi=duty.psi_k)
+        first, last = at("alpha_2", psi=duty.psi_0), at("alpha_2", psi=duty.psi_k)
+        if self.angles == "travels":
+            return [end - start >= 90 * deg, last - first >= 100 * deg]
+        return [end <= 90 * deg, last <= 100 * deg] if self.angles == "angles" else []
+
+
+def area_of_duty(duty: DriveDuty, asked: float) -> Measure:
+    """Return the arm drive's second criterion, what is given over what is asked [N m rad], where something is asked: from phi_0 on.
+
+    By virtual work the integral of M_g2 is the force times the way of the cylinder; `asked` is that of M_l2 [J].
+    """
+    way = at("length", psi=max(duty.phi_0, duty.psi_0)) - at("length", psi=duty.psi_k)
+    return at("pull") * way - asked
+
+
+def design_arm_drive(
+    duty: DriveDuty | None = None,
+    cylinders: DriveCylinders | None = None,
+    *,
+    rules: ArmRules | None = None,
+    objective: str = "weight",
+    bounds: Mapping[str, tuple[float, float]] = ARM_BOUNDS,
+    most_area: float | None = None,
+    starts: int | None = None,
+    seed: int = 0,
+) -> DriveDesign:
+    """Return the arm's drive over a lever and a coupler, every cylinder of the series judged: lengths and stroke by `optimise`.
+
+    `objective` is "weight", the steel of (2.60), or "area", M_g2 - M_l2 integrated over the angle; `most_area` [N m rad] bounds the second
+    while the first is least. `rules` are the conditions (2.61) to (2.65), `bounds` those of r_1 to r_5 [m] and alpha_20 [rad]. `starts`
+    and `seed` are those of `optimise`. Infeasible sizes are told in words, not raised.
+    """
+    duty, cylinders, rules = duty or DriveDuty(), cylinders or DriveCylinders(), rules or ArmRules()
+    one_word("objective", objective, ("weight", "area"))
+    check_bounds(bounds, duty)
+    if most_area is not None and (not is_number(most_area) or most_area <= 0.0):
+        raise DefinitionError(f"most_area={cited(most_area)}: a number above zero is expected, in N m rad.")
+    bound = arm_drive(duty, cylinders, rules, *cylinders.sizes[-1])
+    asked = work_of(lambda psi: bound.at(psi=psi)["M_l2"], max(duty.phi_0, duty.psi_0), duty.psi_k)
+    area = area_of_duty(duty, asked)
+    conditions = rules.conditions(duty) + ([] if most_area is None else [area <= most_area])
+
+    def search(bore: float, rod: float) -> Optimum:
+        longest = cylinders.longest * bore
+        return found_by(
+            arm_drive(duty, cylinders, rules, bore, rod),
+            minimise="steel" if objective == "weight" else area,
+            vary={**bounds, "S": (0.2 * longest, longest)},
+            subject_to=conditions,
+            over={"psi": (duty.psi_0, duty.psi_k)},
+            starts=starts,
+            seed=seed,
+        )
+
+    return DriveDesign("arm", objective, judged(cylinders, cylinders.swallowed, asked, search))
+
+
+def arm_drive(duty: DriveDuty, cylinders: DriveCylinders, rules: ArmRules, bore: float, rod: float) -> ArmDrive:
+    """Return an arm drive for a duty, its four-bar that of the shipped one: what a search begins with."""
+    numbers = {name: getattr(duty, name) for name in ("l_p", "K_A", "K_A1", "phi_0", "phi_k", "psi_0", "psi_k")}
+    given = {"r_6": rules.r_6, "delta": rules.delta, "eyes": rules.eyes}
+    return ArmDrive(**cylinders.dimensions(bore, rod), **numbers, **given, S=min(0.66, 0.9 * cylinders.longest * 0.1) * 10.0 * bore)
+
+
+def check_bounds(bounds: Mapping[str, tuple[float, float]], duty: DriveDuty) -> None:
+    """Raise DefinitionError for bounds that leave something out or nothing in."""
+    for name in ARM_BOUNDS:
+        ends = bounds.get(name)
+        if ends is None or len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
+            raise DefinitionError(f"bounds[{name!r}] = {cited(ends)}: (low, high) is expected, low below high, in SI.")
+    least_length = bounds["r_4"][0] + bounds["r_5"][0]
+    if least_length > duty.l_c:
+        raise DefinitionError(f"bounds: r_4 + r_5 is {least_length:.4g} m at the least, more than the boom, {duty.l_c:.4g} m; lower them.")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Compromise:
+    """An arm drive between its two criteria: mass [kg], area [N m rad]."""
+
+    drive: Mechanism
+    mass: float
+    area: float
+
+
+def arm_drive_front(
+    bore: float, rod: float, duty: DriveDuty | None = None, cylinders: DriveCylinders | None = None, *, count: int = 5, **options: Any
+) -> list[Compromise]:
+    """Return the Pareto front of one cylinder: `count` drives from the least mass to the least area, the area bounded step by step.
+
+    `options` are those of `design_arm_drive`. DefinitionError where the cylinder does not serve at all.
+    """
+    if count < 2:
+        raise DefinitionError(f"count={count}: a front has two ends at least.")
+    one = replace(cylinders or DriveCylinders(), sizes=((bore, rod),))
+
+    def compromise(objective: str, most_area: float | None) -> Compromise:
+        drive = design_arm_drive(duty, one, objective=objective, most_area=most_area, **options).machine
+        return Compromise(drive, float(drive.at(psi=drive["psi_0"])["mass"]), area_of(drive))
+
+    light, small = compromise("weight", None), compromise("area", None)
+    between = np.linspace(light.area, small.area, count)[1:-1]
+    return [light, *(compromise("weight", float(area)) for area in between), small]
+
+
+def area_of(drive: Mechanism) -> float:
+    """Return an arm drive's area between M_g2 and M_l2 [N m rad], from phi_0 on."""
+
+    def surplus(psi: Any) -> Any:
+        motion = drive.at(psi=psi)
+        return motion["opens"] * motion.ratio("length") - motion["M_l2"]
+
+    return work_of(surplus, max(float(drive["phi_0"]), float(drive["psi_0"])), float(drive["psi_k"]))

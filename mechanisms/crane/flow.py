@@ -1,0 +1,165 @@
+"""From a duty to a crane: each stage takes what the one before found, or what the user gives instead.
+
+`design_crane` is the whole way; its stages are `design_skeleton`, `duty_of` what it asks of its drives, `design_boom_drive`,
+`design_arm_drive`, and `with_drives`, the whole crane.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, final
+
+from linkage import DefinitionError, least, optimise, ref
+from linkage.study import Optimum
+from linkage.units import deg
+
+from .arm_drive import ArmDrive, BellCrankArmDrive
+from .boom_drive import BoomDrive
+from .drive_design import DriveDesign, design_arm_drive, design_boom_drive
+from .drive_duty import DriveCylinders, duty_of
+from .duty import Duty
+from .machine import BellCrankCrane, Crane
+from .skeleton import BackBrokenSkeleton, CraneSkeleton
+
+SKELETON: Mapping[str, tuple[float, float]] = MappingProxyType(
+    {"l_c": (1.7, 12.0), "l_p": (1.0, 8.0), "l_t": (0.5, 6.0), "h_0": (0.8, 3.5), "phi_0": (15 * deg, 30 * deg)}
+)
+"""What a skeleton's search may change, and how far [m, rad]; the angle as the source bounds it."""
+
+BACK_BROKEN: Mapping[str, tuple[float, float]] = MappingProxyType(
+    {"phi_k": (90 * deg, 180 * deg), "psi_k": (180 * deg, 270 * deg), "Delta": (0.0, 3.0)}
+)
+"""And of a back-broken one, too; beyond 270 deg the arm would lie on the boom again."""
+
+
+def design_skeleton(
+    duty: Duty | None = None,
+    *,
+    reading: str = ">=",
+    cab: float | None = None,
+    vary: Mapping[str, tuple[float, float]] | None = None,
+    starts: int | None = None,
+    seed: int = 0,
+    progress: Any = False,
+) -> Optimum:
+    """Return the skeleton of least W_m (2.4) for a duty, by default the source's: `design_skeleton(Duty(L=8.5)).machine`.
+
+    `reading` is how (2.13) is read: ">=", the folded tip clears the guard, or "<=", it comes as near. With `cab`, the distance of
+    the column's axis from the cab [m], the crane is back-broken in transport, (2.17), (2.18). `vary` bounds variables otherwise.
+    InfeasibleError, with the conflict and the least relaxation, where no skeleton keeps all conditions.
+    """
+    asked = Duty() if duty is None else duty
+    made = CraneSkeleton if cab is None else BackBrokenSkeleton
+    machine = made(**asked.dimensions(), **({} if cab is None else {"A_k": cab}))
+    ranges = {**SKELETON, **({} if cab is None else BACK_BROKEN), **(vary or {})}
+    rules = made.conditions(reading)
+    found = optimise(
+        machine,
+        minimise=least(ref("W_m")),
+        vary={name: ranges[name] for name in ranges},
+        subject_to=[
+            *(least(ref(name)) == 0.0 for name in made.errors),
+            *(least(ref(name)) >= 0.0 for name in (*rules, "boom_turns", "b_c")),
+        ],
+        starts=starts,
+        seed=seed,
+        progress=progress,
+    )
+    assert isinstance(found, Optimum)  # of one objective
+    return found
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class CraneDesign:
+    """A crane designed from its duty: what each stage found, None where the user gave its result, and the whole crane."""
+
+    skeleton: Optimum | None
+    boom: DriveDesign | None
+    arm: DriveDesign | None
+    crane: Crane
+
+
+def design_crane(
+    duty: Duty | None = None,
+    *,
+    skeleton: CraneSkeleton | None = None,
+    boom: BoomDrive | None = None,
+    arm: ArmDrive | None = None,
+    cylinders: DriveCylinders | None = None,
+    reading: str = ">=",
+    cab: float | None = None,
+    progress: Any = False,
+) -> CraneDesign:
+    """Return a crane for a duty, by default the source's: skeleton, boom drive, arm drive, each from what the stage before found.
+
+    `skeleton`, `boom` or `arm` stand in the place of a stage's result. `cylinders` are those the drives are chosen from; `reading`
+    and `cab` go to `design_skeleton`. DefinitionError, with all reasons, where no cylinder serves a drive.
+    """
+    found = None if skeleton is not None else design_skeleton(duty, reading=reading, cab=cab, progress=progress)
+    bare = skeleton if found is None else found.machine
+    assert isinstance(bare, CraneSkeleton)
+    asked = duty_of(bare)
+    lifting = None if boom is not None else design_boom_drive(asked, cylinders)
+    folding = None if arm is not None else design_arm_drive(asked, cylinders)
+    chosen_boom = boom if lifting is None else lifting.machine
+    chosen_arm = arm if folding is None else folding.machine
+    assert isinstance(chosen_boom, BoomDrive) and isinstance(chosen_arm, ArmDrive)
+    return CraneDesign(found, lifting, folding, with_drives(bare, chosen_boom, chosen_arm))
+
+
+def with_drives(skeleton: CraneSkeleton, boom: BoomDrive, arm: ArmDrive) -> Crane:
+    """Return the whole crane of a skeleton, a boom drive and an arm drive, all of one design.
+
+    The telescope's cylinder is as long as the telescope asks; its bore is that of the shipped crane. DefinitionError for an arm drive
+    without lever and coupler.
+    """
+    if not isinstance(arm, ArmDrive):
+        raise DefinitionError(f"{arm.plan.title} has no lever and coupler; the whole crane takes an ArmDrive or a BellCrankArmDrive.")
+    made = BellCrankCrane if isinstance(arm, BellCrankArmDrive) else Crane
+    bars = [f"r_{k}" for k in range(1, 9 if made is BellCrankCrane else 7)]
+    own = {name: skeleton[name] for name in CraneSkeleton.plan.defaults if name in Crane.plan.defaults}
+    numbers: dict[str, Any] = {
+        **own,
+        **{f"boom_{name.replace('_', '')}": boom[name] for name in bars[:4]},
+        **{f"arm_{name.replace('_', '')}": arm[name] for name in bars},
+        "lug": 180 * deg + arm["alpha_20"] - arm["psi_0"], "bend": arm["delta"],
+        **cylinder_numbers("lift", boom), **cylinder_numbers("fold", arm),
+        "extend.stroke": float(skeleton["l_t"]), "extend.closed": float(skeleton["l_p"]) - Crane.plan.defaults["root_pin"],
+    }  # fmt: skip
+    return made(**numbers)
+
+
+def cylinder_numbers(name: str, drive: BoomDrive | ArmDrive) -> dict[str, float]:
+    """Return a drive's cylinder, its pressure and its efficiency as the whole crane calls them."""
+    return {
+        f"{name}.bore": drive["D"], f"{name}.rod": drive["d"],
+        f"{name}.stroke": drive["S"], f"{name}.closed": float(drive.working(2)["l"][0]),
+        f"{name}_line.pressure": drive["p"], f"{name}_line.mechanical_efficiency": drive["n"],
+    }  # fmt: skip
+
+
+def boom_drive_of(crane: Crane) -> BoomDrive:
+    """Return the boom's drive of a whole crane of one design on its own, with what the crane asks of it."""
+    duty = duty_of(crane)
+    asked = {name: getattr(duty, name) for name in ("l_c", "K_B", "K_A", "phi_0", "phi_k", "psi_k")}
+    return BoomDrive(**asked, **own_numbers(crane, "lift"), **{f"r_{k}": float(crane[f"boom_r{k}"]) for k in range(1, 5)})
+
+
+def arm_drive_of(crane: Crane) -> ArmDrive:
+    """Return the arm's drive of a whole crane of one design on its own, with what the crane asks of it."""
+    duty, is_bell_crank = duty_of(crane), isinstance(crane, BellCrankCrane)
+    asked = {name: getattr(duty, name) for name in ("l_p", "K_A", "K_A1", "phi_0", "phi_k", "psi_0", "psi_k")}
+    bars = {f"r_{k}": float(crane[f"arm_r{k}"]) for k in range(1, 9 if is_bell_crank else 7)}
+    turned = {"alpha_20": float(crane["lug"]) - 180 * deg + duty.psi_0, "delta": float(crane["bend"])}
+    return (BellCrankArmDrive if is_bell_crank else ArmDrive)(**asked, **own_numbers(crane, "fold"), **bars, **turned)
+
+
+def own_numbers(crane: Crane, name: str) -> dict[str, float]:
+    """Return a cylinder of the whole crane as its drive on its own calls it; its closed length as f_0 of (2.36), with f_1 = 0."""
+    bore, rod, stroke, closed = (float(crane[f"{name}.{each}"]) for each in ("bore", "rod", "stroke", "closed"))
+    line = f"{name}_line"
+    given = {"p": float(crane[f"{line}.pressure"]), "n": float(crane[f"{line}.mechanical_efficiency"])}
+    return {"D": bore, "d": rod, "S": stroke, "f_0": closed - stroke, "f_1": 0.0, **given}

@@ -289,7 +289,7 @@ def course_panel(ax: Axes, optimum: Optimum, course: Course) -> None:
         mark_limit(ax, along, column, limit)
     for place, value, sign in course.marks:
         spot = [place / factor(unit)], [value / factor(course.unit)]
-        ax.plot(*spot, MARKS[sign], clip_on=False, color=style.ACCENT, markersize=7, markeredgewidth=1.8, zorder=6.0)
+        ax.plot(*spot, MARKS[sign], clip_on=False, color=style.ACCENT, markersize=6, markeredgewidth=1.5, zorder=6.0)
 
 
 def room_for(shown: tuple[float, float], limits: Sequence[float]) -> tuple[float, float]:

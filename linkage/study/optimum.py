@@ -23,7 +23,7 @@ from .checks import unit_of
 from .measures import Constraint, Given, Integral, Leaf, Measure, Worst
 from .problem import Problem
 from .result_rows import ResultRow, result_text, write_result
-from .solver import MET, Found, Local, missing_of, scale_of
+from .solver import MET, Found, Local, missing_of, scale_of, scales_of
 from .space import Space, Varied
 from .tried import Tried, tried_header, tried_names, tried_rows
 
@@ -259,7 +259,7 @@ def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
     except AssemblyError:
         return float("nan"), float("inf")
     values = true_values(problem, machine)
-    scales = [scale_of(each, lambda leaf: values[leaf]) or 1.0 for each in problem.constraints]
+    scales = scales_of(problem, problem.look(machine.dimensions, slopes=True))
     return float(problem.value(lambda leaf: values[leaf])), missing_of(problem.constraints, scales, values)
 
 

@@ -18,7 +18,7 @@ from ..mechanism import Mechanism
 from ..motion import Grid, Motion, greatest, lowest
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import is_number
-from .measures import At, Constraint, Integral, Leaf, Least, Measure, Most, Worst, words_of
+from .measures import At, CombinedMeasure, Constraint, Integral, Leaf, Least, Measure, Most, Worst, words_of
 from .sampling import SampledSlopes, Sampling, Seen, motion_of, strokes_behind, traced, value_on, with_values
 from .space import Space
 
@@ -158,6 +158,7 @@ class Problem:
         self.follow = tuple(dict.fromkeys(end for one in self.ranges.values() for end in one.follows))
         self.owners = tuple(dict.fromkeys(each.owner for each in space.variables))
         self._samplings: dict[int, Sampling] = {}
+        self._sizes: list[float] | None = None
 
     def with_counts(self, counts: Mapping[int, int]) -> Problem:
         """Return the same problem at another number of samples."""
@@ -375,9 +376,19 @@ class Problem:
         with np.errstate(all="ignore"):
             values = np.array([np.broadcast_to(np.asarray(each.of(lambda leaf: numbers[leaf]), float), shape) for each in self.objectives])
             missing = np.zeros(shape)
-            for each in self.constraints:
-                missing = np.maximum(missing, missed(each, numbers))
+            sizes = self._sizes_of_constraints(look, numbers)
+            for each, size in zip(self.constraints, sizes, strict=True):
+                missing = np.maximum(missing, missed(each, numbers, size))
         return np.where(look.whole, values, np.nan), np.where(look.whole, missing, np.nan), look.reached
+
+    def _sizes_of_constraints(self, look: Evaluated, numbers: Mapping[Leaf, FloatArray]) -> list[float]:
+        """Return what the conditions' numbers are measured with: their size over the first designs that were looked at."""
+        if self._sizes is None:
+            sizes = {leaf: size_of_rows(rows.values) for leaf, rows in look.rows.items()}
+            middle = {leaf: float(np.nanmedian(np.where(np.isfinite(each), each, np.nan))) for leaf, each in numbers.items() if each.size}
+            found = [[size_of(side, sizes, middle) for side in (each.left, each.right)] for each in self.constraints]
+            self._sizes = [max((side for side in sides if np.isfinite(side)), default=0.0) or 1.0 for sides in found]
+        return self._sizes
 
     def certainly(self, measure: Measure, combination: Sequence[int]) -> Enclosure | None:
         """Return between which values a measure lies whatever the variables; None where a leaf of it is taken over the stroke."""
@@ -524,10 +535,31 @@ class Problem:
         return found
 
 
-def missed(constraint: Constraint, numbers: Mapping[Leaf, FloatArray]) -> FloatArray:
+def size_of_rows(values: FloatArray) -> float:
+    """Return the size of the largest of some values; zero where none has one."""
+    return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
+
+
+def size_of(measure: Measure, sizes: Mapping[Leaf, float], values: Mapping[Leaf, float]) -> float:
+    """Return how large the terms of a measure are, from the sizes of its leaves over the stroke: a difference is as large as its parts."""
+    if isinstance(measure, Leaf):
+        return sizes[measure]
+    if not isinstance(measure, CombinedMeasure):
+        return abs(float(measure.of(lambda leaf: values[leaf])))
+    left, right = (size_of(side, sizes, values) for side in (measure.left, measure.right))
+    if measure.symbol in ("+", "-"):
+        return max(left, right)
+    if measure.symbol == "*":
+        return left * right
+    with np.errstate(all="ignore"):
+        other = abs(float(measure.right.of(lambda leaf: values[leaf])))
+        return float(np.divide(left, other) if measure.symbol == "/" else np.power(left, other))
+
+
+def missed(constraint: Constraint, numbers: Mapping[Leaf, FloatArray], size: float) -> FloatArray:
     """Return by how much of its size a condition is missed by designs, from the leaves' numbers (m,); nothing where one says nothing."""
     left, right = (np.asarray(side.of(lambda leaf: numbers[leaf]), float) for side in (constraint.left, constraint.right))
-    margin = (right - left if constraint.symbol == "<=" else left - right) / np.maximum(np.maximum(np.abs(left), np.abs(right)), 1e-300)
+    margin = (right - left if constraint.symbol == "<=" else left - right) / size
     short = np.abs(margin) if constraint.symbol == "==" else -margin
     says_nothing = np.any([np.isnan(numbers[leaf]) for leaf in constraint.margin.leaves], axis=0)
     unlimited = np.isnan(margin) & (constraint.symbol != "==") & says_nothing

@@ -17,7 +17,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..program import FloatArray
 from .measures import Constraint, Given, Leaf, Least, Measure, Most
-from .problem import Evaluated, Problem, reduced
+from .problem import Evaluated, Problem, reduced, size_of, size_of_rows
 
 FAR = 10.0
 """The loss for the whole of a box's side towards designs that cannot be assembled, in scaled numbers."""
@@ -124,8 +124,8 @@ class Local:
             raise DefinitionError("A local search starts from a design that can be assembled.")
         self.start = np.asarray(start, float)
         leaf_values = self.leaf_values(first)
-        self.leaf_scales = {leaf: self._leaf_scale(leaf, first) for leaf in problem.leaves}
-        self.scales = [self._scale(each, leaf_values) for each in problem.constraints]
+        self.leaf_scales = {leaf: size_of_rows(first.rows[leaf].values) or 1.0 for leaf in problem.leaves}
+        self.scales = scales_of(problem, first)
         value = float(problem.value(lambda leaf: leaf_values[leaf]))
         self.size = abs(value) if np.isfinite(value) and value != 0.0 else 1.0
         self.aux = self._auxiliaries(first)
@@ -138,15 +138,6 @@ class Local:
     def leaf_values(self, look: Evaluated) -> dict[Leaf, float]:
         """Return the leaves' numbers at the samples."""
         return {leaf: float(reduced(leaf, rows.values)[0]) for leaf, rows in look.rows.items()}
-
-    @staticmethod
-    def _leaf_scale(leaf: Leaf, look: Evaluated) -> float:
-        values = np.abs(look.rows[leaf].values[np.isfinite(look.rows[leaf].values)])
-        return float(values.max(initial=0.0)) or 1.0
-
-    def _scale(self, constraint: Constraint, values: Mapping[Leaf, float]) -> float:
-        """Return what a constraint's numbers are measured with: the larger of its sides."""
-        return scale_of(constraint, lambda leaf: values[leaf]) or 1.0
 
     def _auxiliaries(self, look: Evaluated) -> list[tuple[Constraint | Measure, Leaf]]:
         """Return the leaves that become variables, each with the constraint or objective in which it does."""
@@ -443,6 +434,31 @@ def scale_of(constraint: Constraint, value: Any) -> float:
     """Return the larger of a constraint's two sides, in size."""
     sides = [abs(float(side.of(value))) for side in (constraint.left, constraint.right)]
     return max((side for side in sides if np.isfinite(side)), default=0.0)
+
+
+def scales_of(problem: Problem, look: Evaluated) -> list[float]:
+    """Return what the numbers of each constraint are measured with: their size over the stroke, or their change over the box.
+
+    `look` is that of one design with derivatives. A condition that is kept with nothing to spare, `least(q) >= 0`, has a size too.
+    """
+    sizes = {leaf: size_of_rows(rows.values) for leaf, rows in look.rows.items()}
+    values = {leaf: float(reduced(leaf, rows.values)[0]) for leaf, rows in look.rows.items()}
+
+    def graded(leaf: Leaf) -> Graded:
+        rows = look.rows[leaf]
+        assert rows.slopes is not None
+        place = 0
+        if isinstance(leaf, (Least, Most)) and np.isfinite(rows.values).any():
+            place = int((np.nanargmin if isinstance(leaf, Least) else np.nanargmax)(rows.values[0]))
+        return Graded(values[leaf], rows.slopes[:, place])
+
+    found = []
+    for each in problem.constraints:
+        slope = np.abs(Graded.of(each.margin.of(graded)).slope)
+        change = float(slope[np.isfinite(slope)].sum())
+        sides = [size_of(side, sizes, values) for side in (each.left, each.right)]
+        found.append(max([side for side in sides if np.isfinite(side)] + [change]) or 1.0)
+    return found
 
 
 def missing_of(constraints: Sequence[Constraint], scales: Sequence[float], values: Mapping[Leaf, float]) -> float:

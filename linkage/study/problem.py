@@ -251,21 +251,22 @@ class Problem:
         for number, poses in enumerate(self.sets):
             grid = self._grid(poses, designs, ends)
             sampling = self._sampling(number)
-            seen = sampling.seen(grid)
-            judged = poses is self.whole
+            judged = slopes and poses is self.whole
+            seen = sampling.seen(grid, margins=judged)
             slope = sampling.slopes(grid, margins=judged) if slopes else None
             found[number] = seen, slope
             whole &= seen.reached.all(axis=1)
             reached = np.minimum(reached, seen.reached.mean(axis=1))
             if not judged:
                 continue
-            margins.append(seen.margins.min(axis=2).T if not slopes else np.moveaxis(seen.margins, 0, 1).reshape(m, -1))
+            margins.append(np.moveaxis(seen.margins, 0, 1).reshape(m, seen.margins.shape[0] * seen.margins.shape[2]))
             if slope is not None:
                 total = np.moveaxis(self._by_unit(slope.margins, poses, ends), 1, 0)
                 margin_slopes.append(total.reshape(len(total), int(np.prod(total.shape[1:]))))  # of no variable too
         rows = {leaf: self._rows(leaf, found, ends) for leaf in self.leaves}
         return Evaluated(
-            rows, np.concatenate(margins, axis=1), np.concatenate(margin_slopes, axis=1) if slopes else None, whole, reached
+            rows, np.concatenate([np.zeros((m, 0)), *margins], axis=1), np.concatenate(margin_slopes, axis=1) if slopes else None,
+            whole, reached,
         )  # fmt: skip
 
     def _sampling(self, number: int) -> Sampling:

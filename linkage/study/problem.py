@@ -557,10 +557,14 @@ def size_of(measure: Measure, sizes: Mapping[Leaf, float], values: Mapping[Leaf,
         return float(np.divide(left, other) if measure.symbol == "/" else np.power(left, other))
 
 
-def missed(constraint: Constraint, numbers: Mapping[Leaf, FloatArray], size: float) -> FloatArray:
-    """Return by how much of its size a condition is missed by designs, from the leaves' numbers (m,); nothing where one says nothing."""
+def missed(constraint: Constraint, numbers: Mapping[Leaf, FloatArray], size: float | None = None) -> FloatArray:
+    """Return by how much of its size a condition is missed by designs, from the leaves' numbers (m,); nothing where one says nothing.
+
+    Without a size it is the larger of the two sides, of each design.
+    """
     left, right = (np.asarray(side.of(lambda leaf: numbers[leaf]), float) for side in (constraint.left, constraint.right))
-    margin = (right - left if constraint.symbol == "<=" else left - right) / size
+    measured = np.maximum(np.maximum(np.abs(left), np.abs(right)), 1e-300) if size is None else size
+    margin = (right - left if constraint.symbol == "<=" else left - right) / measured
     short = np.abs(margin) if constraint.symbol == "==" else -margin
     says_nothing = np.any([np.isnan(numbers[leaf]) for leaf in constraint.margin.leaves], axis=0)
     unlimited = np.isnan(margin) & (constraint.symbol != "==") & says_nothing

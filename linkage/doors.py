@@ -20,8 +20,9 @@ if TYPE_CHECKING:
     from .formulas import Equations
     from .pictures import Drawing
     from .pictures.film import Progress
-    from .study import Optimum
-    from .study.pareto import Front
+    from .quantities import Quantity
+    from .study import Front, Optimum
+    from .study.measures import Measure
 
 
 @overload
@@ -164,6 +165,39 @@ def equations(
     return equations(machine, start=start, numbers=numbers, at=at, ratio=ratio, wrt=wrt, forces=forces)
 
 
+@overload
+def optimise(
+    machine: Mechanism,
+    *,
+    minimise: Measure | Quantity | str | None = ...,
+    maximise: Measure | Quantity | str | None = ...,
+    vary: Mapping[Any, Any],
+    subject_to: Any = ...,
+    case: Any = ...,
+    over: Mapping[str, Any] | None = ...,
+    robust: Mapping[str, Any] | None = ...,
+    sigmas: float = ...,
+    method: str = ...,
+    solver: str = ...,
+    starts: int | None = ...,
+    seed: int = ...,
+    folder: str | PathLike[str] | None = ...,
+    progress: Any = ...,
+) -> Optimum: ...
+@overload
+def optimise(
+    machine: Mechanism,
+    *,
+    minimise: Sequence[Measure | Quantity] = ...,
+    maximise: Sequence[Measure | Quantity] = ...,
+    vary: Mapping[Any, Any],
+    subject_to: Any = ...,
+    case: Any = ...,
+    over: Mapping[str, Any] | None = ...,
+    solver: str = ...,
+    seed: int = ...,
+    progress: Any = ...,
+) -> Front: ...
 def optimise(
     machine: Mechanism,
     *,

@@ -14,12 +14,12 @@ import numpy as np
 from ..disk import Place, replacing_text
 from ..errors import AssemblyError, DefinitionError, cited
 from ..mechanism import Mechanism
-from ..motion import Request
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import Quantity, is_number
+from ..quantities import is_number
 from ..units import deg, display_unit, mm, show
 from .checks import unit_of
+from .measured import measure_of
 from .measures import Constraint, Given, Integral, Leaf, Measure, Worst
 from .problem import Problem
 from .result_rows import ResultRow, result_text, write_result
@@ -475,11 +475,9 @@ def unit_of_leaf(plan: Plan, leaf: Leaf) -> str:
     quantity: Any = leaf.quantity.quantity if isinstance(leaf.quantity, Worst) else leaf.quantity
     if isinstance(leaf, Integral):
         return ""
-    if isinstance(quantity, str):
-        if quantity not in plan.members and quantity in plan.table.spellings:
-            return unit_of(plan, quantity)
-        quantity = plan.members.get(quantity)
-    return display_unit(quantity.measures, "mm") if isinstance(quantity, (Quantity, Request)) else ""
+    if isinstance(quantity, str) and quantity not in plan.members and quantity in plan.table.spellings:
+        return unit_of(plan, quantity)
+    return display_unit(measure_of(plan, quantity), "mm")
 
 
 def in_units(constraint: Constraint, units: str) -> str:

@@ -253,21 +253,22 @@ class Problem:
         for number, poses in enumerate(self.sets):
             grid = self._grid(poses, designs, ends)
             sampling = self._sampling(number)
-            seen = sampling.seen(grid)
-            judged = poses is self.whole
+            judged = slopes and poses is self.whole
+            seen = sampling.seen(grid, margins=judged)
             slope = sampling.slopes(grid, margins=judged) if slopes else None
             found[number] = seen, slope
             whole &= seen.reached.all(axis=1)
             reached = np.minimum(reached, seen.reached.mean(axis=1))
             if not judged:
                 continue
-            margins.append(seen.margins.min(axis=2).T if not slopes else np.moveaxis(seen.margins, 0, 1).reshape(m, -1))
+            margins.append(np.moveaxis(seen.margins, 0, 1).reshape(m, seen.margins.shape[0] * seen.margins.shape[2]))
             if slope is not None:
                 total = np.moveaxis(self._by_unit(slope.margins, poses, ends), 1, 0)
                 margin_slopes.append(total.reshape(len(total), int(np.prod(total.shape[1:]))))  # of no variable too
         rows = {leaf: self._rows(leaf, found, ends) for leaf in self.leaves}
         return Evaluated(
-            rows, np.concatenate(margins, axis=1), np.concatenate(margin_slopes, axis=1) if slopes else None, whole, reached
+            rows, np.concatenate([np.zeros((m, 0)), *margins], axis=1), np.concatenate(margin_slopes, axis=1) if slopes else None,
+            whole, reached,
         )  # fmt: skip
 
     def _sampling(self, number: int) -> Sampling:
@@ -565,10 +566,14 @@ def scale_among(constraint: Constraint, size: float) -> float:
     return (max(given, EXACT * size) if given > 0.0 else size) or 1.0
 
 
-def missed(constraint: Constraint, numbers: Mapping[Leaf, FloatArray], size: float) -> FloatArray:
-    """Return by how much of its size a condition is missed by designs, from the leaves' numbers (m,); nothing where one says nothing."""
+def missed(constraint: Constraint, numbers: Mapping[Leaf, FloatArray], size: float | None = None) -> FloatArray:
+    """Return by how much of its size a condition is missed by designs, from the leaves' numbers (m,); nothing where one says nothing.
+
+    Without a size it is the larger of the two sides, of each design.
+    """
     left, right = (np.asarray(side.of(lambda leaf: numbers[leaf]), float) for side in (constraint.left, constraint.right))
-    margin = (right - left if constraint.symbol == "<=" else left - right) / size
+    measured = np.maximum(np.maximum(np.abs(left), np.abs(right)), 1e-300) if size is None else size
+    margin = (right - left if constraint.symbol == "<=" else left - right) / measured
     short = np.abs(margin) if constraint.symbol == "==" else -margin
     says_nothing = np.any([np.isnan(numbers[leaf]) for leaf in constraint.margin.leaves], axis=0)
     unlimited = np.isnan(margin) & (constraint.symbol != "==") & says_nothing

@@ -1,7 +1,7 @@
 """A search's designs against pylinkage with SciPy: the least of a ratio's reciprocal over 100 strokes, what a lifting capacity is.
 
 `python -m tests.benchmarks.bench_search [--peers FOLDER] [--rounds N]`. Ours: generations of designs in one kernel call, as a search
-looks at them, with reserve and reach judged. Theirs: what a user of pylinkage writes for SciPy, a function of one design that sets the lengths,
+looks at them, with their reach judged. Theirs: what a user of pylinkage writes for SciPy, a function of one design that sets the lengths,
 runs the compiled solver over 100 positions of the crank, and takes NumPy's differences for the ratio. Interleaved, medians.
 """
 
@@ -47,7 +47,8 @@ def asked(machine: ThreePointHitch) -> dict[str, Any]:
     angle = motion.angle("O", "B")
     design = {name: float(value) for name, value in motion.designs.items()}
     design["at"] = {point: motion[point][:, 0].tolist() for point in "BCDFKG"}
-    return {"design": design, "start": float(angle[0]), "rate": float(angle[-1] - angle[0]) / (STROKES - 1), "poses": STROKES, "varied": VARIED}
+    rate = float(angle[-1] - angle[0]) / (STROKES - 1)
+    return {"design": design, "start": float(angle[0]), "rate": rate, "poses": STROKES, "varied": VARIED}
 
 
 def main() -> None:

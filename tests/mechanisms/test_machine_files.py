@@ -32,9 +32,10 @@ def positions(design):
 
 
 def forces(design):
-    """Return drive forces, joint forces and pressures over the stroke, in each direction."""
-    motion = design.sweep(7)
-    found = [driving_force(motion, direction=direction) for direction in ("frictionless", "extending", "retracting")]
+    """Return drive forces, joint forces and pressures over the strokes, along the box's diagonal of several, in each direction."""
+    motion = design.at(**{name: np.linspace(stroke.start, stroke.end, 7) for name, stroke in design.strokes.items()})
+    ways = [(name, direction) for name in design.strokes for direction in ("frictionless", "extending", "retracting")]
+    found = [driving_force(motion, drive=name, direction=direction) for name, direction in ways]
     found += [part for each in pin_forces(motion, direction="extending").joints for part in (each.force, each.couple)]
     found += [each.pressure(motion) for each in design.plan.of_kind(FloatCircuit).values()]
     found += [each.pressure_for(motion) for each in design.plan.of_kind(LiftCircuit).values()]

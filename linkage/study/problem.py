@@ -386,7 +386,8 @@ class Problem:
         """Return what the conditions' numbers are measured with: their size over the first designs that were looked at."""
         if self._sizes is None:
             sizes = {leaf: size_of_rows(rows.values) for leaf, rows in look.rows.items()}
-            middle = {leaf: float(np.nanmedian(np.where(np.isfinite(each), each, np.nan))) for leaf, each in numbers.items() if each.size}
+            known = {leaf: each[np.isfinite(each)] for leaf, each in numbers.items() if each.size}
+            middle = {leaf: float(np.median(each)) if each.size else float("nan") for leaf, each in known.items()}
             found = [[size_of(side, sizes, middle) for side in (each.left, each.right)] for each in self.constraints]
             self._sizes = [max((side for side in sides if np.isfinite(side)), default=0.0) or 1.0 for sides in found]
         return self._sizes

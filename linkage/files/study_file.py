@@ -39,7 +39,7 @@ RANGE_WORDS = 'a range such as "270 to 330 mm", "270 to 330 mm in steps of 5 mm"
 _SPAN = re.compile(r"\s*(?P<low>.+?)\s+to\s+(?P<high>.+?)(?:\s+(?:in steps of|by)\s+(?P<step>.+?))?\s*\Z")
 _AROUND = re.compile(r"\s*(?:within|around|\+-|\+/-|±)\s*(?P<by>.+?)(?:\s+(?:in steps of|by)\s+(?P<step>.+?))?\s*\Z")
 _BARE = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?\Z")
-_UNIT_PART = re.compile(r"[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*(?P<unit>[^\s\d]\S*)\s*\Z")
+_UNIT_PART = re.compile(r"[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*(?P<unit>[^\W\d]\S*|°)\s*\Z")
 
 
 @final
@@ -197,7 +197,7 @@ def span_said(text: str, measures: str) -> tuple[float, ...] | None:
     if found is None:
         return None
     parts = [found.group("low"), found.group("high"), *([found.group("step")] if found.group("step") else [])]
-    unit = next((match.group("unit") for match in map(_UNIT_PART.match, parts[1:]) if match), "")
+    unit = next((match.group("unit") for part in parts[1:] if not _BARE.match(part) and (match := _UNIT_PART.match(part))), "")
     return tuple(parse(f"{part} {unit}" if unit and _BARE.match(part) else part, measures) for part in parts)
 
 

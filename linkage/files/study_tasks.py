@@ -10,7 +10,7 @@
     [tolerance]
     of = ["tilt"]
     tolerances = { OB = "0.1 mm", CD = "0.1 mm" }
-    keep = ["most(tilt) <= 17 deg"]
+    subject_to = ["most(tilt) <= 17 deg"]
 """
 
 from __future__ import annotations
@@ -28,17 +28,19 @@ from ..errors import DefinitionError, one_word, unknown
 from ..mechanism import Mechanism
 from ..motion import Column, Request, stroke_display_unit
 from ..program import FloatArray
-from ..quantities import Quantity, is_number
-from ..study import Target, Within, monte_carlo, settings_for, survey, tornado, zone
+from ..quantities import is_number
+from ..study import Target, monte_carlo, settings_for, survey, tornado, zone
 from ..study.batching import Progress
 from ..study.box import METHODS as SAMPLE_METHODS
 from ..study.box import Box
 from ..study.checks import unit_of
-from ..study.measured import measure_of, measured_title, number_bound
-from ..study.measures import At, Constraint, Given, Least, Most
+from ..study.measured import measure_of, measured_title
+from ..study.measures import At, Constraint, Given, Measure
+from ..study.monte_carlo import limits_listed
+from ..study.optimise import constraint_in_case, in_case
 from ..study.space import Around, coordinates
 from ..units import display_unit, show
-from .criterion import condition_said, quantity_said
+from .criterion import CriterionParser, checked_text, condition_said, measure_said, quantity_said
 from .names import shortened
 from .study_file import (
     PICTURE_SUFFIXES,
@@ -133,6 +135,9 @@ class StudyTask(ABC):
                     if name not in self.plan.strokes:
                         raise unknown("Stroke", name, self.plan.strokes, where=self.plan.title)
                     found[name] = stroke_values_said(value, stroke_measure(self.plan, name), poses or 1)
+            if not given and poses and len(self.plan.strokes) == 1:
+                [(name, stroke)] = self.plan.strokes.items()
+                found[name] = np.linspace(stroke.start, stroke.end, poses)
         return found
 
     def stroke_column(self, strokes: Mapping[str, FloatArray]) -> list[Column]:
@@ -141,9 +146,7 @@ class StudyTask(ABC):
 
     def unit_of_quantity(self, quantity: Any) -> str:
         """Return the unit that a quantity is shown in."""
-        kind = self.plan.members.get(quantity) if isinstance(quantity, str) else quantity
-        measures = kind.measures if isinstance(kind, (Quantity, Request)) else ""
-        return display_unit(measures or measure_of(number_bound(self.plan, quantity)), "mm")
+        return display_unit(measure_of(self.plan, quantity), "mm")
 
 
 def box_range(machine: Mechanism, name: str, said: Any) -> dict[str, Any]:
@@ -276,7 +279,7 @@ class ToleranceTask(StudyTask):
     """Monte Carlo of tolerances: bands, the worst case, and the share of good machines."""
 
     section = "tolerance"
-    keys = ("of", "tolerances", "keep", "count", "seed", "method", "percentiles", "strokes", "poses", "case")
+    keys = ("of", "tolerances", "subject_to", "count", "seed", "method", "percentiles", "strokes", "poses", "case")
 
     def read(self) -> None:
         self.tolerances = tolerances_said(self.head, self.given.get("tolerances", {}), self.section, "tolerances")
@@ -285,7 +288,7 @@ class ToleranceTask(StudyTask):
         self.method = "sobol"
         self.percentiles: tuple[float, ...] = (5.0, 50.0, 95.0)
         self.of: dict[str, Any] = {}
-        self.keep: list[Within] = []
+        self.conditions: list[Constraint] = []
         with self.at("method"):
             self.method = one_word("it", self.given.get("method", "sobol"), SAMPLE_METHODS)
         with self.at("percentiles"):
@@ -306,46 +309,43 @@ class ToleranceTask(StudyTask):
             given = self.needed("of", 'of = ["tilt"]')
             for name, text in named_measures(given if isinstance(given, (list, Mapping)) else [given]).items():
                 with self.at("of", name):
-                    self.of[name] = with_case(quantity_said(text, self.machine), case)
-        with self.at("keep"):
-            given = self.given.get("keep", [])
+                    self.of[name] = with_case(quantity_or_measure(text, self.machine), case)
+        with self.at("subject_to"):
+            given = self.given.get("subject_to", [])
             for number, text in enumerate(given if isinstance(given, list) else [given], 1):
-                with self.at("keep", str(number)):
-                    self.keep.append(self.limit(condition_said(text, self.machine), case))
-
-    def limit(self, condition: Any, case: Any) -> Within:
-        """Return the limit that a condition is at every stroke; DefinitionError for what is none."""
-        if isinstance(condition, Constraint):
-            left, right, sign = condition.left, condition.right, condition.symbol
-            if isinstance(left, Given):
-                left, right, sign = right, left, {"<=": ">=", ">=": "<=", "==": "=="}[sign]
-            is_limit = (isinstance(left, Most) and sign == "<=") or (isinstance(left, Least) and sign == ">=")
-            if is_limit and isinstance(left, (Most, Least)) and isinstance(right, Given):
-                quantity: Any = with_case(left.quantity, case)
-                ends = {"high" if sign == "<=" else "low": right.value}
-                return Within(quantity, unit=self.unit_of_quantity(quantity), **ends)  # type: ignore[arg-type]
-        raise DefinitionError(f"{condition} is no limit at every pose; write most(...) <= a number, or least(...) >= a number.")
+                with self.at("subject_to", str(number)):
+                    held = condition_said(text, self.machine).constraints(self.machine)
+                    self.conditions += limits_listed(self.machine, [constraint_in_case(one, case) for one in held])
 
     def run(self, folder: Path | None, progress: bool | Progress) -> TaskResult:
         found = monte_carlo(
-            self.machine, self.of, self.tolerances, keep=self.keep, count=self.count, percentiles=self.percentiles, method=self.method,
-            seed=self.seed, **self.looked_at,
+            self.machine, self.of, self.tolerances, subject_to=self.conditions, count=self.count, percentiles=self.percentiles,
+            method=self.method, seed=self.seed, **self.looked_at,
         )  # fmt: skip
         strokes = self.stroke_column(found.strokes)
         columns, lines = [*strokes], [str(found)]
         for name, band in found.bands.items():
-            unit = self.unit_of_quantity(self.of[name])
+            unit = band.unit
             parts = {"nominal": band.nominal, "mean": band.mean, "sigma": band.sigma, "worst low": band.low, "worst high": band.high}
             parts |= {f"{percentage:g} %": value for percentage, value in band.percentiles.items()}
-            columns += [Column(f"{name} {word}", np.ravel(value), unit) for word, value in parts.items()]
+            shape = strokes[0].values.shape if strokes else (1,)
+            columns += [Column(f"{name} {word}", np.broadcast_to(np.ravel(value), shape), unit) for word, value in parts.items()]
             place = int(np.nanargmax(np.nan_to_num(band.sigma)))
             lines.append(f"{name}: sigma up to {show(float(np.ravel(band.sigma)[place]), unit, 3)}.")
         return TaskResult("\n  ".join(lines), tuple(columns), found)
 
 
 def with_case(quantity: Any, case: Any) -> Any:
-    """Return a quantity with the forces of a load case, where it is of forces."""
+    """Return a quantity or a measure with the forces of a load case, where it is of forces."""
+    if isinstance(quantity, Measure):
+        return in_case(quantity, case)
     return quantity.in_case(case) if case is not None and isinstance(quantity, Request) else quantity
+
+
+def quantity_or_measure(text: Any, machine: Mechanism) -> Any:
+    """Return the quantity over poses that a text says, or a measure; DefinitionError for what is neither."""
+    found = CriterionParser(checked_text(text), machine).whole()
+    return measure_said(text, machine) if isinstance(found, Measure) else quantity_said(text, machine)
 
 
 @final

@@ -41,7 +41,7 @@ class TextMeasures:
         found: dict[str, Any] = {}
         for name, each in said.items():
             if isinstance(each, Measure):
-                found[name] = np.where(look.whole, values_of(each, numbers, count), np.nan)
+                found[name] = np.where(look.whole, design_values(each, numbers, count), np.nan)
             else:
                 found[name] = look.whole & keeps(each, numbers, count)
         return found
@@ -70,7 +70,7 @@ def measure_or_constraints(text: str, machine: Mechanism) -> Measure | list[Cons
     return [*found.constraints(machine)] if isinstance(found, Condition) else measure_or_constant(found, machine)
 
 
-def values_of(measure: Measure, numbers: Mapping[Leaf, FloatArray], count: int) -> FloatArray:
+def design_values(measure: Measure, numbers: Mapping[Leaf, FloatArray], count: int) -> FloatArray:
     """Return a measure of designs, shape (count,), from the numbers of its leaves."""
     with np.errstate(all="ignore"):
         return np.broadcast_to(np.asarray(measure.of(lambda leaf: numbers[leaf]), float), (count,))
@@ -79,7 +79,11 @@ def values_of(measure: Measure, numbers: Mapping[Leaf, FloatArray], count: int) 
 def keeps(constraints: list[Constraint], numbers: Mapping[Leaf, FloatArray], count: int) -> Any:
     """Return which designs keep all of some constraints, shape (count,)."""
     with np.errstate(all="ignore"):
-        kept = [np.broadcast_to(missed(each, numbers) <= MET_TO_ROUNDING, (count,)) for each in constraints]
+        sizes = [np.maximum(*(np.abs(design_values(side, numbers, count)) for side in (each.left, each.right))) for each in constraints]
+        kept = [
+            np.broadcast_to(missed(each, numbers, 1.0) <= MET_TO_ROUNDING * size, (count,))
+            for each, size in zip(constraints, sizes, strict=True)
+        ]
     return np.all(kept, axis=0) if kept else np.ones(count, bool)
 
 

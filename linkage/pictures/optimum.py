@@ -114,7 +114,7 @@ def overlaid(ax: Axes, before: Motion, after: Motion, pose: int) -> None:
     clouds = [*label_free(new, [there]), *ways, edge(ax)]
     name_points(ax, new, there, moves, np.concatenate([each[np.isfinite(each).all(axis=1)] for each in clouds]))
     for name in moves:
-        arrow(ax, here[name], there[name])
+        moved_arrow(ax, here[name], there[name])
 
 
 def name_points(ax: Axes, scene: Scene, at: Places, moves: Mapping[str, float], taken: FloatArray) -> None:
@@ -163,7 +163,7 @@ def path_between(start: FloatArray, end: FloatArray) -> FloatArray:
     return np.asarray(start + np.linspace(0.0, 1.0, 9)[:, None] * (end - start))
 
 
-def arrow(ax: Axes, start: FloatArray, end: FloatArray) -> None:
+def moved_arrow(ax: Axes, start: FloatArray, end: FloatArray) -> None:
     """Draw how a pin moved."""
     ax.annotate(
         "", (float(end[0]), float(end[1])), xytext=(float(start[0]), float(start[1])), zorder=STRONG.level + 0.9,
@@ -186,7 +186,7 @@ def before_and_after_key(ax: Axes) -> None:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Course:
+class QuantityCourse:
     """A quantity over a stroke before and after [SI], the limits it is held to, and the poses at which a value is prescribed."""
 
     leaf: Leaf
@@ -222,7 +222,7 @@ MARKS = {"==": "x", ">=": "^", "<=": "v"}
 BEFORE, AFTER = (style.MUTED, 1.4), (style.CURVE, style.BOLD)
 
 
-def courses_of(optimum: Optimum, count: int) -> Iterator[Course]:
+def courses_of(optimum: Optimum, count: int) -> Iterator[QuantityCourse]:
     """Yield each quantity that depends on a stroke, once: those of the objectives first."""
     problem = optimum.problem
     measures: list[Measure] = [*problem.objectives, *(each.margin for each in problem.constraints)]
@@ -234,9 +234,11 @@ def courses_of(optimum: Optimum, count: int) -> Iterator[Course]:
         if old is None or new is None:
             continue
         (stroke, *before), (_, *after) = old, new
-        limits = tuple(limit for each in problem.constraints for limit in limits_of(each, leaves, optimum))
+        limits = tuple(limit for each in problem.constraints for limit in limits_on(each, leaves, optimum))
         marks = tuple(mark for each in problem.constraints for mark in marks_of(each, leaves, stroke))
-        yield Course(leaves[0], stroke, unit_of_leaf(problem.plan, leaves[0]), (before[0], before[1]), (after[0], after[1]), limits, marks)
+        yield QuantityCourse(
+            leaves[0], stroke, unit_of_leaf(problem.plan, leaves[0]), (before[0], before[1]), (after[0], after[1]), limits, marks
+        )
 
 
 def sides_of(constraint: Constraint, leaves: Sequence[Leaf]) -> tuple[Leaf, Given, str] | None:
@@ -248,7 +250,7 @@ def sides_of(constraint: Constraint, leaves: Sequence[Leaf]) -> tuple[Leaf, Give
     return None
 
 
-def limits_of(constraint: Constraint, leaves: Sequence[Leaf], optimum: Optimum) -> Iterator[Limit]:
+def limits_on(constraint: Constraint, leaves: Sequence[Leaf], optimum: Optimum) -> Iterator[Limit]:
     """Yield the limit that a constraint is for a quantity at every pose."""
     found = sides_of(constraint, leaves)
     if found is None:
@@ -267,7 +269,7 @@ def marks_of(constraint: Constraint, leaves: Sequence[Leaf], stroke: str) -> Ite
         yield float(found[0].strokes[stroke]), found[1].value, found[2]
 
 
-def course_panel(ax: Axes, optimum: Optimum, course: Course) -> None:
+def course_panel(ax: Axes, optimum: Optimum, course: QuantityCourse) -> None:
     """Draw one quantity over its stroke before and after, with its limits."""
     unit = stroke_display_unit(optimum.problem.plan, course.stroke, "mm")
     name = typeset(words_of(course.leaf.quantity))

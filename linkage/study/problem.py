@@ -396,8 +396,9 @@ class Problem:
         """Return what the conditions' numbers are measured with: their size over the first designs that were looked at."""
         if self._sizes is None:
             sizes = {leaf: size_of_rows(rows.values) for leaf, rows in look.rows.items()}
-            middle = {leaf: float(np.nanmedian(np.where(np.isfinite(each), each, np.nan))) for leaf, each in numbers.items() if each.size}
-            found = [[size_of(side, sizes, middle) for side in (each.left, each.right)] for each in self.constraints]
+            known = {leaf: each[np.isfinite(each)] for leaf, each in numbers.items() if each.size}
+            middle = {leaf: float(np.median(each)) if each.size else float("nan") for leaf, each in known.items()}
+            found = [[terms_size(side, sizes, middle) for side in (each.left, each.right)] for each in self.constraints]
             sizes_of_sides = [max((side for side in sides if np.isfinite(side)), default=0.0) for sides in found]
             self._sizes = [scale_among(each, size) for each, size in zip(self.constraints, sizes_of_sides, strict=True)]
         return self._sizes
@@ -602,13 +603,13 @@ def size_of_rows(values: FloatArray) -> float:
     return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
 
 
-def size_of(measure: Measure, sizes: Mapping[Leaf, float], values: Mapping[Leaf, float]) -> float:
+def terms_size(measure: Measure, sizes: Mapping[Leaf, float], values: Mapping[Leaf, float]) -> float:
     """Return how large the terms of a measure are, from the sizes of its leaves over the stroke: a difference is as large as its parts."""
     if isinstance(measure, Leaf):
         return sizes[measure]
     if not isinstance(measure, CombinedMeasure):
         return abs(float(measure.of(lambda leaf: values[leaf])))
-    left, right = (size_of(side, sizes, values) for side in (measure.left, measure.right))
+    left, right = (terms_size(side, sizes, values) for side in (measure.left, measure.right))
     if measure.symbol in ("+", "-"):
         return max(left, right)
     if measure.symbol == "*":

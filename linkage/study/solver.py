@@ -18,7 +18,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..program import FloatArray
 from .measures import Constraint, Given, Integral, Leaf, Least, Measure, Most
-from .problem import Evaluated, Problem, reduced, scale_among, size_of, size_of_rows
+from .problem import Evaluated, Problem, reduced, scale_among, size_of_rows, terms_size
 
 FAR = 10.0
 """The loss for the whole of a box's side towards designs that cannot be assembled, in scaled numbers."""
@@ -27,7 +27,7 @@ ROUNDS = 12
 MET = 1e-7
 """A condition is met when nothing more than this part of its size is missing."""
 TIGHT = 1e-13
-MISSING, NO_GAIN, PATIENCE = 100.0, 1e-11, 30
+MISSING, NO_GAIN, PATIENCE = 100.0, 1e-9, 30
 """What a missed line counts beside the objective; a gain by no more is none, and after so many looks without one there is none to come."""
 SMALL = 1e-6
 """An objective of less than this part of what the box makes of it is next to nothing."""
@@ -363,7 +363,7 @@ class Local:
             )  # fmt: skip
         except NoProgressError:
             return watch.best
-        return np.asarray(result.x, float)
+        return watch.better(np.asarray(result.x, float))
 
     def violation(self, z: FloatArray) -> float:
         """Return by how much the worst line of the problem is missed, in scaled numbers."""
@@ -481,14 +481,22 @@ class Watch:
 
     def objective(self, z: FloatArray) -> float:
         """Return the scaled objective; NoProgressError where there is no hope."""
-        value, _ = self.local.objective(z)
-        merit = value + MISSING * max(self.local.violation(z), 0.0)
+        value, merit = self.merits(z)
         self.since += 1
         if merit < self.merit - NO_GAIN * (1.0 + abs(merit)):
             self.best, self.since, self.merit = np.array(z, float), 0, merit
         elif self.since > PATIENCE:
             raise NoProgressError
         return value
+
+    def better(self, z: FloatArray) -> FloatArray:
+        """Return where the solver ended, or the best on its way where that is better."""
+        return self.best if self.merit < self.merits(z)[1] - NO_GAIN * (1.0 + abs(self.merit)) else z
+
+    def merits(self, z: FloatArray) -> tuple[float, float]:
+        """Return the scaled objective, and it with what is missing."""
+        value, _ = self.local.objective(z)
+        return value, value + MISSING * max(self.local.violation(z), 0.0)
 
 
 def graded_leaf(leaf: Leaf, look: Evaluated) -> Graded:
@@ -542,7 +550,7 @@ def scales_of(problem: Problem, look: Evaluated) -> list[float]:
     for each in problem.constraints:
         slope = np.abs(Graded.of(each.margin.of(lambda leaf: graded_leaf(leaf, look))).slope)
         change = float(slope[np.isfinite(slope)].sum())
-        sides = [size_of(side, sizes, values) for side in (each.left, each.right)]
+        sides = [terms_size(side, sizes, values) for side in (each.left, each.right)]
         found.append(scale_among(each, max([side for side in sides if np.isfinite(side)] + [change])))
     return found
 

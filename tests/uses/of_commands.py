@@ -4,7 +4,7 @@ USES = [
     (
         "@",
         "shw; tabel mower_lift; plots; capacty",
-        ("hydrolinkage: Command", "is unknown. Did you mean", "Known: list, show, table, plot, animate, save, balance, capacity."),
+        ("hydrolinkage: Command", "is unknown. Did you mean", "Known: list, show, table, plot, animate, save, optimise, study, "),
     ),
     ("@", "--verbos", ("hydrolinkage: unrecognized arguments: --verbos; see hydrolinkage --help.",)),
     (

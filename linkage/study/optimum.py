@@ -219,6 +219,8 @@ def polished(
     if not found.feasible:
         raise AssemblyError(f"{problem.plan.title}: the design on its steps misses the conditions.")
     now = true_values(problem, machine)
+    if not np.isfinite(problem.value(lambda leaf: now[leaf])):
+        raise AssemblyError(f"{problem.plan.title}: {', '.join(map(str, problem.objectives))} has no value of the best design.")
     local = Local(problem, combination, found.unit)
     local.refine(found.unit)
     prices, ends = multipliers(local, found.unit)

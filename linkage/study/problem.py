@@ -19,7 +19,7 @@ from ..motion import Grid, Motion, Request, greatest, lowest
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import Quantity, is_number
 from .measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most, Worst, words_of
-from .sampling import SampledSlopes, Sampling, Seen, motion_of, strokes_behind, traced, value_on, with_values
+from .sampling import SampledSlopes, Sampling, Seen, eager, motion_of, quickly_on, strokes_behind, traced, value_on, with_values
 from .space import Space
 
 SAMPLES = {0: 1, 1: 49, 2: 17, 3: 9, 4: 5}
@@ -477,17 +477,24 @@ class Problem:
         poses = PoseSet({name: np.linspace(0.0, 1.0, count if len(names) == 1 else 5) for name in names}, fixed)
         return motion_of(self._grid(poses, design, ends))
 
-    def true(self, leaf: Leaf, design: Mapping[str, Any]) -> tuple[float, dict[str, float]]:
-        """Return the value of a leaf of one design, between the poses too, and where: parts (0 to 1) of the strokes' ranges."""
+    def true(self, leaf: Leaf, design: Mapping[str, Any], *, quick: bool = False) -> tuple[float, dict[str, float]]:
+        """Return the value of a leaf of one design, between the poses too, and where: parts (0 to 1) of the strokes' ranges.
+
+        As a motion gives it, or `quick` by the plan's program, which the search itself follows.
+        """
         poses, _ = self._of_leaf[leaf]
         names = tuple(name for name in poses.axes if name != poses.inner)
         if isinstance(leaf, Integral):
             return self.panels(leaf, design)[0] * self.span_of(leaf, design), {}
+        if isinstance(leaf, At) and not poses.inner and not quick:
+            here = motion_of(self._grid(poses, design, self._ends(design, slopes=False)))
+            return float(np.ravel(eager(here, leaf.quantity))[0]), {}
         if poses.inner or isinstance(leaf, At) or not names:
             look = self.look(design)
             return float(reduced(leaf, look.rows[leaf].values)[0]), {}
         motion = self.motion(design, names, poses.fixed)
-        found = (lowest if isinstance(leaf, Least) else greatest)(motion, value_on(leaf.quantity))
+        value = quickly_on(self.plan, leaf.quantity) if quick else value_on(leaf.quantity)
+        found = (lowest if isinstance(leaf, Least) else greatest)(motion, value)
         parts = {}
         for name in names:
             values = motion.strokes[name]
@@ -530,22 +537,24 @@ class Problem:
         (name,) = [each for each in poses.axes if each != poses.inner]
         sampling, ends = self._sampling(self.sets.index(poses)), self._ends(design, slopes=False)
 
-        def values(edges: FloatArray) -> FloatArray:
-            places, weights = gauss(edges)
+        def values(places: FloatArray) -> FloatArray:
             axes = {name: places} | ({poses.inner: poses.axes[poses.inner]} if poses.inner else {})
-            found = sampling.seen(self._grid(PoseSet(axes, poses.fixed, weights, poses.inner), design, ends)).values[place]
+            found = sampling.seen(self._grid(PoseSet(axes, poses.fixed, None, poses.inner), design, ends)).values[place]
             if poses.inner:
                 assert isinstance(leaf.quantity, Worst)
                 found, _ = worst_along(found, None, len(poses.axes[poses.inner]), leaf.quantity.sense)
             return np.asarray(found[0])
 
         edges = np.linspace(0.0, 1.0, PANELS + 1)
-        shares = by_panel(values(edges), edges)
+        shares = by_panel(values(gauss(edges)[0]), edges)
         for _ in range(BISECTIONS):
             finer = halved(edges)
-            halves = by_panel(values(finer), finer)
+            seen = values(np.concatenate([gauss(finer)[0], finer]))
+            inside, ends_of = seen[: -len(finer)], seen[-len(finer) :]
+            halves = by_panel(inside, finer)
             error = np.abs(halves.reshape(-1, 2).sum(axis=1) - shares)
             coarse = error > WORK * np.abs(halves).sum()
+            coarse |= bent_at_ends(inside, ends_of).reshape(-1, 2).any(axis=1)
             if not coarse.any():
                 return float(halves.sum()), edges
             keep = np.concatenate([[True], np.stack([coarse, np.ones_like(coarse)], axis=1).ravel()])
@@ -649,6 +658,14 @@ def gauss(edges: FloatArray) -> tuple[FloatArray, FloatArray]:
 def by_panel(values: FloatArray, edges: FloatArray) -> FloatArray:
     """Return the integrals over the panels between edges, of values at Gauss's places."""
     return np.asarray((values * gauss(edges)[1]).reshape(len(edges) - 1, NODES).sum(axis=1))
+
+
+def bent_at_ends(values: FloatArray, ends: FloatArray) -> Any:
+    """Return in which panels a value at an end is not what those at Gauss's places say of it: there is a kink beside the end."""
+    places, _ = np.polynomial.legendre.leggauss(NODES)
+    told = values.reshape(-1, NODES) @ np.linalg.solve(np.vander(places).T, np.vander([-1.0, 1.0], NODES).T)
+    apart = np.abs(told - np.stack([ends[:-1], ends[1:]], axis=1)).max(axis=1)
+    return apart > WORK**0.5 * np.abs(values).max(initial=0.0)
 
 
 def halved(edges: FloatArray) -> FloatArray:

@@ -459,7 +459,7 @@ class Local:
             return Found(unit, np.nan, np.inf, False), False
         known, values, worse = self.leaf_values(look), {}, False
         for leaf in problem.leaves:
-            values[leaf], parts = problem.true(leaf, design)
+            values[leaf], parts = problem.true(leaf, design, quick=True)
             if not isinstance(leaf, Integral) and self._is_worse(leaf, values[leaf], known[leaf]) and problem.refined(leaf, parts):
                 worse = True
         if worse:

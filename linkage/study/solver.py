@@ -113,7 +113,7 @@ class StalledError(Exception):
 
 
 @final
-class Course:
+class SearchSteps:
     """The steps of one search: the best design on them, and whether they still gain anything.
 
     Where many rows limit a design at once SLSQP's last steps go to and fro along them by parts in a million, for hundreds of looks.
@@ -389,15 +389,15 @@ class Local:
         for equations, kind in ((False, "ineq"), (True, "eq")):
             if self._stacked(z, equations)[0].size:
                 held.append(self._held(kind, equations))
-        course = Course(self)
+        steps = SearchSteps(self)
         try:
             result = minimize(
                 lambda at: self.objective(at)[0], z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
-                method="SLSQP", options={"maxiter": most, "ftol": TIGHT}, callback=course.note,
+                method="SLSQP", options={"maxiter": most, "ftol": TIGHT}, callback=steps.note,
             )  # fmt: skip
         except StalledError:
-            return course.best
-        return course.better(np.asarray(result.x, float))
+            return steps.best
+        return steps.better(np.asarray(result.x, float))
 
     def _held(self, kind: str, equations: bool) -> dict[str, Any]:
         return {"type": kind, "fun": lambda at: self._stacked(at, equations)[0], "jac": lambda at: self._stacked(at, equations)[1]}

@@ -192,6 +192,7 @@ class Cylinder(TwoPoint, Tabled):
 
     def columns(self, motion: Motion) -> list[Column]:
         """Return its thrust without friction and, unless several circuits have it, its pressure, for the table of results."""
+        require_poses(motion)
         pressed = len(circuits_of(self, motion.plan)) <= 1
         thrust = Column("thrust", self.thrust(motion), "kN")
         return [thrust, Column("pressure", self.pressure(motion), "bar", 2)] if pressed else [thrust]

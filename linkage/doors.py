@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
+from .errors import DefinitionError
 from .mechanism import Mechanism
 from .motion import Column, Motion, RequestLike
 from .reports import NOTHING
@@ -19,12 +20,15 @@ if TYPE_CHECKING:
     from .formulas import Equations
     from .pictures import Drawing
     from .pictures.film import Progress
-    from .study import Optimum
-    from .study.pareto import Front
+    from .quantities import Quantity
+    from .study import Front, Optimum
+    from .study.measures import Measure
 
 
 @overload
 def draw(machine: Motion, *, ax: Axes, pose: int | tuple[int, ...] = ..., faint: bool = ...) -> Drawing: ...
+@overload
+def draw(machine: Optimum, *, count: int = ...) -> Figure: ...
 @overload
 def draw(
     machine: Mechanism | Motion,
@@ -37,7 +41,7 @@ def draw(
     faint: bool = ...,
 ) -> Figure: ...
 def draw(
-    machine: Mechanism | Motion,
+    machine: Mechanism | Motion | Optimum,
     at: Any = None,
     path: Sequence[str] = (),
     count: int = 101,
@@ -56,21 +60,42 @@ def draw(
     Of a motion, `pose` is an index into its strokes, an int for the flat one; on axes that are given, the drawing comes back, whose
     `update(pose)` moves it. Empty axes become a sheet with equal scales that has room for the whole motion. A faint mechanism has
     no names. Raises DefinitionError for a batch of designs, an unknown name or a pose that is not there.
-    """
-    from .pictures import draw
 
+    Of the result of a search, the machine before, faint, and after, bold, at both ends of its stroke, with how far each pin moved.
+    """
+    from .pictures import draw, draw_optimum
+    from .study import Optimum
+
+    if isinstance(machine, Optimum):
+        if at is not None or path or ax is not None or pose or faint:
+            title = machine.problem.plan.title
+            raise DefinitionError(f"{title}: a search's result is drawn at the ends of its stroke; it takes count= alone.")
+        return draw_optimum(machine, count)
     return draw(machine, at, path, count, ax=ax, pose=pose, faint=faint)
 
 
-def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[Any]] | None = None) -> Figure:
+@overload
+def plot(motion: Optimum) -> Figure: ...
+@overload
+def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[Any]] | None = ...) -> Figure: ...
+def plot(
+    motion: Motion | Optimum, columns: Sequence[Column | RequestLike] = (), *, limits: Mapping[str, Sequence[Any]] | None = None
+) -> Figure:
     """Return a figure of columns over the stroke, a panel each; a column that is the stroke itself is left out.
 
     A column may go by its name: a named output, or a point's coordinate such as "G_y"; a request, `drive_force()`, is one under its own
     words. `limits` are, by the column's name, `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the side that
     fails, above unless said, is shaded. Raises DefinitionError for a batch, a grid, or an unknown name.
-    """
-    from .pictures import plot
 
+    Of the result of a search, the quantity of the objective and of each condition over the stroke, before and after, with its limit.
+    """
+    from .pictures import plot, plot_optimum
+    from .study import Optimum
+
+    if isinstance(motion, Optimum):
+        if columns or limits is not None:
+            raise DefinitionError(f"{motion.problem.plan.title}: a search's result has its own curves and limits; write plot(optimum).")
+        return plot_optimum(motion)
     return plot(motion, columns, limits=limits)
 
 
@@ -140,6 +165,39 @@ def equations(
     return equations(machine, start=start, numbers=numbers, at=at, ratio=ratio, wrt=wrt, forces=forces)
 
 
+@overload
+def optimise(
+    machine: Mechanism,
+    *,
+    minimise: Measure | Quantity | str | None = ...,
+    maximise: Measure | Quantity | str | None = ...,
+    vary: Mapping[Any, Any],
+    subject_to: Any = ...,
+    case: Any = ...,
+    over: Mapping[str, Any] | None = ...,
+    robust: Mapping[str, Any] | None = ...,
+    sigmas: float = ...,
+    method: str = ...,
+    solver: str = ...,
+    starts: int | None = ...,
+    seed: int = ...,
+    folder: str | PathLike[str] | None = ...,
+    progress: Any = ...,
+) -> Optimum: ...
+@overload
+def optimise(
+    machine: Mechanism,
+    *,
+    minimise: Sequence[Measure | Quantity] = ...,
+    maximise: Sequence[Measure | Quantity] = ...,
+    vary: Mapping[Any, Any],
+    subject_to: Any = ...,
+    case: Any = ...,
+    over: Mapping[str, Any] | None = ...,
+    solver: str = ...,
+    seed: int = ...,
+    progress: Any = ...,
+) -> Front: ...
 def optimise(
     machine: Mechanism,
     *,

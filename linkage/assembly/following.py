@@ -184,7 +184,7 @@ class StrokeLines:
         left, right = points.taken(inner), points.taken(inner + 1)
         done: list[tuple[Points, Points, Mask]] = []
         while len(left.line):
-            good, tiny = fits(left, right), right.place - left.place <= LEAST
+            good, tiny = goes_straight(left, right), right.place - left.place <= LEAST
             hopeless = ~np.isfinite(left.value).all(axis=0)  # what lies behind the end of the reach is lost in any case
             settled = good | tiny | hopeless
             done.append((left.taken(settled), right.taken(settled), good[settled]))
@@ -216,7 +216,7 @@ class Points:
         return Points(np.concatenate([self.line, other.line]), np.concatenate([self.place, other.place]), value, rate)
 
 
-def fits(left: Points, right: Points) -> Mask:
+def goes_straight(left: Points, right: Points) -> Mask:
     """Return between which places a vector goes no other way than it seems: by less than half of itself, and as its derivatives say."""
     with np.errstate(all="ignore"):
         change, width = right.value - left.value, right.place - left.place

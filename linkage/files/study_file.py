@@ -39,7 +39,7 @@ RANGE_WORDS = 'a range such as "270 to 330 mm", "270 to 330 mm in steps of 5 mm"
 _SPAN = re.compile(r"\s*(?P<low>.+?)\s+to\s+(?P<high>.+?)(?:\s+(?:in steps of|by)\s+(?P<step>.+?))?\s*\Z")
 _AROUND = re.compile(r"\s*(?:within|around|\+-|\+/-|±)\s*(?P<by>.+?)(?:\s+(?:in steps of|by)\s+(?P<step>.+?))?\s*\Z")
 _BARE = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?\Z")
-_UNIT_PART = re.compile(r"[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*(?P<unit>[^\s\d]\S*)\s*\Z")
+_UNIT_PART = re.compile(r"[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*(?P<unit>[^\W\d]\S*|°)\s*\Z")
 
 
 @final
@@ -197,7 +197,7 @@ def span_said(text: str, measures: str) -> tuple[float, ...] | None:
     if found is None:
         return None
     parts = [found.group("low"), found.group("high"), *([found.group("step")] if found.group("step") else [])]
-    unit = next((match.group("unit") for match in map(_UNIT_PART.match, parts[1:]) if match), "")
+    unit = next((match.group("unit") for part in parts[1:] if not _BARE.match(part) and (match := _UNIT_PART.match(part))), "")
     return tuple(parse(f"{part} {unit}" if unit and _BARE.match(part) else part, measures) for part in parts)
 
 
@@ -233,15 +233,17 @@ def rows_said(given: Any, plan: Plan, names: Sequence[str]) -> list[Any]:
 TOLERANCE_KEYS = ("limits", "law")
 
 
-def tolerances_said(head: StudyHead, given: Any, key: str) -> dict[str, Any]:
-    """Return tolerances by the names of dimensions; mistakes are noted, each under its name."""
+def tolerances_said(head: StudyHead, given: Any, *key: str) -> dict[str, Any]:
+    """Return tolerances by the names of dimensions; mistakes are noted, each under its name behind a key."""
     found: dict[str, Any] = {}
-    for name, value in flattened(given, head.plan, key, TOLERANCE_KEYS):
-        with head.faults.at(key, name):
-            found[name] = tolerance_said(value, measure_of_name(head.plan, name))
-            tolerances_of(head.plan, {name: found[name]})
-    if not found and not head.faults.found:
-        raise DefinitionError(f'no tolerance is given; write [{key}] OB = "0.1 mm", to either side, or ["-0.1 mm", "0.2 mm"].')
+    with head.faults.at(*key):
+        entries = [*flattened(given, head.plan, key[-1], TOLERANCE_KEYS)]
+        if not entries:
+            raise DefinitionError(f'no tolerance is given; write {key[-1]} = {{ OB = "0.1 mm", CD = ["-0.1 mm", "0.2 mm"] }}.')
+        for name, value in entries:
+            with head.faults.at(*key, name):
+                tolerances_of(head.plan, {name: 0.0})
+                found[name] = tolerance_said(value, measure_of_name(head.plan, name))
     return found
 
 
@@ -268,14 +270,14 @@ def limits_said(given: Any, measures: str) -> float | tuple[float, float]:
 # Strokes, load cases, words and numbers.
 
 
-def over_said(head: StudyHead, given: Any) -> dict[str, Any]:
-    """Return the parts of the strokes that are looked at, as `optimise` takes them; mistakes are noted."""
+def over_said(head: StudyHead, given: Any, *key: str) -> dict[str, Any]:
+    """Return the parts of the strokes that are looked at, as `optimise` takes them; mistakes are noted behind a key."""
     found: dict[str, Any] = {}
     if not isinstance(given, Mapping):
-        head.faults.add(("over",), f'{shortened(given)}: a table of strokes is expected, such as over = {{ S = "0 to 200 mm" }}.')
+        head.faults.add((*key, "over"), f'{shortened(given)}: a table of strokes is expected, such as over = {{ S = "0 to 200 mm" }}.')
         return found
     for name, value in given.items():
-        with head.faults.at("over", name):
+        with head.faults.at(*key, "over", name):
             said = part_said(head, known_name("Stroke", name, head.plan.strokes, where=head.plan.title), value)
             ranges_of(head.machine, {name: said})
             found[name] = said

@@ -7,3 +7,4 @@ from .film import animate, page
 from .optimum import draw_optimum, plot_optimum
 from .poses import draw
 from .tolerances import plot_bands, plot_tornado
+from .zone import plot_zone

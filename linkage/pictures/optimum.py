@@ -24,7 +24,7 @@ from ..units import factor, mm
 from . import style
 from .curves import Limit, axis_range, locator, mark_limit, panel_grid, typeset
 from .drawing import Drawing
-from .free_space import cloud, label_free
+from .free_space import label_free
 from .labels import offsets
 from .scene import Bounds, Places, Scene
 from .sheet import Picture, points_a_metre, quiet, sheet
@@ -35,6 +35,8 @@ WIDE = 12.0
 ROOM = (0.75, 0.2, 0.65, 0.55, 0.75)
 """Room around the two sheets [inch]: left, right, between, below, above."""
 HEIGHTS = (3.6, 9.0)
+AIR = 8.0
+"""The margin around the machine, in sizes of its pins."""
 POSES = 101
 LEAST_MOVE = 0.05 * mm
 """A pin that moved by less did not move."""
@@ -54,7 +56,7 @@ def draw_optimum(optimum: Optimum, count: int = POSES) -> Figure:
         raise DefinitionError(f"count={cited(count)}: a whole number of poses is expected, at least 2.")
     name = next(iter(optimum.machine.strokes))
     before, after = (optimum.problem.along(each, name, count) for each in (optimum.start, optimum.machine))
-    box = joined_box([Scene(each).box() for each in (before, after)])
+    box = joined_box([Scene(each).box(AIR) for each in (before, after)])
     figure, axes = two_sheets(box)
     for ax, pose in zip(axes, (0, count - 1), strict=True):
         overlaid(ax, before, after, pose)
@@ -108,10 +110,11 @@ def overlaid(ax: Axes, before: Motion, after: Motion, pose: int) -> None:
         return
     moves = {name: float(np.hypot(*(there[name] - here[name]))) for name in new.places}
     moves = {name: far for name, far in moves.items() if far > LEAST_MOVE}
-    clouds = [cloud(old, here)[::3], *label_free(new, [there]), *(path_between(here[name], there[name]) for name in moves)]
+    ways = (path_between(here[name], there[name]) for name in moves if np.isfinite(here[name]).all())
+    clouds = [*label_free(new, [there]), *ways, edge(ax)]
     name_points(ax, new, there, moves, np.concatenate([each[np.isfinite(each).all(axis=1)] for each in clouds]))
     for name in moves:
-        arrow(ax, here[name], there[name])
+        moved_arrow(ax, here[name], there[name])
 
 
 def name_points(ax: Axes, scene: Scene, at: Places, moves: Mapping[str, float], taken: FloatArray) -> None:
@@ -122,11 +125,12 @@ def name_points(ax: Axes, scene: Scene, at: Places, moves: Mapping[str, float], 
     spots = offsets(list(places), [places], [taken], scale, 1.15 * scene.size * scale + 1.5)
     for name, text in names.items():
         middle, height = spots[text].tolist()
-        split = middle - 0.5 * CHARACTER * font * len(text) + CHARACTER * font * (len(name) + 0.4)
+        split = middle - 0.5 * CHARACTER * font * len(text) + CHARACTER * font * (len(name) + 0.6)
         look = {"fontstyle": "italic", "fontsize": font, "color": style.INK}
         write(ax, at[name], name, (split, height), "right" if name in moves else "center", **look)
         if name in moves:
-            write(ax, at[name], text.removeprefix(name).strip(), (split, height), "left", fontsize=style.SMALL, color=style.ACCENT)
+            far = text.removeprefix(name).strip()
+            write(ax, at[name], far, (split + 0.25 * font, height), "left", fontsize=style.SMALL, color=style.ACCENT)
 
 
 def millimetres_moved(far: float) -> str:
@@ -146,12 +150,20 @@ def write(ax: Axes, place: FloatArray, text: str, offset: tuple[float, float], s
     )  # fmt: skip
 
 
+def edge(ax: Axes) -> FloatArray:
+    """Return points beside the left and the right end of a sheet, where no name should stand, shape (n, 2) [m]."""
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    heights, wide = np.linspace(bottom, top, 60), 0.01 * (right - left)
+    x = np.concatenate([left - wide * np.arange(1, 6), right + wide * np.arange(1, 6)])
+    return np.stack(np.meshgrid(x, heights), axis=-1).reshape(-1, 2)
+
+
 def path_between(start: FloatArray, end: FloatArray) -> FloatArray:
     """Return points from one place to another, shape (n, 2) [m]."""
     return np.asarray(start + np.linspace(0.0, 1.0, 9)[:, None] * (end - start))
 
 
-def arrow(ax: Axes, start: FloatArray, end: FloatArray) -> None:
+def moved_arrow(ax: Axes, start: FloatArray, end: FloatArray) -> None:
     """Draw how a pin moved."""
     ax.annotate(
         "", (float(end[0]), float(end[1])), xytext=(float(start[0]), float(start[1])), zorder=STRONG.level + 0.9,
@@ -174,7 +186,7 @@ def before_and_after_key(ax: Axes) -> None:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Course:
+class QuantityCourse:
     """A quantity over a stroke before and after [SI], the limits it is held to, and the poses at which a value is prescribed."""
 
     leaf: Leaf
@@ -183,7 +195,7 @@ class Course:
     before: tuple[FloatArray, FloatArray]
     after: tuple[FloatArray, FloatArray]
     limits: tuple[Limit, ...]
-    marks: tuple[tuple[float, float], ...]
+    marks: tuple[tuple[float, float, str], ...]
 
 
 def plot_optimum(optimum: Optimum, count: int = POSES) -> Figure:
@@ -205,10 +217,12 @@ def plot_optimum(optimum: Optimum, count: int = POSES) -> Figure:
     return figure
 
 
+MARKS = {"==": "x", ">=": "^", "<=": "v"}
+"""How a value prescribed at one pose is marked; a triangle points to the side that is allowed."""
 BEFORE, AFTER = (style.MUTED, 1.4), (style.CURVE, style.BOLD)
 
 
-def courses_of(optimum: Optimum, count: int) -> Iterator[Course]:
+def courses_of(optimum: Optimum, count: int) -> Iterator[QuantityCourse]:
     """Yield each quantity that depends on a stroke, once: those of the objectives first."""
     problem = optimum.problem
     measures: list[Measure] = [*problem.objectives, *(each.margin for each in problem.constraints)]
@@ -220,9 +234,11 @@ def courses_of(optimum: Optimum, count: int) -> Iterator[Course]:
         if old is None or new is None:
             continue
         (stroke, *before), (_, *after) = old, new
-        limits = tuple(limit for each in problem.constraints for limit in limits_of(each, leaves, optimum))
+        limits = tuple(limit for each in problem.constraints for limit in limits_on(each, leaves, optimum))
         marks = tuple(mark for each in problem.constraints for mark in marks_of(each, leaves, stroke))
-        yield Course(leaves[0], stroke, unit_of_leaf(problem.plan, leaves[0]), (before[0], before[1]), (after[0], after[1]), limits, marks)
+        yield QuantityCourse(
+            leaves[0], stroke, unit_of_leaf(problem.plan, leaves[0]), (before[0], before[1]), (after[0], after[1]), limits, marks
+        )
 
 
 def sides_of(constraint: Constraint, leaves: Sequence[Leaf]) -> tuple[Leaf, Given, str] | None:
@@ -234,7 +250,7 @@ def sides_of(constraint: Constraint, leaves: Sequence[Leaf]) -> tuple[Leaf, Give
     return None
 
 
-def limits_of(constraint: Constraint, leaves: Sequence[Leaf], optimum: Optimum) -> Iterator[Limit]:
+def limits_on(constraint: Constraint, leaves: Sequence[Leaf], optimum: Optimum) -> Iterator[Limit]:
     """Yield the limit that a constraint is for a quantity at every pose."""
     found = sides_of(constraint, leaves)
     if found is None:
@@ -246,14 +262,14 @@ def limits_of(constraint: Constraint, leaves: Sequence[Leaf], optimum: Optimum) 
         yield Limit(number.value, "", "below")
 
 
-def marks_of(constraint: Constraint, leaves: Sequence[Leaf], stroke: str) -> Iterator[tuple[float, float]]:
-    """Yield the stroke and the value [SI] that a constraint prescribes at one pose."""
+def marks_of(constraint: Constraint, leaves: Sequence[Leaf], stroke: str) -> Iterator[tuple[float, float, str]]:
+    """Yield the stroke and the value [SI] that a constraint prescribes at one pose, and its sign."""
     found = sides_of(constraint, leaves)
     if found is not None and isinstance(found[0], At) and stroke in found[0].strokes:
-        yield float(found[0].strokes[stroke]), found[1].value
+        yield float(found[0].strokes[stroke]), found[1].value, found[2]
 
 
-def course_panel(ax: Axes, optimum: Optimum, course: Course) -> None:
+def course_panel(ax: Axes, optimum: Optimum, course: QuantityCourse) -> None:
     """Draw one quantity over its stroke before and after, with its limits."""
     unit = stroke_display_unit(optimum.problem.plan, course.stroke, "mm")
     name = typeset(words_of(course.leaf.quantity))
@@ -273,9 +289,9 @@ def course_panel(ax: Axes, optimum: Optimum, course: Course) -> None:
     ax.set_ylim(*room_for(axis_range(both), [limit.drawn(both) for limit in course.limits]))
     for limit in course.limits:
         mark_limit(ax, along, column, limit)
-    for place, value in course.marks:
+    for place, value, sign in course.marks:
         spot = [place / factor(unit)], [value / factor(course.unit)]
-        ax.plot(*spot, "x", color=style.ACCENT, markersize=7, markeredgewidth=1.8, zorder=6.0)
+        ax.plot(*spot, MARKS[sign], clip_on=False, color=style.ACCENT, markersize=6, markeredgewidth=1.5, zorder=6.0)
 
 
 def room_for(shown: tuple[float, float], limits: Sequence[float]) -> tuple[float, float]:

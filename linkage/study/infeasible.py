@@ -14,7 +14,7 @@ from ..units import show
 from .measures import Constraint
 from .optimum import in_units, multipliers, true_values, unit_of_constraint
 from .problem import Problem
-from .solver import Found, Local, scale_of
+from .solver import Found, Local, scales_of
 
 MISSED = 1e-6
 
@@ -63,11 +63,12 @@ def infeasible_error(problem: Problem, ended: Sequence[tuple[tuple[int, ...], Fo
     values = true_values(problem, machine)
     relaxations, pulling = [], []
     prices = multipliers(local, soft.unit)[0] if problem.space.variables else np.zeros(len(problem.constraints))
-    for each, price in zip(problem.constraints, prices, strict=True):
+    scales = scales_of(problem, problem.look(machine.dimensions, slopes=True))
+    for each, price, scale in zip(problem.constraints, prices, scales, strict=True):
         left, right = (float(side.of(lambda leaf: values[leaf])) for side in (each.left, each.right))
         short = abs(left - right) if each.symbol == "==" else (left - right if each.symbol == "<=" else right - left)
         units = unit_of_constraint(problem.plan, each)
-        if short > MISSED * (scale_of(each, lambda leaf: values[leaf]) or 1.0):
+        if short > MISSED * scale:
             text = f"{in_units(each, units)} gets {show(left, units, 4)}, {show(short, units, 3)} short"
             relaxations.append(Relaxation(each, short, text))
         elif price > 0.0:
@@ -84,10 +85,9 @@ def infeasible_error(problem: Problem, ended: Sequence[tuple[tuple[int, ...], Fo
 
 def given_way(problem: Problem, combination: Sequence[int], found: Found) -> float:
     """Return by how much all conditions together are missed, in parts of their sizes."""
-    values = true_values(problem, problem.machine_of(found.unit, combination))
-    total = 0.0
-    for each in problem.constraints:
-        scale = scale_of(each, lambda leaf: values[leaf]) or 1.0
+    machine = problem.machine_of(found.unit, combination)
+    values, total = true_values(problem, machine), 0.0
+    for each, scale in zip(problem.constraints, scales_of(problem, problem.look(machine.dimensions, slopes=True)), strict=True):
         margin = float(each.margin.of(lambda leaf: values[leaf])) / scale
         total += abs(margin) if each.symbol == "==" else max(-margin, 0.0)
     return total if np.isfinite(total) else np.inf

@@ -12,11 +12,13 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, unwarned
 from ..mechanism import Mechanism
-from ..motion import BoundRequest, Grid, Motion, Request, at_values, evaluate_grid, stroke_display_unit
+from ..motion import BoundRequest, Grid, Motion, Request, at_values, evaluate_grid, stroke_display_unit, stroke_unit
 from ..motion.grid import JoinedTo
+from ..motion.requests import Combined, stroke_of
 from ..plan import Plan
 from ..program import FloatArray, Way
-from ..quantities import Quantity
+from ..quantities import Function, Negative, Number, Quantity, Ref, Sum
+from ..statics import DriveForce
 from ..units import show
 from .checks import check_one_design, function_value
 from .measures import At, Integral, Leaf, Least, Measure, Most, Worst, words_of
@@ -53,7 +55,30 @@ def measure_of(plan: Plan, quantity: Any) -> str:
     if isinstance(quantity, Leaf) and not isinstance(quantity, Integral):
         return measure_of(plan, quantity.quantity)
     known = plan.members.get(quantity) if isinstance(quantity, str) else quantity
-    return str(known.measures or "") if isinstance(known, (Quantity, Request)) else ""
+    if isinstance(known, Ref):
+        return measure_of(plan, known.target)
+    if isinstance(known, DriveForce):
+        return "force" if stroke_unit(plan, stroke_of(plan, known.drive, "drive")) == "m" else ""
+    if not isinstance(known, (Quantity, Request)) or known.measures:
+        return str(known.measures) if isinstance(known, (Quantity, Request)) else ""
+    parts = of_one_kind(known)
+    kinds = {measure_of(plan, part) for part in parts}
+    return kinds.pop() if len(kinds) == 1 else ""
+
+
+CHOOSING = ("absolute", "minimum", "maximum")
+
+
+def of_one_kind(quantity: Quantity | Request) -> tuple[Any, ...]:
+    """Return the parts of a quantity that measure what it measures itself: those of a sum, a size, a multiple."""
+    if isinstance(quantity, Combined):
+        same = quantity.function in ("add", "subtract", "negative", *CHOOSING)
+        scaled = quantity.function == "multiply" or (quantity.function == "divide" and isinstance(quantity.parts[1], float))
+        parts = tuple(each for each in quantity.parts if not isinstance(each, float))
+        return parts if same or (scaled and len(parts) == 1) else ()
+    if isinstance(quantity, (Sum, Negative)) or (isinstance(quantity, Function) and quantity.function in CHOOSING):
+        return tuple(each for each in quantity.parts() if not isinstance(each, Number))
+    return ()
 
 
 @final

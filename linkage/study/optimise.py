@@ -81,8 +81,8 @@ def optimise(
     held = list(dict.fromkeys(found for each in cases for found in (constraint_in_case(one, each) for one in constraints)))
     plan = SearchPlan(method, solver, starts or STARTS, seed)
     if len(objectives) > 1:
-        if len(cases) > 1 or robust is not None:
-            raise DefinitionError(f"{title}: several objectives are sought in one load case and without robust=.")
+        if len(cases) > 1 or robust is not None or folder is not None:
+            raise DefinitionError(f"{title}: several objectives are sought in one load case, without robust= and without folder=.")
         from .pareto import front
 
         problem = Problem(machine, [in_case(each, cases[0]) for each in objectives], held, space, 1.0, over)

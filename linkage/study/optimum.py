@@ -14,16 +14,16 @@ import numpy as np
 from ..disk import Place, replacing_text
 from ..errors import AssemblyError, DefinitionError, cited
 from ..mechanism import Mechanism
-from ..motion import Request
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import Quantity, is_number
+from ..quantities import is_number
 from ..units import deg, display_unit, mm, show
 from .checks import unit_of
+from .measured import measure_of
 from .measures import Constraint, Given, Integral, Leaf, Measure, Worst
 from .problem import Problem
 from .result_rows import ResultRow, result_text, write_result
-from .solver import MET, Found, Local, missing_of, scale_of
+from .solver import MET, Found, Local, missing_of, scale_of, scales_of
 from .space import Space, Varied
 from .tried import Tried, tried_header, tried_names, tried_rows
 
@@ -33,6 +33,8 @@ SAME = 1e-6
 """Objectives that differ by less than this part of their size are the same."""
 SHOWN = 1e-6
 """A gain of less than this part of the objective is none."""
+NOISE = 1e-9
+"""A number [SI] that is smaller is shown as zero."""
 MOST_ROUNDINGS = 4096
 
 
@@ -57,11 +59,13 @@ class Kept:
         return self.gain > 0.0
 
     def __str__(self) -> str:
-        value, limit = show(self.left, self.units), show(self.right, self.units)
+        value, limit = (show(without_noise(each), self.units) for each in (self.left, self.right))
         said = f"{in_units(self.constraint, self.units)}: {value}"
         if not isinstance(self.constraint.right, Given):
             said += f" against {limit}"
-        return f"{said}, active: 1 % less strict gives {100.0 * self.gain:.2g} % more" if self.active else said
+        if not self.active or self.constraint.symbol == "==" or max(abs(self.left), abs(self.right)) < NOISE:
+            return f"{said}, active" if self.active else said
+        return f"{said}, active: 1 % less strict gives {100.0 * self.gain:.2g} % more"
 
 
 @final
@@ -255,7 +259,7 @@ def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
     except AssemblyError:
         return float("nan"), float("inf")
     values = true_values(problem, machine)
-    scales = [scale_of(each, lambda leaf: values[leaf]) or 1.0 for each in problem.constraints]
+    scales = scales_of(problem, problem.look(machine.dimensions, slopes=True))
     return float(problem.value(lambda leaf: values[leaf])), missing_of(problem.constraints, scales, values)
 
 
@@ -444,6 +448,11 @@ def is_assembled(problem: Problem, machine: Mechanism) -> bool:
     return True
 
 
+def without_noise(value: float) -> float:
+    """Return a value to show: zero for what is rounding."""
+    return 0.0 if abs(value) < NOISE else value
+
+
 # Units of measures, for sentences.
 
 
@@ -466,11 +475,9 @@ def unit_of_leaf(plan: Plan, leaf: Leaf) -> str:
     quantity: Any = leaf.quantity.quantity if isinstance(leaf.quantity, Worst) else leaf.quantity
     if isinstance(leaf, Integral):
         return ""
-    if isinstance(quantity, str):
-        if quantity not in plan.members and quantity in plan.table.spellings:
-            return unit_of(plan, quantity)
-        quantity = plan.members.get(quantity)
-    return display_unit(quantity.measures, "mm") if isinstance(quantity, (Quantity, Request)) else ""
+    if isinstance(quantity, str) and quantity not in plan.members and quantity in plan.table.spellings:
+        return unit_of(plan, quantity)
+    return display_unit(measure_of(plan, quantity), "mm")
 
 
 def in_units(constraint: Constraint, units: str) -> str:

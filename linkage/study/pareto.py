@@ -22,7 +22,7 @@ from .infeasible import infeasible_error
 from .measures import CombinedMeasure, Constraint, Given, Measure
 from .optimum import true_values, unit_of_measure
 from .problem import COARSE, Problem
-from .solver import MET, Found, Local, missing_of, scale_of
+from .solver import MET, Found, Local, missing_of, scales_of
 
 POPULATION, GENERATIONS = 64, 60
 POINTS = 15
@@ -154,7 +154,7 @@ def on_front(
         return None
     problem.looked_at += one.looked_at
     values = true_values(problem, machine)
-    scales = [scale_of(each, lambda leaf: values[leaf]) or 1.0 for each in problem.constraints]
+    scales = scales_of(problem, problem.look(machine.dimensions, slopes=True))
     if missing_of(problem.constraints, scales, values) > MET:
         return None
     return tuple(float(each.of(lambda leaf: values[leaf])) for each in objectives), machine

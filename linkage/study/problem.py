@@ -18,7 +18,7 @@ from ..mechanism import Mechanism
 from ..motion import Grid, Motion, greatest, lowest
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import is_number
-from .measures import At, Constraint, Integral, Leaf, Least, Measure, Most, Worst, words_of
+from .measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most, Worst, words_of
 from .sampling import SampledSlopes, Sampling, Seen, motion_of, strokes_behind, traced, value_on, with_values
 from .space import Space
 
@@ -28,6 +28,8 @@ NEAR_TOP, TOPS, ZOOMS = 0.05, 6, 7
 """Of the range of a leaf's values: tops that come so near to the worst are samples too; how many of them, and how often they are zoomed."""
 CLOSEST = 1e-6
 """Samples are not nearer to one another, in parts of the range."""
+EXACT = 1e-6
+"""Of the size of a condition's terms: numbers that are smaller do not measure it, their last digits would."""
 INNER = 65
 """Samples of the stroke over which the worst value is taken."""
 PANELS, NODES = 24, 5
@@ -158,6 +160,7 @@ class Problem:
         self.follow = tuple(dict.fromkeys(end for one in self.ranges.values() for end in one.follows))
         self.owners = tuple(dict.fromkeys(each.owner for each in space.variables))
         self._samplings: dict[int, Sampling] = {}
+        self._sizes: list[float] | None = None
 
     def with_counts(self, counts: Mapping[int, int]) -> Problem:
         """Return the same problem at another number of samples."""
@@ -250,21 +253,22 @@ class Problem:
         for number, poses in enumerate(self.sets):
             grid = self._grid(poses, designs, ends)
             sampling = self._sampling(number)
-            seen = sampling.seen(grid)
-            judged = poses is self.whole
+            judged = slopes and poses is self.whole
+            seen = sampling.seen(grid, margins=judged)
             slope = sampling.slopes(grid, margins=judged) if slopes else None
             found[number] = seen, slope
             whole &= seen.reached.all(axis=1)
             reached = np.minimum(reached, seen.reached.mean(axis=1))
             if not judged:
                 continue
-            margins.append(seen.margins.min(axis=2).T if not slopes else np.moveaxis(seen.margins, 0, 1).reshape(m, -1))
+            margins.append(np.moveaxis(seen.margins, 0, 1).reshape(m, seen.margins.shape[0] * seen.margins.shape[2]))
             if slope is not None:
                 total = np.moveaxis(self._by_unit(slope.margins, poses, ends), 1, 0)
                 margin_slopes.append(total.reshape(len(total), int(np.prod(total.shape[1:]))))  # of no variable too
         rows = {leaf: self._rows(leaf, found, ends) for leaf in self.leaves}
         return Evaluated(
-            rows, np.concatenate(margins, axis=1), np.concatenate(margin_slopes, axis=1) if slopes else None, whole, reached
+            rows, np.concatenate([np.zeros((m, 0)), *margins], axis=1), np.concatenate(margin_slopes, axis=1) if slopes else None,
+            whole, reached,
         )  # fmt: skip
 
     def _sampling(self, number: int) -> Sampling:
@@ -375,9 +379,21 @@ class Problem:
         with np.errstate(all="ignore"):
             values = np.array([np.broadcast_to(np.asarray(each.of(lambda leaf: numbers[leaf]), float), shape) for each in self.objectives])
             missing = np.zeros(shape)
-            for each in self.constraints:
-                missing = np.maximum(missing, missed(each, numbers))
+            sizes = self._sizes_of_constraints(look, numbers)
+            for each, size in zip(self.constraints, sizes, strict=True):
+                missing = np.maximum(missing, missed(each, numbers, size))
         return np.where(look.whole, values, np.nan), np.where(look.whole, missing, np.nan), look.reached
+
+    def _sizes_of_constraints(self, look: Evaluated, numbers: Mapping[Leaf, FloatArray]) -> list[float]:
+        """Return what the conditions' numbers are measured with: their size over the first designs that were looked at."""
+        if self._sizes is None:
+            sizes = {leaf: size_of_rows(rows.values) for leaf, rows in look.rows.items()}
+            known = {leaf: each[np.isfinite(each)] for leaf, each in numbers.items() if each.size}
+            middle = {leaf: float(np.median(each)) if each.size else float("nan") for leaf, each in known.items()}
+            found = [[terms_size(side, sizes, middle) for side in (each.left, each.right)] for each in self.constraints]
+            sizes_of_sides = [max((side for side in sides if np.isfinite(side)), default=0.0) for sides in found]
+            self._sizes = [scale_among(each, size) for each, size in zip(self.constraints, sizes_of_sides, strict=True)]
+        return self._sizes
 
     def certainly(self, measure: Measure, combination: Sequence[int]) -> Enclosure | None:
         """Return between which values a measure lies whatever the variables; None where a leaf of it is taken over the stroke."""
@@ -524,10 +540,41 @@ class Problem:
         return found
 
 
-def missed(constraint: Constraint, numbers: Mapping[Leaf, FloatArray]) -> FloatArray:
-    """Return by how much of its size a condition is missed by designs, from the leaves' numbers (m,); nothing where one says nothing."""
+def size_of_rows(values: FloatArray) -> float:
+    """Return the size of the largest of some values; zero where none has one."""
+    return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
+
+
+def terms_size(measure: Measure, sizes: Mapping[Leaf, float], values: Mapping[Leaf, float]) -> float:
+    """Return how large the terms of a measure are, from the sizes of its leaves over the stroke: a difference is as large as its parts."""
+    if isinstance(measure, Leaf):
+        return sizes[measure]
+    if not isinstance(measure, CombinedMeasure):
+        return abs(float(measure.of(lambda leaf: values[leaf])))
+    left, right = (terms_size(side, sizes, values) for side in (measure.left, measure.right))
+    if measure.symbol in ("+", "-"):
+        return max(left, right)
+    if measure.symbol == "*":
+        return left * right
+    with np.errstate(all="ignore"):
+        other = abs(float(measure.right.of(lambda leaf: values[leaf])))
+        return float(np.divide(left, other) if measure.symbol == "/" else np.power(left, other))
+
+
+def scale_among(constraint: Constraint, size: float) -> float:
+    """Return what a constraint's numbers are measured with: the number it is compared with, without one the size of its terms."""
+    given = max((abs(side.value) for side in (constraint.left, constraint.right) if isinstance(side, Given)), default=0.0)
+    return (max(given, EXACT * size) if given > 0.0 else size) or 1.0
+
+
+def missed(constraint: Constraint, numbers: Mapping[Leaf, FloatArray], size: float | None = None) -> FloatArray:
+    """Return by how much of its size a condition is missed by designs, from the leaves' numbers (m,); nothing where one says nothing.
+
+    Without a size it is the larger of the two sides, of each design.
+    """
     left, right = (np.asarray(side.of(lambda leaf: numbers[leaf]), float) for side in (constraint.left, constraint.right))
-    margin = (right - left if constraint.symbol == "<=" else left - right) / np.maximum(np.maximum(np.abs(left), np.abs(right)), 1e-300)
+    measured = np.maximum(np.maximum(np.abs(left), np.abs(right)), 1e-300) if size is None else size
+    margin = (right - left if constraint.symbol == "<=" else left - right) / measured
     short = np.abs(margin) if constraint.symbol == "==" else -margin
     says_nothing = np.any([np.isnan(numbers[leaf]) for leaf in constraint.margin.leaves], axis=0)
     unlimited = np.isnan(margin) & (constraint.symbol != "==") & says_nothing

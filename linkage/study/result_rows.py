@@ -13,6 +13,9 @@ from ..units import factor
 
 RESULT_HEADINGS = ("what", "name", "unit", "before", "after", "rounded", "limit", "to spare", "gain, %", "for")
 
+ROUNDED_TO_NOTHING = 1e-9
+"""Of a condition's size: less to spare than this is nothing."""
+
 
 @final
 @dataclass(frozen=True)
@@ -36,7 +39,9 @@ class ResultRow:
     @property
     def numbers(self) -> tuple[float, ...]:
         """The numbers in the row's unit."""
-        return tuple(each / factor(self.unit) for each in (self.before, self.after, self.rounded, self.limit, self.spare))
+        is_met = abs(self.spare) <= ROUNDED_TO_NOTHING * max(abs(self.after), abs(self.limit))
+        spare = 0.0 if is_met else self.spare
+        return tuple(each / factor(self.unit) for each in (self.before, self.after, self.rounded, self.limit, spare))
 
 
 def result_text(rows: Sequence[ResultRow]) -> str:

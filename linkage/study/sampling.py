@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any, final
 
 import numpy as np
@@ -63,33 +62,23 @@ class Sampling:
 
     # -- values ------------------------------------------------------------------------------------------
 
-    def seen(self, grid: Grid) -> Seen:
-        """Return the quantities over a grid, NaN where they have no value."""
+    def seen(self, grid: Grid, *, margins: bool = False) -> Seen:
+        """Return the quantities over a grid, NaN where they have no value; with the margins where they are asked for."""
         m, n = grid.size
         values = np.full((len(self.quantities), m, n), np.nan)
+        loops = Margin.each_of(self.plan) if margins else []  # before anything else is read, which may have triangles of its own
+        requests = (*loops, Placed(), *self._traced.values())
         with unwarned(), np.errstate(all="ignore"):
-            margins, reached = self._margins(grid)
-            if self._traced:
-                requests = tuple(self._traced.values())
-                for place, found in zip(self._traced, Evaluation(grid, requests, QUICKEST, "nan").run(None), strict=True):
-                    values[place] = np.broadcast_to(found, grid.shape).reshape(m, n)
+            found = [np.broadcast_to(each, grid.shape).reshape(m, n) for each in Evaluation(grid, requests, QUICKEST, "nan").run(None)]
+            for place, each in zip(self._traced, found[len(loops) + 1 :], strict=True):
+                values[place] = each
             if self._eager:
                 motion = motion_of(grid)
                 for place in self._eager:
                     values[place] = eager(motion, self.quantities[place]).reshape(m, n)
-        return Seen(np.where(reached, values, np.nan), margins, reached)
-
-    def _margins(self, grid: Grid) -> tuple[FloatArray, Mask]:
-        """Return how far the links are from being too short or too long, (r, m, n), and which poses are reached (m, n)."""
-        kernel = self.plan.made(("search margins",), margin_kernel)
-        found = grid.full(kernel(grid.flat).values)
-        found = np.broadcast_to(found, (len(kernel.plan.outputs), *grid.shape)).reshape(-1, *grid.size)
-        margins = found[:-1]
-        at_end = np.asarray(np.abs(margins) < ROUNDED)  # a pose at a dead point to rounding is reached
-        reached = np.asarray(np.isfinite(found).all(axis=0) & (margins >= -ROUNDED).all(axis=0))
-        if bool((at_end.any(axis=0) & ~reached).any()):
-            reached = reached | np.asarray(motion_of(grid).reached.reshape(grid.size))
-        return margins, reached
+        reached = np.isfinite(found[len(loops)])
+        whole = values if reached.all() else np.where(reached, values, np.nan)
+        return Seen(whole, np.array(found[: len(loops)]).reshape(len(loops), m, n), reached)
 
     # -- derivatives -------------------------------------------------------------------------------------
 
@@ -98,7 +87,7 @@ class Sampling:
         n, p = grid.size[1], len(self.owners)
         values = np.zeros((len(self.quantities), p, n))
         if not p:
-            return SampledSlopes(values, np.zeros((len(self._margin_loops), 0, n)))
+            return SampledSlopes(values, np.zeros((len(Margin.each_of(self.plan)) if margins else 0, 0, n)))
         with unwarned(), np.errstate(all="ignore"):
             kernel, angles = self._program(margins)
             found = grid.full(kernel(grid.flat).values)
@@ -112,10 +101,6 @@ class Sampling:
             for place in self._eager:
                 values[place] = self._differences(grid, self.quantities[place])
         return SampledSlopes(values, found[len(self._traced) :])
-
-    @cached_property
-    def _margin_loops(self) -> Sequence[Any]:
-        return self.plan.made(("search margins",), margin_kernel).plan.outputs[:-1]
 
     def _program(self, margins: bool) -> tuple[Kernel, Angles]:
         """Return the kernel of all derivatives, then those of the margins; and the angles behind the first."""
@@ -207,10 +192,6 @@ def value_on(quantity: Any) -> Callable[[Motion], FloatArray]:
 
 # How far the links are from being too short or too long to meet.
 
-ROUNDED = 1e-12
-"""A squared sine that is smaller is zero to rounding."""
-
-
 @final
 @dataclass(frozen=True)
 class Margin(BoundRequest):
@@ -241,6 +222,29 @@ class Margin(BoundRequest):
 
 @final
 @dataclass(frozen=True)
+class Placed(BoundRequest):
+    """A number that is finite where every point has a place."""
+
+    @property
+    def key(self) -> Any:
+        return "placed"
+
+    def nodes(self, plan: Plan) -> tuple[Any, ...]:
+        whole = plan.trace.graph.constant(0.0)
+        for name in plan.moving:
+            for node in plan.nodes(name):
+                whole = whole + node
+        return (whole,)
+
+    def names(self, plan: Plan) -> set[str]:
+        return plan.reaches(*plan.moving)
+
+    def __str__(self) -> str:
+        return "all places"
+
+
+@final
+@dataclass(frozen=True)
 class DimensionValue(BoundRequest):
     """A dimension itself, by its owner and sign."""
 
@@ -259,16 +263,6 @@ class DimensionValue(BoundRequest):
 
     def __str__(self) -> str:
         return self.owner
-
-
-def margin_kernel(plan: Plan) -> Kernel:
-    """Return the kernel of a plan's margins, then of a number that is finite where every point has a place."""
-    margins = [node for each in Margin.each_of(plan) for node in each.nodes(plan)]
-    places = [node for name in plan.moving for node in plan.nodes(name)]
-    whole = plan.trace.graph.constant(0.0)
-    for node in places:
-        whole = whole + node * node
-    return Kernel([*margins, whole])
 
 
 def with_values(designs: Mapping[str, Any], changed: Mapping[str, Any]) -> dict[str, Any]:

@@ -8,11 +8,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from .arm_drive import ArmDrive as ArmDrive
+from .arm_drive import ArmDriveByCylinder as ArmDriveByCylinder
 from .arm_drive import BellCrankArmDrive as BellCrankArmDrive
+from .arm_drive import BellCrankArmDriveByCylinder as BellCrankArmDriveByCylinder
+from .arm_drive import DirectArmDrive as DirectArmDrive
+from .arm_drive import DirectArmDriveAbove as DirectArmDriveAbove
 from .boom_drive import BoomDrive as BoomDrive
 from .cylinders import arm_moment as arm_moment
 from .cylinders import boom_moment as boom_moment
 from .cylinders import drive_limits as drive_limits
+from .drive_design import ArmRules as ArmRules
+from .drive_design import DriveDesign as DriveDesign
+from .drive_design import arm_drive_front as arm_drive_front
 from .drive_design import design_arm_drive as design_arm_drive
 from .drive_design import design_boom_drive as design_boom_drive
 from .drive_duty import DriveCylinders as DriveCylinders

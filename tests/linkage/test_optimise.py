@@ -246,7 +246,8 @@ def test_choices_alone_are_all_looked_at():
 
 
 def test_steps_are_kept_and_no_design_on_steps_beats_it():
-    best = optimise(Boom(), minimise=most(pressure("lift")), vary={"OB": (0.25, 0.35, 0.01), "A.y": (-0.06, 0.06)}, subject_to=[TRAVEL <= 0.64])
+    vary = {"OB": (0.25, 0.35, 0.01), "A.y": (-0.06, 0.06)}
+    best = optimise(Boom(), minimise=most(pressure("lift")), vary=vary, subject_to=[TRAVEL <= 0.64])
     steps = best.machine["OB"] / 0.01
     assert steps == pytest.approx(round(steps), abs=1e-9)
     every = [
@@ -273,9 +274,8 @@ def test_rounding_says_what_it_costs_and_keeps_the_conditions():
 
 def test_a_multiplier_is_what_giving_way_gains():
     def search(travel, high):
-        return optimise(Boom(), minimise=most(pressure("lift")), vary={"A": around(60 * mm), "OB": (0.25, high)}, subject_to=[
-            TRAVEL >= travel,
-        ], starts=2)  # fmt: skip
+        vary, limits = {"A": around(60 * mm), "OB": (0.25, high)}, [at(y("G"), S=0.25) - at(y("G"), S=0.0) >= travel]
+        return optimise(Boom(), minimise=most(pressure("lift")), vary=vary, subject_to=limits, starts=2)
 
     best = search(0.73, 0.28)
     (kept,) = best.conditions
@@ -311,7 +311,7 @@ def test_nothing_that_cannot_be_assembled_is_ever_returned():
     best = optimise(Reaching(OB=0.22), minimise=at("OB"), vary={"OB": (0.05, 0.4)}, subject_to=[reachable], starts=4)
     assert_allclose(best.machine["OB"], 0.2, atol=1e-6)
     best.machine.sweep(1001)
-    with pytest.raises(StudyError, match="none of .* designs looked at can be assembled over the whole stroke(?s:.*)mm short"):
+    with pytest.raises(StudyError, match=r"none of .* designs looked at can be assembled over the whole stroke(?s:.*)mm short"):
         optimise(Reaching(), minimise=at("OB"), vary={"OB": (0.05, 0.15)})
 
 
@@ -410,7 +410,7 @@ def test_local_search_of_elastic_and_plain_agree_where_all_is_kept():
 
 
 def test_a_search_goes_on_where_it_stopped(tmp_path):
-    class Stopped(Exception):
+    class StoppedError(Exception):
         pass
 
     done = []
@@ -418,10 +418,10 @@ def test_a_search_goes_on_where_it_stopped(tmp_path):
     def stop(count, total):
         done.append(count)
         if count == 2:
-            raise Stopped
+            raise StoppedError
 
     ask = dict(maximise=least(reserve("lift")), vary=VARY, subject_to=[TRAVEL >= 0.5], starts=4)
-    with pytest.raises(Stopped):
+    with pytest.raises(StoppedError):
         optimise(Boom(), **ask, folder=tmp_path, progress=stop)
     lines = (tmp_path / "search.jsonl").read_text().splitlines()
     assert len(lines) == 3

@@ -206,6 +206,7 @@ def test_back_broken_skeleton_of_least_mass(A_k):
     assert value * (1.0 - 1e-9) <= brute_force(A_k) <= value * (1.0 + 1e-4)
 
 
+@pytest.mark.slow
 def test_default_back_broken_skeleton_is_the_best_of_its_cab():
     crane = BackBrokenSkeleton()
     kept = [*BackBrokenSkeleton.conditions(">=")]

@@ -8,6 +8,7 @@ from scipy.optimize import minimize
 
 from linkage import RIGHT, DefinitionError, Dyad, OnLink, Weight, deg, ratio
 from linkage.motion import lowest
+from linkage.study import Target, settings_for
 from mechanisms.crane.arm_drive import ArmDrive, BellCrankArmDrive, BellCrankArmDriveByCylinder, DirectArmDrive, DirectArmDriveAbove
 from mechanisms.crane.boom_drive import BoomDrive
 from mechanisms.crane.drive_design import ArmRules, arm_drive_front, design_arm_drive, design_boom_drive
@@ -419,6 +420,19 @@ def test_a_search_through_the_boom_finds_the_reference(bore):
         assert_allclose(at(result.x)[name], boom_of(bore)[name], rtol=1e-7)
 
 
+def test_two_pairs_of_pins_for_a_stroke():
+    """The long r_2 with the short r_3, and the reverse; the second one stands too high on the column for (2.37)."""
+    boom = boom_of(125)
+    ends = [Target("length", boom["S"] + 0.4, phi=PHI_K), Target("length", 2 * boom["S"] + 0.4, phi=PHI_0)]
+    found = settings_for(boom, {"r_2": (0.2, 2.5), "r_3": (0.3, 3.0)}, ends)
+    high, low = sorted(found.settings, key=lambda each: each["r_2"])
+    assert_allclose([low["r_2"], low["r_3"]], [boom["r_2"], boom["r_3"]], rtol=1e-9)
+    assert_allclose([high["r_2"], high["r_3"]], [0.631988, 1.62511], atol=1e-5)
+    lengths = boom.replaced(r_2=high["r_2"], r_3=high["r_3"]).at(phi=np.array([PHI_0, PHI_K]))["length"]
+    assert_allclose(lengths, boom.at(phi=np.array([PHI_0, PHI_K]))["length"], rtol=1e-10)
+    assert high["r_2"] < 0.5 * lengths[1]
+
+
 # -- the design -----------------------------------------------------------------------------------------------
 
 BORES = DriveCylinders().sizes
@@ -586,3 +600,33 @@ def test_figures_show_ends_and_worst_movements():
     figure = drive_figure("positions", ArmDrive())
     titles = [ax.get_title(loc="left") for ax in figure.axes]
     assert titles == ["$\\psi$ = 0.0°: start, folding: least over", "$\\psi$ = 84.7°: opening: least over", "$\\psi$ = 180.0°: end"]
+
+
+def test_readings_of_the_arms_conditions():
+    """Each option of the lost signs changes the conditions that it speaks of, and no others."""
+
+    def texts(**options):
+        return {str(each) for each in ArmRules(**options).conditions(DriveDuty())}
+
+    usual = texts()
+    (excess,) = (each for each in usual if each.startswith("most((opens"))
+    (whole,) = texts(excess_from="psi_0") - usual
+    assert usual - texts(excess_from="psi_0") == {excess}
+    assert "phi" not in whole and "0.2617993877991494" in excess
+    assert texts(angles="travels") - usual == {
+        "at(alpha_1, psi=3.14159) - at(alpha_1, psi=0) >= 1.5708",
+        "at(alpha_2, psi=3.14159) - at(alpha_2, psi=0) >= 1.74533",
+    }
+    assert texts(angles="angles") - usual == {"at(alpha_1, psi=3.14159) <= 1.5708", "at(alpha_2, psi=3.14159) <= 1.74533"}
+    assert usual - texts(above=None) == {"at(y(L), psi=0) >= 0.15", "at(y(L), psi=3.14159) >= 0.15"}
+    assert texts(above=0.0) - usual == {"at(y(L), psi=0) >= 0", "at(y(L), psi=3.14159) >= 0"}
+    assert usual - texts(transmission=0.0) == {"least(mu) >= 0.436332", "most(mu) <= 2.70526"}
+
+
+@pytest.mark.slow
+def test_tighter_excess_leaves_no_arm_drive():
+    """With k_r = 1.4 in the place of 1.6 the source's example has no drive: what is given at phi_0 is too much, and that is said."""
+    design = design_arm_drive(cylinders=DriveCylinders(sizes=BORES[7:]), rules=ArmRules(excess=1.4), starts=2)
+    (sentence,) = design.sentences
+    assert sentence.startswith("140/80 mm cannot: no pins found keep everything, the nearest miss most((M_g2 - M_l2)")
+    assert sentence.endswith("short.")

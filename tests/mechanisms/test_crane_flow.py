@@ -164,7 +164,7 @@ def test_dragging_keeps_to_the_ground_and_to_the_cylinders():
 # Pictures and the command.
 
 
-@pytest.mark.parametrize("name", FIGURES)
+@pytest.mark.parametrize("name", ["map", *(pytest.param(name, marks=pytest.mark.slow) for name in FIGURES if name != "map")])
 def test_figures_are_drawn(name, tmp_path):
     crane_figure(name).savefig(tmp_path / f"{name}.png")
     assert (tmp_path / f"{name}.png").stat().st_size > 20_000

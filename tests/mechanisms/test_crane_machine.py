@@ -206,12 +206,12 @@ def brute_force(crane, heights, radii, count):
     return found
 
 
-@pytest.mark.parametrize("machine", [Crane, ChainCrane])
+@pytest.mark.parametrize("machine", [Crane, pytest.param(ChainCrane, marks=pytest.mark.slow)])
 def test_load_map_is_brute_force(machine):
-    crane, heights, radii = machine(), HEIGHTS[1::4], RADII[::4]
+    crane, heights, radii = machine(), HEIGHTS[1::6], RADII[::4]
     found, slow = load_map(crane, heights, radii).load, brute_force(crane, heights, radii, 61)
     both = np.isfinite(slow)
-    assert both.sum() >= 9
+    assert both.sum() >= 6
     assert np.isfinite(found[both]).all()
     assert np.all(found[both] >= slow[both] * (1.0 - 1e-5))
     assert_allclose(found[both], slow[both], rtol=1e-3)

@@ -32,9 +32,10 @@ def positions(design):
 
 
 def forces(design):
-    """Return drive forces, joint forces and pressures over the stroke, in each direction."""
-    motion = design.sweep(7)
-    found = [driving_force(motion, direction=direction) for direction in ("frictionless", "extending", "retracting")]
+    """Return drive forces, joint forces and pressures over the strokes, along the box's diagonal of several, in each direction."""
+    motion = design.at(**{name: np.linspace(stroke.start, stroke.end, 7) for name, stroke in design.strokes.items()})
+    ways = [(name, direction) for name in design.strokes for direction in ("frictionless", "extending", "retracting")]
+    found = [driving_force(motion, drive=name, direction=direction) for name, direction in ways]
     found += [part for each in pin_forces(motion, direction="extending").joints for part in (each.force, each.couple)]
     found += [each.pressure(motion) for each in design.plan.of_kind(FloatCircuit).values()]
     found += [each.pressure_for(motion) for each in design.plan.of_kind(LiftCircuit).values()]
@@ -82,8 +83,8 @@ def test_design_comes_back(name, write):
 
 
 def test_what_a_file_leaves_out_is_known():
-    assert left_out(ThreePointHitch) == ("__init__", "admissible", "columns", "verdicts")
-    assert left_out(HeaderBalancer) == left_out(MowerLift) == ("__init__", "columns", "verdicts")
+    assert left_out(ThreePointHitch) == ("__init__", "admissible", "columns", "formulas", "verdicts")
+    assert left_out(HeaderBalancer) == left_out(MowerLift) == ("__init__", "columns", "formulas", "verdicts")
     assert not any(left_out(machine) for name, machine in SHIPPED.items() if not machine.plan.of_kind(ForceElement))
 
 
@@ -158,7 +159,7 @@ def test_save_says_what_is_left_out(run):
     assert (code, err) == (0, "")
     assert out == (
         "own.toml: the linkage with 22 members.\n"
-        "Not in it, since a file holds no functions of a class: __init__, admissible, columns, verdicts.\n"
+        "Not in it, since a file holds no functions of a class: __init__, admissible, columns, formulas, verdicts.\n"
     )
     assert load("own.toml")().dimensions == ThreePointHitch(**{"OB": 0.32, "load.mass": 1000.0}).dimensions
     assert run("save", "klann", "klann.json") == (0, f"klann.json: the linkage with {len(SHIPPED['klann'].plan.members)} members.\n", "")

@@ -4,7 +4,7 @@ USES = [
     (
         "@",
         "shw; tabel mower_lift; plots; capacty",
-        ("hydrolinkage: Command", "is unknown. Did you mean", "Known: list, show, table, plot, animate, save, balance, capacity."),
+        ("hydrolinkage: Command", "is unknown. Did you mean", "Known: list, show, table, plot, animate, save, optimise, study, "),
     ),
     ("@", "--verbos", ("hydrolinkage: unrecognized arguments: --verbos; see hydrolinkage --help.",)),
     (
@@ -265,7 +265,7 @@ USES = [
     (
         "balance @",
         "header_balancer --set charg=3",
-        ("hydrolinkage: Dimension 'charg' is unknown in HeaderBalancer.", "OG1, BOG1, OG2, BOG2, lift.bore, lift.rod, shoe.force."),
+        ("hydrolinkage: Dimension 'charg' is unknown in HeaderBalancer.", "lift.bore, lift.rod, lift.stroke, lift.closed, shoe.force."),
     ),
     (
         "balance @",

@@ -34,7 +34,7 @@ USES = [
             "Dimension",
             "is unknown in HeaderBalancer.",
             "Known: L_min, L_OB, L_OR, BOR, O, A, m1,",
-            "pin_O.coefficient, OG1, BOG1, OG2, BOG2, lift.bore, lift.rod, shoe.force.",
+            "pin_O.coefficient, OG1, BOG1, OG2, BOG2, lift.bore, lift.rod, lift.stroke, lift.closed, shoe.force.",
         ),
     ),
     ("capacity(@)", "3; None; hitch", ("is no motion; give machine.sweep(...) or machine.at(...).",)),
@@ -79,7 +79,7 @@ USES = [
     (
         "with_header(@)",
         "1, charg=3",
-        ("Dimension 'charg' is unknown in HeaderBalancer. Did", "OG1, BOG1, OG2, BOG2, lift.bore, lift.rod, shoe.force."),
+        ("Dimension 'charg' is unknown in HeaderBalancer. Did", "lift.bore, lift.rod, lift.stroke, lift.closed, shoe.force."),
     ),
     ("setting_table(@)", '"a"; None; [nan]; []; [[1.0]]; {}', ("a list of", "reactions [N] is expected, such as [0.0, 100 * kgf].")),
     ("read_measured(@)", '"nowhere.csv"', ("nowhere.csv: there is no such file; look at its name and its folder.",)),

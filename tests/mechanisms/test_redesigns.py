@@ -13,7 +13,7 @@ from mechanisms.header_balancer import ThreeHeaders, largest_charge, over_follow
 from mechanisms.header_balancer.charge import FAST, PAPER, SLOW
 from mechanisms.header_balancer.following import HeaderState
 from mechanisms.mower_lift import BELOW, DELFI, MowerLift
-from mechanisms.redesigns import FLAT_HITCH, PINS, STRONG_LIFT, flat_hitch, steady_balancer, strong_lift
+from mechanisms.redesigns import FLAT_HITCH, PINS, STEADY_REACTION, STRONG_LIFT, flat_hitch, steady_balancer, steady_reaction, strong_lift
 from mechanisms.three_point_hitch import ThreePointHitch
 from mechanisms.three_point_hitch.capacity import capacity
 
@@ -101,6 +101,13 @@ def test_the_search_finds_the_strong_lift():
     found = optimise(**strong_lift(), method="local")
     assert found.value == pytest.approx(1.24689, abs=2e-5)
     assert found.start_value == pytest.approx(0.96263, abs=1e-5)
+
+
+def test_the_search_finds_the_steady_reaction():
+    found = optimise(**steady_reaction(), method="local")
+    assert found.value <= 1530.0
+    assert_allclose(found.machine["A"], STEADY_REACTION["A"], atol=1 * mm)
+    assert found.machine["L_OB"] == pytest.approx(STEADY_REACTION["L_OB"], abs=1 * mm)
 
 
 @pytest.mark.slow

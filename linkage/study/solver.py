@@ -26,6 +26,8 @@ ROUNDS = 12
 MET = 1e-7
 """A condition is met when nothing more than this part of its size is missing."""
 TIGHT = 1e-13
+PATIENCE, STALLED, PENALTY = 20, 2e-7, 10.0
+"""A search ends when so many steps gained less than this part of the objective, with what is missing counted so many times."""
 CLEAR = 1e-9
 """The least squared sine of a loop that counts as assembled."""
 
@@ -104,6 +106,51 @@ class Found:
     def feasible(self) -> bool:
         """Whether all conditions are met."""
         return self.whole and self.missing <= MET and bool(np.isfinite(self.value))
+
+
+class StalledError(Exception):
+    """A search has gained nothing worth naming for some steps."""
+
+
+@final
+class Course:
+    """The steps of one search: the best design on them, and whether they still gain anything.
+
+    Where many rows limit a design at once SLSQP's last steps go to and fro along them by parts in a million, for hundreds of looks.
+    """
+
+    def __init__(self, local: Local) -> None:
+        self.local, self.best = local, np.zeros(0)
+        self.worths = [(np.inf, np.inf)]
+        self.merits = [np.inf]
+
+    def note(self, z: FloatArray) -> None:
+        """Take down a step; StalledError where the last ones gained nothing."""
+        if self.local.elastic:
+            return
+        worth = self.worth(z)
+        if worth < self.worths[-1]:
+            self.best = np.array(z, float)
+        self.worths.append(min(worth, self.worths[-1]))
+        self.merits.append(min(worth[1] + PENALTY * worth[0], self.merits[-1]))
+        kept = self.worths[-1][0] == 0.0
+        if kept and len(self.merits) > PATIENCE + 1 and self.merits[-1 - PATIENCE] - self.merits[-1] < STALLED:
+            raise StalledError
+
+    def better(self, z: FloatArray) -> FloatArray:
+        """Return where the search ended, or the best on its way where that is better."""
+        return self.best if self.best.size and self.worths[-1] < self.worth(z) else z
+
+    def worth(self, z: FloatArray) -> tuple[float, float]:
+        """Return what is missing, nothing where all is kept, and the scaled objective, to be least."""
+        local = self.local
+        look = local.look(np.clip(z[: local.n], 0.0, 1.0))
+        if not bool(look.whole[0]):
+            return np.inf, np.inf
+        values = local.leaf_values(look)
+        value = local.problem.sense * float(local.problem.value(lambda leaf: values[leaf])) / local.size
+        missing = missing_of(local.problem.constraints, local.scales, values)
+        return (0.0 if missing <= 0.5 * MET else missing), (value if np.isfinite(value) else np.inf)
 
 
 @final
@@ -333,11 +380,15 @@ class Local:
         for equations, kind in ((False, "ineq"), (True, "eq")):
             if self._stacked(z, equations)[0].size:
                 held.append(self._held(kind, equations))
-        result = minimize(
-            lambda at: self.objective(at)[0], z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
-            method="SLSQP", options={"maxiter": most, "ftol": TIGHT},
-        )  # fmt: skip
-        return np.asarray(result.x, float)
+        course = Course(self)
+        try:
+            result = minimize(
+                lambda at: self.objective(at)[0], z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
+                method="SLSQP", options={"maxiter": most, "ftol": TIGHT}, callback=course.note,
+            )  # fmt: skip
+        except StalledError:
+            return course.best
+        return course.better(np.asarray(result.x, float))
 
     def _held(self, kind: str, equations: bool) -> dict[str, Any]:
         return {"type": kind, "fun": lambda at: self._stacked(at, equations)[0], "jac": lambda at: self._stacked(at, equations)[1]}

@@ -5,7 +5,6 @@ import sys
 import time
 
 import numpy as np
-from peer_pylinkage import hitch, pylinkage
 
 
 def objective(linkage, first, start, poses, order):
@@ -25,6 +24,8 @@ def objective(linkage, first, start, poses, order):
 
 
 def main():
+    from peer_pylinkage import hitch, pylinkage  # beside this file; not there where the tests collect it
+
     asked = json.loads(sys.stdin.readline())
     linkage = hitch(pylinkage(), asked["design"], asked["start"] - asked["rate"], asked["rate"])
     linkage.compile()

@@ -18,7 +18,7 @@ from ..mechanism import Mechanism
 from ..motion import Grid, Motion, greatest, lowest
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import is_number
-from .measures import At, CombinedMeasure, Constraint, Integral, Leaf, Least, Measure, Most, Worst, words_of
+from .measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most, Worst, words_of
 from .sampling import SampledSlopes, Sampling, Seen, motion_of, strokes_behind, traced, value_on, with_values
 from .space import Space
 
@@ -28,6 +28,8 @@ NEAR_TOP, TOPS, ZOOMS = 0.05, 6, 7
 """Of the range of a leaf's values: tops that come so near to the worst are samples too; how many of them, and how often they are zoomed."""
 CLOSEST = 1e-6
 """Samples are not nearer to one another, in parts of the range."""
+EXACT = 1e-6
+"""Of the size of a condition's terms: numbers that are smaller do not measure it, their last digits would."""
 INNER = 65
 """Samples of the stroke over which the worst value is taken."""
 PANELS, NODES = 24, 5
@@ -388,8 +390,9 @@ class Problem:
             sizes = {leaf: size_of_rows(rows.values) for leaf, rows in look.rows.items()}
             known = {leaf: each[np.isfinite(each)] for leaf, each in numbers.items() if each.size}
             middle = {leaf: float(np.median(each)) if each.size else float("nan") for leaf, each in known.items()}
-            found = [[size_of(side, sizes, middle) for side in (each.left, each.right)] for each in self.constraints]
-            self._sizes = [max((side for side in sides if np.isfinite(side)), default=0.0) or 1.0 for sides in found]
+            found = [[terms_size(side, sizes, middle) for side in (each.left, each.right)] for each in self.constraints]
+            sizes_of_sides = [max((side for side in sides if np.isfinite(side)), default=0.0) for sides in found]
+            self._sizes = [scale_among(each, size) for each, size in zip(self.constraints, sizes_of_sides, strict=True)]
         return self._sizes
 
     def certainly(self, measure: Measure, combination: Sequence[int]) -> Enclosure | None:
@@ -542,13 +545,13 @@ def size_of_rows(values: FloatArray) -> float:
     return float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
 
 
-def size_of(measure: Measure, sizes: Mapping[Leaf, float], values: Mapping[Leaf, float]) -> float:
+def terms_size(measure: Measure, sizes: Mapping[Leaf, float], values: Mapping[Leaf, float]) -> float:
     """Return how large the terms of a measure are, from the sizes of its leaves over the stroke: a difference is as large as its parts."""
     if isinstance(measure, Leaf):
         return sizes[measure]
     if not isinstance(measure, CombinedMeasure):
         return abs(float(measure.of(lambda leaf: values[leaf])))
-    left, right = (size_of(side, sizes, values) for side in (measure.left, measure.right))
+    left, right = (terms_size(side, sizes, values) for side in (measure.left, measure.right))
     if measure.symbol in ("+", "-"):
         return max(left, right)
     if measure.symbol == "*":
@@ -556,6 +559,12 @@ def size_of(measure: Measure, sizes: Mapping[Leaf, float], values: Mapping[Leaf,
     with np.errstate(all="ignore"):
         other = abs(float(measure.right.of(lambda leaf: values[leaf])))
         return float(np.divide(left, other) if measure.symbol == "/" else np.power(left, other))
+
+
+def scale_among(constraint: Constraint, size: float) -> float:
+    """Return what a constraint's numbers are measured with: the number it is compared with, without one the size of its terms."""
+    given = max((abs(side.value) for side in (constraint.left, constraint.right) if isinstance(side, Given)), default=0.0)
+    return (max(given, EXACT * size) if given > 0.0 else size) or 1.0
 
 
 def missed(constraint: Constraint, numbers: Mapping[Leaf, FloatArray], size: float | None = None) -> FloatArray:

@@ -1,8 +1,9 @@
 """One local search: a problem's rows handed to SciPy's SLSQP or trust-constr, from one start, with one combination of choices.
 
 A least or greatest value over the stroke becomes a variable of its own, held below or above every row, where the condition or the objective
-gains from its being so; elsewhere the row that stands worst counts by itself. A step onto designs that cannot be assembled sees the last
-good design's straight lines and a loss that grows with the way, so that the solver turns back.
+gains from its being so; elsewhere the row that stands worst counts by itself. A step onto designs that cannot be assembled sees how much
+the links are short there, and of all else the last good design's straight lines; where that does not tell why, a loss that grows with the
+way, so that the solver turns back.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..program import FloatArray
 from .measures import Constraint, Given, Leaf, Least, Measure, Most
-from .problem import Evaluated, Problem, reduced, size_of, size_of_rows
+from .problem import Evaluated, Problem, reduced, scale_among, size_of_rows, terms_size
 
 FAR = 10.0
 """The loss for the whole of a box's side towards designs that cannot be assembled, in scaled numbers."""
@@ -26,10 +27,15 @@ ROUNDS = 12
 MET = 1e-7
 """A condition is met when nothing more than this part of its size is missing."""
 TIGHT = 1e-13
-PATIENCE, STALLED, PENALTY = 20, 2e-7, 10.0
-"""A search ends when so many steps gained less than this part of the objective, with what is missing counted so many times."""
+MISSING, NO_GAIN, PATIENCE = 100.0, 1e-9, 30
+"""What a missed line counts beside the objective; a gain by no more is none, and after so many looks without one there is none to come."""
+SMALL = 1e-6
+"""An objective of less than this part of what the box makes of it is next to nothing."""
 CLEAR = 1e-9
 """The least squared sine of a loop that counts as assembled."""
+OTHER_SIZE = 4.0
+"""Numbers so many times larger or smaller than at the start are scaled anew."""
+HALVINGS = 40
 
 
 @final
@@ -108,51 +114,6 @@ class Found:
         return self.whole and self.missing <= MET and bool(np.isfinite(self.value))
 
 
-class StalledError(Exception):
-    """A search has gained nothing worth naming for some steps."""
-
-
-@final
-class Course:
-    """The steps of one search: the best design on them, and whether they still gain anything.
-
-    Where many rows limit a design at once SLSQP's last steps go to and fro along them by parts in a million, for hundreds of looks.
-    """
-
-    def __init__(self, local: Local) -> None:
-        self.local, self.best = local, np.zeros(0)
-        self.worths = [(np.inf, np.inf)]
-        self.merits = [np.inf]
-
-    def note(self, z: FloatArray) -> None:
-        """Take down a step; StalledError where the last ones gained nothing."""
-        if self.local.elastic:
-            return
-        worth = self.worth(z)
-        if worth < self.worths[-1]:
-            self.best = np.array(z, float)
-        self.worths.append(min(worth, self.worths[-1]))
-        self.merits.append(min(worth[1] + PENALTY * worth[0], self.merits[-1]))
-        kept = self.worths[-1][0] == 0.0
-        if kept and len(self.merits) > PATIENCE + 1 and self.merits[-1 - PATIENCE] - self.merits[-1] < STALLED:
-            raise StalledError
-
-    def better(self, z: FloatArray) -> FloatArray:
-        """Return where the search ended, or the best on its way where that is better."""
-        return self.best if self.best.size and self.worths[-1] < self.worth(z) else z
-
-    def worth(self, z: FloatArray) -> tuple[float, float]:
-        """Return what is missing, nothing where all is kept, and the scaled objective, to be least."""
-        local = self.local
-        look = local.look(np.clip(z[: local.n], 0.0, 1.0))
-        if not bool(look.whole[0]):
-            return np.inf, np.inf
-        values = local.leaf_values(look)
-        value = local.problem.sense * float(local.problem.value(lambda leaf: values[leaf])) / local.size
-        missing = missing_of(local.problem.constraints, local.scales, values)
-        return (0.0 if missing <= 0.5 * MET else missing), (value if np.isfinite(value) else np.inf)
-
-
 @final
 class Local:
     """A problem with one combination of choices, as a solver sees it.
@@ -166,15 +127,15 @@ class Local:
         self.n = len(problem.space.variables)
         self._cache: dict[bytes, Evaluated] = {}
         self._good: tuple[FloatArray, Evaluated] | None = None
+        equations = tuple(each.margin for each in problem.constraints if each.symbol == "==")
+        self._needed = {leaf for each in (*problem.objectives, *equations) for leaf in each.leaves}
         first = self.look(start)
         if not bool(first.whole[0]):
             raise DefinitionError("A local search starts from a design that can be assembled.")
+        if not self._usable(first):
+            raise DefinitionError("A local search starts from a design of which the objective has a value.")
         self.start = np.asarray(start, float)
-        leaf_values = self.leaf_values(first)
-        self.leaf_scales = {leaf: size_of_rows(first.rows[leaf].values) or 1.0 for leaf in problem.leaves}
-        self.scales = scales_of(problem, first)
-        value = float(problem.value(lambda leaf: leaf_values[leaf]))
-        self.size = abs(value) if np.isfinite(value) and value != 0.0 else 1.0
+        self.leaf_scales, self.scales, self.size = self._scales(first)
         self.aux = self._auxiliaries(first)
         self.several = int(len(problem.objectives) > 1)
         self.slack = len(problem.constraints) if elastic else 0
@@ -185,6 +146,17 @@ class Local:
     def leaf_values(self, look: Evaluated) -> dict[Leaf, float]:
         """Return the leaves' numbers at the samples."""
         return {leaf: float(reduced(leaf, rows.values)[0]) for leaf, rows in look.rows.items()}
+
+    def _scales(self, look: Evaluated) -> tuple[dict[Leaf, float], list[float], float]:
+        """Return what the leaves, the constraints and the objective are measured with."""
+        leaf_scales = {leaf: size_of_rows(look.rows[leaf].values) or 1.0 for leaf in self.problem.leaves}
+        return leaf_scales, scales_of(self.problem, look), max(self._size(each, look) for each in self.problem.objectives)
+
+    def _size(self, objective: Measure, look: Evaluated) -> float:
+        """Return what an objective is measured with: itself, where it is next to nothing what the box makes of it."""
+        graded = Graded.of(objective.of(lambda leaf: graded_leaf(leaf, look)))
+        change = float(np.abs(graded.slope[np.isfinite(graded.slope)]).max(initial=0.0))
+        return max(abs(graded.value) if np.isfinite(graded.value) else 0.0, SMALL * change) or 1.0
 
     def _auxiliaries(self, look: Evaluated) -> list[tuple[Constraint | Measure, Leaf]]:
         """Return the leaves that become variables, each with the constraint or objective in which it does."""
@@ -222,9 +194,9 @@ class Local:
             self._good = np.array(unit, float), look
         return look
 
-    @staticmethod
-    def _usable(look: Evaluated) -> bool:
-        return all(bool(np.isfinite(rows.values).any()) for rows in look.rows.values())
+    def _usable(self, look: Evaluated) -> bool:
+        """Return whether the objectives and equations have values; an inequality without one says nothing."""
+        return all(bool(np.isfinite(rows.values).any()) for leaf, rows in look.rows.items() if leaf in self._needed)
 
     def _safe(self, z: FloatArray) -> tuple[Evaluated, FloatArray, float]:
         """Return a look that can be worked with, the way from it to the point that is asked, and the loss there."""
@@ -235,7 +207,8 @@ class Local:
         assert self._good is not None
         base, good = self._good
         way = unit - base
-        return good, way, FAR * float(np.abs(way).max(initial=0.0))
+        told = bool((told_margins(look) < CLEAR).any())
+        return good, way, 0.0 if told else FAR * float(np.abs(way).max(initial=0.0))
 
     def graded(self, owner: Constraint | Measure, look: Evaluated, z: FloatArray) -> Graded:
         """Return a constraint's margin or an objective with its derivatives by the solver's variables."""
@@ -246,14 +219,9 @@ class Local:
                 if whose is owner and each is leaf:
                     slope[self.n + place] = self.leaf_scales[leaf]
                     return Graded(float(z[self.n + place]) * self.leaf_scales[leaf], slope)
-            rows = look.rows[leaf]
-            place = 0
-            if isinstance(leaf, (Least, Most)):
-                pick = np.nanargmin if isinstance(leaf, Least) else np.nanargmax
-                place = int(pick(rows.values[0]))
-            assert rows.slopes is not None
-            slope[: self.n] = rows.slopes[:, place]
-            return Graded(float(rows.values[0, place]), slope)
+            found = graded_leaf(leaf, look)
+            slope[: self.n] = found.slope
+            return Graded(found.value, slope)
 
         found = Graded.of((owner.margin if isinstance(owner, Constraint) else owner).of(value))
         return Graded(found.value, np.broadcast_to(found.slope, (self.width,)))
@@ -273,7 +241,7 @@ class Local:
     def rows(self, z: FloatArray) -> list[Row]:
         """Return the lines of the problem: zero or above where they are kept, zero where they are equations."""
         look, way, loss = self._safe(z)
-        found = [self._margins(look, way, loss)]
+        found = [self._margins(look, way, loss, self.look(z[: self.n]))]
         for place, each in enumerate(self.problem.constraints):
             found.append(self._constraint(place, each, look, way, loss, z))
         for place, (owner, leaf) in enumerate(self.aux):
@@ -290,12 +258,19 @@ class Local:
         slope[column] = 1.0
         return Row(None, np.array([z[column] - factor * graded.value + slope[: self.n] @ way - loss]), slope[None])
 
-    def _margins(self, look: Evaluated, way: FloatArray, loss: float) -> Row:
+    def _margins(self, look: Evaluated, way: FloatArray, loss: float, here: Evaluated) -> Row:
+        """Return the lines of the links, which are assembled: of what is known `here` itself, of the rest from the look."""
         assert look.margin_slopes is not None
         slopes = np.zeros((look.margins.shape[1], self.width))
         slopes[:, : self.n] = look.margin_slopes.T
         values, slopes = without_gaps(look.margins[0] - CLEAR, slopes)
-        return Row(None, values + slopes[:, : self.n] @ way - loss, slopes)
+        values = values + slopes[:, : self.n] @ way - loss
+        if here is not look:
+            assert here.margin_slopes is not None
+            told = np.isfinite(told_margins(here))
+            values = np.where(told, here.margins[0] - CLEAR, values)
+            slopes[told, : self.n] = here.margin_slopes.T[told]
+        return Row(None, values, slopes)
 
     def _constraint(self, place: int, each: Constraint, look: Evaluated, way: FloatArray, loss: float, z: FloatArray) -> Row:
         """Return the line or lines of a constraint: one a pose where a single extreme is held against a number."""
@@ -380,15 +355,19 @@ class Local:
         for equations, kind in ((False, "ineq"), (True, "eq")):
             if self._stacked(z, equations)[0].size:
                 held.append(self._held(kind, equations))
-        course = Course(self)
+        watch = Watch(self, z)
         try:
             result = minimize(
-                lambda at: self.objective(at)[0], z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
-                method="SLSQP", options={"maxiter": most, "ftol": TIGHT}, callback=course.note,
+                watch.objective, z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
+                method="SLSQP", options={"maxiter": most, "ftol": TIGHT},
             )  # fmt: skip
-        except StalledError:
-            return course.best
-        return course.better(np.asarray(result.x, float))
+        except NoProgressError:
+            return watch.best
+        return watch.better(np.asarray(result.x, float))
+
+    def violation(self, z: FloatArray) -> float:
+        """Return by how much the worst line of the problem is missed, in scaled numbers."""
+        return max((float((np.abs(row.values) if row.equation else -row.values).max(initial=0.0)) for row in self.rows(z)), default=0.0)
 
     def _held(self, kind: str, equations: bool) -> dict[str, Any]:
         return {"type": kind, "fun": lambda at: self._stacked(at, equations)[0], "jac": lambda at: self._stacked(at, equations)[1]}
@@ -418,16 +397,37 @@ class Local:
         """Return what a search from the start comes to, with poses between the samples added until none is worse than these."""
         unit = self.start
         for _ in range(ROUNDS):
-            unit = np.clip(self.solve(unit, method)[: self.n], 0.0, 1.0)
-            if not bool(self.look(unit).whole[0]):
-                assert self._good is not None
-                unit = np.clip(self._good[0], 0.0, 1.0)
-            if self.refine(unit):
+            unit = self._nearest_good(np.clip(self.solve(unit, method)[: self.n], 0.0, 1.0))
+            if self.refine(unit) or self._rescaled(unit):
                 continue
             found, missed = self._truth(unit)
             if not missed:
                 return found
         return self.judged(unit)
+
+    def _nearest_good(self, unit: FloatArray) -> FloatArray:
+        """Return unit coordinates; where these cannot be worked with, the last ones on the way from the good ones to them that can."""
+        look = self.look(unit)
+        if bool(look.whole[0]) and self._usable(look):
+            return unit
+        assert self._good is not None
+        good, low, high = np.clip(self._good[0], 0.0, 1.0), 0.0, 1.0
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            look = self.look(good + middle * (unit - good))
+            low, high = (middle, high) if bool(look.whole[0]) and self._usable(look) else (low, middle)
+        return np.asarray(good + low * (unit - good))
+
+    def _rescaled(self, unit: FloatArray) -> bool:
+        """Measure the numbers anew where they are much larger or smaller than at the start; return whether they are."""
+        look = self.look(unit)
+        leaf_scales, scales, size = self._scales(look)
+        before = np.array([*self.leaf_scales.values(), *self.scales, self.size])
+        ratios = np.array([*leaf_scales.values(), *scales, size]) / before
+        if bool(((ratios < OTHER_SIZE) & (ratios > 1.0 / OTHER_SIZE)).all()):
+            return False
+        self.leaf_scales, self.scales, self.size = leaf_scales, scales, size
+        return True
 
     def refine(self, unit: FloatArray) -> bool:
         """Add the tops between the samples; return whether one of them is worse than these by what counts."""
@@ -464,6 +464,53 @@ class Local:
         return Found(unit, value, missing_of(problem.constraints, self.scales, values), True), worse
 
 
+class NoProgressError(Exception):
+    """A solver gets no further."""
+
+
+@final
+class Watch:
+    """A local search's objective, which stops the solver where it has got no further for long, as at an edge of reach."""
+
+    def __init__(self, local: Local, start: FloatArray) -> None:
+        self.local, self.best, self.since, self.merit = local, np.array(start, float), 0, np.inf
+
+    def objective(self, z: FloatArray) -> float:
+        """Return the scaled objective; NoProgressError where there is no hope."""
+        value, merit = self.merits(z)
+        self.since += 1
+        if merit < self.merit - NO_GAIN * (1.0 + abs(merit)):
+            self.best, self.since, self.merit = np.array(z, float), 0, merit
+        elif self.since > PATIENCE:
+            raise NoProgressError
+        return value
+
+    def better(self, z: FloatArray) -> FloatArray:
+        """Return where the solver ended, or the best on its way where that is better."""
+        return self.best if self.merit < self.merits(z)[1] - NO_GAIN * (1.0 + abs(self.merit)) else z
+
+    def merits(self, z: FloatArray) -> tuple[float, float]:
+        """Return the scaled objective, and it with what is missing."""
+        value, _ = self.local.objective(z)
+        return value, value + MISSING * max(self.local.violation(z), 0.0)
+
+
+def graded_leaf(leaf: Leaf, look: Evaluated) -> Graded:
+    """Return a leaf's number at the samples with its derivatives by the unit coordinates; NaN where it has no value."""
+    rows = look.rows[leaf]
+    assert rows.slopes is not None
+    place = 0
+    if isinstance(leaf, (Least, Most)) and bool(np.isfinite(rows.values[0]).any()):
+        place = int((np.nanargmin if isinstance(leaf, Least) else np.nanargmax)(rows.values[0]))
+    return Graded(float(rows.values[0, place]), rows.slopes[:, place])
+
+
+def told_margins(look: Evaluated) -> FloatArray:
+    """Return the margins (r,) of a look at one design, NaN where they or their derivatives are not known."""
+    assert look.margin_slopes is not None
+    return np.where(np.isfinite(look.margin_slopes).all(axis=0), look.margins[0], np.nan)
+
+
 def without_gaps(values: FloatArray, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return lines of which those without a value say nothing."""
     gap = ~(np.isfinite(values) & np.isfinite(slopes).all(axis=1))
@@ -490,25 +537,17 @@ def scale_of(constraint: Constraint, value: Any) -> float:
 def scales_of(problem: Problem, look: Evaluated) -> list[float]:
     """Return what the numbers of each constraint are measured with: their size over the stroke, or their change over the box.
 
-    `look` is that of one design with derivatives. A condition that is kept with nothing to spare, `least(q) >= 0`, has a size too.
+    `look` is that of one design with derivatives. The number that a constraint is compared with comes first; where that is zero,
+    `least(q) >= 0`, it has a size too.
     """
     sizes = {leaf: size_of_rows(rows.values) for leaf, rows in look.rows.items()}
     values = {leaf: float(reduced(leaf, rows.values)[0]) for leaf, rows in look.rows.items()}
-
-    def graded(leaf: Leaf) -> Graded:
-        rows = look.rows[leaf]
-        assert rows.slopes is not None
-        place = 0
-        if isinstance(leaf, (Least, Most)) and np.isfinite(rows.values).any():
-            place = int((np.nanargmin if isinstance(leaf, Least) else np.nanargmax)(rows.values[0]))
-        return Graded(values[leaf], rows.slopes[:, place])
-
     found = []
     for each in problem.constraints:
-        slope = np.abs(Graded.of(each.margin.of(graded)).slope)
+        slope = np.abs(Graded.of(each.margin.of(lambda leaf: graded_leaf(leaf, look))).slope)
         change = float(slope[np.isfinite(slope)].sum())
-        sides = [size_of(side, sizes, values) for side in (each.left, each.right)]
-        found.append(max([side for side in sides if np.isfinite(side)] + [change]) or 1.0)
+        sides = [terms_size(side, sizes, values) for side in (each.left, each.right)]
+        found.append(scale_among(each, max([side for side in sides if np.isfinite(side)] + [change])))
     return found
 
 

@@ -21,8 +21,8 @@ def script(name):
     return module
 
 
-CONVENTIONS, WAY = script("conventions"), script("way")
-DRAWN = {f"conventions_{name}": draw for name, draw in CONVENTIONS.PICTURES.items()} | WAY.PICTURES
+CONVENTIONS, WAY, SEARCH = script("conventions"), script("way"), script("search")
+DRAWN = {f"conventions_{name}": draw for name, draw in CONVENTIONS.PICTURES.items()} | WAY.PICTURES | SEARCH.PICTURES
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)

@@ -19,6 +19,7 @@ from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number
 from ..units import deg, display_unit, mm, show
+from .box import unit_points
 from .checks import unit_of
 from .measured import measure_of
 from .measures import Constraint, Given, Integral, Leaf, Measure, Worst
@@ -37,6 +38,8 @@ SHOWN = 1e-6
 NOISE = 1e-9
 """A number [SI] that is smaller is shown as zero."""
 MOST_ROUNDINGS = 4096
+SPREAD, PROMISING, NEARLY_KEPT = 1024, 4, 1e-5
+"""Designs spread over the box to see which steps are promising, so many of which are searched from; what misses less is searched again."""
 MOST_STEPS, JUDGED, NEAR_KEPT = 1 << 14, 24, 1e-3
 """So many designs on steps are all looked at, so many of the best judged; what misses by no more at few poses may be kept."""
 
@@ -266,6 +269,11 @@ def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
     return float(problem.value(lambda leaf: values[leaf])), missing_of(problem.constraints, scales, values)
 
 
+def worth_in_order(problem: Problem, found: Found) -> tuple[bool, float]:
+    """Return by what the ends of local searches are put in order, the best first: those that keep all, by the objective."""
+    return not found.feasible, problem.sense * found.value if found.feasible else found.missing
+
+
 def order_of_worth(problem: Problem, value: float, missing: float) -> tuple[float, float]:
     """Return by what designs are put in order, the best first: what is missing, then the objective."""
     return (missing if missing > MET else 0.0), problem.sense * value
@@ -317,11 +325,12 @@ def multipliers(local: Local, unit: FloatArray) -> tuple[FloatArray, FloatArray]
 def on_steps(problem: Problem, combination: Sequence[int], found: Found, solver: str) -> tuple[Problem, tuple[int, ...], Found]:
     """Return the problem with its stepped variables held on steps, and the best design there; AssemblyError where none is assembled.
 
-    Where everything goes in steps and there are not too many, the best of all of them, by few poses; else the steps about each value, and
-    from the best of these on, a step up or down at a time, as long as that is better. The variables that are left are searched from each.
+    Where everything goes in steps and there are not too many, the best of all of them, by few poses; else the steps about each value and
+    the most promising of others, and from the best of these on, a step up or down at a time, as long as that is better. The variables that
+    are left are searched from each.
     """
     search = StepSearch(problem, combination, found, solver)
-    search.look(search.all_steps() if search.is_small else search.about())
+    search.look(search.all_steps() if search.is_small else [*search.about(), *search.promising()])
     while not search.is_small and search.best is not None:
         before = search.best
         search.look(search.beside())
@@ -346,6 +355,7 @@ class StepSearch:
         self.counts = tuple(each.steps for each in self.stepped)
         self.seen: dict[tuple[int, ...], tuple[Problem, tuple[int, ...], Found] | None] = {}
         self.best: tuple[int, ...] | None = None
+        self._starts: dict[tuple[int, ...], FloatArray] = {}
 
     @property
     def is_small(self) -> bool:
@@ -372,6 +382,28 @@ class StepSearch:
         ]
         return list(islice(product(*near), 64))
 
+    def promising(self) -> list[tuple[int, ...]]:
+        """Return the steps of the most promising designs spread over the box, by few poses, which are then searched from."""
+        variables = self.problem.space.variables
+        units = unit_points(SPREAD, len(variables), "sobol", 0)
+        steps = np.zeros((SPREAD, len(self.stepped)), int)
+        for place, (each, count) in enumerate(zip(self.stepped, self.counts, strict=True)):
+            column = variables.index(each)
+            steps[:, place] = np.minimum((units[:, column] * count).astype(int), count - 1)
+            units[:, column] = steps[:, place] * (each.step or 0.0) / each.span
+        value, missing, _ = self.problem.merits(self.combination, units)
+        short = np.where(np.isfinite(missing), np.maximum(missing, 0.0), np.inf)
+        worth = np.where(np.isfinite(value), self.problem.sense * value, np.inf)
+        free = [place for place, each in enumerate(variables) if each.step is None]
+        found: dict[tuple[int, ...], FloatArray] = {}
+        for place in np.lexsort((worth, np.where(short <= NEAR_KEPT, 0.0, short))):
+            if np.isfinite(value[place]):
+                found.setdefault(tuple(map(int, steps[place])), units[place, free])
+            if len(found) == PROMISING:
+                break
+        self._starts = {each: unit for each, unit in found.items() if each not in self.seen}
+        return [*found]
+
     def beside(self) -> list[tuple[int, ...]]:
         """Return the steps beside the best, one variable a step up or down."""
         assert self.best is not None
@@ -394,7 +426,7 @@ class StepSearch:
         result = self.seen[step]
         assert result is not None
         found = result[2]
-        return not found.feasible, self.problem.sense * found.value if found.feasible else found.missing
+        return worth_in_order(self.problem, found)
 
     def _searched(self, steps: tuple[int, ...]) -> tuple[Problem, tuple[int, ...], Found] | None:
         """Return the problem with its stepped variables held at some steps, and the best design there; None where it is not assembled."""
@@ -403,12 +435,24 @@ class StepSearch:
         held = tuple((((each.owner, each.sign),), ((value,),)) for each, value in zip(self.stepped, values, strict=True))
         smaller = Space(self.rest, (*space.choices, *held), (*space.names, *((each.name,) for each in self.stepped)))
         inner, whole = self.problem.with_space(smaller), (*self.combination, *(0 for _ in self.stepped))
-        unit = np.array([at for at, each in zip(self.found.unit, space.variables, strict=True) if each.step is None])
+        near = np.array([at for at, each in zip(self.found.unit, space.variables, strict=True) if each.step is None])
+        found = [each for unit in (near, self._starts.get(steps)) if unit is not None and (each := self._from(inner, whole, unit))]
+        return (inner, whole, min(found, key=lambda each: worth_in_order(inner, each))) if found else None
+
+    def _from(self, inner: Problem, whole: tuple[int, ...], unit: FloatArray) -> Found | None:
+        """Return what a search of the variables that are left comes to; where it misses conditions, what misses them least."""
         try:
             local = Local(inner, whole, unit)
+            if not self.rest:
+                return local.judged(unit)
+            found = local.run(self.solver)
+            if found.feasible or not found.whole:
+                return found
+            least = Local(inner, whole, found.unit, elastic=True).run()
+            again = Local(inner, whole, least.unit).run(self.solver) if least.missing <= NEARLY_KEPT else least
         except DefinitionError:
             return None
-        return inner, whole, local.run(self.solver) if self.rest else local.judged(unit)
+        return min((found, least, again), key=lambda each: worth_in_order(inner, each))
 
 
 # Drawing dimensions.

@@ -16,12 +16,13 @@ from ..disk import check_name, in_words, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, cited, one_word
 from ..mechanism import Mechanism
 from ..motion import Request
-from ..program import FloatArray
+from ..program import FloatArray, fixed_backend
 from ..quantities import Quantity, is_number, is_whole, ref
 from ..statics import Case
 from ..units import show
 from .batching import Progress, progress_told
 from .box import unit_points
+from .checkpoint import measure_text
 from .checks import check_one_design
 from .infeasible import infeasible_error
 from .measures import At, CombinedMeasure, Constraint, Leaf, Measure, Worst, conditions_of, require_quantity, words_of
@@ -46,6 +47,8 @@ SEARCHED = 64
 GENERATIONS = 200
 NEARLY = 1e-3
 """A design that misses no more is searched on from by the other solver."""
+NO_VALUE = 1e6
+"""What a design counts in an evolution whose objective has no value."""
 NEAR = 0.1
 """Starts are not nearer to one another than this part of the box's diagonal."""
 
@@ -91,7 +94,7 @@ def optimise(
     problem = Problem(machine, [in_case(objectives[0], each) for each in cases], held, space, sense, over)
     if robust is not None:
         problem = with_spread(problem, robust, sigmas)
-    with progress_told(progress, machine.plan.heading) as tell:
+    with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"):  # the same to the last bit whatever ran before
         return DesignSearch(problem, plan, Journal.of(folder, problem, plan), tell).run()
 
 
@@ -224,7 +227,12 @@ class Journal:
             raise DefinitionError(f"folder={cited(folder)}: the path of a folder is expected.")
         path = Path(folder) / "search.jsonl"
         check_name(path)
-        facts = {"search": blake2b(f"{problem.facts} {plan}".encode(), digest_size=16).hexdigest()}
+        try:
+            functions = [measure_text(each) for each in problem.functions]
+        except DefinitionError as error:
+            text = "a folder cannot tell a function without source text, such as a lambda, from another one; define it by `def` in a file"
+            raise DefinitionError(f"{problem.plan.title}: folder=: {text}.") from error
+        facts = {"search": blake2b(f"{problem.facts} {functions} {plan}".encode(), digest_size=16).hexdigest()}
         with in_words(path):
             path.parent.mkdir(parents=True, exist_ok=True)
             text = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
@@ -235,6 +243,13 @@ class Journal:
             with replacing_text(path) as file:
                 file.writelines(json.dumps(entry) + "\n" for entry in (entries or [facts]))
         return cls(path, {str(entry["task"]): entry for entry in entries if "task" in entry})
+
+    def state(self, done: int, total: int) -> str:
+        """Return how far a search is, and what becomes of it."""
+        said = f"{done} of {total} local searches are done"
+        if self.path is None:
+            return f"{said} and lost with this call; a folder= would have kept them."
+        return f"{said} and kept in {self.path}; the same call goes on from there."
 
     def result(self, task: str, problem: Problem) -> Found | None:
         """Return what a local search came to, as it is kept, with the designs that it looked at."""
@@ -299,6 +314,11 @@ class Screened:
     reached: FloatArray
 
     @property
+    def begins(self) -> Any:
+        """At which of them a local search may begin: they are reached, and the objective has a value."""
+        return (self.reached == 1.0) & np.isfinite(self.value)
+
+    @property
     def order(self) -> Any:
         """The designs, the best first: those that keep all, by the objective; then by what is missing."""
         worth = np.where(np.isfinite(self.value), self.value, np.inf)
@@ -345,12 +365,18 @@ class DesignSearch:
         screened = [self.screened(each) for each in left]
         if not any(np.any(each.reached == 1.0) for each in screened):
             raise self.unreachable(screened)
-        screened = sorted((each for each in screened if np.any(each.reached == 1.0)), key=lambda each: each.best)[:SEARCHED]
+        if not any(np.any(each.begins) for each in screened):
+            raise self.without_value(screened)
+        screened = sorted((each for each in screened if np.any(each.begins)), key=lambda each: each.best)[:SEARCHED]
         tasks = [(each, number, unit) for each in screened for number, unit in enumerate(self.starts(each, len(screened)))]
         ended = []
         self.tell(0, len(tasks))
         for done, (each, number, unit) in enumerate(tasks):
-            ended.append(Ended(each.combination, self.ended(each.combination, unit, number)))
+            try:
+                ended.append(Ended(each.combination, self.ended(each.combination, unit, number)))
+            except KeyboardInterrupt as stopped:
+                stopped.add_note(self.journal.state(done, len(tasks)))
+                raise
             self.tell(done + 1, len(tasks))
         return self.chosen(ended, searched=len(screened))
 
@@ -397,12 +423,12 @@ class DesignSearch:
         apart = NEAR * np.sqrt(screened.unit.shape[1])
         for place in screened.order:
             unit = screened.unit[place]
-            if screened.reached[place] == 1.0 and all(np.linalg.norm(unit - each) > apart for each in chosen):
+            if screened.begins[place] and all(np.linalg.norm(unit - each) > apart for each in chosen):
                 chosen.append(unit)
             if len(chosen) == many:
                 break
         present = screened.unit[0]
-        if screened.reached[0] == 1.0 and not any(each is present or np.array_equal(each, present) for each in chosen):
+        if screened.begins[0] and not any(np.array_equal(each, present) for each in chosen):
             chosen = [*chosen[: max(many - 1, 0)], present]
         return chosen
 
@@ -415,8 +441,9 @@ class DesignSearch:
         def merit(population: FloatArray) -> FloatArray:
             found = self.looked_at(screened.combination, np.ascontiguousarray(population.T))
             short = np.where(np.isfinite(found.missing), found.missing, 1.0)
-            worth = np.where(np.isfinite(found.value), found.value, 0.0)
-            return np.asarray(worth / self.scale_of(screened) + 10.0 * short + 100.0 * (1.0 - found.reached))
+            without = ~np.isfinite(found.value)  # of no value, or out of reach: the last of all
+            worth = np.where(without, 0.0, found.value) / self.scale_of(screened)
+            return np.asarray(worth + 10.0 * short + NO_VALUE * without * (2.0 - found.reached))
 
         first = screened.unit[screened.order[: max(15 * n, 16)]]
         result = differential_evolution(
@@ -476,10 +503,7 @@ class DesignSearch:
             except AssemblyError as error:
                 lost.append(str(error))
         if lost:
-            text = (
-                f"{self.problem.plan.title}: every design that keeps the conditions at its poses cannot be assembled in between. {lost[0]}"
-            )
-            raise StudyError(text)
+            raise StudyError(f"{self.problem.plan.title}: no design that was found can be kept. {lost[0]}")
         raise infeasible_error(self.problem, [(each.combination, each.found) for each in ended])
 
     def tried(self, ended: Sequence[Ended]) -> tuple[Tried, ...]:
@@ -491,6 +515,13 @@ class DesignSearch:
             *looked,
             *(Tried("searched", at, one.unit[None], np.array([one.value]), np.array([one.missing])) for at, one in ends),
         )
+
+    def without_value(self, screened: Sequence[Screened]) -> StudyError:
+        """Return the error for a box in which the objective has no value."""
+        count = sum(int(np.sum(each.reached == 1.0)) for each in screened)
+        named = ", ".join(map(str, self.problem.objectives))
+        text = f"{named} has no value at any of {count} designs that can be assembled; say what has one there, or widen vary="
+        return StudyError(f"{self.problem.plan.title}: {text}.")
 
     def unreachable(self, screened: Sequence[Screened]) -> StudyError:
         """Return the error for a box without a design that can be assembled over the whole stroke."""

@@ -7,6 +7,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, product
+from math import prod
 from typing import Any, final
 
 import numpy as np
@@ -18,6 +19,7 @@ from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number
 from ..units import deg, display_unit, mm, show
+from .box import unit_points
 from .checks import unit_of
 from .measured import measure_of
 from .measures import Constraint, Given, Integral, Leaf, Measure, Worst
@@ -36,6 +38,10 @@ SHOWN = 1e-6
 NOISE = 1e-9
 """A number [SI] that is smaller is shown as zero."""
 MOST_ROUNDINGS = 4096
+SPREAD, PROMISING, NEARLY_KEPT = 1024, 4, 1e-5
+"""Designs spread over the box to see which steps are promising, so many of which are searched from; what misses less is searched again."""
+MOST_STEPS, JUDGED, NEAR_KEPT = 1 << 14, 24, 1e-3
+"""So many designs on steps are all looked at, so many of the best judged; what misses by no more at few poses may be kept."""
 
 
 @final
@@ -263,6 +269,11 @@ def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
     return float(problem.value(lambda leaf: values[leaf])), missing_of(problem.constraints, scales, values)
 
 
+def worth_in_order(problem: Problem, found: Found) -> tuple[bool, float]:
+    """Return by what the ends of local searches are put in order, the best first: those that keep all, by the objective."""
+    return not found.feasible, problem.sense * found.value if found.feasible else found.missing
+
+
 def order_of_worth(problem: Problem, value: float, missing: float) -> tuple[float, float]:
     """Return by what designs are put in order, the best first: what is missing, then the objective."""
     return (missing if missing > MET else 0.0), problem.sense * value
@@ -276,7 +287,8 @@ def step_of(variable: Varied) -> float:
 def multipliers(local: Local, unit: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the price of each constraint and of each variable's bound, zero or above, in scaled numbers.
 
-    They are the Lagrange multipliers that leave least of the objective's derivatives unexplained.
+    They are the Lagrange multipliers that leave least of the objective's derivatives unexplained; zero where a derivative is infinite, at a
+    dead point.
     """
     from scipy.optimize import nnls
 
@@ -296,7 +308,8 @@ def multipliers(local: Local, unit: FloatArray) -> tuple[FloatArray, FloatArray]
                 line = np.zeros(local.width)
                 line[place] = sign
                 columns.append(line)
-    prices = nnls(np.array(columns).T, np.asarray(slope, float))[0] if columns else np.zeros(0)
+    known = bool(np.isfinite(slope).all()) and all(bool(np.isfinite(line).all()) for line in columns)
+    prices = nnls(np.array(columns).T, np.asarray(slope, float))[0] if columns and known else np.zeros(len(columns))
     of_constraint = np.zeros(len(local.problem.constraints))
     for price, owner in zip(prices[:count], owners, strict=True):
         of_constraint[[each is owner for each in local.problem.constraints]] += price
@@ -310,31 +323,136 @@ def multipliers(local: Local, unit: FloatArray) -> tuple[FloatArray, FloatArray]
 
 
 def on_steps(problem: Problem, combination: Sequence[int], found: Found, solver: str) -> tuple[Problem, tuple[int, ...], Found]:
-    """Return the problem with its stepped variables held on steps, and the best design there: the steps about each value are tried.
+    """Return the problem with its stepped variables held on steps, and the best design there; AssemblyError where none is assembled.
 
-    The variables that are left are searched again from each.
+    Where everything goes in steps and there are not too many, the best of all of them, by few poses; else the steps about each value and
+    the most promising of others, and from the best of these on, a step up or down at a time, as long as that is better. The variables that
+    are left are searched from each.
     """
-    space = problem.space
-    values = space.values(found.unit)
-    stepped = [(place, each) for place, each in enumerate(space.variables) if each.step is not None]
-    rest = tuple(each for each in space.variables if each.step is None)
-    tried: list[tuple[Problem, tuple[int, ...], Found]] = []
-    for steps in islice(product(*(each.stepped(float(values[place])) for place, each in stepped)), 64):
-        held = tuple((((each.owner, each.sign),), ((step,),)) for (_, each), step in zip(stepped, steps, strict=True))
-        smaller = Space(rest, (*space.choices, *held), (*space.names, *((each.name,) for _, each in stepped)))
-        inner = problem.with_space(smaller)
-        whole = (*combination, *(0 for _ in stepped))
-        unit = np.array([found.unit[place] for place, each in enumerate(space.variables) if each.step is None])
+    search = StepSearch(problem, combination, found, solver)
+    search.look(search.all_steps() if search.is_small else [*search.about(), *search.promising()])
+    while not search.is_small and search.best is not None:
+        before = search.best
+        search.look(search.beside())
+        if search.best == before:
+            break
+    if search.best is None:
+        raise AssemblyError(f"{problem.plan.title}: none of the steps about the design can be assembled.")
+    best = search.seen[search.best]
+    assert best is not None
+    best[0].looked_at = problem.looked_at + sum(each[0].looked_at for each in search.seen.values() if each is not None)
+    return best
+
+
+@final
+class StepSearch:
+    """Designs on steps, by the numbers of their steps: `seen`, and the `best` of them."""
+
+    def __init__(self, problem: Problem, combination: Sequence[int], found: Found, solver: str) -> None:
+        self.problem, self.combination, self.found, self.solver = problem, tuple(combination), found, solver
+        self.stepped = tuple(each for each in problem.space.variables if each.step is not None)
+        self.rest = tuple(each for each in problem.space.variables if each.step is None)
+        self.counts = tuple(each.steps for each in self.stepped)
+        self.seen: dict[tuple[int, ...], tuple[Problem, tuple[int, ...], Found] | None] = {}
+        self.best: tuple[int, ...] | None = None
+        self._starts: dict[tuple[int, ...], FloatArray] = {}
+
+    @property
+    def is_small(self) -> bool:
+        """Whether everything goes in steps, and all of them can be looked at."""
+        return not self.rest and prod(self.counts) <= MOST_STEPS
+
+    def all_steps(self) -> list[tuple[int, ...]]:
+        """Return the most promising of all steps, by few poses."""
+        every = np.array([*product(*map(range, self.counts))])
+        units = every * np.array([each.step / each.span for each in self.stepped if each.step is not None])
+        value, missing, _ = self.problem.merits(self.combination, units)
+        short = np.where(np.isfinite(missing), np.maximum(missing, 0.0), np.inf)
+        worth = np.where(np.isfinite(value), self.problem.sense * value, np.inf)
+        order = np.lexsort((worth, np.where(short <= NEAR_KEPT, 0.0, short)))
+        return [tuple(map(int, every[place])) for place in order[:JUDGED]]
+
+    def about(self) -> list[tuple[int, ...]]:
+        """Return the steps about the design that was found without them."""
+        values = dict(zip(self.problem.space.variables, self.problem.space.values(self.found.unit), strict=True))
+        near = [
+            sorted({round((step - each.low) / each.step) for step in each.stepped(float(values[each]))})
+            for each in self.stepped
+            if each.step is not None
+        ]
+        return list(islice(product(*near), 64))
+
+    def promising(self) -> list[tuple[int, ...]]:
+        """Return the steps of the most promising designs spread over the box, by few poses, which are then searched from."""
+        variables = self.problem.space.variables
+        units = unit_points(SPREAD, len(variables), "sobol", 0)
+        steps = np.zeros((SPREAD, len(self.stepped)), int)
+        for place, (each, count) in enumerate(zip(self.stepped, self.counts, strict=True)):
+            column = variables.index(each)
+            steps[:, place] = np.minimum((units[:, column] * count).astype(int), count - 1)
+            units[:, column] = steps[:, place] * (each.step or 0.0) / each.span
+        value, missing, _ = self.problem.merits(self.combination, units)
+        short = np.where(np.isfinite(missing), np.maximum(missing, 0.0), np.inf)
+        worth = np.where(np.isfinite(value), self.problem.sense * value, np.inf)
+        free = [place for place, each in enumerate(variables) if each.step is None]
+        found: dict[tuple[int, ...], FloatArray] = {}
+        for place in np.lexsort((worth, np.where(short <= NEAR_KEPT, 0.0, short))):
+            if np.isfinite(value[place]):
+                found.setdefault(tuple(map(int, steps[place])), units[place, free])
+            if len(found) == PROMISING:
+                break
+        self._starts = {each: unit for each, unit in found.items() if each not in self.seen}
+        return [*found]
+
+    def beside(self) -> list[tuple[int, ...]]:
+        """Return the steps beside the best, one variable a step up or down."""
+        assert self.best is not None
+        found = []
+        for place, count in enumerate(self.counts):
+            for by in (-1, 1):
+                if 0 <= self.best[place] + by < count:
+                    found.append((*self.best[:place], self.best[place] + by, *self.best[place + 1 :]))
+        return found
+
+    def look(self, steps: Sequence[tuple[int, ...]]) -> None:
+        """Search the variables that are left at some steps, and keep the best of all that were seen."""
+        for each in steps:
+            if each not in self.seen:
+                self.seen[each] = self._searched(each)
+        known = [step for step, result in self.seen.items() if result is not None]
+        self.best = min(known, key=self._worth, default=None)
+
+    def _worth(self, step: tuple[int, ...]) -> tuple[bool, float]:
+        result = self.seen[step]
+        assert result is not None
+        found = result[2]
+        return worth_in_order(self.problem, found)
+
+    def _searched(self, steps: tuple[int, ...]) -> tuple[Problem, tuple[int, ...], Found] | None:
+        """Return the problem with its stepped variables held at some steps, and the best design there; None where it is not assembled."""
+        space = self.problem.space
+        values = [each.low + (each.step or 0.0) * step for each, step in zip(self.stepped, steps, strict=True)]
+        held = tuple((((each.owner, each.sign),), ((value,),)) for each, value in zip(self.stepped, values, strict=True))
+        smaller = Space(self.rest, (*space.choices, *held), (*space.names, *((each.name,) for each in self.stepped)))
+        inner, whole = self.problem.with_space(smaller), (*self.combination, *(0 for _ in self.stepped))
+        near = np.array([at for at, each in zip(self.found.unit, space.variables, strict=True) if each.step is None])
+        found = [each for unit in (near, self._starts.get(steps)) if unit is not None and (each := self._from(inner, whole, unit))]
+        return (inner, whole, min(found, key=lambda each: worth_in_order(inner, each))) if found else None
+
+    def _from(self, inner: Problem, whole: tuple[int, ...], unit: FloatArray) -> Found | None:
+        """Return what a search of the variables that are left comes to; where it misses conditions, what misses them least."""
         try:
             local = Local(inner, whole, unit)
+            if not self.rest:
+                return local.judged(unit)
+            found = local.run(self.solver)
+            if found.feasible or not found.whole:
+                return found
+            least = Local(inner, whole, found.unit, elastic=True).run()
+            again = Local(inner, whole, least.unit).run(self.solver) if least.missing <= NEARLY_KEPT else least
         except DefinitionError:
-            continue
-        tried.append((inner, whole, local.run(solver) if rest else local.judged(unit)))
-    if not tried:
-        raise AssemblyError(f"{problem.plan.title}: none of the steps about the design can be assembled.")
-    best = min(tried, key=lambda each: (not each[2].feasible, problem.sense * each[2].value))
-    best[0].looked_at = problem.looked_at + sum(each[0].looked_at for each in tried)
-    return best
+            return None
+        return min((found, least, again), key=lambda each: worth_in_order(inner, each))
 
 
 # Drawing dimensions.

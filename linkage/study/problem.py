@@ -15,9 +15,9 @@ import numpy as np
 
 from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
-from ..motion import Grid, Motion, greatest, lowest
+from ..motion import Grid, Motion, Request, greatest, lowest
 from ..program import Enclosure, FloatArray, enclosures
-from ..quantities import is_number
+from ..quantities import Quantity, is_number
 from .measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most, Worst, words_of
 from .sampling import SampledSlopes, Sampling, Seen, motion_of, strokes_behind, traced, value_on, with_values
 from .space import Space
@@ -34,6 +34,8 @@ INNER = 65
 """Samples of the stroke over which the worst value is taken."""
 PANELS, NODES = 24, 5
 """An integral's panels, and the Gauss points of each."""
+BISECTIONS, WORK = 16, 1e-10
+"""How often panels are halved at the most, and what part of an integral a panel may be wrong by."""
 
 
 NOWHERE = Space((), (), ())
@@ -178,6 +180,12 @@ class Problem:
         exact = [repr(each) for one in (*self.objectives, *(held.margin for held in self.constraints)) for each in one.numbers]
         return "; ".join(map(str, [*said, *exact, ends, sorted(self.machine.dimensions.items())]))
 
+    @property
+    def functions(self) -> list[Callable[..., Any]]:
+        """The functions of a motion among what is asked."""
+        asked = [leaf.quantity.quantity if isinstance(leaf.quantity, Worst) else leaf.quantity for leaf in self.leaves]
+        return [each for each in asked if callable(each) and not isinstance(each, (str, Quantity, Request))]
+
     def value(self, numbers: Callable[[Leaf], Any]) -> Any:
         """Return the objective from the leaves' numbers: of several the worst."""
         found = [each.of(numbers) for each in self.objectives]
@@ -232,7 +240,7 @@ class Problem:
             if each.axes.keys() == wanted and each.inner == inner and (each.weights is not None) == integral and not each.fixed:
                 return each
         count = self.counts.get(len(names), 3)
-        places, weights = gauss() if integral else (np.linspace(0.0, 1.0, count), None)
+        places, weights = gauss(np.linspace(0.0, 1.0, PANELS + 1)) if integral else (np.linspace(0.0, 1.0, count), None)
         axes = {name: places for name in names} | ({inner: np.linspace(0.0, 1.0, INNER)} if inner else {})
         self.sets.append(PoseSet(axes, weights=weights, inner=inner))
         return self.sets[-1]
@@ -473,7 +481,9 @@ class Problem:
         """Return the value of a leaf of one design, between the poses too, and where: parts (0 to 1) of the strokes' ranges."""
         poses, _ = self._of_leaf[leaf]
         names = tuple(name for name in poses.axes if name != poses.inner)
-        if poses.inner or isinstance(leaf, (At, Integral)) or not names:
+        if isinstance(leaf, Integral):
+            return self.panels(leaf, design)[0] * self.span_of(leaf, design), {}
+        if poses.inner or isinstance(leaf, At) or not names:
             look = self.look(design)
             return float(reduced(leaf, look.rows[leaf].values)[0]), {}
         motion = self.motion(design, names, poses.fixed)
@@ -513,6 +523,54 @@ class Problem:
                 low, high = float(at[max(best - 1, 0)]), float(at[min(best + 1, 16)])
             found.append(0.5 * (low + high))
         return found
+
+    def panels(self, leaf: Leaf, design: Mapping[str, Any]) -> tuple[float, FloatArray]:
+        """Return an integral of one design over the parts (0 to 1) of its stroke, and the panels that it takes: fine where it has kinks."""
+        poses, place = self._of_leaf[leaf]
+        (name,) = [each for each in poses.axes if each != poses.inner]
+        sampling, ends = self._sampling(self.sets.index(poses)), self._ends(design, slopes=False)
+
+        def values(edges: FloatArray) -> FloatArray:
+            places, weights = gauss(edges)
+            axes = {name: places} | ({poses.inner: poses.axes[poses.inner]} if poses.inner else {})
+            found = sampling.seen(self._grid(PoseSet(axes, poses.fixed, weights, poses.inner), design, ends)).values[place]
+            if poses.inner:
+                assert isinstance(leaf.quantity, Worst)
+                found, _ = worst_along(found, None, len(poses.axes[poses.inner]), leaf.quantity.sense)
+            return np.asarray(found[0])
+
+        edges = np.linspace(0.0, 1.0, PANELS + 1)
+        shares = by_panel(values(edges), edges)
+        for _ in range(BISECTIONS):
+            finer = halved(edges)
+            halves = by_panel(values(finer), finer)
+            error = np.abs(halves.reshape(-1, 2).sum(axis=1) - shares)
+            coarse = error > WORK * np.abs(halves).sum()
+            if not coarse.any():
+                return float(halves.sum()), edges
+            keep = np.concatenate([[True], np.stack([coarse, np.ones_like(coarse)], axis=1).ravel()])
+            pairs = halves.reshape(-1, 2)
+            shares = np.concatenate([pair if split else [pair.sum()] for pair, split in zip(pairs, coarse, strict=True)])
+            edges = finer[keep]
+        return float(shares.sum()), edges
+
+    def refined_panels(self, leaf: Leaf, design: Mapping[str, Any]) -> bool:
+        """Look at an integral in panels that are fine enough for one design; return whether they are others than before."""
+        poses, _ = self._of_leaf[leaf]
+        (name,) = [each for each in poses.axes if each != poses.inner]
+        places, weights = gauss(self.panels(leaf, design)[1])
+        if len(places) <= len(poses.axes[name]):
+            return False
+        poses.axes[name], poses.weights = places, weights
+        return True
+
+    def span_of(self, leaf: Leaf, design: Mapping[str, Any]) -> float:
+        """Return how long the range of an integral's stroke is [SI]."""
+        poses, _ = self._of_leaf[leaf]
+        (name,) = [each for each in poses.axes if each != poses.inner]
+        ends, one = self._ends(design, slopes=False), self.ranges[name]
+        low, high = (float(np.ravel(self._end(end, ends, 0, 0))[0]) for end in (one.low, one.high))
+        return high - low
 
     def axis_of(self, leaf: Leaf) -> str:
         """Return the only stroke that a leaf is looked at over."""
@@ -581,11 +639,21 @@ def missed(constraint: Constraint, numbers: Mapping[Leaf, FloatArray], size: flo
     return np.where(unlimited, 0.0, np.where(np.isnan(short), np.inf, short))
 
 
-def gauss() -> tuple[FloatArray, FloatArray]:
-    """Return places from 0 to 1 and weights of Gauss's rule in panels."""
+def gauss(edges: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return places and weights of Gauss's rule in the panels between edges."""
     places, weights = np.polynomial.legendre.leggauss(NODES)
-    edges = np.arange(PANELS) / PANELS
-    return (edges[:, None] + (places + 1.0) / 2.0 / PANELS).ravel(), np.tile(weights / 2.0 / PANELS, PANELS)
+    widths = np.diff(edges)[:, None]
+    return (edges[:-1, None] + 0.5 * (places + 1.0) * widths).ravel(), (0.5 * weights * widths).ravel()
+
+
+def by_panel(values: FloatArray, edges: FloatArray) -> FloatArray:
+    """Return the integrals over the panels between edges, of values at Gauss's places."""
+    return np.asarray((values * gauss(edges)[1]).reshape(len(edges) - 1, NODES).sum(axis=1))
+
+
+def halved(edges: FloatArray) -> FloatArray:
+    """Return edges with one more in the middle of each panel."""
+    return np.sort(np.concatenate([edges, 0.5 * (edges[:-1] + edges[1:])]))
 
 
 def worst_along(values: FloatArray, slopes: FloatArray | None, count: int, sense: float) -> tuple[FloatArray, FloatArray | None]:

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..program import FloatArray
-from .measures import Constraint, Given, Leaf, Least, Measure, Most
+from .measures import Constraint, Given, Integral, Leaf, Least, Measure, Most
 from .problem import Evaluated, Problem, reduced, scale_among, size_of_rows, terms_size
 
 FAR = 10.0
@@ -436,6 +436,8 @@ class Local:
         for leaf in problem.leaves:
             for part in problem.tops(leaf, design) if isinstance(leaf, (Least, Most)) else ():
                 added = problem.refined(leaf, {problem.axis_of(leaf): part}) or added
+            if isinstance(leaf, Integral):
+                added = problem.refined_panels(leaf, design) or added
         if not added:
             return False
         self._cache.clear()
@@ -444,6 +446,8 @@ class Local:
 
     def _is_worse(self, leaf: Leaf, value: float, known: float) -> bool:
         """Return whether a leaf's value is worse than what is known of it, by what counts."""
+        if isinstance(leaf, Integral):
+            return bool(abs(value - known) > 0.1 * MET * max(self.leaf_scales[leaf], abs(value)))
         worse = (known - value) * (1.0 if isinstance(leaf, Least) else -1.0)
         return isinstance(leaf, (Least, Most)) and bool(worse > 0.1 * MET * max(self.leaf_scales[leaf], abs(value)))
 
@@ -456,7 +460,7 @@ class Local:
         known, values, worse = self.leaf_values(look), {}, False
         for leaf in problem.leaves:
             values[leaf], parts = problem.true(leaf, design)
-            if self._is_worse(leaf, values[leaf], known[leaf]) and problem.refined(leaf, parts):
+            if not isinstance(leaf, Integral) and self._is_worse(leaf, values[leaf], known[leaf]) and problem.refined(leaf, parts):
                 worse = True
         if worse:
             self._cache.clear()

@@ -21,8 +21,10 @@ def script(name):
     return module
 
 
-CONVENTIONS, WAY = script("conventions"), script("way")
-DRAWN = {f"conventions_{name}": draw for name, draw in CONVENTIONS.PICTURES.items()} | WAY.PICTURES
+CONVENTIONS, OTHERS = script("conventions"), [script(name) for name in ("way", "search", "redesigns")]
+DRAWN = {f"conventions_{name}": draw for name, draw in CONVENTIONS.PICTURES.items()} | {
+    name: draw for each in OTHERS for name, draw in each.PICTURES.items()
+}
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)

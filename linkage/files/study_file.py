@@ -28,7 +28,7 @@ from ..study.tolerances import Tolerance, tolerances_of
 from ..units import parse
 from .criterion import CriterionParser
 from .names import shortened
-from .source import Faults, source
+from .source import TEXT, Faults, source
 
 FindMachine: TypeAlias = Callable[[str, Path], type[Mechanism]]
 """What returns the class of a machine by its text and the folder of the file that names it."""
@@ -61,7 +61,7 @@ class StudyHead:
         `settings` are dimensions [SI] that stand above those of the file.
         """
         found = source(path)
-        faults, base = Faults(source=found.name, line_of=found.line_of), Path(path).parent
+        faults, base = Faults(source=found.name, line_of=found.line_of), Path() if found.name == TEXT else Path(path).parent
         known = ("machine", "set", "doc", *keys)
         data = found.data if isinstance(found.data, Mapping) else {}
         for key in data:

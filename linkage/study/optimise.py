@@ -16,7 +16,7 @@ from ..disk import check_name, in_words, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, cited, one_word
 from ..mechanism import Mechanism
 from ..motion import Request
-from ..program import FloatArray
+from ..program import FloatArray, fixed_backend
 from ..quantities import Quantity, is_number, is_whole, ref
 from ..statics import Case
 from ..units import show
@@ -94,7 +94,7 @@ def optimise(
     problem = Problem(machine, [in_case(objectives[0], each) for each in cases], held, space, sense, over)
     if robust is not None:
         problem = with_spread(problem, robust, sigmas)
-    with progress_told(progress, machine.plan.heading) as tell:
+    with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"):  # the same to the last bit whatever ran before
         return DesignSearch(problem, plan, Journal.of(folder, problem, plan), tell).run()
 
 

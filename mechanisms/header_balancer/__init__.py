@@ -24,6 +24,7 @@ from .measured import deviations as deviations
 from .measured import read_measured as read_measured
 from .settings import setting_table as setting_table
 from .settings import with_header as with_header
+from .side_by_side import ThreeHeaders as ThreeHeaders
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -2,11 +2,13 @@
 
 import csv
 import json
+import os
 import re
 import signal
 import subprocess
 import sys
 import textwrap
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -50,6 +52,8 @@ from linkage.files.survey_measures import TextMeasures
 from linkage.pictures import style
 from linkage.study import Target, Tolerance, monte_carlo, settings_for, tornado, zone
 from linkage.study.space import Around
+
+ROOT = Path(__file__).parents[2]
 
 
 class Boom(Mechanism):
@@ -416,7 +420,7 @@ def test_a_killed_search_goes_on_to_the_same_bits(here, said):
         search = read_search("study.toml", finder([]))
         search.run(None, lambda done, total: done == 2 and os.kill(os.getpid(), signal.SIGKILL))
     """
-    killed = subprocess.run([sys.executable, "-c", program], cwd=here, capture_output=True)
+    killed = subprocess.run([sys.executable, "-c", program], cwd=here, capture_output=True, env=os.environ | {"PYTHONPATH": str(ROOT)})
     assert killed.returncode == -signal.SIGKILL
     journal = here / "run" / "search.jsonl"
     assert len(journal.read_text().splitlines()) == 3

@@ -9,14 +9,12 @@ from numpy.testing import assert_allclose
 from hydraulics import pressure, reserve, thrust
 from linkage import (
     DefinitionError,
-    StudyError,
     angle,
     around,
     at,
     deg,
     distance,
     drive_force,
-    integral,
     least,
     mm,
     most,
@@ -27,17 +25,10 @@ from linkage import (
     x,
     y,
 )
-from linkage.errors import FileError
-from linkage.study import InfeasibleError
 from linkage.study.measures import At, Integral, Least
-from linkage.study.optimum import worth_of
-from linkage.study.problem import Problem
 from linkage.study.space import Space
 from linkage.units import bar, kN
 from mechanisms.mower_lift import MowerLift
-from tests.laws.random_machines import random_machine
-from tests.linkage.test_optimise import TRAVEL, VARY
-from tests.linkage.test_optimise import Boom as Lift
 from tests.machines.test_axle import Axle
 from tests.machines.test_double_wishbone import Wishbone
 from tests.machines.test_excavator import Excavator

@@ -927,7 +927,10 @@ USES = [
         "10**20",
         ("count=100000000000000000000: so many designs do not fit into memory; ask for fewer.",),
     ),
-    ('study.Box.of(lifting, {"OB": (0.3, 0.31)}).sample(@)', '3, method="x"; 3, method=3; 3, method=[]', ('say "sobol" or "latin".',)),
+    (
+        'study.Box.of(lifting, {"OB": (0.3, 0.31)}).sample(@)', '3, method="x"; 3, method=3; 3, method=[]',
+        ('say "sobol" or "latin" or "random".',),
+    ),
     ("files.to_toml(@)", 'None; 3; "Lift"; motion; int', ("is no mechanism; give a class of Mechanism, or a design of one.",)),
     ("files.to_toml(@)", "batch", ("Lift: OB has several values; a file holds one design.",)),
     ("files.to_dict(@)", "3; None", ("is no mechanism; give a class of Mechanism, or a design of one.",)),

@@ -16,6 +16,7 @@ import numpy as np
 from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, greatest, lowest
+from ..motion.grid import JoinedTo, joined_in_order
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import Quantity, is_number
 from .measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most, Worst, words_of
@@ -30,6 +31,8 @@ CLOSEST = 1e-6
 """Samples are not nearer to one another, in parts of the range."""
 EXACT = 1e-6
 """Of the size of a condition's terms: numbers that are smaller do not measure it, their last digits would."""
+ON_THE_WAY = 33
+"""Poses on the way to a single one, from where the ranges begin: an angle is continued along them."""
 INNER = 65
 """Samples of the stroke over which the worst value is taken."""
 PANELS, NODES = 24, 5
@@ -315,7 +318,20 @@ class Problem:
             else:
                 value = np.full(shape, poses.fixed.get(name, one.low if is_number(one.low) else stroke.start))
             strokes[name] = np.asarray(np.broadcast_to(value, (*batch, *shape) if follows else shape), float)
-        return Grid(self.plan, designs, strokes, per_design=follows)
+        joining = None if poses.axes else self._joined_on_the_way(poses, designs)
+        return Grid(self.plan, designs, strokes, per_design=follows, joining=joining)
+
+    def _joined_on_the_way(self, poses: PoseSet, designs: Mapping[str, Any]) -> JoinedTo | None:
+        """Return how the angles of a single pose join those on the way to it from where the ranges begin, as a sweep gives them."""
+        if not poses.fixed:
+            return None
+        way = np.linspace(0.0, 1.0, ON_THE_WAY)
+        strokes = {}
+        for name, stroke in self.plan.strokes.items():
+            low = self.ranges[name].low
+            start = float(low) if is_number(low) else float(stroke.start)
+            strokes[name] = start + way * (float(poses.fixed.get(name, start)) - start)
+        return JoinedTo(Grid(self.plan, designs, strokes, joining=joined_in_order), ON_THE_WAY - 1)
 
     @staticmethod
     def _end(end: Any, ends: Mapping[int, tuple[FloatArray, FloatArray | None]], m: int, axes: int) -> Any:

@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import DefinitionError, UntracedError, unwarned
 from ..motion import BoundRequest, Grid, Motion, Request
 from ..motion.evaluation import Evaluation
-from ..motion.grid import Angles, angles_of
+from ..motion.grid import Angles, JoinedTo, angles_of
 from ..motion.requests import Slope, bound
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level
@@ -168,7 +168,8 @@ def strokes_behind(plan: Plan, quantity: Any) -> tuple[str, ...]:
 
 def motion_of(grid: Grid) -> Motion:
     """Return the motion over a grid, NaN out of reach."""
-    return Motion(grid.plan, grid.designs, grid.strokes, "nan", per_design=grid.per_design)
+    joining = grid._joining if isinstance(grid._joining, JoinedTo) else None
+    return Motion(grid.plan, grid.designs, grid.strokes, "nan", per_design=grid.per_design, joining=joining)
 
 
 def eager(motion: Motion, quantity: Any) -> FloatArray:

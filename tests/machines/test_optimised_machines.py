@@ -8,13 +8,20 @@ from numpy.testing import assert_allclose
 
 from hydraulics import pressure, reserve, thrust
 from linkage import (
+    Crank,
     DefinitionError,
+    Ground,
+    Mechanism,
+    OnLink,
+    Stroke,
+    StudyError,
     angle,
     around,
     at,
     deg,
     distance,
     drive_force,
+    integral,
     least,
     mm,
     most,
@@ -25,10 +32,17 @@ from linkage import (
     x,
     y,
 )
+from linkage.errors import FileError
+from linkage.study import InfeasibleError
 from linkage.study.measures import At, Integral, Least
+from linkage.study.optimum import worth_of
+from linkage.study.problem import Problem
 from linkage.study.space import Space
 from linkage.units import bar, kN
 from mechanisms.mower_lift import MowerLift
+from tests.laws.random_machines import random_machine
+from tests.linkage.test_optimise import TRAVEL, VARY
+from tests.linkage.test_optimise import Boom as Lift
 from tests.machines.test_axle import Axle
 from tests.machines.test_double_wishbone import Wishbone
 from tests.machines.test_excavator import Excavator
@@ -390,3 +404,18 @@ def test_an_objective_without_a_value_anywhere_is_said():
 
     with pytest.raises(StudyError, match="has no value"):
         optimise(Nowhere(), minimise=at("root", S=0.0), vary={"OB": (0.25, 0.35)}, starts=1)
+
+
+def test_an_angle_at_one_pose_is_that_of_a_sweep_beyond_180_degrees_too():
+    class Spun(Mechanism):
+        phi = Stroke(-0.2, 0.2)
+        O = Ground(0.0, 0.0)
+        A = Crank(O, OA=0.5, angle=phi)
+        P = OnLink(O, A, OP=0.3, AOP=175 * deg)
+        turned = angle("O", "P")
+
+    swing = at("turned", phi=0.2) - at("turned", phi=-0.2)
+    best = optimise(Spun(), maximise=at("turned", phi=0.2), vary={"AOP": (170 * deg, 190 * deg)}, subject_to=[swing <= 0.5])
+    assert_allclose(best.value, best.machine.sweep(101)["turned"][-1], rtol=1e-9)
+    assert_allclose(best.value, 190 * deg + 0.2, rtol=1e-9)
+    assert_allclose(best.conditions[0].left, 0.4, rtol=1e-9)

@@ -527,12 +527,13 @@ class DesignSearch:
         """Return the error for a box without a design that can be assembled over the whole stroke."""
         best = max(screened, key=lambda each: float(each.reached.max()))
         place, count = int(np.argmax(best.reached)), sum(len(each.unit) for each in screened)
-        design = self.problem.machine_of(best.unit[place], best.combination)
         text = f"{self.problem.plan.title}: none of {count} designs looked at can be assembled over the whole stroke"
         try:
-            self.problem.assembled(design)
-        except AssemblyError as error:
+            self.problem.assembled(self.problem.machine_of(best.unit[place], best.combination))
+        except (AssemblyError, DefinitionError) as error:
             text += f"; of the one that reaches farthest: {error}"
+        else:
+            text += f"; some are refused: {self.coarse.refusal}" if self.coarse.refusal else ""
         return StudyError(f"{text.rstrip('.')}. Widen vary=, or look at a part of the stroke, over={{...}}.")
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, final
 
 import numpy as np
@@ -166,6 +167,8 @@ class Problem:
         self.owners = tuple(dict.fromkeys(each.owner for each in space.variables))
         self._samplings: dict[int, Sampling] = {}
         self._sizes: list[float] | None = None
+        self.refusal = ""
+        """Why the latest design that was refused was so."""
 
     def with_counts(self, counts: Mapping[int, int]) -> Problem:
         """Return the same problem at another number of samples."""
@@ -255,9 +258,51 @@ class Problem:
         return with_values(self.machine.dimensions, self.space.chosen(combination) | self.space.designs(unit))
 
     def look(self, designs: Mapping[str, Any], *, slopes: bool = False) -> Evaluated:
-        """Return what is seen of designs, of one with derivatives by the unit coordinates."""
+        """Return what is seen of designs, of one with derivatives by the unit coordinates.
+
+        A design that is refused, for a charge below the gas's as an example, counts as one that cannot be assembled; `refusal` says
+        why. What is refused of the machine as it is set too is a mistake in the question.
+        """
         m = max((np.size(value) for value in designs.values()), default=1)
         self.looked_at += m
+        try:
+            return self._look(designs, m, slopes=slopes)
+        except DefinitionError as error:
+            if not self._can_be_asked:
+                raise
+            self.refusal = str(error)
+            if m == 1:
+                return self._nothing(slopes=slopes)
+        parts = [self.look({name: float(value[k]) if np.ndim(value) else value for name, value in designs.items()}) for k in range(m)]
+        self.looked_at -= m
+        return Evaluated(
+            {leaf: Rows(np.concatenate([each.rows[leaf].values for each in parts]), None) for leaf in self.leaves},
+            np.concatenate([each.margins for each in parts]), None,
+            np.concatenate([each.whole for each in parts]), np.concatenate([each.reached for each in parts]),
+        )  # fmt: skip
+
+    @cached_property
+    def _can_be_asked(self) -> bool:
+        """Whether what is asked has an answer for the machine as it is set."""
+        try:
+            self._look(self.machine.dimensions, 1, slopes=False)
+        except DefinitionError:
+            return False
+        return True
+
+    def _nothing(self, *, slopes: bool) -> Evaluated:
+        """Return what is seen of a design that is refused."""
+        n = len(self.space.variables)
+        rows = {}
+        for leaf in self.leaves:
+            poses, _ = self._of_leaf[leaf]
+            axes = [len(axis) for name, axis in poses.axes.items() if name != poses.inner]
+            count = 1 if isinstance(leaf, Integral) else int(np.prod(axes))
+            rows[leaf] = Rows(np.full((1, count), np.nan), np.zeros((n, count)) if slopes else None)
+        return Evaluated(rows, np.zeros((1, 0)), np.zeros((n, 0)) if slopes else None, np.zeros(1, bool), np.zeros(1))
+
+    def _look(self, designs: Mapping[str, Any], m: int, *, slopes: bool) -> Evaluated:
+        """Return what is seen of m designs; DefinitionError where one of them is refused."""
         ends = self._ends(designs, slopes=slopes)
         whole, reached, margins, margin_slopes = np.ones(m, bool), np.ones(m), [], []
         found: dict[int, tuple[Seen, SampledSlopes | None]] = {}

@@ -265,7 +265,7 @@ class Local:
         slopes[:, : self.n] = look.margin_slopes.T
         values, slopes = without_gaps(look.margins[0] - CLEAR, slopes)
         values = values + slopes[:, : self.n] @ way - loss
-        if here is not look:
+        if here is not look and here.margins.shape == look.margins.shape:  # of a design that is refused nothing is known
             assert here.margin_slopes is not None
             told = np.isfinite(told_margins(here))
             values = np.where(told, here.margins[0] - CLEAR, values)

@@ -315,6 +315,16 @@ def test_nothing_that_cannot_be_assembled_is_ever_returned():
         optimise(Reaching(), minimise=at("OB"), vary={"OB": (0.05, 0.15)})
 
 
+def test_a_design_that_is_refused_counts_as_one_that_cannot_be():
+    """Beyond some back pressure nothing is left of the pump's: that is refused of a motion, and no reason to stop a search."""
+    vary, limits = {"circuit.back_pressure": (0.0, 900 * bar), "OB": (0.25, 0.35)}, [least(reserve("lift")) >= 1.5]
+    best = optimise(Boom(), maximise=at("circuit.back_pressure"), vary=vary, subject_to=limits, starts=2)
+    fine = best.machine.sweep(1001)[reserve("lift")]
+    assert_allclose(np.min(fine), 1.5, rtol=1e-5)
+    with pytest.raises(DefinitionError, match="eats up the pump"):  # of the machine as it is set
+        optimise(best.machine.replaced(**{"circuit.back_pressure": 890 * bar}), minimise=most(reserve("lift")), vary={"OB": (0.25, 0.35)})
+
+
 # -- derivatives, of any machine -----------------------------------------------------------------------------------
 
 

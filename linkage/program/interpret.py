@@ -23,23 +23,54 @@ def interpret(
 ) -> list[Numbers]:
     """Return the values of some nodes; every input is a float or an array, broadcast by NumPy. `known` holds values to start from.
 
-    With `clipped` the root of a negative number is zero: for poses that are known to stand at a dead point to rounding.
+    With `clipped` the root of what is negative by no more than rounding is zero: for poses that stand at a dead point to rounding. The root
+    of a number that is plainly negative has no value there either.
     """
     values: dict[Node, Numbers] = dict(known or {})
+    terms: dict[Node, Numbers] = {}
     with np.errstate(all="ignore"):
         for node in ancestors(outputs, known or {}):
             if node not in values:
-                values[node] = node_value(node, values, inputs, clipped=clipped)
+                is_told = clipped and node.op == "sqrt" and node.args[0].origin in terms
+                least = -TO_ROUNDING * terms[node.args[0].origin] if is_told else None
+                values[node] = node_value(node, values, inputs, clipped=clipped, least=least)
+            if clipped:
+                terms[node] = size_of_terms(node, values, terms)
     return [values[node.origin] for node in outputs]
 
 
-def node_value(node: Node, values: Mapping[Node, Numbers], inputs: Mapping[str, Numbers], *, clipped: bool) -> Numbers:
-    """Return the value of a node from those of its arguments; `clipped`: the root of a negative number is zero."""
+TO_ROUNDING = 1e-12
+"""Of the size of the terms of a sum: what rounding may leave of it where it vanishes."""
+
+
+def size_of_terms(node: Node, values: Mapping[Node, Numbers], terms: Mapping[Node, Numbers]) -> Numbers:
+    """Return how large the terms are that a value is made of: those of a difference may be far larger than it."""
+    sizes = [terms.get(arg.origin, 0.0) for arg in node.args]
+    if node.op in ("add", "subtract"):
+        return sizes[0] + sizes[1]
+    if node.op == "multiply":
+        return sizes[0] * sizes[1]
+    if node.op == "square":
+        return sizes[0] * sizes[0]
+    if node.op in ("negative", "absolute"):
+        return sizes[0]
+    if node.op == "divide":
+        return sizes[0] / np.abs(values[node.args[1].origin])
+    if node.op in ("minimum", "maximum"):
+        return np.maximum(sizes[0], sizes[1])
+    return np.abs(values[node])
+
+
+def node_value(
+    node: Node, values: Mapping[Node, Numbers], inputs: Mapping[str, Numbers], *, clipped: bool, least: Numbers | None = None
+) -> Numbers:
+    """Return the value of a node from those of its arguments; `clipped`: the root of a negative number, not below `least`, is zero."""
     if node.op in ("constant", "input"):
         return inputs[node.value] if node.op == "input" else float(node.value)
     args = [values[arg.origin] for arg in node.args]
     if clipped and node.op == "sqrt":
-        args = [np.maximum(args[0], 0.0)]  # a dead point is reached to rounding; NaN stays
+        negligible = True if least is None else args[0] >= least
+        args = [np.where(negligible, np.maximum(args[0], 0.0), np.nan)]  # a dead point is reached to rounding; NaN stays
     return OPERATIONS[node.op].array(*args)
 
 

@@ -6,7 +6,22 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal, assert_equal
 
-from linkage import AssemblyError, DefinitionError, LinkageError, SingularError, angle, distance, ratio
+from linkage import (
+    LEFT,
+    AssemblyError,
+    Crank,
+    DefinitionError,
+    Dyad,
+    Ground,
+    LinkageError,
+    Mechanism,
+    SingularError,
+    Stroke,
+    angle,
+    distance,
+    ratio,
+    x,
+)
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage.test_backends import GROUPED, MACHINES, SHIPPED
@@ -249,3 +264,25 @@ def test_one_pose_follows_the_design():
     for hitch in (one, other, one, other):
         assert_allclose(hitch.evaluate(["G"], S=0.1)[0], hitch.at(S=0.1)["G"], rtol=1e-15)
     assert ThreePointHitch(OB=np.array([0.3, 0.31])).evaluate(["G"], S=0.1)[0].shape == (2, 2)
+
+
+def test_the_root_of_a_plainly_negative_number_has_no_value_in_bulk_either():
+    class Rooted(Mechanism):
+        phi = Stroke(0.0, 3.0)
+        O = Ground(0.0, 0.0)
+        C = Ground(1.0, 0.0)
+        A = Crank(O, OA=0.3, angle=phi)
+        B = Dyad(A, C, AB=0.9, CB=0.6, side=LEFT)
+        near = np.sqrt(x(A))
+        far = np.sqrt(x("B") - 0.9)
+
+    machine, phi = Rooted(), np.linspace(0.0, 3.0, 41)
+    motion = machine.at(phi=phi, unreachable="nan")
+    for name in ("near", "far"):
+        (found,) = machine.evaluate([name], phi=phi, unreachable="nan")
+        assert np.isnan(found).any()
+        assert_allclose(found, motion[name], rtol=1e-12)
+        with pytest.raises(SingularError, match="has no finite value"):
+            machine.evaluate([name], phi=phi)
+        with pytest.raises(SingularError, match="has no finite value"):
+            machine.function([name])(3.0)

@@ -36,6 +36,10 @@ class DefinitionError(LinkageError, ValueError):
     """What a class, a file or a setting says cannot be. `member` is the name of the member at fault, "" where it is no single one."""
 
 
+class LawError(DefinitionError):
+    """The law of a load has values over a motion, and cannot be traced into a program."""
+
+
 class UntracedError(DefinitionError):
     """What is asked for has values over a motion, and no program that gives them pose by pose, with derivatives."""
 

@@ -106,7 +106,7 @@ def steady_reaction() -> dict[str, Any]:
         if number == 1:
             conditions.append(most(alone / ratio(length)) <= MOST_PRESSURE * 2 * pi / 4 * (63 * mm) ** 2)
     charges = {f"charge{number}": (27 * kgf_cm2, 160 * kgf_cm2) for number in (1, 2, 3)}
-    vary = {"A": around(400 * mm), "L_OB": (0.5, 1.5), "turn": around(40 * deg)} | charges
+    vary = {"A": around(400 * mm), "L_OB": (0.5, 1.5), "shift": around(40 * deg)} | charges
     return {"machine": machine, "minimise": spreads[0] + spreads[1] + spreads[2], "vary": vary, "subject_to": conditions}
 
 
@@ -121,7 +121,7 @@ FLAT_HITCH: Mapping[str, Any] = MappingProxyType(
 )  # fmt: skip
 STEADY_REACTION: Mapping[str, Any] = MappingProxyType(
     {
-        "A": (0.342, 0.457), "L_OB": 1.332, "turn": 7.9 * deg,
+        "A": (0.342, 0.457), "L_OB": 1.332, "shift": 7.9 * deg,
         "charge1": 119 * kgf_cm2, "charge2": 42 * kgf_cm2, "charge3": 68 * kgf_cm2,
     }
 )  # fmt: skip
@@ -132,5 +132,5 @@ def steady_balancer(number: int) -> HeaderBalancer:
     """Return the balancer with header 1, 2 or 3 on the pins and at the charge that were found."""
     found = STEADY_REACTION
     turned = {"BOR": HEADERS[number]["BOR"], "BOG2": HEADERS[number]["BOG2"], "BOG1": float(HeaderBalancer()["BOG1"])}
-    moved = {name: value - found["turn"] for name, value in turned.items()}
+    moved = {name: value - found["shift"] for name, value in turned.items()}
     return with_header(number, A=found["A"], L_OB=found["L_OB"], charge=found[f"charge{number}"], **moved)

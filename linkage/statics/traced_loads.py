@@ -11,7 +11,7 @@ from typing import cast, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import DefinitionError, UntracedError, unwarned
+from ..errors import DefinitionError, LawError, UntracedError, unwarned
 from ..motion import BoundRequest, Motion
 from ..motion.requests import stroke_of
 from ..motion.strokes import checked_name
@@ -88,12 +88,12 @@ def rate_name(stroke: str) -> str:
 
 
 def traced_parts(motion: TracedMotion, movement: Movement, each: ActingElement) -> Parts:
-    """Return the loads and the thrusts of one element, as nodes; UntracedError, with its name, for a law that cannot be traced."""
+    """Return the loads and the thrusts of one element, as nodes; LawError, with its name, for a law that cannot be traced."""
     motion.notes.owner, motion.notes.tests = each.name, 0
     try:
         return element_parts(each, motion, movement, motion.fit)
     except Exception as error:
-        raise UntracedError(
+        raise LawError(
             f"{motion.plan.title}: the law of {each.name} cannot be traced: {str(error).rstrip('.')}. "
             "Write it in plain arithmetic of numbers at one pose, or take finite differences of driving_force and pin_forces."
         ) from error

@@ -8,7 +8,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, UntracedError, unwarned
+from ..errors import DefinitionError, LawError, UntracedError, unwarned
 from ..motion import BoundRequest, Grid, Motion, Request
 from ..motion.evaluation import Evaluation
 from ..motion.grid import Angles, JoinedTo, angles_of
@@ -136,14 +136,14 @@ def traced(plan: Plan, quantity: Any) -> BoundRequest | None:
         return None
     try:
         request = bound_quantity(plan, quantity)
-    except UntracedError:
+    except (UntracedError, LawError):
         return None
     if request.rows > 1:
         name = words_of(quantity)
         raise DefinitionError(f'{plan.title}: {name} has two components; say which, x("{name}") or y("{name}").')
     try:
         plan.made(("traced", request.key), lambda twin: len(request.nodes(twin)))
-    except UntracedError:
+    except (UntracedError, LawError):
         return None
     return request
 
@@ -161,7 +161,7 @@ def strokes_behind(plan: Plan, quantity: Any) -> tuple[str, ...]:
         return tuple(plan.strokes)
     try:
         names = bound_quantity(plan, quantity).names(plan)
-    except UntracedError:
+    except (UntracedError, LawError):
         return tuple(plan.strokes)
     return tuple(name for name in plan.strokes if name in names or name in plan.reaches(*(each for each in names if each in plan.members)))
 

@@ -1,12 +1,12 @@
 """A search as a file: what is least or greatest, what may vary, and what must be kept.
 
-    machine = "three_point_hitch"
-    maximise = "least(capacity(lift, G))"
-    subject_to = ["most(abs(tilt)) <= 18 deg", "reachable", "least(transmission(K)) >= 35 deg"]
+machine = "three_point_hitch"
+maximise = "least(capacity(lift, G))"
+subject_to = ["most(abs(tilt)) <= 18 deg", "reachable", "least(transmission(K)) >= 35 deg"]
 
-    [vary]
-    OB = "270 to 330 mm"
-    M = "within 60 mm"
+[vary]
+OB = "270 to 330 mm"
+M = "within 60 mm"
 """
 
 from __future__ import annotations
@@ -23,7 +23,9 @@ from ..study import Optimum
 from ..study.batching import Progress
 from ..study.optimise import METHODS as SEARCH_METHODS
 from ..study.optimise import SOLVERS, optimise
+from ..study.optimum import COARSEST
 from ..study.pareto import Front
+from ..study.space import size_of_machine
 from .criterion import condition_said, measure_said
 from .names import shortened
 from .study_file import (
@@ -152,4 +154,6 @@ def rounding_said(head: StudyHead) -> dict[str, float] | None:
             found[key] = amount_said(value, ROUND_KEYS[key])
             if found[key] <= 0.0:
                 raise DefinitionError(f"{shortened(value)}: a step above zero is expected.")
+            if key == "to" and found[key] > COARSEST * size_of_machine(head.machine):
+                raise DefinitionError(f'{shortened(value)} is as coarse as the machine; write it with its unit, "1 mm".')
     return None if given is None else found

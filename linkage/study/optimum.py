@@ -26,7 +26,7 @@ from .measures import Constraint, Given, Integral, Leaf, Measure, Worst
 from .problem import Problem
 from .result_rows import ResultRow, result_text, write_result
 from .solver import MET, Found, Local, missing_of, scale_of, scales_of
-from .space import Space, Varied
+from .space import Space, Varied, size_of_machine
 from .tried import Tried, tried_header, tried_names, tried_rows
 
 ACTIVE = 1e-6
@@ -35,6 +35,10 @@ SAME = 1e-6
 """Objectives that differ by less than this part of their size are the same."""
 SHOWN = 1e-6
 """A gain of less than this part of the objective is none."""
+COARSEST = 0.25
+"""Of the largest length of a machine: steps that are coarser were given in another unit."""
+STILL = 1e-12
+"""A condition that changes less than this with everything limits nothing."""
 NOISE = 1e-9
 """A number [SI] that is smaller is shown as zero."""
 MOST_ROUNDINGS = 4096
@@ -49,13 +53,15 @@ MOST_STEPS, JUDGED, NEAR_KEPT = 1 << 14, 24, 1e-3
 class Kept:
     """A condition of a design: its two sides [SI], what is to spare (below zero: missing), and whether it is active.
 
-    `gain` is by what part the objective would be better if the condition gave way by 1 % of its size.
+    `gain` is by what part the objective would be better if the condition gave way `by` so much [SI]: by 1 % of its limit, of a limit
+    of zero by 1 % of the size of what is compared.
     """
 
     constraint: Constraint
     left: float
     right: float
     spare: float
+    by: float
     gain: float
     units: str
 
@@ -69,9 +75,11 @@ class Kept:
         said = f"{in_units(self.constraint, self.units)}: {value}"
         if not isinstance(self.constraint.right, Given):
             said += f" against {limit}"
-        if not self.active or self.constraint.symbol == "==" or max(abs(self.left), abs(self.right)) < NOISE:
-            return f"{said}, active" if self.active else said
-        return f"{said}, active: 1 % less strict gives {100.0 * self.gain:.2g} % more"
+        if not self.active:
+            return said
+        of_limit = abs(max(abs(self.left), abs(self.right)) - 100.0 * self.by) <= self.by
+        way = "1 % less strict" if of_limit else f"giving way by {show(self.by, self.units, 3)}"
+        return f"{said}, active: {way} gains {100.0 * self.gain:.2g} %"
 
 
 @final
@@ -88,7 +96,7 @@ class AtBound:
     def __str__(self) -> str:
         end = "upper" if self.is_upper else "lower"
         change = f"{self.variable.show(self.by)} {'more' if self.is_upper else 'less'}"
-        return f"{self.variable.name} = {self.variable.show(self.value)} is at its {end} end: {change} gives {100.0 * self.gain:.2g} % more"
+        return f"{self.variable.name} = {self.variable.show(self.value)} is at its {end} end: {change} gains {100.0 * self.gain:.2g} %"
 
 
 @final
@@ -227,7 +235,7 @@ def polished(
     value = float(problem.value(lambda leaf: now[leaf]))
     part = local.size / (abs(value) or 1.0)
     conditions = tuple(
-        as_kept(problem, each, now, part * price / scale)
+        as_kept(problem, each, now, part * price / scale, scale)
         for each, price, scale in zip(problem.constraints, prices, local.scales, strict=True)
     )
     values = problem.space.values(found.unit)
@@ -247,12 +255,16 @@ def polished(
     )  # fmt: skip
 
 
-def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float], price: float) -> Kept:
-    """Return how a design keeps a constraint, by its leaves' numbers and by what part the objective gains for one [SI] less of it."""
+def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float], price: float, scale: float) -> Kept:
+    """Return how a design keeps a constraint, by its leaves' numbers and by what part the objective gains for one [SI] less of it.
+
+    `scale` is the size of what is compared [SI].
+    """
     left, right = (float(side.of(lambda leaf: now[leaf])) for side in (constraint.left, constraint.right))
     spare = -abs(right - left) if constraint.symbol == "==" else right - left if constraint.symbol == "<=" else left - right
-    gain = 0.01 * price * (scale_of(constraint, lambda leaf: now[leaf]) or 1.0)
-    return Kept(constraint, left, right, spare, gain if gain > SHOWN else 0.0, unit_of_constraint(problem.plan, constraint))
+    size = scale_of(constraint, lambda leaf: now[leaf])
+    by = 0.01 * (size if size > 1e-6 * scale else scale)
+    return Kept(constraint, left, right, spare, by, price * by if price * by > SHOWN else 0.0, unit_of_constraint(problem.plan, constraint))
 
 
 def true_values(problem: Problem, machine: Mechanism) -> dict[Leaf, float]:
@@ -299,7 +311,7 @@ def multipliers(local: Local, unit: FloatArray) -> tuple[FloatArray, FloatArray]
     columns, owners = [], []
     for row in local.rows(z):
         for value, line in zip(row.values, row.slopes, strict=True):
-            if row.equation or value <= ACTIVE:
+            if (row.equation or value <= ACTIVE) and np.abs(line).max() > STILL:
                 for sign in (1.0, -1.0) if row.equation else (1.0,):
                     columns.append(sign * line)
                     owners.append(row.constraint)
@@ -485,12 +497,14 @@ def rounded_design(optimum: Optimum, to: float, angle: float) -> Rounded:
     for name, value in (("to", to), ("angle", angle)):
         if not is_number(value) or value <= 0.0:
             raise DefinitionError(f"rounded({name}={cited(value)}): a step above zero is expected, such as 1 * mm.")
+    if to > COARSEST * size_of_machine(optimum.machine):
+        raise DefinitionError(f"rounded({to:.6g}): steps of {to:.6g} m are as coarse as the machine; write {to:.6g} * mm if that is meant.")
     problem, space = optimum.problem, optimum.problem.space
     values = space.values(optimum.unit)
     near = []
     for variable, value in zip(space.variables, values, strict=True):
         step = {"mm": to, "deg": angle}.get(variable.unit)
-        near.append(steps_about(float(value), step) if step else [float(value)])
+        near.append(steps_about(float(value), step, variable) if step else [float(value)])
     tried = list(islice(product(*near), MOST_ROUNDINGS))
     units = np.array([[(each - one.low) / (one.span or 1.0) for each, one in zip(row, space.variables, strict=True)] for row in tried])
     best: tuple[float, float, Mechanism] | None = None
@@ -524,12 +538,20 @@ def most_promising(optimum: Optimum, units: FloatArray) -> list[int]:
     return [int(place) for place in np.lexsort((worth, np.where(short <= MET, 0.0, short)))]
 
 
-def steps_about(value: float, step: float) -> list[float]:
-    """Return the two steps about a value, the nearer first; the one on which it stands to rounding alone."""
+def steps_about(value: float, step: float, variable: Varied) -> list[float]:
+    """Return the steps about a value that lie in its variable's range, the nearer first; the one on which it stands to rounding alone.
+
+    DefinitionError where no step lies in the range.
+    """
+    low, high = np.ceil(variable.low / step - 1e-6), np.floor(variable.high / step + 1e-6)
+    if low > high:
+        ends = f"{variable.show(variable.low)} to {variable.show(variable.high)}"
+        raise DefinitionError(f"rounded: no step of {variable.show(step)} lies in {variable.name}'s range, {ends}; take finer steps.")
     place = value / step
     if abs(place - round(place)) < 1e-6:
         return [round(place) * step]
-    return sorted((float(np.floor(place)) * step, float(np.ceil(place)) * step), key=lambda each: abs(each - value))
+    found = {float(np.clip(each, low, high)) * step for each in (np.floor(place), np.ceil(place))}
+    return sorted(found, key=lambda each: abs(each - value))
 
 
 # Rows, for tables.

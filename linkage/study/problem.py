@@ -18,6 +18,7 @@ from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, greatest, lowest
 from ..motion.grid import JoinedTo, joined_in_order
+from ..motion.strokes import check_magnitude
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import Quantity, is_number
 from .measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most, Worst, words_of
@@ -227,6 +228,8 @@ class Problem:
         if unknown:
             known = ", ".join(self.plan.strokes) or "none"
             raise DefinitionError(f"{self.plan.title}: {leaf}: there is no stroke {unknown[0]!r}; its strokes are {known}.")
+        for name, value in leaf.strokes.items():
+            check_magnitude(name, (float(value), float(value)), self.plan)
         held = {name: float(one.low) for name, one in self.ranges.items() if is_number(one.low) and one.low == one.high}
         missing = [name for name in depends if name not in leaf.strokes and name not in held and name != inner]
         if missing:

@@ -20,6 +20,8 @@ from .checks import unit_of
 from .designs import check_once
 
 MOST_COMBINATIONS = 100_000
+FAR = 20.0
+"""Times the largest length of a machine: a range that is wider was given in another unit."""
 
 
 @final
@@ -194,11 +196,23 @@ def ranged(machine: Mechanism, names: Sequence[str], given: Around | tuple[Any, 
         else:
             low, high, step = (*given, None)[:3]
         ends = [low, high] if step is None else [low, high, step]
-        if not all(is_number(each) for each in ends) or not low < high or (step is not None and not 0.0 < step <= high - low):
-            said = "write (low, high) or (low, high, step) in SI, a list of choices, or around(...)"
+        if all(is_number(each) for each in ends) and low >= high:
+            said = "a range goes from its lower to its higher end; for one value set it"
             raise DefinitionError(f"{plan.title}: {name}={cited(given)} is no range; {said}.")
+        if not all(is_number(each) for each in ends) or (step is not None and not 0.0 < step <= high - low):
+            said = "write (low, high) or (low, high, step) in SI, the step above zero and within them, a list of choices, or around(...)"
+            raise DefinitionError(f"{plan.title}: {name}={cited(given)} is no range; {said}.")
+        if unit_of(plan, name) == "mm" and high - low > FAR * size_of_machine(machine):
+            wide = f"{name} would range over {high - low:.6g} m, far more than the machine is large"
+            raise DefinitionError(f"{plan.title}: {wide}; lengths are in m, write 60 * mm if these are millimetres.")
         found.append(Varied(name, owner, float(sign), float(low), float(high), None if step is None else float(step), unit_of(plan, name)))
     return found
+
+
+def size_of_machine(machine: Mechanism) -> float:
+    """Return the largest length or coordinate of a machine [m]."""
+    lengths = [name for name in machine.dimensions if unit_of(machine.plan, name) == "mm"]
+    return max((abs(float(machine.dimensions[name])) for name in lengths), default=1.0) or 1.0
 
 
 def rows_of(title: str, names: Sequence[str], given: Any, width: int) -> tuple[tuple[float, ...], ...]:

@@ -62,6 +62,8 @@ class DesignedCrane(Command):
         if folder is not None:
             check_place(folder / "map.png")
         if options.skeleton or options.cab:
+            if folder is not None:
+                raise DefinitionError("--pictures shows a whole crane: leave --skeleton and --cab out.")
             print_skeleton(bare_skeleton(options))
             return 0
         crane = named_crane(options) if options.machine else designed_crane(options)

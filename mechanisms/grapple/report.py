@@ -141,7 +141,7 @@ def moment_verdict(motion: Motion) -> Verdict:
     where = {each: float(motion.moved({"theta": np.array([each.strokes["theta"]])})["D"][0]) / mm for each in (least, most)}
     low, high = float(least.value), float(most.value)
     text = f"M_g / M_1 is {low:.4g} at the stem of {where[least]:.0f} mm, the least, and {high:.4g} at {where[most]:.0f} mm, the greatest"
-    remedy = "" if low >= 1.0 - MET else ": too little; take a greater bore or a longer OC"
+    remedy = "" if low >= 1.0 - MET else ": too little; take a greater bore, or move C along the lever"
     return Verdict("moment", low >= 1.0 - MET, f"{text}{remedy}.")
 
 

@@ -31,8 +31,8 @@ from tests.linkage.test_groups import Platform
 MACHINES = [*SHIPPED, *RANDOM, Platform]
 ALL = pytest.mark.parametrize("machine", of_each_structure(MACHINES), ids=lambda machine: machine.__name__)
 STEPS = np.array([1.0, 2.0, 4.0])
-ALONE = {"n", "atmosphere", "line1.exponent", "line2.exponent", "line3.exponent"}
-"""Of the header balancers: exponents are 1 or more, and the atmosphere one for all designs."""
+ALONE = {"n", "atmosphere", "line1.exponent", "line2.exponent", "line3.exponent", "charge3", "line3.charge_pressure"}
+"""Of the header balancers: exponents are 1 or more, the atmosphere is one for all designs, and header 3 is charged to where a pair joins."""
 
 
 @pytest.fixture(autouse=True)

@@ -495,7 +495,7 @@ class DesignSearch:
         sense, lost = self.problem.sense, []
         for each in sorted((one for one in ended if one.found.feasible), key=lambda one: sense * one.found.value):
             try:
-                everyone = [one.found for one in ended]
+                everyone = [one.found for one in ended if one.combination == each.combination]
                 self.problem.looked_at += self.coarse.looked_at
                 self.coarse.looked_at = 0
                 best = polished(self.problem, each.combination, each.found, everyone, searched, self.plan.solver, self.cut)

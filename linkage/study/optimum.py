@@ -519,8 +519,8 @@ def rounded_design(optimum: Optimum, to: float, angle: float) -> Rounded:
     cost = problem.sense * (now - optimum.value) / (abs(optimum.value) or 1.0)
     unit = unit_of_measure(problem.plan, problem.objectives[0])
     said = ", ".join(f"{each.name} = {each.show(each.sign * float(machine.dimensions[each.owner]))}" for each in space.variables)
-    text = f"{said}: {problem.objectives[0]} = {show(now, unit)}, {100.0 * abs(cost):.2g} % {'worse' if cost >= 0.0 else 'better'}"
-    text += " than unrounded."
+    change = f"{100.0 * abs(cost):.2g} % {'worse' if cost >= 0.0 else 'better'} than" if abs(cost) > NOISE else "as good as"
+    text = f"{said}: {problem.objectives[0]} = {show(now, unit)}, {change} unrounded."
     if short > MET:
         remedy = "take finer steps, or tighten the condition before"
         text += f" No design on these steps keeps every condition; this one misses by {100.0 * short:.2g} %: {remedy}."

@@ -11,10 +11,11 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError, cited, unknown
+from ..loads import ForceElement
 from ..mechanism import Mechanism
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import is_number
+from ..quantities import is_number, label
 from ..units import show
 from .checks import unit_of
 from .designs import check_once
@@ -169,6 +170,12 @@ def known_dimension(machine: Mechanism, name: Any) -> None:
         raise DefinitionError(
             f"{machine.plan.title}: {name} is a stroke and no dimension; say over={{{name!r}: (low, high)}} for its range."
         )
+    element, _, parameter = name.partition(".")
+    member = machine.plan.members.get(element)
+    if name not in machine and isinstance(member, ForceElement) and parameter in member.parameters:
+        what = getattr(member, parameter)
+        if what is not None:
+            raise DefinitionError(f"{machine.plan.title}: {name} follows {label(what)}; vary what it follows.")
     _ = machine[name]  # raises for a name that is none, or that follows others
 
 

@@ -477,6 +477,38 @@ def test_what_cannot_be_asked_is_refused_in_words(name):
     assert words in str(caught.value)
 
 
+def test_a_dimension_that_follows_another_is_told_so():
+    class Following(Boom):
+        dead = Dimension(0.2, unit="mm")
+        lift = Cylinder("A", "B", bore=80 * mm, rod=45 * mm, closed=dead, stroke=0.25)
+
+    with pytest.raises(DefinitionError, match=r"lift\.closed follows dead; vary what it follows"):
+        optimise(Following(), minimise=most("tilt"), vary={"lift.closed": (0.2, 0.3)})
+
+
+def test_a_limit_of_zero_may_be_active_and_rounding_stays_in_the_range():
+    vary = {"A": around(50 * mm), "OB": (0.25, 0.28)}
+    by_limit, by_zero = (
+        optimise(Boom(), minimise=most(pressure("lift")), vary=vary, subject_to=[limit], starts=2)
+        for limit in (TRAVEL >= 0.73, TRAVEL - 0.73 >= 0.0)
+    )
+    assert_allclose(by_zero.value, by_limit.value, rtol=1e-6)
+    (one,), (other,) = by_limit.active, by_zero.active
+    assert_allclose(one.gain / one.by, other.gain / other.by, rtol=1e-3)
+    coarse = by_limit.rounded(20 * mm)
+    for name, low, high in (("A.x", -0.05, 0.05), ("A.y", -0.05, 0.05), ("OB", 0.25, 0.28)):
+        assert low - 1e-9 <= coarse.machine[name] <= high + 1e-9
+    with pytest.raises(DefinitionError, match="as coarse as the machine"):
+        by_limit.rounded(1)
+
+
+@pytest.mark.parametrize("far", [around(60), (0.0, 300.0)])
+def test_a_range_in_millimetres_is_told(far):
+    name = "A" if not isinstance(far, tuple) else "OB"
+    with pytest.raises(DefinitionError, match="far more than the machine is large"):
+        optimise(Boom(), minimise=most("tilt"), vary={name: far})
+
+
 def test_conditions_and_measures_have_no_truth_value():
     with pytest.raises(DefinitionError, match="write two"):
         assert 0.2 <= TRAVEL <= 0.3

@@ -82,7 +82,6 @@ def power_text(name: str, power: Fraction) -> str:
 NUMBER = Unit()
 LENGTH = Unit(Fraction(1))
 ANGLE = Unit(angle=Fraction(1))
-UNKNOWN = Unit(known=False)
 
 SI: Mapping[str, str] = {
     "length": "m", "angle": "rad", "time": "s", "mass": "kg", "force": "N", "moment": "Nm", "pressure": "Pa", "volume": "m3", "area": "m2",

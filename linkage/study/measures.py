@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import operator
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any, ClassVar, NoReturn, TypeAlias, final
@@ -361,8 +361,3 @@ def conditions_of(given: Any, machine: Any) -> list[Constraint]:
             what = f"{each} says no limit" if isinstance(each, Measure) else f"{cited(each)} is no condition"
             raise DefinitionError(f"subject_to: {what}; write one such as most(...) <= 8 * deg.")
     return [found for each in listed for found in each.constraints(machine)]
-
-
-def key_of(quantity: Any) -> Hashable:
-    """Return what tells a quantity from others."""
-    return quantity if isinstance(quantity, str) else id(quantity)

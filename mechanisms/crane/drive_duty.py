@@ -18,11 +18,9 @@ from linkage import DefinitionError, MPa, mm
 from linkage.quantities import Function, Operand, Quantity, quantity
 from linkage.units import deg, kN
 
+from .duty import check_metres
 from .moments import LIFTING, boom_bound, moments
 from .skeleton import AT_ARM, AT_BOOM, AT_DRIVE, GRAVITY, JOINT, OF_DRIVE, CraneSkeleton
-
-LONGEST_BOOM = 40.0
-"""m; a longer boom, arm or telescope was given in millimetres."""
 
 
 def clipped(value: Operand, low: Operand | None, high: Operand | None = None) -> Quantity:
@@ -62,10 +60,7 @@ class DriveDuty:
         for name in ("l_c", "l_p", "h_0", "b_0", "b_c", "K_B", "K_A", "K_A1"):
             positive(getattr(self, name), name)
         not_negative(self.l_t, "l_t")
-        for name in ("l_c", "l_p", "l_t", "h_0", "b_0", "b_c"):
-            if getattr(self, name) > LONGEST_BOOM:
-                given = f"{getattr(self, name):.6g}"
-                raise DefinitionError(f"{name} = {given} m; no crane is so large, write {given} * mm if these are millimetres.")
+        check_metres({name: getattr(self, name) for name in ("l_c", "l_p", "l_t", "h_0", "b_0", "b_c")})
         for low, high, most in (("phi_0", "phi_k", pi), ("psi_0", "psi_k", 2.0 * pi)):
             first, last = getattr(self, low), getattr(self, high)
             if not 0.0 <= first < last <= most:

@@ -22,8 +22,6 @@ LOOSEST, DENSEST = 0.5, 0.8
 METRES = ("L", "H_p", "H_w", "H_k", "H_max", "A", "B", "c")
 LONGEST_REACH = 40.0
 """m; a longer one was given in millimetres."""
-HEAVIEST_LOAD = 1e6
-"""N m; a larger moment was given in other units."""
 
 
 @final
@@ -62,10 +60,7 @@ class Duty:
         self._check_heights()
 
     def _check_units(self) -> None:
-        for name in METRES:
-            if getattr(self, name) > LONGEST_REACH:
-                given = getattr(self, name)
-                raise DefinitionError(f"{name} = {given:.6g} m; no crane is so large, write {given:.6g} * mm if these are millimetres.")
+        check_metres({name: getattr(self, name) for name in METRES})
         if self.psi_0 >= 180.0 * deg:
             least = f"psi_0 = {self.psi_0 / deg:.4g} deg is 180 deg or more, and the arm would never fold"
             raise DefinitionError(f"{least}; write psi_0={self.psi_0:.4g} * deg if these are degrees.")
@@ -99,3 +94,10 @@ class Duty:
         """Return what a crane's class takes of it: `CraneSkeleton(**duty.dimensions())`."""
         names = ("L", "M", "H_p", "H_w", "H_k", "H_max", "h_s", "c", "psi_0", "Q")
         return {name: getattr(self, name) for name in names}
+
+
+def check_metres(lengths: Mapping[str, float]) -> None:
+    """Raise DefinitionError for a length by name [m] that was given in millimetres."""
+    for name, given in lengths.items():
+        if given > LONGEST_REACH:
+            raise DefinitionError(f"{name} = {given:.6g} m; no crane is so large, write {given:.6g} * mm if these are millimetres.")

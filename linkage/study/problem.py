@@ -337,12 +337,16 @@ class Problem:
             self._samplings[number] = Sampling(self.plan, poses.quantities, (*self.owners, *strokes))
         return self._samplings[number]
 
+    @cached_property
+    def _samplings_of_ends(self) -> dict[Any, Sampling]:
+        return {end: Sampling(self.plan, [end], self.owners) for end in self.follow}
+
     def _ends(self, designs: Mapping[str, Any], *, slopes: bool) -> dict[int, tuple[FloatArray, FloatArray | None]]:
         """Return the values (m,) of the ends that follow the design, with derivatives (p,) by the owners; by their identity."""
         found = {}
-        for end in self.follow:
-            strokes = {name: np.asarray(stroke.start, float) for name, stroke in self.plan.strokes.items()}
-            sampling, grid = Sampling(self.plan, [end], self.owners), Grid(self.plan, designs, strokes)
+        strokes = {name: np.asarray(stroke.start, float) for name, stroke in self.plan.strokes.items()}
+        for end, sampling in self._samplings_of_ends.items():
+            grid = Grid(self.plan, designs, strokes)
             values = sampling.seen(grid).values[0, :, 0]
             if not np.isfinite(values).all():
                 raise DefinitionError(f"{self.plan.title}: over=: {words_of(end)} has no value of some designs.")
@@ -400,10 +404,15 @@ class Problem:
                     by = ends[id(end)][1]
                     assert by is not None
                     total += slopes[:, len(self.owners) + row][:, None, :] * (by[:, None] * share)
+        return np.asarray(np.einsum("vo,kon->kvn", self._by_owner, total))
+
+    @cached_property
+    def _by_owner(self) -> FloatArray:
+        """How the owners change with the unit coordinates, shape (n, owners)."""
         factors = np.zeros((len(self.space.variables), len(self.owners)))
         for place, each in enumerate(self.space.variables):
             factors[place, self.owners.index(each.owner)] = each.sign * each.span
-        return np.asarray(np.einsum("vo,kon->kvn", factors, total))
+        return factors
 
     def _rows(
         self, leaf: Leaf, found: Mapping[int, tuple[Seen, SampledSlopes | None]], ends: Mapping[int, tuple[FloatArray, FloatArray | None]]
@@ -417,26 +426,27 @@ class Problem:
         if poses.inner:
             assert isinstance(leaf.quantity, Worst)
             values, slopes = worst_along(values, slopes, len(poses.axes[poses.inner]), leaf.quantity.sense)
-        if isinstance(leaf, Integral):
-            (by,) = [name for name in poses.axes if name != poses.inner]
-            assert poses.weights is not None
-            one = self.ranges[by]
-            low, high = (self._end(end, ends, 0, 0) if is_number(end) else ends[id(end)][0] for end in (one.low, one.high))
-            span = np.reshape(high - low, (-1, 1))
-            total = (values * poses.weights).sum(axis=-1, keepdims=True) * span
-            if slopes is not None:
-                grown = np.zeros((len(slopes), 1))
-                for end, sign in ((one.low, -1.0), (one.high, 1.0)):
-                    if not is_number(end):
-                        by_owner = ends[id(end)][1]
-                        assert by_owner is not None
-                        share = [each.sign * each.span * by_owner[self.owners.index(each.owner)] for each in self.space.variables]
-                        factors = np.array(share)
-                        grown[:, 0] += sign * factors
-                mean = (values * poses.weights).sum(axis=-1)
-                slopes = (slopes * poses.weights).sum(axis=-1, keepdims=True) * float(span[0, 0]) + grown * mean[0]
-            return Rows(total, slopes)
-        return Rows(values, slopes)
+        return self._integrated(values, slopes, poses, ends) if isinstance(leaf, Integral) else Rows(values, slopes)
+
+    def _integrated(
+        self, values: FloatArray, slopes: FloatArray | None, poses: PoseSet, ends: Mapping[int, tuple[FloatArray, FloatArray | None]]
+    ) -> Rows:
+        """Return the integral of rows over their stroke, whose ends may follow the design."""
+        (by,) = [name for name in poses.axes if name != poses.inner]
+        assert poses.weights is not None
+        one = self.ranges[by]
+        low, high = (self._end(end, ends, 0, 0) if is_number(end) else ends[id(end)][0] for end in (one.low, one.high))
+        span = np.reshape(high - low, (-1, 1))
+        mean = (values * poses.weights).sum(axis=-1, keepdims=True)
+        if slopes is None:
+            return Rows(mean * span, None)
+        grown = np.zeros((len(slopes), 1))
+        for end, sign in ((one.low, -1.0), (one.high, 1.0)):
+            if not is_number(end):
+                moved = ends[id(end)][1]
+                assert moved is not None
+                grown[:, 0] += sign * (self._by_owner @ moved)
+        return Rows(mean * span, (slopes * poses.weights).sum(axis=-1, keepdims=True) * float(span[0, 0]) + grown * mean[0])
 
     def merits(self, combination: Sequence[int], unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return of designs (m, n) the objective, what is missing in parts of the conditions' sizes, and the part reached, all (m,)."""

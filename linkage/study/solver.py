@@ -82,9 +82,11 @@ class Graded:
         return Graded.of(other) / self
 
     def __pow__(self, other: Any) -> Graded:
-        exponent = Graded.of(other).value
+        exponent = Graded.of(other)
         with np.errstate(all="ignore"):
-            return Graded(float(np.power(self.value, exponent)), exponent * float(np.power(self.value, exponent - 1.0)) * self.slope)
+            value = float(np.power(self.value, exponent.value))
+            slope = exponent.value * float(np.power(self.value, exponent.value - 1.0)) * self.slope
+            return Graded(value, slope + value * float(np.log(self.value)) * exponent.slope if exponent.slope.any() else slope)
 
 
 @final

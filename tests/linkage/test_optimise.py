@@ -358,6 +358,36 @@ def test_rows_have_the_derivatives_of_central_differences(seed):
             assert np.max(np.abs(by_hand - rows.slopes[place])) < 2e-4 * size + 2e-9 * np.max(np.abs(rows.values))
 
 
+def test_a_measure_raised_to_a_measure_has_both_derivatives():
+    machine = Boom()
+    space = Space.of(machine, {"OB": (0.28, 0.32)})
+    problem = Problem(machine, [most(pressure("lift")) ** at("OB")], [], space)
+
+    def graded(unit):
+        local = Local(problem, (), np.array([unit]))
+        return local.graded(problem.objectives[0], local.look(np.array([unit])), local.first(np.array([unit])))
+
+    def value(unit):
+        machine_there = problem.machine_of(np.array([unit]), ())
+        return float(np.max(machine_there.sweep(49)[pressure("lift")]) ** machine_there["OB"])
+
+    by_hand = (value(0.5 + 1e-5) - value(0.5 - 1e-5)) / 2e-5
+    found = graded(0.5)
+    assert_allclose(found.value, value(0.5), rtol=1e-12)
+    place = [column for column in range(1, len(found.slope)) if found.slope[column]]  # the leaf is a variable of its own
+    through = sum(found.slope[column] * slope for column, slope in zip(place, leaf_slopes(problem), strict=True))
+    assert_allclose(found.slope[0] + through, by_hand, rtol=1e-6)
+
+
+def leaf_slopes(problem):
+    """Return how the scaled greatest pressure changes with the unit coordinate."""
+    local = Local(problem, (), np.array([0.5]))
+    look = local.look(np.array([0.5]))
+    (leaf,) = [each for _, each in local.aux]
+    rows = look.rows[leaf]
+    return [rows.slopes[0, int(np.argmax(rows.values[0]))] / local.leaf_scales[leaf]]
+
+
 def test_groups_solved_by_iteration_are_searched_too():
     machine = StephensonThreeFar()
     names = [name for name in ("AB", "CB", "OA") if name in machine]

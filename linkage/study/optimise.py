@@ -356,12 +356,12 @@ class DesignSearch:
     def run(self) -> Optimum:
         """Return the best design."""
         space = self.problem.space
-        if not space.variables:
-            ended = [Ended(each, self.ended(each, np.zeros((1, 0)), 0)) for each in space.combinations() if not self.is_cut(each)]
-            return self.chosen(ended, searched=len(ended))
         left = [each for each in space.combinations() if not self.is_cut(each)]
         if not left:
             raise StudyError(f"{self.problem.plan.title}: no combination of choices can keep the conditions: {self.cut[0]}.")
+        if not space.variables:
+            ended = [Ended(each, self.ended(each, np.zeros((1, 0)), 0)) for each in left]
+            return self.chosen(ended, searched=len(ended))
         screened = [self.screened(each) for each in left]
         if not any(np.any(each.reached == 1.0) for each in screened):
             raise self.unreachable(screened)

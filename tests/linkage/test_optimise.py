@@ -238,6 +238,12 @@ def test_a_catalogue_row_is_one_variable_and_a_row_that_cannot_is_cut_in_words()
     assert "20 mm" in best.cut[0]
 
 
+def test_choices_that_all_cannot_are_told_so_with_variables_and_without():
+    for vary in ({NAMES: ROWS}, {NAMES: ROWS, "OB": (0.25, 0.35)}):
+        with pytest.raises(StudyError, match=r"no combination of choices can keep the conditions: .* is missed by"):
+            optimise(Boom(), minimise=at("lift.bore"), vary=vary, subject_to=[at("lift.stroke") >= 0.5])
+
+
 def test_choices_alone_are_all_looked_at():
     holes = [(0.0, 0.0), (0.03, -0.02), (-0.04, 0.02), (0.01, 0.05)]
     best = optimise(Boom(), maximise=least(reserve("lift")), vary={"A": holes, "OB": [0.28, 0.3, 0.32]})

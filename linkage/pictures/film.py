@@ -133,6 +133,7 @@ class Stage:
         self.playback, self.scene, self.along = playback, Scene(playback.motion), StrokeAxis.of(playback.motion)
         self.figure = Figure(figsize=(WIDTH, HEIGHT), dpi=dpi, facecolor=style.PAPER)
         self.canvas = cast(Any, FigureCanvasAgg(self.figure))  # matplotlib declares no types for its methods
+        self.moving = [name for name, values in playback.motion.strokes.items() if np.ptp(values) > 0.0] or list(playback.motion.strokes)
         self.drawing = self._mechanism(paths)
         self.live = self._curve(bound)
         self.stroke = self.figure.text(SHEET[0] + SHEET[2], TITLE, "", fontsize=style.TITLE, color=style.INK, ha="right", va="center")
@@ -142,7 +143,7 @@ class Stage:
         self.canvas.draw()
         self.still: Any = self.canvas.copy_from_bbox(self.figure.bbox)
         names = [artist for artist in self.drawing.artists if isinstance(artist, Annotation)]
-        self.stamps = {name: Stamp(name, *self.canvas.get_width_height()) for name in names}
+        self.stamps: dict[Artist, Stamp] = {name: Stamp(name, self.canvas) for name in names}
 
     def _mechanism(self, paths: Sequence[str]) -> Drawing:
         """Return the mechanism on its sheet, with paths of points and names that keep their place beside their points."""
@@ -191,7 +192,7 @@ class Stage:
         self.canvas.restore_region(self.still)
         renderer = self.canvas.get_renderer()
         for artist in self._moving:
-            self.stamps.get(artist, artist).draw(renderer)
+            (self.stamps.get(artist) or artist).draw(renderer)
         return np.array(self.canvas.buffer_rgba())
 
     def update(self, pose: int) -> None:
@@ -200,7 +201,8 @@ class Stage:
         self.drawing.update(pose)
         self.run.set_data(along.values[: pose + 1], values[: pose + 1])
         self.marker.set_data(along.values[pose : pose + 1], values[pose : pose + 1])
-        self.stroke.set_text(stroke_words(motion.plan, along.name, float(motion.strokes[along.name][pose]), fixed=True))
+        said = (stroke_words(motion.plan, name, float(motion.strokes[name][pose]), fixed=True) for name in self.moving)
+        self.stroke.set_text(", ".join(said))
         self.value.set_text(column_text(self.playback.column.drawn, pose))
 
 
@@ -208,9 +210,10 @@ class Stage:
 class Stamp:
     """A name drawn once and then put down beside its point, to whole pixels: to set it anew in each frame takes most of the time."""
 
-    def __init__(self, text: Annotation, across: float, up: float) -> None:
+    def __init__(self, text: Annotation, canvas: FigureCanvasAgg) -> None:
         self.text = text
-        alone = RendererAgg(across, up, text.get_figure(root=True).dpi)
+        across, up = canvas.get_width_height()
+        alone = cast(Any, RendererAgg)(across, up, canvas.figure.dpi)  # matplotlib declares no types for its methods
         text.draw(alone)
         drawn = np.asarray(alone.buffer_rgba())
         rows, columns = np.nonzero(drawn[..., 3])
@@ -223,7 +226,8 @@ class Stamp:
 
     def _pin(self) -> npt.NDArray[np.float64]:
         """Return the place of its point, to whole pixels from the lower left."""
-        return np.round(np.asarray(self.text.axes.transData.transform(self.text.xy)))
+        shown: Any = self.text.axes
+        return np.round(np.asarray(shown.transData.transform(self.text.xy), float))
 
     def draw(self, renderer: Any) -> None:
         """Put it down beside its point."""

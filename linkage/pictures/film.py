@@ -45,7 +45,7 @@ def animate(
     *,
     count: int = 60,
     column: str | None = None,
-    trace: Sequence[str] = (),
+    trace: Sequence[str] | None = None,
     limit: Sequence[Any] | None = None,
     at: At = NOTHING,
     progress: Progress | None = None,
@@ -60,12 +60,14 @@ def animate(
     kind = target.suffix.lower()
     if kind not in KINDS:
         raise DefinitionError(f"{target.name}: an animation is written as .gif, .mp4 or .html; give a name with one of these endings.")
-    trace = named_points(machine, trace, "trace")
+    trace = named_points(machine, machine.featured().path if trace is None else trace, "trace")
     if limit is not None:
         limit_of(limit)
     check_place(target)
     write, fineness = KINDS[kind]
     played = playback(machine, fineness * (poses - 1) + 1, column, at=at, eased=fineness == 1)
+    if limit is None:
+        limit = machine.featured().limits.get(played.column.name)
     write(played, target, trace, limit, progress or (lambda done, total: None))
     return target
 

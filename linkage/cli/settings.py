@@ -103,5 +103,5 @@ def columns_picked(machine: Mechanism, motion: Motion, names: Sequence[str], str
 
 
 def traced_points(machine: Mechanism, names: Sequence[str] | None) -> tuple[str, ...]:
-    """Return the points whose paths are drawn: those named, else the last one built."""
-    return machine.plan.moving[-1:] if names is None else tuple(names)
+    """Return the points whose paths are drawn: those named, else those the machine is about, else the last one built."""
+    return tuple(machine.featured().path) or machine.plan.moving[-1:] if names is None else tuple(names)

@@ -195,11 +195,10 @@ def is_changing(values: FloatArray) -> bool:
 
 
 def column_shown(machine: Mechanism, motion: Motion, name: str | None) -> Column:
-    """Return a column of results by name; without one, what the machine is about, else the last that is no stroke and changes."""
+    """Return a column of results by name; without one, what the machine is about if it changes, else the last that does."""
     columns = {column.name: column for column in results(machine, motion) if column.name not in motion.strokes}
-    if name is None:
-        name = machine.featured().column or None
     if name is None and columns:
         moving = [each for each, column in columns.items() if is_changing(column.drawn)]
-        return columns[(moving or list(columns))[-1]]
+        about = machine.featured().column
+        return columns[about if about in moving else (moving or list(columns))[-1]]
     return columns[known_name("Column", name, columns, where=machine.plan.title)]

@@ -32,5 +32,5 @@ class Hart(Mechanism):
     Q = OnLink(C, B, CQ=m * long)
 
     def featured(self) -> Featured:
-        """Return Q_x and the paths of P and Q."""
-        return Featured("Q_x", ["P", "Q"])
+        """Return Q_y and the paths of P and Q."""
+        return Featured("Q_y", ["P", "Q"])

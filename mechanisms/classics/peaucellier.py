@@ -28,5 +28,5 @@ class Peaucellier(Mechanism):
     P = Dyad(B, D, BP=side, DP=side, side=LEFT)  # the rhombus's other corner
 
     def featured(self) -> Featured:
-        """Return P_x and the paths of A and P."""
-        return Featured("P_x", ["A", "P"])
+        """Return P_y and the paths of A and P."""
+        return Featured("P_y", ["A", "P"])

@@ -74,7 +74,7 @@ class AnimateCommand(Command):
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
         parser.add_argument("-o", "--output", metavar="FILE", required=True, help=f"{', '.join(SUFFIXES)}")
-        parser.add_argument("--column", metavar="I", help="the column of `table` whose curve runs along (default: what the machine is about)")
+        parser.add_argument("--column", metavar="I", help="the column of `table` whose curve runs along (default: what it is about)")
         path_argument(parser)
         parser.add_argument("--count", metavar="N", type=pose_count, default=60, help="poses over the stroke (default 60)")
         parser.add_argument(

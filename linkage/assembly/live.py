@@ -14,7 +14,6 @@ from .groups import LINE, StrokeRoute
 from .newton import ITERATIONS, Programs, at_sketch
 from .rules import FIRST, TOUCH, goes_on, interpolated, newton_ended, predicted, step_judged
 
-
 Rule = Callable[..., Any]
 
 

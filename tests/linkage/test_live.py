@@ -23,6 +23,7 @@ from linkage import (
 )  # fmt: skip
 from linkage.errors import unwarned
 from linkage.motion import live_text
+from linkage.reports.results import results
 from mechanisms.three_point_hitch import ThreePointHitch
 from tests.linkage import in_node
 from tests.linkage.in_node import ELSEWHERE, NEEDED, SHIPPED, Job, asked_of, check, designs_near, possible, swept, ways
@@ -153,3 +154,16 @@ def test_angles_and_pins_are_followed_by_a_function_of_one_pose():
         with unwarned():
             wanted = np.array([machine().function(asked)(*pose) for pose in at.T])
         np.testing.assert_allclose(said[:, :2], wanted[:, :2], rtol=0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "name", ["three_point_hitch", "mower_lift", "header_balancer", "boom_drive", "grapple", "slider_crank", "wheel_loader"]
+)
+def test_columns_say_what_they_are_asked_by(name):
+    machine = (SHIPPED.get(name) or OTHERS[name])()
+    plan = machine.plan
+    motion = machine.at(**{each: np.linspace(stroke.start, stroke.end, 5) for each, stroke in plan.strokes.items()})
+    known = [column for column in results(machine, motion) if column.request is not None]
+    assert known
+    for column in known:
+        np.testing.assert_allclose(motion[column.request], column.values, rtol=1e-12, atol=1e-12, err_msg=column.name)

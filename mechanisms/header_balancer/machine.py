@@ -8,7 +8,23 @@ import numpy as np
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
 from hydraulics.inputs import in_pascals, positive
-from linkage import LEFT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, Motion, OnLink, Stroke, Vector, angle, distance, y
+from linkage import (
+    LEFT,
+    Column,
+    DefinitionError,
+    Dimension,
+    Dyad,
+    Ground,
+    Mechanism,
+    Motion,
+    OnLink,
+    Outline,
+    Stroke,
+    Vector,
+    angle,
+    distance,
+    y,
+)  # fmt: skip
 from linkage.loads import PinFriction, Support, Weight
 from linkage.loads.element import Formulas
 from linkage.units import deg, kg, kgf_cm2, litre, mm
@@ -70,6 +86,12 @@ class HeaderBalancer(Mechanism):
         AccumulatorBlock([Accumulator(V_I, P_I), Accumulator(V_II, P_II)], isothermal, atmosphere),
         charge_pressure=charge, at=h_horizon, seal_friction=seals, exponent=n,
     )  # fmt: skip
+
+    ground = Outline.line((-0.6, 0.0), (2.6, 0.0))  # what stands around is drawn only; its figures are illustrative
+    wheel = Outline.circle(at=(-0.75, 0.75), radius=0.75)  # the combine's front wheel
+    table = Outline(
+        [(-0.632, -0.403), (0.144, 0.052), (0.626, -0.557), (0.541, -0.608), (0.197, -0.231), (-0.195, -0.257)], on=(R, O)
+    )  # the header's section
 
     def __init__(self, **dimensions: Any) -> None:
         """Set the design [SI]; DefinitionError also for what cannot be: no mass, no pressure, a shoe out of the stroke's reach."""

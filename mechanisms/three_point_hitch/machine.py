@@ -11,7 +11,7 @@ import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
 from hydraulics.inputs import positive
-from linkage import LEFT, RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, Motion, OnLink, Stroke, Weight, angle
+from linkage import LEFT, RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, Motion, OnLink, Outline, Stroke, Weight, angle
 from linkage.loads.element import Formulas
 from linkage.units import MPa, deg, kg, litre, minute, mm
 
@@ -57,6 +57,10 @@ class ThreePointHitch(Mechanism):
     wheelbase = Dimension(2750 * mm, unit="mm")  # the front axle stands at x = -wheelbase
     slope = Dimension(0 * deg, unit="deg")  # positive where the ground rises towards +x, behind the tractor
     least_front = Dimension(0.20)  # share of the tractor's weight that steering needs on the front axle
+
+    ground = Outline.line((-1.1, 0.0), (2.4, 0.0))  # what stands around is drawn only; its figures are illustrative
+    wheel = Outline.circle(at=(0.0, 0.85), radius=0.85)  # the rear wheel
+    axle = Outline.circle(at=(0.0, 0.85), radius=0.09)
 
     admissible: ClassVar[Mapping[str, Any]] = MappingProxyType(
         {"MK": (0.80, 0.96), "CD": (0.56, 0.68), "FK": (0.61, 0.685), "M": [(0.22, 1.05), (0.22, 0.95)]}

@@ -82,8 +82,9 @@ class Drawing:
         """Name the points; the names keep clear of the mechanism at all `poses` and of further points [m]."""
         size, scale = self.scene.size, points_a_metre(self.ax)
         clouds = [np.concatenate([points, *keep_clear]) for points in label_free(self.scene, poses)]
-        spots = offsets(list(self.scene.places), poses, clouds, scale, 1.15 * size * scale + 1.5)
-        self.parts += [LabelPart(self.ax, name, spot, self.look) for name, spot in spots.items()]
+        gap = 1.15 * size * scale + 1.5
+        spots = offsets(list(self.scene.places), poses, clouds, scale, gap)
+        self.parts += [LabelPart(self.ax, name, spot, gap, self.look) for name, spot in spots.items()]
 
     def update(self, pose: int) -> None:
         """Move to a pose, a flat index."""

@@ -310,14 +310,18 @@ class Scene:
 
     def _covers(self, hung: Hung) -> bool:
         """Return whether a member on its points' line lies along a body, at all poses."""
-        if hung.aside or not self.reached:
+        if hung.aside or not self._whole.reached:
             return False
-        found = (self._lies_along(hung, points) for points in self.bodies if not {hung.P, hung.Q} <= set(points))
-        return any(found)
+        return any(self._lies_along(hung, points) for points in self.bodies if not {hung.P, hung.Q} <= set(points))
+
+    @cached_property
+    def _whole(self) -> Scene:
+        """The scene of the motion that goes furthest: what holds at its poses holds whatever poses are shown."""
+        return self if self.over is None else Scene(self.over)
 
     def _lies_along(self, hung: Hung, points: tuple[str, ...]) -> bool:
         """Return whether two points of a body stand on a member's line, and a good part of it between them."""
-        for at in self.some(5):
+        for at in self._whole.some(5):
             P, along = at[hung.P], at[hung.Q] - at[hung.P]
             length = float(np.hypot(*along))
             if not length > 0.0:

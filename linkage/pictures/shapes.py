@@ -207,27 +207,28 @@ def strut(short: float, long: float, size: float) -> tuple[DrawnLine, ...]:
 
 # Telescopes, and the accumulators of a gas-fed line.
 
-FREE = 0.9
-"""The share of its closed length that one stage comes out at most."""
+SINGLE, FREE = 0.95, 0.8
+"""The share of its closed length that a rod alone comes out at most, and that each stage of a telescope does."""
 
 
 def stages(short: float, long: float, fixed: float | None = None) -> int:
     """Return how many stages slide in each other so that a length grows from short to long [m]; `fixed` is how long the first stands."""
-    room = FREE * (short if fixed is None else min(fixed, short))
-    return max(1, int(np.ceil((long - short) / room - 1e-9))) if room > 0.0 else 1
+    room, way = short if fixed is None else min(fixed, short), long - short
+    return 1 if way <= SINGLE * room or not room > 0.0 else max(2, int(np.ceil(way / (FREE * room) - 1e-9)))
 
 
 def nested_tubes(short: float, long: float, size: float) -> tuple[DrawnLine, ...]:
-    """Return a cylinder of several stages as nested tubes, the thinnest one last."""
-    count, bottom = stages(short, long), min(1.4 * size, 0.1 * short)
-    head, widest = 0.5 * size, 1.5 * size
+    """Return a cylinder of several stages as nested tubes, the barrel and the widest ones over the thinner."""
+    count = stages(short, long)
+    step, widest = min(size, (1.0 - FREE) * 0.6 * short / (count + 3.0)), 1.5 * size  # so that each stage still stands in the one before
+    bottom = 1.4 * step
     lines = [tube(0.0, 0.0, 0.0, bottom, 0.62 * size, "PISTON")]
-    for stage in range(count, -1, -1):  # the innermost first: the outer ones cover it
+    for stage in range(count, -1, -1):
         share, half = stage / count, widest - stage * (widest - 0.45 * size) / count
-        out, tip = -share * short, short - (count - stage) * 2.0 * head - 1.6 * size * (stage < count)
+        out, tip = -share * short, short - (count - stage) * step - 1.6 * step * (stage < count)
         lines.append(tube(share, bottom + out, share, tip + out, half, "ROD" if stage == count else "BARREL"))
         if stage < count:
-            lines.append(tube(share, tip + out - head, share, tip + out + head, half + 0.2 * size, "PISTON"))
+            lines.append(tube(share, tip + out - 0.4 * step, share, tip + out + 0.4 * step, half + 0.2 * size, "PISTON"))
     return tuple(lines)
 
 

@@ -105,6 +105,12 @@ class Pixels:
         self.x0 = 0.5 * ACROSS - 0.5 * (left + right) * self.scale
         self.y0 = 0.5 * self.height + 0.5 * (bottom + top) * self.scale
 
+    @property
+    def sides(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """The least and greatest x, and y, that are seen [m]."""
+        x, y = -self.x0 / self.scale, (self.y0 - self.height) / self.scale
+        return (x, x + ACROSS / self.scale), (y, y + self.height / self.scale)
+
     def of(self, points: FloatArray) -> list[Any]:
         """Return points, shape (n, 2) [m], as pairs of pixels; None for one that is not reached."""
         flat = np.round(np.column_stack([self.x0 + self.scale * points[:, 0], self.y0 - self.scale * points[:, 1]]), 1)
@@ -173,8 +179,12 @@ def piece_data(piece: Piece, pixels: Pixels, index: Mapping[str, int]) -> dict[s
     lines = [
         {"rows": turned(line.rows[:, 1:]), "fill": line.fill.lower(), "closed": line.closed, "bold": line.bold} for line in piece.lines
     ]
+    seen = piece.hatched
+    if not piece.on and len(seen):  # a line of the ground may go on far beyond the sheet
+        (x0, x1), (y0, y1) = pixels.sides
+        seen = seen[((seen >= (x0, y0)) & (seen <= (x1, y1))).all(axis=2).any(axis=1)]
     on = {"name": piece.name, "on": [index[name] for name in piece.on], "origin": [round(pixels.x0, 1), round(pixels.y0, 1)]}
-    return on | {"lines": lines, "hatches": turned(piece.hatched)}
+    return on | {"lines": lines, "hatches": turned(seen)}
 
 
 def sliding_data(scene: Scene, pixels: Pixels, index: Mapping[str, int]) -> dict[str, Any]:

@@ -116,6 +116,7 @@ function broken(points) {
   return points.map((p) => { if (!p) { pen = "M"; return ""; } const step = `${pen}${p[0].toFixed(1)} ${p[1].toFixed(1)}`; pen = "L"; return step; }).join("");
 }
 
+const around = scene.pieces.map((each) => piece(each, "muted"));
 for (const path of scene.paths) {
   draw(sheet, "path", { class: "line", d: broken(path), stroke: css("accent"), "stroke-width": 2.2, "stroke-dasharray": "0.1 4.6" });
 }
@@ -127,12 +128,14 @@ for (const lines of scene.rails) {
   lines.forEach(([from, to], i) => draw(sheet, "line", { x1: from[0], y1: from[1], x2: to[0], y2: to[1], stroke: css("ink"), "stroke-width": i ? 1 : 1.8 }));
 }
 const plates = scene.bodies.filter((each) => each.shares.length > 2), bars = scene.bodies.filter((each) => each.shares.length <= 2);
+const [onPins, beside] = [true, false].map((pinned) => scene.marks.filter((each) => scene.pins.includes(each.on[0]) === pinned));
 const parts = [
-  ...scene.pieces.map((each) => piece(each, "muted")), ...scene.contours.map(straight), ...plates.map(body), ...scene.blocks.filter((each) => !each.inside).map(block), ...bars.map(body),
+  ...around, ...scene.contours.map(straight), ...plates.map(body), ...scene.blocks.filter((each) => !each.inside).map(block), ...bars.map(body),
   ...scene.slots.map(slot), ...scene.blocks.filter((each) => each.inside).map(block), ...scene.stays.map(stay), ...scene.rams.map(ram), ...scene.straights.map(straight),
-  ...scene.marks.map((each) => piece(each, "ink")),
+  ...onPins.map((each) => piece(each, "ink")),
   ...scene.pins.map((i) => circle(i, 0.5 * size, css("paper"), css("ink"), 1.3 * EDGE)),
   ...scene.dots.map((i) => circle(i, 0.48 * size, css("ink"), css("paper"), 1)),
+  ...beside.map((each) => piece(each, "ink")),
   ...scene.names.map((_, i) => name(i)),
 ];
 

@@ -41,6 +41,6 @@ class FrontLoader(Mechanism):
     boom = angle(O, B)
     attitude = angle(B, N)
 
-    ground = Outline.line((-2.0, -0.05), (4.0, -0.05))  # what stands around is drawn only; its figures are illustrative
+    ground = Outline.line((-4.0, -0.05), (7.0, -0.05))  # what stands around is drawn only; its figures are illustrative
     wheel = Outline.circle(at=(0.05, 0.45), radius=0.5)  # the front wheel
     shell = Outline([(0.0, -0.06), (0.9, 0.0), (0.62, 0.16), (0.3, 0.5), (0.1, 0.55), (-0.06, 0.4), (-0.08, 0.1)], on=(B, N))

@@ -36,5 +36,5 @@ class ScissorLift(Mechanism):
     h = y(D)  # platform, m
     level = angle(D, E)
 
-    ground = Outline.line((-0.3, -0.12), (2.0, -0.12))  # what stands around is drawn only; its figures are illustrative
+    ground = Outline.line((-3.0, -0.12), (5.0, -0.12))  # what stands around is drawn only; its figures are illustrative
     platform = Outline([(-0.1, 0.04), (1.7, 0.04), (1.7, 0.12), (-0.1, 0.12)], on=(D, E))

@@ -87,7 +87,7 @@ class HeaderBalancer(Mechanism):
         charge_pressure=charge, at=h_horizon, seal_friction=seals, exponent=n,
     )  # fmt: skip
 
-    ground = Outline.line((-0.6, 0.0), (2.6, 0.0))  # what stands around is drawn only; its figures are illustrative
+    ground = Outline.line((-3.0, 0.0), (5.0, 0.0))  # what stands around is drawn only; its figures are illustrative
     wheel = Outline.circle(at=(-0.75, 0.75), radius=0.75)  # the combine's front wheel
     table = Outline(
         [(-0.632, -0.403), (0.144, 0.052), (0.626, -0.557), (0.541, -0.608), (0.197, -0.231), (-0.195, -0.257)], on=(R, O)

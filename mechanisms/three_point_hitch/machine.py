@@ -58,7 +58,7 @@ class ThreePointHitch(Mechanism):
     slope = Dimension(0 * deg, unit="deg")  # positive where the ground rises towards +x, behind the tractor
     least_front = Dimension(0.20)  # share of the tractor's weight that steering needs on the front axle
 
-    ground = Outline.line((-1.1, 0.0), (2.4, 0.0))  # what stands around is drawn only; its figures are illustrative
+    ground = Outline.line((-3.0, 0.0), (5.0, 0.0))  # what stands around is drawn only; its figures are illustrative
     wheel = Outline.circle(at=(0.0, 0.85), radius=0.85)  # the rear wheel
     axle = Outline.circle(at=(0.0, 0.85), radius=0.09)
 

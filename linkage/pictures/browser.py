@@ -182,7 +182,7 @@ def piece_data(piece: Piece, pixels: Pixels, index: Mapping[str, int]) -> dict[s
     seen = piece.hatched
     if not piece.on and len(seen):  # a line of the ground may go on far beyond the sheet
         (x0, x1), (y0, y1) = pixels.sides
-        seen = seen[((seen >= (x0, y0)) & (seen <= (x1, y1))).all(axis=2).any(axis=1)]
+        seen = seen[np.any(np.all((seen >= (x0, y0)) & (seen <= (x1, y1)), axis=2), axis=1)]
     on = {"name": piece.name, "on": [index[name] for name in piece.on], "origin": [round(pixels.x0, 1), round(pixels.y0, 1)]}
     return on | {"lines": lines, "hatches": turned(seen)}
 

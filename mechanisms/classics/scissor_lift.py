@@ -6,7 +6,7 @@ dimensions are illustrative.
 
 from __future__ import annotations
 
-from linkage import LEFT, RIGHT, Dimension, Dyad, Ground, Guide, Mechanism, OnLink, Outline, SliderDyad, Stroke, angle, y
+from linkage import LEFT, RIGHT, Dimension, Dyad, Featured, Ground, Guide, Mechanism, OnLink, Outline, SliderDyad, Stroke, angle, y
 
 
 class ScissorLift(Mechanism):
@@ -38,3 +38,7 @@ class ScissorLift(Mechanism):
 
     ground = Outline.line((-3.0, -0.12), (5.0, -0.12))  # what stands around is drawn only; its figures are illustrative
     platform = Outline([(-0.1, 0.04), (1.7, 0.04), (1.7, 0.12), (-0.1, 0.12)], on=(D, E))
+
+    def featured(self) -> Featured:
+        """Return h and the paths of A and D."""
+        return Featured("h", ["A", "D"])

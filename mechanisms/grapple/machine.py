@@ -13,6 +13,7 @@ from linkage import (
     Crank,
     DefinitionError,
     Dimension,
+    Featured,
     Force,
     Ground,
     Mechanism,
@@ -24,7 +25,8 @@ from linkage import (
     ref,
     x,
     y,
-)  # fmt: skip
+)
+from linkage.language import said
 from linkage.units import MPa, deg, mm
 
 from .report import grapple_columns, grapple_verdicts
@@ -135,6 +137,10 @@ class Grapple(Mechanism):
     def columns(self, motion: Motion) -> list[Column]:
         """Return theta, the stem's diameter, the cylinder's length, H, M_g, M_1 and their ratio; no stem beyond D_0: NaN."""
         return grapple_columns(motion)
+
+    def featured(self) -> Featured:
+        """Return the moment given over the one that the stem takes, which holds it from 1 on, and the path of the lever's end A."""
+        return Featured("M_g/M_1", ["A"], {"M_g/M_1": (1.0, said("holds the stem"), "below")})
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return what an engineer should know: moment over the stems, way past the hinge, opening, stroke, E, the cylinder's size."""

@@ -28,6 +28,7 @@ from linkage import (
     Mechanism,
     Motion,
     OnLink,
+    Outline,
     Stroke,
     Weight,
     angle,
@@ -72,6 +73,8 @@ class MowerLift(Mechanism):
 
     B = Dyad(A, O, AB=S, OB=0.175, side=RIGHT)  # cylinder and turning lever
     G = OnLink(O, B, OG=hypot(*G_FROM_O), BOG=DELFI + BELOW)  # centre of gravity; BOG is the worksheet's FIS3
+
+    ground = Outline.line((-1.5, -0.35), (3.5, -0.35))  # drawn only, illustrative
 
     FI0 = angle(A, O)
     FIS = CosineAngle(distance(A, O), distance(O, B), S)

@@ -23,6 +23,7 @@ from linkage import (
     Mechanism,
     Motion,
     OnLink,
+    Outline,
     Stroke,
     Weight,
     angle,
@@ -75,6 +76,10 @@ class ThreePointHitch(Mechanism):
     wheelbase = Dimension(2750 * mm, unit="mm")  # the front axle stands at x = -wheelbase
     slope = Dimension(0 * deg, unit="deg")  # positive where the ground rises towards +x, behind the tractor
     least_front = Dimension(0.20)  # share of the tractor's weight that steering needs on the front axle
+
+    ground = Outline.line((-3.0, 0.0), (5.0, 0.0))  # what stands around is drawn only; its figures are illustrative
+    wheel = Outline.circle(at=(0.0, 0.85), radius=0.85)  # the rear wheel
+    axle = Outline.circle(at=(0.0, 0.85), radius=0.09)
 
     admissible: ClassVar[Mapping[str, Any]] = MappingProxyType(
         {"MK": (0.80, 0.96), "CD": (0.56, 0.68), "FK": (0.61, 0.685), "M": [(0.22, 1.05), (0.22, 0.95)]}

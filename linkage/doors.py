@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from .pictures.film import Progress
     from .quantities import Quantity
     from .study import Front, Optimum
+    from .statics.acting import Case, Loads
     from .study.measures import Measure
 
 
@@ -39,6 +40,13 @@ def draw(
     ax: None = ...,
     pose: int | tuple[int, ...] = ...,
     faint: bool = ...,
+    forces: bool | str = ...,
+    loads: Loads = ...,
+    case: Case = ...,
+    direction: str = ...,
+    drive: str | None = ...,
+    velocities: Mapping[str, Any] | None = ...,
+    pole: bool | str | tuple[str, str] = ...,
 ) -> Figure: ...
 def draw(
     machine: Mechanism | Motion | Optimum,
@@ -49,6 +57,13 @@ def draw(
     ax: Axes | None = None,
     pose: int | tuple[int, ...] = 0,
     faint: bool = False,
+    forces: bool | str = False,
+    loads: Loads = None,
+    case: Case = None,
+    direction: str = "frictionless",
+    drive: str | None = None,
+    velocities: Mapping[str, Any] | None = None,
+    pole: bool | str | tuple[str, str] = False,
 ) -> Figure | Drawing:
     """Return a figure of a mechanism at chosen strokes, the last one bold and the others faint; or a motion at one of its poses.
 
@@ -61,17 +76,26 @@ def draw(
     `update(pose)` moves it. Empty axes become a sheet with equal scales that has room for the whole motion. A faint mechanism has
     no names. Raises DefinitionError for a batch of designs, an unknown name or a pose that is not there.
 
+    Over the pose, the bold one of several, are laid: with `forces=True` the pin forces and loads as arrows to one scale, with the name of
+    a body, `forces="OBC"`, that body alone with all forces on it and their polygon; `loads`, `case`, `direction`, `drive` as `pin_forces`
+    takes them. `velocities=dict(S=0.05)` gives the points' velocities at these stroke rates [1/s], which dampers get too. `pole="EDF"` is
+    the body's instant centre, `pole=("EDF", "FKG")` that of two bodies, `pole=True` that of each body no fixed pin holds. Where a pose is
+    refused the picture says why, for a motion without `unreachable="nan"` this raises SingularError.
+
     Of the result of a search, the machine before, faint, and after, bold, at both ends of its stroke, with how far each pin moved.
     """
     from .pictures import draw, draw_optimum
     from .study import Optimum
 
     if isinstance(machine, Optimum):
-        if at is not None or path or ax is not None or pose or faint:
+        if at is not None or path or ax is not None or pose or faint or forces or velocities or pole:
             title = machine.problem.plan.title
             raise DefinitionError(f"{title}: a search's result is drawn at the ends of its stroke; it takes count= alone.")
         return draw_optimum(machine, count)
-    return draw(machine, at, path, count, ax=ax, pose=pose, faint=faint)
+    return draw(
+        machine, at, path, count, ax=ax, pose=pose, faint=faint, forces=forces, loads=loads, case=case, direction=direction, drive=drive,
+        velocities=velocities, pole=pole,
+    )  # fmt: skip
 
 
 @overload

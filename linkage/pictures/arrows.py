@@ -66,7 +66,7 @@ class TurningArrow:
 @final
 @dataclass(frozen=True, eq=False)
 class ArrowLayer:
-    """Arrows to one scale, in a unit whose factor is in SI; `keys` says what each colour means."""
+    """Arrows to one scale, in a unit whose factor is in SI; `keys` says what each colour means, `sense` which way they count."""
 
     arrows: tuple[VectorArrow, ...]
     unit: str
@@ -74,16 +74,17 @@ class ArrowLayer:
     keys: tuple[tuple[str, str], ...]
     turning: tuple[TurningArrow, ...] = ()
     notes: tuple[str, ...] = ()
+    sense: str = ""
 
     @property
     def largest(self) -> float:
         """The longest vector [SI]."""
         return max((each.length for each in self.arrows), default=0.0)
 
-    def scale(self, box: Bounds) -> float:
-        """Return how long a unit of SI is on a sheet that shows a box [m/SI]; 0 where there is nothing to show."""
+    def scale(self, box: Bounds, share: float = SHARE) -> float:
+        """Return how long a unit of SI is on a sheet that shows a box [m/SI], the largest vector a share of it; 0 where there is none."""
         left, right, bottom, top = box
-        return SHARE * max(right - left, top - bottom) / self.largest if self.largest > 0.0 else 0.0
+        return share * max(right - left, top - bottom) / self.largest if self.largest > 0.0 else 0.0
 
     def value(self, size: float) -> str:
         """Return the size of a vector in words, without its unit: three digits, and 0 for rounding."""

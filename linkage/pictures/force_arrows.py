@@ -20,6 +20,8 @@ PIN, LOAD, MEMBER = "#0072b2", "#d55e00", "#007f5c"
 
 FRAME = "frame"
 
+SENSE = "A pin force is drawn as it acts on the body named; where none is named, from the frame on what it holds."
+
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -119,8 +121,8 @@ def force_layer(forces: ForcesAt) -> ArrowLayer:
         arrows.append(VectorArrow(f"load {element}", at, force, LOAD, element))
         turning.append(TurningArrow(f"moment {element}", at, moment, LOAD, element))
     members = any(arrow.colour == MEMBER for arrow in arrows)
-    keys = [(LOAD, "load"), (PIN, "pin force on the body named, the frame's on the link"), *([(MEMBER, "of a cylinder or spring")] * members)]
-    return layer_of(arrows, turning, keys)
+    keys = [(LOAD, "load"), (PIN, "pin force"), *([(MEMBER, "of a cylinder or spring")] * members)]
+    return layer_of(arrows, turning, keys, SENSE)
 
 
 def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
@@ -143,14 +145,14 @@ def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
     return layer_of(arrows, turning, [key for key in keys if key[0] in used])
 
 
-def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], keys: list[tuple[str, str]]) -> ArrowLayer:
+def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], keys: list[tuple[str, str]], sense: str = "") -> ArrowLayer:
     """Return forces and moments as a layer: in kN, or in N where the largest is less than 100 N; loads and moments of zero are left out."""
     largest = max((each.length for each in arrows), default=0.0)
     shown = tuple(each for each in arrows if each.length > NOTHING_THERE * largest or each.colour != LOAD)
     most = max((abs(each.moment) for each in turning), default=0.0)
     turns = tuple(each for each in turning if abs(each.moment) > NOTHING_THERE * most)
     unit = ("kN", kN) if largest >= 100.0 or most >= 100.0 else ("N", 1.0)
-    return ArrowLayer(shown, *unit, tuple(keys), turns)
+    return ArrowLayer(shown, *unit, tuple(keys), turns, sense=sense)
 
 
 def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatArray, float]]:

@@ -1,0 +1,69 @@
+"""The paper of a picture: a sheet with room around it, its title, what lines mean, and what is not shown."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from . import style
+from .scene import Bounds
+from .sheet import Picture, sheet
+
+WIDTH = 9.0
+LEAST, MOST = 4.2, 10.0
+LEFT, RIGHT, BOTTOM, TOP = 0.75, 0.2, 0.6, 0.7
+"""The figure's width, the range of its height, and the room around the sheet [inch]."""
+
+
+def empty_page(box: Bounds) -> tuple[Figure, Axes]:
+    """Return a figure with a sheet that fits a box [m]."""
+    left, right, bottom, top = box
+    wide = WIDTH - LEFT - RIGHT
+    high = float(np.clip(wide * (top - bottom) / (right - left), LEAST - BOTTOM - TOP, MOST - BOTTOM - TOP))
+    height = high + BOTTOM + TOP
+    figure = Picture(figsize=(WIDTH, height), dpi=style.DPI, facecolor=style.PAPER)
+    FigureCanvasAgg(figure)
+    ax = figure.add_axes((LEFT / WIDTH, BOTTOM / height, wide / WIDTH, high / height))
+    sheet(ax, box)
+    return figure, ax
+
+
+def title(figure: Figure, text: str, beside: str = "") -> None:
+    """Write the title, and at its right end what stands beside it."""
+    top = 1.0 - 0.24 / float(figure.get_figheight())
+    figure.text(LEFT / float(figure.get_figwidth()), top, text, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
+    if beside:
+        figure.text(1.0 - RIGHT / float(figure.get_figwidth()), top, beside, fontsize=style.TEXT, color=style.MUTED, va="center", ha="right")
+
+
+def remark(figure: Figure, ax: Axes, text: str) -> None:
+    """Write in a warning colour, above the sheet's right end, what the picture does not show."""
+    if text:
+        level = ax.get_position(original=True).y1 + 0.13 / float(figure.get_figheight())
+        figure.text(1.0 - RIGHT / WIDTH, level, text, fontsize=style.TEXT, color=style.ACCENT, va="center", ha="right")
+
+
+def unreached_on_the_way(swept: Motion) -> str:
+    """Return how much of a way along several strokes is not reached, in words; empty where all of it is."""
+    lost = int(np.count_nonzero(~swept.reached))
+    return f"not reached at {lost} of {swept.reached.size} poses on the way" if lost else ""
+
+
+def footnote(figure: Figure, text: str) -> None:
+    """Write in small letters, below the sheet's right end, how to read the picture."""
+    level = 0.16 / float(figure.get_figheight())
+    figure.text(1.0 - RIGHT / float(figure.get_figwidth()), level, text, fontsize=style.SMALL, color=style.MUTED, va="center", ha="right")
+
+
+def legend(ax: Axes, keys: Sequence[Any], texts: Sequence[str]) -> None:
+    """Write what lines mean in a row above the sheet."""
+    ax.legend(
+        keys, texts, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=6, frameon=False,
+        borderaxespad=0.0, borderpad=0.25, fontsize=style.TEXT, labelcolor=style.INK,
+        handlelength=1.6, columnspacing=1.8, handletextpad=0.6,
+    )  # fmt: skip

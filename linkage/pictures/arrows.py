@@ -29,8 +29,8 @@ NOTHING_THERE = 1e-9
 
 SHAFT, BARB, HEAD = 0.16, 0.62, 1.7
 """Half a shaft's width, half a head's width, and a head's length, in sizes."""
-TURN_RADIUS, TURN_ANGLES = 2.6, np.radians(np.linspace(-150.0, 90.0, 49))
-"""A curved arrow's radius in sizes, and the angles it goes through."""
+TURN_ANGLES = np.radians(np.linspace(-150.0, 70.0, 49))
+"""The angles that a curved arrow goes through."""
 
 
 @final
@@ -61,6 +61,8 @@ class TurningArrow:
     moment: float
     colour: str
     text: str = ""
+    radius: float = 2.6
+    """The curve's radius in sizes: another one where several stand about one point."""
 
 
 @final
@@ -104,8 +106,9 @@ def significant(value: float, digits: int = 3) -> str:
     """Return a number with so many digits, without an exponent from a thousandth to a hundred thousand."""
     if value == 0.0 or not 1e-3 <= abs(value) < 1e5:
         return f"{value:.{digits}g}"
-    places = max(0, digits - 1 - int(np.floor(np.log10(abs(value)))))
-    return f"{value:.{places}f}"
+    rounded = float(f"{value:.{digits}g}")
+    places = max(0, digits - 1 - int(np.floor(np.log10(abs(rounded)))))
+    return f"{rounded:.{places}f}"
 
 
 def grown(box: Bounds, points: FloatArray, margin: float) -> Bounds:
@@ -150,17 +153,17 @@ def arrow_outline(tail: FloatArray, tip: FloatArray, size: float) -> FloatArray:
 
 def draw_turning(ax: Axes, turn: TurningArrow, size: float, level: float) -> FloatArray:
     """Draw a moment as a curved arrow about its point, and return points that cover it [m]."""
-    radius = TURN_RADIUS * size
+    radius = turn.radius * size
     angles = TURN_ANGLES if turn.moment > 0.0 else np.pi - TURN_ANGLES
     circle = turn.at + radius * np.column_stack([np.cos(angles), np.sin(angles)])
-    line = Line2D(*circle[:-6].T, color=turn.colour, linewidth=2.2, solid_capstyle="butt", zorder=level)
+    line = Line2D(*circle.T, color=turn.colour, linewidth=2.2, solid_capstyle="butt", zorder=level)
     line.set_gid(turn.name)
     ax.add_line(line)
-    along = circle[-1] - circle[-7]
-    head = circle[-7] + along / np.hypot(*along) * HEAD * size
-    corners = arrow_outline(circle[-7], head, size)[[0, 1, 6]]
+    end, out = circle[-1], (circle[-1] - turn.at) / radius
+    along = np.array([-out[1], out[0]]) * np.sign(turn.moment)
+    corners = np.array([end + HEAD * size * along, end + BARB * size * out, end - BARB * size * out])
     added(ax, Polygon(corners, facecolor=turn.colour, edgecolor=turn.colour, joinstyle="round", zorder=level))
-    return np.concatenate([circle, head[None]])
+    return np.concatenate([circle, corners])
 
 
 # Values at the arrows, where they cover nothing.
@@ -191,7 +194,7 @@ def wordings(layer: ArrowLayer, scale: float, size: float) -> list[Wording]:
             found.append(Wording(layer.words(each), each.at + scale * each.vector, way, style.mixed(each.colour, style.INK, 0.4), each.name))
     for turn in layer.turning:
         text = f"{significant(abs(turn.moment) / layer.factor)} {layer.unit} m {turn.text}".strip()
-        at = turn.at + np.array([0.0, TURN_RADIUS * size])
+        at = turn.at + np.array([0.0, turn.radius * size])
         found.append(Wording(text, at, np.array([0.0, 1.0]), style.mixed(turn.colour, style.INK, 0.4), turn.name))
     return found
 
@@ -245,7 +248,7 @@ def spot_cost(spot: FloatArray, half: FloatArray, boxes: Sequence[FloatArray], p
     covered = np.count_nonzero(((points > low) & (points < high)).all(axis=1)) if points.size else 0
     x0, y0, x1, y1 = (getattr(inside, name) for name in ("x0", "y0", "x1", "y1"))
     outside = low[0] < x0 or high[0] > x1 or low[1] < y0 or high[1] > y1
-    return 40.0 * over + 1.0 * covered + 30.0 * outside
+    return 40.0 * over + 1.0 * covered + 90.0 * outside
 
 
 # The bar that says the scale, and what colours mean.
@@ -268,7 +271,7 @@ def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray, pl
     x, y = min(spots, key=crowd)
     y += place * high
     bar = ax.plot([x, x, x, x + length, x + length, x + length], [y + 0.2 * pad, y - 0.2 * pad, y, y, y - 0.2 * pad, y + 0.2 * pad],
-                  color=layer.keys[0][0] if layer.keys else style.INK, linewidth=1.6, zorder=19.0, solid_joinstyle="miter")  # fmt: skip
+                  color=layer.keys[0][0] if len(layer.keys) == 1 else style.INK, linewidth=1.6, zorder=19.0, solid_joinstyle="miter")  # fmt: skip
     bar[0].set_gid(f"scale {layer.unit}")
     text = ax.text(x + 0.5 * length, y + 0.25 * pad, f"{value:g} {layer.unit}", fontsize=style.SMALL, color=style.INK, ha="center", va="bottom",
                    zorder=20.0, path_effects=[withStroke(linewidth=2.2, foreground=style.PAPER)])  # fmt: skip

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, final
 
 import numpy as np
@@ -110,8 +110,9 @@ def force_layer(forces: ForcesAt) -> ArrowLayer:
         on, by, sign = joint.on, joint.by, 1.0
         if on == FRAME or (on in found.thrusts and by not in found.thrusts and by != FRAME):
             on, by, sign = by, on, -1.0
-        colour = MEMBER if {on, by} & found.thrusts.keys() else PIN
-        text = "" if by == FRAME else f"on {on}"
+        members = [each for each in (on, by) if each in found.thrusts]
+        colour = MEMBER if members else PIN
+        text = " ".join([*members[:1], *([] if by == FRAME else [f"on {short_name(forces, on)}"])])
         name = f"force {joint.point} {place} on {on} from {by}"
         force, couple = sign * forces.one(joint.force), sign * float(forces.one(joint.couple))
         if joint.has_force:
@@ -120,9 +121,15 @@ def force_layer(forces: ForcesAt) -> ArrowLayer:
     for element, _, at, force, moment in load_groups(forces):
         arrows.append(VectorArrow(f"load {element}", at, force, LOAD, element))
         turning.append(TurningArrow(f"moment {element}", at, moment, LOAD, element))
-    members = any(arrow.colour == MEMBER for arrow in arrows)
-    keys = [(LOAD, "load"), (PIN, "pin force"), *([(MEMBER, "of a cylinder or spring")] * members)]
+    has_members = any(arrow.colour == MEMBER for arrow in arrows)
+    keys = [(LOAD, "load"), (PIN, "pin force"), *([(MEMBER, "of a cylinder or spring")] * has_members)]
     return layer_of(arrows, turning, keys, SENSE)
+
+
+def short_name(forces: ForcesAt, body: str) -> str:
+    """Return a body's name as it is written at an arrow: one of many points goes by its first two."""
+    points = next((each.points for each in forces.found._structure.bodies if each.name == body), ())
+    return body if len(body) <= 8 or len(points) < 3 else f"{points[0]}{points[1]}\N{HORIZONTAL ELLIPSIS}"
 
 
 def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
@@ -131,11 +138,11 @@ def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
     for place, joint in enumerate(found.joints):
         if body in (joint.on, joint.by):
             other, sign = (joint.by, 1.0) if joint.on == body else (joint.on, -1.0)
-            colour = MEMBER if other in found.thrusts else PIN
+            colour, from_other = MEMBER if other in found.thrusts else PIN, f"from {short_name(forces, other)}"
             force, couple = sign * forces.one(joint.force), sign * float(forces.one(joint.couple))
             if joint.has_force:
-                arrows.append(VectorArrow(f"force {joint.point} {place} from {other}", forces.place(joint.point), force, colour, f"from {other}"))
-            turning.append(TurningArrow(f"couple {joint.point} {place}", forces.place(joint.point), couple, colour, f"from {other}"))
+                arrows.append(VectorArrow(f"force {joint.point} {place} from {other}", forces.place(joint.point), force, colour, from_other))
+            turning.append(TurningArrow(f"couple {joint.point} {place}", forces.place(joint.point), couple, colour, from_other))
     for element, bearer, at, force, moment in load_groups(forces):
         if bearer == body:
             arrows.append(VectorArrow(f"load {element}", at, force, LOAD, element))
@@ -148,11 +155,15 @@ def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
 def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], keys: list[tuple[str, str]], sense: str = "") -> ArrowLayer:
     """Return forces and moments as a layer: in kN, or in N where the largest is less than 100 N; loads and moments of zero are left out."""
     largest = max((each.length for each in arrows), default=0.0)
-    shown = tuple(each for each in arrows if each.length > NOTHING_THERE * largest or each.colour != LOAD)
+    shown = tuple(each for each in arrows if each.length > NOTHING_THERE * largest or (each.colour != LOAD and largest > 0.0))
     most = max((abs(each.moment) for each in turning), default=0.0)
-    turns = tuple(each for each in turning if abs(each.moment) > NOTHING_THERE * most)
+    turns: list[TurningArrow] = []
+    for each in turning:
+        if abs(each.moment) > NOTHING_THERE * most:
+            here = sum(1 for other in turns if np.allclose(other.at, each.at))
+            turns.append(replace(each, radius=each.radius + 1.4 * here))
     unit = ("kN", kN) if largest >= 100.0 or most >= 100.0 else ("N", 1.0)
-    return ArrowLayer(shown, *unit, tuple(keys), turns, sense=sense)
+    return ArrowLayer(shown, *unit, tuple(keys), tuple(turns), sense=sense)
 
 
 def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatArray, float]]:

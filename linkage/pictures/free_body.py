@@ -75,7 +75,7 @@ def points_on(forces: ForcesAt, body: str) -> tuple[str, ...]:
 
 def closing_words(layer: ArrowLayer, body: str) -> str:
     """Return how well the forces on a body balance, in words."""
-    if not layer.arrows:
+    if not layer.largest > 0.0:
         return ""
     total, moment = imbalance(layer)
     force, arm = float(np.hypot(*total)), max(float(np.hypot(*(each.at - layer.arrows[0].at))) for each in layer.arrows)

@@ -130,6 +130,7 @@ class Overlay:
         notes = list(self.notes)
         for mark in self.marks:
             texts += draw_pole(ax, mark, self.sheet, size)
+            covered.append(np.repeat(mark.at[None], 12 * mark.is_near(self.sheet), axis=0))
             notes += [mark.words] if mark.words else far_words(mark, self.sheet)
         everything = np.concatenate(covered)
         for place, layer in enumerate(self.layers):

@@ -56,7 +56,7 @@ def unreached_on_the_way(swept: Motion) -> str:
 
 def footnote(figure: Figure, text: str) -> None:
     """Write in small letters, below the sheet's right end, how to read the picture."""
-    level = 0.16 / float(figure.get_figheight())
+    level = 0.11 / float(figure.get_figheight())
     figure.text(1.0 - RIGHT / float(figure.get_figwidth()), level, text, fontsize=style.SMALL, color=style.MUTED, va="center", ha="right")
 
 

@@ -6,6 +6,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
+import numpy as np
+
+from .assembly import Assembly
 from .errors import DefinitionError
 from .mechanism import Mechanism
 from .motion import Column, Motion, RequestLike
@@ -21,8 +24,8 @@ if TYPE_CHECKING:
     from .pictures import Drawing
     from .pictures.film import Progress
     from .quantities import Quantity
-    from .study import Front, Optimum
     from .statics.acting import Case, Loads
+    from .study import Front, Optimum
     from .study.measures import Measure
 
 
@@ -30,6 +33,10 @@ if TYPE_CHECKING:
 def draw(machine: Motion, *, ax: Axes, pose: int | tuple[int, ...] = ..., faint: bool = ...) -> Drawing: ...
 @overload
 def draw(machine: Optimum, *, count: int = ...) -> Figure: ...
+@overload
+def draw(machine: Sequence[Assembly]) -> Figure: ...
+@overload
+def draw(machine: Sequence[Mechanism], at: Any = ..., path: Sequence[str] = ..., count: int = ...) -> Figure: ...
 @overload
 def draw(
     machine: Mechanism | Motion,
@@ -49,7 +56,7 @@ def draw(
     pole: bool | str | tuple[str, str] = ...,
 ) -> Figure: ...
 def draw(
-    machine: Mechanism | Motion | Optimum,
+    machine: Mechanism | Motion | Optimum | Sequence[Assembly] | Sequence[Mechanism],
     at: Any = None,
     path: Sequence[str] = (),
     count: int = 101,
@@ -82,13 +89,28 @@ def draw(
     the body's instant centre, `pole=("EDF", "FKG")` that of two bodies, `pole=True` that of each body no fixed pin holds. Where a pose is
     refused the picture says why, for a motion without `unreachable="nan"` this raises SingularError.
 
+    Of several designs, `draw([hitch, hitch.replaced(OB=0.32)])`, or a batch, all at the same strokes, in their middle unless `at` says
+    others; of two the first one is faint, of more each has its own colour; up to 12. Of `machine.assemblies()`, a small picture of each
+    mode with the line of code that chooses it.
+
     Of the result of a search, the machine before, faint, and after, bold, at both ends of its stroke, with how far each pin moved.
     """
-    from .pictures import draw, draw_optimum
+    from .pictures import draw, draw_designs, draw_modes, draw_optimum
     from .study import Optimum
 
+    is_laid = bool(ax is not None or pose or faint or forces or velocities is not None or pole)
+    if isinstance(machine, Sequence):
+        modes = [each for each in machine if isinstance(each, Assembly)]
+        designs = [each for each in machine if not isinstance(each, Assembly)]
+        if is_laid or bool(modes) == bool(designs):
+            raise DefinitionError(
+                "draw([...]): one or more designs, with at=, path= and count= if wanted, or machine.assemblies() are expected."
+            )
+        return draw_designs(designs, at, path, count) if designs else draw_modes(modes)
+    if isinstance(machine, Mechanism) and not is_laid and any(map(np.ndim, machine.dimensions.values())):
+        return draw_designs([machine], at, path, count)
     if isinstance(machine, Optimum):
-        if at is not None or path or ax is not None or pose or faint or forces or velocities or pole:
+        if at is not None or path or is_laid:
             title = machine.problem.plan.title
             raise DefinitionError(f"{title}: a search's result is drawn at the ends of its stroke; it takes count= alone.")
         return draw_optimum(machine, count)

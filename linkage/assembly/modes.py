@@ -15,6 +15,7 @@ from ..program import FloatArray
 from ..quantities import Member
 from ..steps import Pin, Step
 from ..vectors import Side
+from .groups import solve_groups
 from .newton import Newton, at_sketch
 from .sketch import places_at
 
@@ -156,9 +157,7 @@ def rounded_to(value: float, digits: int = 4) -> float:
 # Groups: their pins' solutions at the sketch, found from many places.
 
 
-def grouped(
-    plan: Plan, inputs: Mapping[str, Any]
-) -> Iterator[tuple[dict[str, tuple[float, float]], dict[str, Member], Mapping[str, Any]]]:
+def grouped(plan: Plan, inputs: Mapping[str, Any]) -> Iterator[tuple[dict[str, tuple[float, float]], dict[str, Member], Mapping[str, Any]]]:
     """Yield the modes of a plan's groups, the declared one first: pins' places at the sketch, the members, the pins at the inputs."""
     yield {}, with_own_groups(plan, {}), {}
     if not plan.groups:
@@ -185,8 +184,6 @@ def with_own_groups(plan: Plan, pins: Mapping[str, tuple[float, float]]) -> dict
 
 def solved_from(plan: Plan, inputs: Mapping[str, Any]) -> Mapping[str, Any] | None:
     """Return the pins of a plan's groups at some inputs; None where the way from the sketch does not reach them."""
-    from .groups import solve_groups
-
     designs = {name: inputs[name] for name in plan.defaults}
     strokes = {name: np.atleast_1d(np.asarray(inputs[name], float)) for name in plan.strokes}
     try:

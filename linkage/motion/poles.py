@@ -57,6 +57,12 @@ def body_points(plan: Plan, body: object) -> tuple[str, ...]:
     raise unknown("Body", name, dict.fromkeys(known), where=plan.title)
 
 
+def whole_body(plan: Plan, body: object) -> tuple[str, ...]:
+    """Return all points of the body that a name means."""
+    named = set(body_points(plan, body))
+    return next((each.points for each in plan.links if named and named <= set(each.points)), ())
+
+
 def body_rates(points: tuple[str, ...], place: OfPoint, rate: OfPoint, shape: tuple[int, ...]) -> BodyRates:
     """Return how a body moves, by its two points that are furthest apart; the frame, without points, stands still."""
     if not points:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
-from typing import final
+from typing import Any, final
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
 from matplotlib.patheffects import withStroke
@@ -191,7 +192,9 @@ def wordings(layer: ArrowLayer, scale: float, size: float) -> list[Wording]:
     for each in layer.arrows:
         way = each.vector / each.length if each.length > TINY * layer.largest else np.array([0.0, 1.0])
         if layer.words(each):
-            found.append(Wording(layer.words(each), each.at + scale * each.vector, way, style.mixed(each.colour, style.INK, 0.4), each.name))
+            found.append(
+                Wording(layer.words(each), each.at + scale * each.vector, way, style.mixed(each.colour, style.INK, 0.4), each.name)
+            )
     for turn in layer.turning:
         text = f"{significant(abs(turn.moment) / layer.factor)} {layer.unit} m {turn.text}".strip()
         at = turn.at + np.array([0.0, turn.radius * size])
@@ -203,7 +206,7 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray, font
     """Write texts near their places so that they cover neither each other, nor what is written already, nor `covered` points [m]."""
     figure = ax.figure.figure
     assert figure is not None
-    renderer = FigureCanvasAgg(figure).get_renderer()
+    renderer = renderer_of(figure)
     ax.apply_aspect()
     inside = ax.get_window_extent(renderer)
     taken = [text.get_window_extent(renderer) for text in ax.texts if text.get_visible() and text.get_text()]
@@ -222,10 +225,17 @@ def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray, font
         spots = [anchor + spot for spot in spots_around(half, each.way, 0.5 * extent.height)]
         costs = [spot_cost(spot, half, boxes, points, inside) + 0.04 * rank for rank, spot in enumerate(spots)]
         best = spots[int(np.argmin(costs))]
-        text.set_position(ax.transData.inverted().transform(best))
+        x, y = ax.transData.inverted().transform(best).tolist()
+        text.set_position((x, y))
         boxes.append(np.concatenate([best - half, best + half]))
         written.append(text)
     return written
+
+
+def renderer_of(figure: Figure) -> Any:
+    """Return what knows how large a text is in a figure."""
+    canvas: Any = FigureCanvasAgg(figure)
+    return canvas.get_renderer()
 
 
 def crowding(points: FloatArray, at: FloatArray) -> float:
@@ -248,7 +258,7 @@ def spot_cost(spot: FloatArray, half: FloatArray, boxes: Sequence[FloatArray], p
     covered = np.count_nonzero(((points > low) & (points < high)).all(axis=1)) if points.size else 0
     x0, y0, x1, y1 = (getattr(inside, name) for name in ("x0", "y0", "x1", "y1"))
     outside = low[0] < x0 or high[0] > x1 or low[1] < y0 or high[1] > y1
-    return 40.0 * over + 1.0 * covered + 90.0 * outside
+    return float(40.0 * over + 1.0 * covered + 90.0 * outside)
 
 
 # The bar that says the scale, and what colours mean.
@@ -265,16 +275,19 @@ def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray, pl
     spots = [(x, y) for y in (y0 + 1.2 * pad, y1 - 1.6 * pad - high) for x in (x1 - pad - length, x0 + pad)]
 
     def crowd(spot: tuple[float, float]) -> int:
-        near = (covered > np.array(spot) - pad) & (covered < np.array(spot) + (length + pad, 2.0 * high))
-        return int(np.count_nonzero(near.all(axis=1)))
+        low, high_end = np.array(spot) - pad, np.array([spot[0] + length + pad, spot[1] + 2.0 * high])
+        return int(np.count_nonzero(((covered > low) & (covered < high_end)).all(axis=1)))
 
     x, y = min(spots, key=crowd)
     y += place * high
-    bar = ax.plot([x, x, x, x + length, x + length, x + length], [y + 0.2 * pad, y - 0.2 * pad, y, y, y - 0.2 * pad, y + 0.2 * pad],
-                  color=layer.keys[0][0] if len(layer.keys) == 1 else style.INK, linewidth=1.6, zorder=19.0, solid_joinstyle="miter")  # fmt: skip
+    half, colour = 0.2 * pad, layer.keys[0][0] if len(layer.keys) == 1 else style.INK
+    across, up = [x, x, x, x + length, x + length, x + length], [y + half, y - half, y, y, y - half, y + half]
+    bar = ax.plot(across, up, color=colour, linewidth=1.6, zorder=19.0, solid_joinstyle="miter")
     bar[0].set_gid(f"scale {layer.unit}")
-    text = ax.text(x + 0.5 * length, y + 0.25 * pad, f"{value:g} {layer.unit}", fontsize=style.SMALL, color=style.INK, ha="center", va="bottom",
-                   zorder=20.0, path_effects=[withStroke(linewidth=2.2, foreground=style.PAPER)])  # fmt: skip
+    text = ax.text(
+        x + 0.5 * length, y + 0.25 * pad, f"{value:g} {layer.unit}", fontsize=style.SMALL, color=style.INK, ha="center", va="bottom",
+        zorder=20.0, path_effects=[withStroke(linewidth=2.2, foreground=style.PAPER)],
+    )  # fmt: skip
     text.set_gid(f"scale {layer.unit} value")
 
 

@@ -13,7 +13,7 @@ from ..motion import Motion
 from ..program import FloatArray
 from ..statics import PinForces, pin_forces
 from ..units import kN
-from .arrows import NOTHING_THERE, VectorArrow, ArrowLayer, TurningArrow
+from .arrows import NOTHING_THERE, ArrowLayer, TurningArrow, VectorArrow
 
 PIN, LOAD, MEMBER = "#0072b2", "#d55e00", "#007f5c"
 """The colours of pin forces, loads, and the ends of cylinders and springs: Okabe and Ito's, the last one darker."""
@@ -141,13 +141,15 @@ def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
             colour, from_other = MEMBER if other in found.thrusts else PIN, f"from {short_name(forces, other)}"
             force, couple = sign * forces.one(joint.force), sign * float(forces.one(joint.couple))
             if joint.has_force:
-                arrows.append(VectorArrow(f"force {joint.point} {place} from {other}", forces.place(joint.point), force, colour, from_other))
+                arrows.append(
+                    VectorArrow(f"force {joint.point} {place} from {other}", forces.place(joint.point), force, colour, from_other)
+                )
             turning.append(TurningArrow(f"couple {joint.point} {place}", forces.place(joint.point), couple, colour, from_other))
     for element, bearer, at, force, moment in load_groups(forces):
         if bearer == body:
             arrows.append(VectorArrow(f"load {element}", at, force, LOAD, element))
             turning.append(TurningArrow(f"moment {element}", at, moment, LOAD, element))
-    used = {each.colour for each in (*arrows, *turning)}
+    used = {each.colour for each in arrows} | {each.colour for each in turning}
     keys = [(LOAD, "load"), (PIN, "from a body or the frame"), (MEMBER, "from a cylinder or spring")]
     return layer_of(arrows, turning, [key for key in keys if key[0] in used])
 

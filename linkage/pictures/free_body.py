@@ -34,8 +34,8 @@ from .scene import Bounds, Places, Scene
 from .shapes import hull, segment
 from .sheet import Picture, fitted_to, points_a_metre, sheet
 from .strokes import stroke_words
-from .symbols import CylinderPart, MovingPart, added, polygon
 from .style import STRONG
+from .symbols import CylinderPart, MovingPart, polygon
 
 FREE_WIDTH, FREE_HEIGHT = 11.0, 6.0
 """The figure's size [inch]."""

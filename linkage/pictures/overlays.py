@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..errors import DefinitionError, SingularError, cited, unwarned
-from ..motion import Motion
+from ..motion import Motion, whole_body
 from ..program import FloatArray
 from . import style
 from .arrows import (
@@ -64,7 +64,6 @@ class Overlays:
             notes += layers[-1].notes
         marks = pole_marks(motion, pose, self.pole, self.rates) if self.pole not in (None, False) else []
         return Overlay(tuple(layers), tuple(marks), tuple(notes), box)
-
 
     def centrodes(self, ax: Axes, swept: Motion) -> None:
         """Draw the paths of the poles that are asked for over a motion."""
@@ -152,8 +151,8 @@ def sheet_note(ax: Axes, sentences: Sequence[str]) -> None:
         across = int(ax.get_position(original=True).width * figure.get_figwidth() * 72.0 / (0.5 * style.SMALL))
         lines = [line for sentence in sentences for line in textwrap.wrap(sentence, across)]
         text = ax.text(
-            0.012, 0.985, "\n".join(lines), transform=ax.transAxes, fontsize=style.SMALL, color=style.ACCENT, ha="left", va="top", zorder=21.0,
-            bbox={"facecolor": style.PAPER, "edgecolor": "none", "alpha": 0.85, "pad": 1.5},
+            0.012, 0.985, "\n".join(lines), transform=ax.transAxes, fontsize=style.SMALL, color=style.ACCENT, ha="left", va="top",
+            zorder=21.0,            bbox={"facecolor": style.PAPER, "edgecolor": "none", "alpha": 0.85, "pad": 1.5},
         )  # fmt: skip
         text.set_gid("note")
 
@@ -237,7 +236,7 @@ def asked_poles(motion: Motion, asked: Any) -> Iterator[tuple[str, str]]:
 def marks_of(at: Motion, body: str, other: str, rates: Mapping[str, Any] | None) -> Iterator[PoleMark]:
     """Yield the pole of a body against the frame; of two bodies their pole and each one's own, which stand in one line."""
     if other == "frame":
-        yield mark_of(at, body, other, rates, tuple(at[name] for name in points_of(at, body)))
+        yield mark_of(at, body, other, rates, tuple(at[name] for name in whole_body(at.plan, body)))
         return
     own = [mark_of(at, each, "frame", rates, ()) for each in (body, other) if each != "frame"]
     ends = tuple(mark.at for mark in own if np.isfinite(mark.at).all())
@@ -260,15 +259,6 @@ def mark_of(at: Motion, body: str, other: str, rates: Mapping[str, Any] | None, 
     return PoleMark(name, place, ends)
 
 
-def points_of(motion: Motion, body: str) -> tuple[str, ...]:
-    """Return the points of the body that a name means."""
-    named = set(body.split())
-    for each in motion.plan.links:
-        if body == each.name or (len(named) > 1 and named <= set(each.points)):
-            return each.points
-    return tuple(motion.plan.members[body].points) if body in motion.plan.members else ()
-
-
 def draw_pole(ax: Axes, mark: PoleMark, sheet: Bounds, size: float) -> list[Wording]:
     """Draw a pole, with thin lines to its body's points, and return the name to write beside it."""
     if mark.words:
@@ -278,7 +268,9 @@ def draw_pole(ax: Axes, mark: PoleMark, sheet: Bounds, size: float) -> list[Word
         line[0].set_gid(f"{mark.name} ray")
     if not mark.is_near(sheet):
         return []
-    point = ax.plot(*mark.at[:, None], marker="o", markersize=8.5, markerfacecolor=style.PAPER, markeredgecolor=POLE, markeredgewidth=1.6, zorder=17.0)
+    point = ax.plot(
+        *mark.at[:, None], marker="o", markersize=8.5, markerfacecolor=style.PAPER, markeredgecolor=POLE, markeredgewidth=1.6, zorder=17.0
+    )
     point[0].set_gid(mark.name)
     ax.plot(*mark.at[:, None], marker="+", markersize=12.0, markeredgecolor=POLE, markeredgewidth=1.2, zorder=17.1)
     return [Wording(mark.name, mark.at, np.array([0.7, 0.7]), POLE, mark.name)]

@@ -149,14 +149,14 @@ def joint_motions(
 ) -> tuple[tuple[str, ...], Motion, Motion]:
     """Return what `motions` does where several strokes move together, from each of their values on to the next."""
     chosen = {name: chosen_values(machine, name, value).ravel() for name, value in given.items()}
-    values = stroke_middles(machine) | chosen
+    values: dict[str, Any] = stroke_middles(machine) | chosen
     shown = machine.at(unreachable="nan", **values)
     if not shown.reached.any():
         machine.at(**values)
     knots = np.arange(chosen[moving[0]].size)
     share = np.union1d(np.linspace(0.0, knots[-1], count), knots)
     along = {name: np.interp(share, knots, chosen[name]) for name in moving}
-    still = {name: float(np.ravel(value)[0]) for name, value in values.items() if name not in moving}
+    still: dict[str, Any] = {name: float(np.ravel(value)[0]) for name, value in values.items() if name not in moving}
     return moving, shown, machine.at(unreachable="nan", **still, **along)
 
 
@@ -191,6 +191,12 @@ def draw_poses(ax: Axes, shown: Motion, swept: Motion, keep_clear: Sequence[Floa
     bold.update(last)
 
 
+def unreached_on_the_way(swept: Motion) -> str:
+    """Return how much of a way along several strokes is not reached, in words; empty where all of it is."""
+    lost = int(np.count_nonzero(~swept.reached))
+    return f"not reached at {lost} of {swept.reached.size} poses on the way" if lost else ""
+
+
 def heading(figure: Figure, ax: Axes, shown: Motion, moving: Sequence[str]) -> None:
     """Write the title, and which pose is which."""
     scene = Scene(shown)
@@ -211,15 +217,15 @@ CLOSED = 1e-6
 """A path whose ends are so near to each other, compared with its length, is closed."""
 
 
-def trace(ax: Axes, path: FloatArray, label: str = "") -> None:
+def trace(ax: Axes, path: FloatArray, label: str = "", colour: str = style.ACCENT) -> None:
     """Draw the path of a point, shape (2, n) [m], from its first pose to its last; gaps where it is not reached."""
-    ax.plot(*path, color=style.ACCENT, linewidth=1.6, linestyle=(0, (0.1, 1.9)), dash_capstyle="round", zorder=7.0, label=label or None)
+    ax.plot(*path, color=colour, linewidth=1.6, linestyle=(0, (0.1, 1.9)), dash_capstyle="round", zorder=7.0, label=label or None)
     arrow = on_its_way(path)
     if arrow is not None:
         tail, head = arrow
         ax.annotate(
             "", tuple(head), xytext=tuple(tail), zorder=7.2,
-            arrowprops={"arrowstyle": "-|>", "color": style.ACCENT, "linewidth": 0, "mutation_scale": 16, "shrinkA": 0, "shrinkB": 0},
+            arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 0, "mutation_scale": 16, "shrinkA": 0, "shrinkB": 0},
         )  # fmt: skip
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Iterator
 from inspect import cleandoc
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, final
 
 from ..errors import DefinitionError, cited
@@ -12,7 +13,7 @@ from ..mechanism import Mechanism
 from ..plan import printed, strokes_text
 from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
-from .command import Command, lined_up, machine_arguments
+from .command import Command, lined_up, machine_arguments, picture, picture_argument
 from .machines import find
 from .settings import design, motion_at, stroke_values
 
@@ -43,13 +44,14 @@ class ShowCommand(Command):
         group.add_argument("--latex", action="store_true", help="as LaTeX, and nothing else")
         modes = parser.add_argument_group("assembly modes")
         modes.add_argument("--modes", action="store_true", help="all assembly modes with the lines that choose them, and nothing else")
-        modes.add_argument("-o", "--output", metavar="FILE", help="draw the modes into this picture, .png, .svg or .pdf")
+        picture_argument(modes, "the modes, drawn; with --modes")
 
     def run(self, options: Namespace) -> int:
         check_asked(options)
         machine = design(find(options.machine), options.settings)
         if options.modes:
-            return show_modes(machine, dict(value_at(machine, text) for text in options.strokes), options.output)
+            path = None if options.output is None else picture(options.output, type(machine), options.machine)
+            return show_modes(machine, dict(value_at(machine, text) for text in options.strokes), path)
         if options.latex:
             print(listed(machine, options).latex())
             return 0
@@ -77,7 +79,7 @@ def check_asked(options: Namespace) -> None:
         raise DefinitionError("--latex prints symbols, not numbers; leave out --numbers and --at, or --latex.")
 
 
-def show_modes(machine: Mechanism, at: dict[str, float], output: str | None) -> int:
+def show_modes(machine: Mechanism, at: dict[str, float], path: Path | None) -> int:
     """Print the assembly modes with the code that chooses each, draw them where a file is named, and return the exit code."""
     modes = machine.assemblies(**at)
     if not modes:
@@ -85,13 +87,13 @@ def show_modes(machine: Mechanism, at: dict[str, float], output: str | None) -> 
         said = strokes_text(machine.plan, strokes)
         raise DefinitionError(f"{machine.plan.title} cannot be assembled in any mode at {said}; say --at with another stroke.")
     for number, mode in enumerate(modes, 1):
-        head = f"{number}. {mode}".rstrip(". ") if str(mode) else f"{number}."
-        print_section(f"{head}{', as declared' if mode.is_declared else ''}", mode.code.splitlines() or ["(no line changes)"])
-    if output is not None:
+        said = ", ".join([*([str(mode)] * bool(str(mode))), *(["as declared"] * mode.is_declared)])
+        print_section(f"{number}. {said}", mode.code.splitlines() or ["(no line changes)"])
+    if path is not None:
         from ..doors import draw
 
-        draw(modes).savefig(output)
-        print(f"{output}: {len(modes)} assembly mode{'s' if len(modes) != 1 else ''}.")
+        draw(modes).savefig(path)
+        print(f"{path}: {len(modes)} assembly mode{'s' if len(modes) != 1 else ''}.")
     return 0
 
 

@@ -20,7 +20,7 @@ from .conditions import Judged
 from .course import Interruption
 from .grid import Grid, JoinedTo, Joining, angles_of, joined_in_order, not_joined, to_rounding
 from .limits import Limits, assembly_error, no_joint, span_text, stroke_unit, where_words
-from .poles import body_points, body_rates, pole_of
+from .poles import body_points, body_rates, pole_of, whole_body
 from .requests import (
     BoundRequest,
     Places,
@@ -270,7 +270,7 @@ class Motion:
         if rates is not None and wrt is not None:
             raise DefinitionError(f"{self.plan.title}: pole(wrt=..., rates=...): rates say already which strokes move; leave out wrt=.")
         of_body, of_other = body_points(self.plan, body), body_points(self.plan, other)
-        if set(of_body) == set(of_other):
+        if whole_body(self.plan, body) == whole_body(self.plan, other):
             raise DefinitionError(f"{self.plan.title}: pole({cited(body)}, {cited(other)}): these are one body; name two.")
         moving = {name: self.velocity(name, given) for name in self.plan.points}
         speeds = [np.hypot(rate[0], rate[1]) for rate in moving.values()]

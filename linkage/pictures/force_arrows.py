@@ -8,7 +8,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, SingularError, cited, unknown, unwarned
+from ..errors import AssemblyError, DefinitionError, SingularError, cited, unknown, unwarned
 from ..motion import Motion
 from ..program import FloatArray
 from ..statics import PinForces, pin_forces
@@ -94,7 +94,7 @@ def refusal(motion: Motion, pose: int, question: ForceQuestion) -> str:
     strokes = {name: np.array(values.ravel()[pose]) for name, values in motion.strokes.items()}
     try:
         question.asked(Motion(motion.plan, motion.designs, strokes))
-    except SingularError as error:
+    except AssemblyError as error:
         return str(error)
     return ""
 
@@ -118,9 +118,9 @@ def force_layer(forces: ForcesAt) -> ArrowLayer:
         if joint.has_force:
             arrows.append(VectorArrow(name, forces.place(joint.point), force, colour, text))
         turning.append(TurningArrow(f"couple {joint.point} {place} on {on} from {by}", forces.place(joint.point), couple, colour, text))
-    for element, _, at, force, moment in load_groups(forces):
-        arrows.append(VectorArrow(f"load {element}", at, force, LOAD, element))
-        turning.append(TurningArrow(f"moment {element}", at, moment, LOAD, element))
+    for element, bearer, at, force, moment in load_groups(forces):
+        arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, LOAD, element))
+        turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, LOAD, element))
     has_members = any(arrow.colour == MEMBER for arrow in arrows)
     keys = [(LOAD, "load"), (PIN, "pin force"), *([(MEMBER, "of a cylinder or spring")] * has_members)]
     return layer_of(arrows, turning, keys, SENSE)
@@ -147,8 +147,8 @@ def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
             turning.append(TurningArrow(f"couple {joint.point} {place}", forces.place(joint.point), couple, colour, from_other))
     for element, bearer, at, force, moment in load_groups(forces):
         if bearer == body:
-            arrows.append(VectorArrow(f"load {element}", at, force, LOAD, element))
-            turning.append(TurningArrow(f"moment {element}", at, moment, LOAD, element))
+            arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, LOAD, element))
+            turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, LOAD, element))
     used = {each.colour for each in arrows} | {each.colour for each in turning}
     keys = [(LOAD, "load"), (PIN, "from a body or the frame"), (MEMBER, "from a cylinder or spring")]
     return layer_of(arrows, turning, [key for key in keys if key[0] in used])
@@ -175,7 +175,7 @@ def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatA
     """
     groups: dict[tuple[str, str], list[tuple[FloatArray, FloatArray]]] = {}
     for body, acting in forces.found._loads:
-        groups.setdefault((acting.element, body), []).append((forces.place(acting.load.point), forces.one(acting.force)))
+        groups.setdefault((acting.element.partition("(")[0], body), []).append((forces.place(acting.load.point), forces.one(acting.force)))
     for (element, body), parts in groups.items():
         places, each_of = np.array([place for place, _ in parts]), np.array([force for _, force in parts])
         force, middle = each_of.sum(axis=0), places.mean(axis=0)

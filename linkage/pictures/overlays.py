@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..errors import DefinitionError, SingularError, cited, unwarned
-from ..motion import Motion, whole_body
+from ..motion import Motion, rates_of, whole_body
 from ..program import FloatArray
 from . import style
 from .arrows import (
@@ -26,7 +26,7 @@ from .arrows import (
     significant,
     wordings,
 )
-from .force_arrows import ForceQuestion, force_layer, forces_at_pose
+from .force_arrows import ForceQuestion, force_layer, forces_at_pose, refusal
 from .paper import footnote
 from .scene import Bounds
 
@@ -52,6 +52,10 @@ class Overlays:
     def over(self, motion: Motion, pose: int, box: Bounds) -> Overlay:
         """Return what is laid over a motion's pose, a flat index, on a sheet that shows a box [m]."""
         layers, notes = [], []
+        if self.rates is not None:
+            rates_of("velocities", self.rates, motion.strokes, motion.shape, motion.plan.title)
+        if not motion.reached.ravel()[pose]:
+            return Overlay((), (), (refusal(motion, pose, ForceQuestion()),), box)
         if self.forces is not None:
             forces = forces_at_pose(motion, pose, self.forces)
             if forces.refusal:

@@ -12,13 +12,15 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..errors import DefinitionError, cited, unknown
+from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of
 from ..program import FloatArray
 from ..quantities import Quantity, is_number
+from ..reports import NOTHING, At, results, run_of
 from ..units import factor
 from . import style
 from .sheet import panels, quiet
-from .strokes import StrokeAxis
+from .strokes import StrokeAxis, column_shown, frame_count
 
 PANEL = (4.6, 3.0)
 """The size of a panel with its share of the margins [inch]."""
@@ -44,6 +46,24 @@ def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Map
     return figure
 
 
+def plot_machine(
+    machine: Mechanism,
+    columns: Sequence[Column | RequestLike] = (),
+    limits: Mapping[str, Sequence[Any]] | None = None,
+    at: At = NOTHING,
+    count: int = 101,
+) -> Figure:
+    """Return a figure of a machine's results over the run that `at` says, those it is about unless others are named."""
+    featured = machine.featured()
+    motion = machine.at(unreachable="nan", **run_of(machine, at).over(np.linspace(0.0, 1.0, frame_count(count))))
+    own = {column.name: column for column in results(machine, motion)}
+    shown = columns or [name for name in dict.fromkeys([column_shown(machine, motion, None).name, *featured.limits]) if name in own]
+    if isinstance(shown, (list, tuple)):
+        shown = [own.get(each, each) if isinstance(each, str) else each for each in shown]
+    names = [each.name if isinstance(each, Column) else str(each) for each in shown]
+    return plot(motion, shown, limits={name: limit for name, limit in featured.limits.items() if name in names} | dict(limits or {}))
+
+
 def columns_named(motion: Motion, columns: Sequence[Column | RequestLike]) -> list[Column]:
     """Return columns, those that go by their names from the motion's own table, and what is asked; DefinitionError for an unknown name."""
     if not isinstance(columns, (list, tuple)) or not all(isinstance(each, (str, Column, Quantity, Request)) for each in columns):
@@ -65,6 +85,7 @@ def panel_grid(count: int) -> tuple[Figure, list[Axes]]:
 
 # Limit lines: a value that a result may not pass, and on which side it fails.
 
+
 class Limit(NamedTuple):
     """A value [SI] that a column may not pass, its words, and the side that fails: "above" or "below"."""
 
@@ -74,7 +95,7 @@ class Limit(NamedTuple):
 
     def drawn(self, column: Column) -> float:
         """Return the value in the unit of a column."""
-        return self.value / factor(column.unit)
+        return self.value / factor(column.shown_unit)
 
     def failing(self, values: FloatArray) -> FloatArray:
         """Return the mask of the values [SI] that fail."""
@@ -101,6 +122,7 @@ def limit_crossings(along: FloatArray, values: FloatArray, at: float) -> list[fl
 
 
 # One curve over a stroke: its line, its limit with the failing side shaded, its axes.
+
 
 def panel(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None = None, colour: str = style.CURVE) -> None:
     """Draw a column over the stroke that a motion runs along, with its limit `(value [SI], text, fails)`."""

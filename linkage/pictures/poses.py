@@ -132,7 +132,7 @@ def motions(machine: Mechanism, at: Any, count: int) -> tuple[tuple[str, ...], M
         return joint_motions(machine, given, several, count)
     moving = max(given, key=lambda name: np.size(given[name])) if given else first_stroke(machine)
     start, end = machine.strokes[moving].start, machine.strokes[moving].end
-    usual = (0.5 * (start + end), start) if is_turn(machine, Run(moving, start, end, {})) else (start, end)
+    usual = (0.5 * (start + end), start) if is_turn(machine, Run({moving: (start, end)}, {})) else (start, end)
     given_values = {name: np.atleast_1d(chosen_values(machine, name, usual if value is None else value)) for name, value in given.items()}
     at_values: dict[str, Any] = stroke_middles(machine) | given_values
     shown = machine.at(unreachable="nan", **at_values)

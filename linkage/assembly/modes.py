@@ -68,7 +68,7 @@ def assemblies(plan: Plan, inputs: Mapping[str, Any], declared: Mapping[str, Mem
     if len(dyads) > MOST:
         raise DefinitionError(f"{plan.title} has {len(dyads)} dyads: assembly modes are listed for up to {MOST}.")
     found = []
-    for pins, members, solved in grouped(plan, inputs):
+    for pins, members, solved in group_modes(plan, inputs):
         for sides, places in _modes(plan, {**inputs, **solved}, dict(members), list(dyads)):
             changed = {name for name in dyads if sides[name] is not dyads[name].side} | set(pins)
             chosen = members | {name: sided_as(dyads[name], sides[name]) for name in dyads}
@@ -157,7 +157,7 @@ def rounded_to(value: float, digits: int = 4) -> float:
 # Groups: their pins' solutions at the sketch, found from many places.
 
 
-def grouped(plan: Plan, inputs: Mapping[str, Any]) -> Iterator[tuple[dict[str, tuple[float, float]], dict[str, Member], Mapping[str, Any]]]:
+def group_modes(plan: Plan, inputs: Mapping[str, Any]) -> Iterator[tuple[dict[str, tuple[float, float]], dict[str, Member], Mapping[str, Any]]]:
     """Yield the modes of a plan's groups, the declared one first: pins' places at the sketch, the members, the pins at the inputs."""
     yield {}, with_own_groups(plan, {}), {}
     if not plan.groups:

@@ -90,9 +90,9 @@ def show_modes(machine: Mechanism, at: dict[str, float], path: Path | None) -> i
         said = ", ".join([*([str(mode)] * bool(str(mode))), *(["as declared"] * mode.is_declared)])
         print_section(f"{number}. {said}", mode.code.splitlines() or ["(no line changes)"])
     if path is not None:
-        from ..doors import draw
+        from ..pictures import draw_modes
 
-        draw(modes).savefig(path)
+        draw_modes(modes).savefig(path)
         print(f"{path}: {len(modes)} assembly mode{'s' if len(modes) != 1 else ''}.")
     return 0
 
@@ -156,6 +156,7 @@ def print_section(title: str, lines: Iterable[str]) -> None:
 
 
 # `hydrolinkage save NAME FILE`: a machine as a mechanism file, and what such a file does not hold.
+
 
 @final
 class SaveCommand(Command):

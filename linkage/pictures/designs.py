@@ -22,7 +22,7 @@ from . import style
 from .drawing import Drawing
 from .free_space import cloud
 from .overlays import sheet_note
-from .paper import empty_page, legend, title
+from .paper import empty_page, legend_row, title
 from .poses import motions, named_points, trace
 from .scene import Scene
 from .strokes import stroke_words
@@ -53,7 +53,7 @@ def draw_designs(machines: Sequence[Mechanism], at: Any, path: Sequence[str], co
     scenes = [Scene(motion, over) for motion, over in zip(shown, swept, strict=True)]
     boxes = np.array([(Scene(over) if path else scene).box() for over, scene in zip(swept, scenes, strict=True)])
     low, high = boxes.min(axis=0), boxes.max(axis=0)
-    texts = differences(designs)
+    texts = what_differs(designs)
     columns = max(1, min(len(texts), int(TEXT_WIDTH / (0.56 + LETTER * max(map(len, texts))))))
     figure, ax = empty_page((float(low[0]), float(high[1]), float(low[2]), float(high[3])), -(-len(texts) // columns))
     looks, covered = looks_of(len(designs)), [np.empty((0, 2))]
@@ -72,7 +72,7 @@ def draw_designs(machines: Sequence[Mechanism], at: Any, path: Sequence[str], co
                 drawing.ground()
             covered.append(cloud(scene, scene.at(pose))[::2])
     keys = [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in looks]
-    legend(ax, keys, texts, columns)
+    legend_row(ax, keys, texts, columns)
     title(figure, first.plan.heading, at_words(shown[0]))
     lost = [text for text, scene in zip(texts, scenes, strict=True) if not scene.reached]
     sheet_note(ax, [f"Cannot be assembled here: {'; '.join(lost)}."] if lost else [])
@@ -128,7 +128,7 @@ def looks_of(count: int) -> list[Look]:
     return [Look(level=3.0 + 10.0 * i / count, tint=tint) for i, tint in enumerate(tints)]
 
 
-def differences(designs: Sequence[Mechanism]) -> list[str]:
+def what_differs(designs: Sequence[Mechanism]) -> list[str]:
     """Return for each design what makes it another than the others: its class where these differ, and the dimensions that do."""
     titles = [machine.plan.title for machine in designs]
     common = [name for name in designs[0].dimensions if all(name in machine.dimensions for machine in designs)]

@@ -188,7 +188,7 @@ def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatA
             yield element, body, middle + moment * np.array([-force[1], force[0]]) / -square, force, 0.0
 
 
-def body_of(found: PinForces, name: str) -> str:
+def drawn_body(found: PinForces, name: str) -> str:
     """Return the full name of a body whose forces are drawn; DefinitionError, with the bodies there are, for any other."""
     body = found.body_named(name)
     if body not in found.on_bodies:

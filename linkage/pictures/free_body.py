@@ -26,10 +26,10 @@ from .arrows import (
     wordings,
 )
 from .drawing import BodyPart, StraightPart, pin
-from .force_arrows import FRAME, ForceQuestion, ForcesAt, body_layer, body_of, forces_at_pose, imbalance
+from .force_arrows import FRAME, ForceQuestion, ForcesAt, body_layer, drawn_body, forces_at_pose, imbalance
 from .labels import LabelPart, offsets
 from .overlays import sheet_note
-from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend, title
+from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, title
 from .scene import Bounds, Places, Scene
 from .shapes import hull, segment
 from .sheet import Picture, fitted_to, points_a_metre, sheet
@@ -49,7 +49,7 @@ def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure
     """Return a figure of one body alone at a pose, a flat index, with all forces on it, and beside it their polygon."""
     scene = Scene(motion)
     forces = forces_at_pose(motion, pose, question)
-    body = body_of(forces.found, question.body)
+    body = drawn_body(forces.found, question.body)
     layer = body_layer(forces, body) if not forces.refusal else ArrowLayer((), "kN", 1e3, ())
     at = scene.at(pose)
     free = FreeBodyPicture(body, points_on(forces, body), scene, at, layer)
@@ -59,7 +59,7 @@ def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure
     sheet_note(ax, [f"No forces here: {forces.refusal}"] if forces.refusal else forces.found.remarks)
     where = [stroke_words(motion.plan, name, float(values.ravel()[pose])) for name, values in motion.strokes.items()]
     title(figure, f"{motion.plan.heading}: forces on {body}", ", ".join(where))
-    legend(ax, *ax.get_legend_handles_labels())
+    legend_row(ax, *ax.get_legend_handles_labels())
     footnote(figure, closing_words(layer, body))
     return figure
 

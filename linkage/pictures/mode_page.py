@@ -33,7 +33,7 @@ CODE = 6.6
 def draw_modes(modes: Sequence[Assembly]) -> Figure:
     """Return a figure of the assembly modes that `machine.assemblies()` lists, the declared one marked, each with its code."""
     shown = list(modes)[:MOST_MODES]
-    motions = [motion_of(mode) for mode in shown]
+    motions = [mode_motion(mode) for mode in shown]
     scenes = [Scene(motion) for motion in motions]
     extent = extent_of(scenes)
     across = min(ACROSS, len(shown))
@@ -64,7 +64,7 @@ def draw_modes(modes: Sequence[Assembly]) -> Figure:
     return figure
 
 
-def motion_of(mode: Assembly) -> Motion:
+def mode_motion(mode: Assembly) -> Motion:
     """Return a mode's motion at its pose; NaN at a change point."""
     if mode.plan is None:
         raise DefinitionError("An assembly mode is drawn with its mechanism; take it from machine.assemblies().")

@@ -33,6 +33,9 @@ from .scene import Bounds
 VELOCITY, POLE = "#9a3a86", "#8a5a00"
 """The colours of velocities and of poles."""
 
+NOTE_WIDTH, NOTE_LINE = 130, 0.02
+"""About how many letters of a note stand in a line, and a line's height over the sheet's width."""
+
 BEYOND = 0.6
 """A pole further outside what is drawn than this part of it is told in words."""
 
@@ -62,7 +65,7 @@ class Overlays:
                 notes.append(f"No forces here: {forces.refusal}")
             else:
                 layers.append(force_layer(forces))
-                notes += forces.found.remarks
+                notes += [remark.replace("rates=dict(", "velocities=dict(") for remark in forces.found.remarks]
         if self.rates is not None:
             layers.append(velocity_layer(motion, pose, self.rates))
             notes += layers[-1].notes
@@ -113,7 +116,14 @@ class Overlay:
         for layer in self.layers:
             box = grown(box, layer.tips(layer.scale(self.sheet)), 3.0 * size)
         near = [mark.at for mark in self.marks if mark.is_near(self.sheet)]
-        return grown(box, np.array(near).reshape(-1, 2), 3.0 * size)
+        left, right, bottom, top = grown(box, np.array(near).reshape(-1, 2), 3.0 * size)
+        lines = sum(len(textwrap.wrap(sentence, NOTE_WIDTH)) for sentence in self.sentences)
+        return left, right, bottom, top + lines * NOTE_LINE * (right - left)
+
+    @property
+    def sentences(self) -> list[str]:
+        """What the picture says in words: what is not known here, and of poles that it does not show where they are."""
+        return [*self.notes, *(words for mark in self.marks for words in ([mark.words] if mark.words else far_words(mark, self.sheet)))]
 
     def covered(self) -> FloatArray:
         """Return points along the arrows, where no name should stand, shape (n, 2) [m]."""
@@ -130,15 +140,13 @@ class Overlay:
             scale = layer.scale(self.sheet)
             covered.append(np.repeat(draw_arrows(ax, layer, scale, size), 2, axis=0))
             texts += wordings(layer, scale, size)
-        notes = list(self.notes)
         for mark in self.marks:
             texts += draw_pole(ax, mark, self.sheet, size)
             covered.append(np.repeat(mark.at[None], 12 * mark.is_near(self.sheet), axis=0))
-            notes += [mark.words] if mark.words else far_words(mark, self.sheet)
         everything = np.concatenate(covered)
         for place, layer in enumerate(self.layers):
             scale_bar(ax, layer, layer.scale(self.sheet), everything, place)
-        sheet_note(ax, notes)
+        sheet_note(ax, self.sentences)
         figure = ax.figure.figure
         if figure is not None:
             footnote(figure, " ".join(layer.sense for layer in self.layers if layer.sense))
@@ -219,7 +227,7 @@ def pole_marks(motion: Motion, pose: int, asked: Any, rates: Mapping[str, Any] |
     if rates is not None and any(np.ndim(rate) for rate in rates.values()):
         rates = {name: float(np.broadcast_to(rate, motion.shape).ravel()[pose]) for name, rate in rates.items()}
     pairs = list(asked_poles(motion, asked))
-    return [mark for body, other in pairs for mark in marks_of(at, body, other, rates)]
+    return [mark for body, other in pairs for mark in poles_of_pair(at, body, other, rates)]
 
 
 def asked_poles(motion: Motion, asked: Any) -> Iterator[tuple[str, str]]:
@@ -237,7 +245,7 @@ def asked_poles(motion: Motion, asked: Any) -> Iterator[tuple[str, str]]:
         raise DefinitionError(f'{title}: pole={cited(asked)}: a body, pole="EDF", two of them, pole=("EDF", "FKG"), or True is expected.')
 
 
-def marks_of(at: Motion, body: str, other: str, rates: Mapping[str, Any] | None) -> Iterator[PoleMark]:
+def poles_of_pair(at: Motion, body: str, other: str, rates: Mapping[str, Any] | None) -> Iterator[PoleMark]:
     """Yield the pole of a body against the frame; of two bodies their pole and each one's own, which stand in one line."""
     if other == "frame":
         yield mark_of(at, body, other, rates, tuple(at[name] for name in whole_body(at.plan, body)))

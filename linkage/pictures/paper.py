@@ -59,7 +59,7 @@ def footnote(figure: Figure, text: str) -> None:
     figure.text(1.0 - RIGHT / float(figure.get_figwidth()), level, text, fontsize=style.SMALL, color=style.MUTED, va="center", ha="right")
 
 
-def legend(ax: Axes, keys: Sequence[Any], texts: Sequence[str], columns: int = 6) -> None:
+def legend_row(ax: Axes, keys: Sequence[Any], texts: Sequence[str], columns: int = 6) -> None:
     """Write what lines mean in a row above the sheet; what does not fit into so many columns stands in further rows."""
     ax.legend(
         keys, texts, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, frameon=False,

@@ -22,7 +22,7 @@ from .force_arrows import force_question
 from .free_body import draw_free_body
 from .free_space import cloud
 from .overlays import NO_OVERLAYS, Overlays
-from .paper import empty_page, legend, remark, title
+from .paper import empty_page, legend_row, remark, title
 from .scene import Scene
 from .strokes import is_turn, stroke_words, unreached_words
 from .style import FAINT, STRONG
@@ -118,7 +118,7 @@ def draw_laid_over(motion: Motion, swept: Motion, pose: int, overlays: Overlays)
     drawing.update(pose)
     overlays.centrodes(ax, swept)
     laid.draw(ax, scene.size, cloud(scene, scene.at(pose)))
-    legend(ax, *ax.get_legend_handles_labels())
+    legend_row(ax, *ax.get_legend_handles_labels())
     return figure
 
 
@@ -208,7 +208,7 @@ def heading(figure: Figure, ax: Axes, shown: Motion, moving: Sequence[str]) -> N
         ", ".join(stroke_words(shown.plan, name, float(shown.strokes[name].ravel()[pose])) for name in moving) for pose in scene.reached
     ]
     lines, names = ax.get_legend_handles_labels()
-    legend(ax, [*keys, *lines], [*texts, *names])
+    legend_row(ax, [*keys, *lines], [*texts, *names])
 
 
 # Paths of points: a dotted curve, an arrow for the direction.

@@ -18,6 +18,7 @@ from linkage import (
     DefinitionError,
     Dimension,
     Dyad,
+    Featured,
     Ground,
     Mechanism,
     Motion,
@@ -28,8 +29,9 @@ from linkage import (
     ratio,
     y,
 )
+from linkage.language import said
 from linkage.loads.element import Formulas
-from linkage.units import MPa, deg, kg, litre, minute, mm
+from linkage.units import MPa, deg, g0, kg, litre, minute, mm
 
 from .capacity import Lifted, capacity, write_capacity
 from .report import verdicts
@@ -99,6 +101,12 @@ class ThreePointHitch(Mechanism):
         """Write, after what its elements say, F_cyl = p_max area (29) and the lifting capacity G_g = F_cyl eta / I_G (28)."""
         super().formulas(written)
         write_capacity(written)
+
+    def featured(self) -> Featured:
+        """Return the lifting capacity with the implement's weight, which it may not fall below, and the path of G."""
+        weight = float(self["load.mass"]) * g0
+        limits = {"capacity": (weight, said("weight of the implement"), "below")} if weight > 0.0 else {}
+        return Featured("capacity", ["G"], limits)
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return what an engineer should know: capacity and its weakest point, pressure, oil, upper link, mast, front axle."""

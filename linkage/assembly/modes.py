@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field
-from typing import Any, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
@@ -157,7 +157,10 @@ def rounded_to(value: float, digits: int = 4) -> float:
 # Groups: their pins' solutions at the sketch, found from many places.
 
 
-def group_modes(plan: Plan, inputs: Mapping[str, Any]) -> Iterator[tuple[dict[str, tuple[float, float]], dict[str, Member], Mapping[str, Any]]]:
+GroupMode: TypeAlias = tuple[dict[str, tuple[float, float]], dict[str, Member], Mapping[str, Any]]
+
+
+def group_modes(plan: Plan, inputs: Mapping[str, Any]) -> Iterator[GroupMode]:
     """Yield the modes of a plan's groups, the declared one first: pins' places at the sketch, the members, the pins at the inputs."""
     yield {}, with_own_groups(plan, {}), {}
     if not plan.groups:

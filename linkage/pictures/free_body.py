@@ -30,8 +30,8 @@ from .force_arrows import FRAME, ForceQuestion, ForcesAt, body_layer, drawn_body
 from .labels import LabelPart, offsets
 from .overlays import sheet_note
 from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, title
-from .scene import Bounds, Places, Scene
-from .shapes import hull, segment
+from .scene import Bounds, Places, Plate, Scene
+from .shapes import plate_form, segment
 from .sheet import Picture, fitted_to, points_a_metre, sheet
 from .strokes import stroke_words
 from .style import STRONG
@@ -149,8 +149,9 @@ class FreeBodyPicture:
             block = polygon(ax, STRONG.level, facecolor=style.RULE, edgecolor=style.INK, linewidth=style.OUTLINE)
             block.set_xy([(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)])
         elif self.body != FRAME:
-            places = np.array([self.at[name] for name in self.points])
-            parts.append(BodyPart(ax, tuple(self.points[i] for i in hull(places)), self.size, style.BODIES[0], STRONG))
+            joints = [name in self.scene.pins for name in self.points]
+            form = plate_form(np.array([self.at[name] for name in self.points]), self.size, joints)
+            parts.append(BodyPart(ax, Plate(self.points, form), self.size, style.BODIES[0], STRONG))
         return [*parts, *(pin(ax, name, self.size, STRONG) for name in self.points)]
 
     def outline(self) -> FloatArray:
@@ -163,9 +164,9 @@ class FreeBodyPicture:
         """Write the points' names where they cover nothing."""
         scale = points_a_metre(ax)
         own = {name: self.at[name] for name in self.points}
-        spots = offsets(list(own), [own], [covered], scale, 1.15 * self.size * scale + 1.5)
-        for name, spot in spots.items():
-            LabelPart(ax, name, spot, STRONG).update(self.at)
+        gap = 1.15 * self.size * scale + 1.5
+        for name, spot in offsets(list(own), [own], [covered], scale, gap).items():
+            LabelPart(ax, name, spot, gap, STRONG).update(self.at)
 
 
 def draw_polygon(ax: Axes, layer: ArrowLayer) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field
-from typing import Any, TypeAlias, final
+from typing import Any, final
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from ..steps import Pin, Step
 from ..vectors import Side
 from .groups import solve_groups
 from .newton import Newton, at_sketch
-from .sketch import places_at
+from .sketch import Place, places_at
 
 MOST = 16
 STARTS, ROUNDS = 500, 5
@@ -157,10 +157,7 @@ def rounded_to(value: float, digits: int = 4) -> float:
 # Groups: their pins' solutions at the sketch, found from many places.
 
 
-GroupMode: TypeAlias = tuple[dict[str, tuple[float, float]], dict[str, Member], Mapping[str, Any]]
-
-
-def group_modes(plan: Plan, inputs: Mapping[str, Any]) -> Iterator[GroupMode]:
+def group_modes(plan: Plan, inputs: Mapping[str, Any]) -> Iterator[tuple[dict[str, Place], dict[str, Member], Mapping[str, Any]]]:
     """Yield the modes of a plan's groups, the declared one first: pins' places at the sketch, the members, the pins at the inputs."""
     yield {}, with_own_groups(plan, {}), {}
     if not plan.groups:

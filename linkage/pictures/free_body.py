@@ -31,7 +31,7 @@ from .labels import LabelPart, offsets
 from .overlays import sheet_note
 from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, title
 from .scene import Bounds, Places, Plate, Scene
-from .shapes import plate_form, segment
+from .shapes import hull, segment
 from .sheet import Picture, fitted_to, points_a_metre, sheet
 from .strokes import stroke_words
 from .style import STRONG
@@ -149,9 +149,8 @@ class FreeBodyPicture:
             block = polygon(ax, STRONG.level, facecolor=style.RULE, edgecolor=style.INK, linewidth=style.OUTLINE)
             block.set_xy([(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)])
         elif self.body != FRAME:
-            joints = [name in self.scene.pins for name in self.points]
-            form = plate_form(np.array([self.at[name] for name in self.points]), self.size, joints)
-            parts.append(BodyPart(ax, Plate(self.points, form), self.size, style.BODIES[0], STRONG))
+            places = np.array([self.at[name] for name in self.points])
+            parts.append(BodyPart(ax, Plate(self.points, np.eye(len(places))[list(hull(places))]), self.size, style.BODIES[0], STRONG))
         return [*parts, *(pin(ax, name, self.size, STRONG) for name in self.points)]
 
     def outline(self) -> FloatArray:
@@ -165,7 +164,8 @@ class FreeBodyPicture:
         scale = points_a_metre(ax)
         own = {name: self.at[name] for name in self.points}
         gap = 1.15 * self.size * scale + 1.5
-        for name, spot in offsets(list(own), [own], [covered], scale, gap).items():
+        spots = offsets(list(own), [own], [covered], scale, gap)
+        for name, spot in spots.items():
             LabelPart(ax, name, spot, gap, STRONG).update(self.at)
 
 

@@ -37,14 +37,15 @@ DPI = 150
 @final
 @dataclass(frozen=True)
 class Look:
-    """How strongly a mechanism is drawn: `fade` mixes every colour with the paper, 0 to 1; `level` is its layer."""
+    """How strongly a mechanism is drawn: `fade` mixes every colour with the paper, 0 to 1; `level` is its layer; `tint` colours it all."""
 
     fade: float = 0.0
     level: float = 10.0
+    tint: str = ""
 
     def colour(self, colour: str) -> str:
         """Return a colour faded towards the paper."""
-        return mixed(colour, PAPER, self.fade)
+        return mixed(mixed(colour, self.tint, 0.75) if self.tint else colour, PAPER, self.fade)
 
 
 STRONG = Look()

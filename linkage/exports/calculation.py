@@ -26,7 +26,7 @@ from ..reports import Run
 AGREE = 1e-9
 """Relative: a formula that is further from the engine is not used."""
 ITERATED = "found by iteration: a number, not a formula"
-TOLD = "told by the engine: a number, not a formula"
+BY_ENGINE = "told by the engine: a number, not a formula"
 
 
 @final
@@ -60,7 +60,9 @@ class Calculation:
     def __init__(self, design: Mechanism, run: Run, count: int) -> None:
         self.design, self.run = design, run
         self.left_out: list[str] = []
-        self.stroke_values = {name: np.asarray(value, float) for name, value in run.over(np.linspace(run.start, run.end, count)).items()}
+        self.stroke_values: dict[str, Any] = {
+            name: np.asarray(value, float) for name, value in run.over(np.linspace(run.start, run.end, count)).items()
+        }
         self.motion = design.at(**self.stroke_values)
         self.equations = self._equations()
         self.columns: list[CalculatedColumn] = []
@@ -109,7 +111,7 @@ class Calculation:
                 yield symbol, f"{pin}_{axis}", ITERATED
         for given in self.equations._givens:
             for symbol in explicit(given.symbol):
-                yield symbol, column_name(symbol.name), TOLD
+                yield symbol, column_name(symbol.name), BY_ENGINE
 
     # -- columns ---------------------------------------------------------------------------------------
 
@@ -119,7 +121,7 @@ class Calculation:
         for place, word in enumerate(sorted(rhs.atoms(Direction), key=str)):
             rhs = rhs.xreplace({word: self._direction(each, word, "abcdefgh"[place % 8])})
         number, unit = f"({each.number})", si_text(each)
-        if not (each.lhs.is_Symbol or each.lhs.is_Matrix and hasattr(each.lhs, "name")):
+        if not (each.lhs.is_Symbol or (each.lhs.is_Matrix and hasattr(each.lhs, "name"))):
             (left,), (right,) = explicit(each.lhs), explicit(rhs)
             self._column(number, f"{each.name} - ({right})" if right != 0 else each.name, f"{each}: zero where it holds", unit,
                          sympy.Dummy(real=True), left - right, checks=True)  # fmt: skip
@@ -144,7 +146,8 @@ class Calculation:
         i = dict(zip(explicit(X_AXIS), (sympy.S.One, sympy.S.Zero), strict=True))
         exact = expr.xreplace({symbol: value for symbol, value in i.items() if symbol not in self._known})
         values = self._spread(worked_out(exact, self._known))
-        self._add(CalculatedColumn(number, name, meaning, unit, symbol, exact, values if turns is None else np.unwrap(values), turns, checks))
+        values = values if turns is None else np.unwrap(values)
+        self._add(CalculatedColumn(number, name, meaning, unit, symbol, exact, values, turns, checks))
 
     def _add(self, column: CalculatedColumn) -> None:
         self.columns.append(column)
@@ -160,7 +163,7 @@ class Calculation:
         if not isinstance(member, Quantity) or isinstance(member, (Stroke, Dimension)):
             return
         engine, column = self._spread(self.motion[each.name]), self.columns[-1]
-        if agrees(column.values, engine):
+        if is_close(column.values, engine):
             return
         turned = [place for place, other in enumerate(self.columns) if other.turns is not None and column.expr.has(other.symbol)]
         for place in turned:
@@ -169,13 +172,13 @@ class Calculation:
             self.columns[place] = replace(other, values=other.values + 2.0 * np.pi * turns, turns=turns)
             again = self._known | {other.symbol: self.columns[place].values}
             values = self._spread(worked_out(column.expr, again))
-            if agrees(values, engine):
+            if is_close(values, engine):
                 self._known = again | {column.symbol: values}
                 self.columns[-1] = replace(column, values=values)
                 return
             self.columns[place] = other
         self.columns.pop()
-        self._add(replace(column, expr=None, values=engine, meaning=f"{column.meaning}; {TOLD}"))
+        self._add(replace(column, expr=None, values=engine, meaning=f"{column.meaning}; {BY_ENGINE}"))
 
     # -- other designs ---------------------------------------------------------------------------------
 
@@ -241,19 +244,19 @@ def si_text(each: Equation) -> str:
 
 def worked_out(expr: Any, known: Mapping[Any, Any]) -> Any:
     """Return an expression's value from those of its symbols."""
-    needed, function = compiled(expr)
+    needed, function = function_of(expr)
     with np.errstate(all="ignore"):
         return function(*(known[symbol] for symbol in needed))
 
 
 @lru_cache(maxsize=2048)
-def compiled(expr: Any) -> tuple[Sequence[Any], Callable[..., Any]]:
+def function_of(expr: Any) -> tuple[Sequence[Any], Callable[..., Any]]:
     """Return an expression's symbols, and the function of their values that it is."""
     needed: Sequence[Any] = sorted(expr.free_symbols, key=str)
     return needed, sympy.lambdify(needed, expr, "numpy", dummify=True)
 
 
-def agrees(values: FloatArray, engine: FloatArray) -> bool:
+def is_close(values: FloatArray, engine: FloatArray) -> bool:
     """Return whether values are the engine's, NaN at the same poses."""
     size = float(np.nanmax(np.abs(engine), initial=1.0))
     return bool(np.allclose(values, engine, rtol=AGREE, atol=AGREE * size, equal_nan=True))

@@ -17,7 +17,7 @@ from ..formulas.printing import reading_order
 
 LONGEST_FORMULA = 8000
 """Characters; a spreadsheet takes 8192."""
-WORDS: Mapping[str, str] = {
+FUNCTION_NAMES: Mapping[str, str] = {
     "sin": "SIN", "cos": "COS", "tan": "TAN", "acos": "ACOS", "asin": "ASIN", "atan": "ATAN", "Abs": "ABS", "exp": "EXP", "log": "LN",
     "sign": "SIGN", "Min": "MIN", "Max": "MAX",
 }  # fmt: skip
@@ -64,7 +64,7 @@ class FormulaText(StrPrinter):  # type: ignore[misc]
 
     def _bare(self, expr: Any) -> str:
         """Return a term of a sum behind its sign."""
-        return self.parenthesize(expr, PRECEDENCE["Mul"], strict=True)
+        return str(self.parenthesize(expr, PRECEDENCE["Mul"], strict=True))
 
     def _print_Mul(self, expr: Any) -> str:
         if expr.could_extract_minus_sign():
@@ -89,14 +89,14 @@ class FormulaText(StrPrinter):  # type: ignore[misc]
         return f"ATAN2({x},{y})"
 
     def _print_Function(self, expr: Any) -> str:
-        return f"{WORDS[type(expr).__name__]}({','.join(map(self._print, expr.args))})"
+        return f"{FUNCTION_NAMES[type(expr).__name__]}({','.join(map(self._print, expr.args))})"
 
     _print_Abs = _print_Min = _print_Max = _print_Function
 
     def _print_Piecewise(self, expr: Any) -> str:
         (value, condition), *others = expr.args
         if condition is sympy.true or condition == True:  # noqa: E712 - SymPy's truth
-            return self._print(value)
+            return str(self._print(value))
         other = self._print(sympy.Piecewise(*others, evaluate=False)) if others else "NA()"
         return f"IF({self._print(condition)},{self._print(value)},{other})"
 

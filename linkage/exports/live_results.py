@@ -24,11 +24,11 @@ from ..reports import results
 from ..units import factor
 from .calculation import Calculation
 
-SAME = 1e-10
+EQUAL = 1e-10
 """Relative to the greatest value: two ways to one number differ by less, other numbers by more."""
-NOTHING = 1e-3
+NEGLIGIBLE = 1e-3
 """A column whose greatest value is smaller is compared as if it were this great [SI]: a zero is rounding."""
-POSES = 7
+LOOKED_AT = 7
 SCALES = (1e-3, 1e-5, 1e-7)
 """By how much the other designs differ; a smaller step where a mechanism with such links does not go together."""
 LITTLE = 0.1
@@ -48,7 +48,7 @@ class LiveResult:
 def live_results(calculation: Calculation) -> list[LiveResult]:
     """Return the machine's table over the calculation's poses, each column with what gives it."""
     table = results(calculation.design, calculation.motion)
-    return Search(calculation, table).found()
+    return FormulaSearch(calculation, table).found()
 
 
 Trial = tuple[list[FloatArray], dict[Any, Any]]
@@ -56,13 +56,13 @@ Trial = tuple[list[FloatArray], dict[Any, Any]]
 
 
 @final
-class Search:
+class FormulaSearch:
     """Looks for the formulas of a table of results on designs that differ a little."""
 
     def __init__(self, calculation: Calculation, table: list[Column]) -> None:
         self.calculation, self.table = calculation, table
         self.neutral = [name for name, value in calculation.design.dimensions.items() if value in (0.0, 1.0)]
-        picks = np.unique(np.linspace(0, calculation.motion.shape[0] - 1, POSES).round().astype(int))
+        picks = np.unique(np.linspace(0, calculation.motion.shape[0] - 1, LOOKED_AT).round().astype(int))
         moving = calculation.run.stroke
         self.poses = {name: value[picks] if name == moving else value for name, value in calculation.stroke_values.items()}
 
@@ -73,7 +73,9 @@ class Search:
         self.beside = self._first(self._changes(all_of=False))
         found = [self._live(place, self._named(place)) for place in range(len(self.table))]
         simple = dict.fromkeys(each.expr for each in found if each.expr is not None)
-        return [each if each.expr is not None else self._live(place, self._combined(place, list(simple))) for place, each in enumerate(found)]
+        return [
+            each if each.expr is not None else self._live(place, self._combined(place, list(simple))) for place, each in enumerate(found)
+        ]
 
     def _live(self, place: int, candidates: Iterator[Any]) -> LiveResult:
         column, own = self.table[place], self._own(self.table[place])
@@ -123,13 +125,13 @@ class Search:
         """Yield a symbol times or over a dimension, where that is what is wanted."""
         with np.errstate(all="ignore"):
             shares = wanted / values
-        if not np.isfinite(shares).all() or np.ptp(shares) > SAME * abs(shares[0]):
+        if not np.isfinite(shares).all() or np.ptp(shares) > EQUAL * abs(shares[0]):
             return
         for dimension, name in self.calculation.dimension_symbols.items():
             value = self.calculation.design.dimensions[name]
-            if name not in self.neutral and abs(value - shares[0]) <= SAME * abs(value):
+            if name not in self.neutral and abs(value - shares[0]) <= EQUAL * abs(value):
                 yield symbol * dimension
-            elif name not in self.neutral and abs(value * shares[0] - 1.0) <= SAME:
+            elif name not in self.neutral and abs(value * shares[0] - 1.0) <= EQUAL:
                 yield symbol / dimension
 
     def _own(self, column: Column) -> list[Any]:
@@ -165,10 +167,10 @@ class Search:
         except LinkageError:
             return None
         known |= {symbol: motion.strokes[name] for name, symbol in self.calculation.stroke_symbols.items()}
-        return [spread(each.values, motion.shape) for each in table], known
+        return [at_all_poses(each.values, motion.shape) for each in table], known
 
 
-def spread(values: Any, shape: tuple[int, ...]) -> FloatArray:
+def at_all_poses(values: Any, shape: tuple[int, ...]) -> FloatArray:
     """Return values over all poses."""
     return np.array(np.broadcast_to(np.asarray(values, float), shape))
 
@@ -182,7 +184,7 @@ def is_given(trial: Trial | None, place: int, expr: Any) -> bool:
         return False
     size = float(np.nanmax(np.abs(column), initial=0.0))
     value = known[expr] if expr.is_Symbol else quick_value(expr, known)
-    return bool(np.allclose(value, column, rtol=0.0, atol=SAME * max(size, NOTHING), equal_nan=True))
+    return bool(np.allclose(value, column, rtol=0.0, atol=EQUAL * max(size, NEGLIGIBLE), equal_nan=True))
 
 
 def quick_value(expr: Any, known: Mapping[Any, Any]) -> Any:

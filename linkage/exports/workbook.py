@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..formulas.numbered import CONVENTION, DEFINITIONS, uses
-from ..motion import stroke_display_unit, stroke_unit
+from ..motion import Column, stroke_display_unit, stroke_unit
 from ..reports import Run
 from ..units import deg, display_unit, factor
 from .calculation import CalculatedColumn, Calculation
@@ -24,10 +24,10 @@ from .names import cell_names
 
 MADE = datetime(2000, 1, 1)
 """The date in the file: the same design gives the same bytes."""
-HEAD = 4
+ROWS_ABOVE = 4
 """Rows above the numbers of the calculation: number, name, unit, meaning."""
-RESULT_HEAD = 3
-ROW = "\N{NUMBER SIGN}ROW\N{NUMBER SIGN}"
+RESULT_ROWS_ABOVE = 3
+ROW_MARK = "#ROW#"
 """What stands in a formula for the number of its row."""
 FITS = 1e-9
 """m; pins found together miss their links by less."""
@@ -61,11 +61,14 @@ class Sheets:
         self.head = book.add_format(head)
         self.wrapped = book.add_format({**head, "bold": False, "text_wrap": True, "font_size": 9})
         self.dead_head = book.add_format({**head, "italic": True, "font_color": "#8A5A00"})
-        self.dead_wrapped = book.add_format({**head, "bold": False, "italic": True, "font_color": "#8A5A00", "text_wrap": True, "font_size": 9})
+        dead = {"italic": True, "font_color": "#8A5A00"}
+        self.dead_wrapped = book.add_format({**head, **dead, "bold": False, "text_wrap": True, "font_size": 9})
         self.title = book.add_format({"bold": True, "font_size": 14, "font_color": ink})
         self.text = book.add_format({"font_color": ink})
         self.muted = book.add_format({"font_color": "#6B7785", "indent": 1})
-        self.input = book.add_format({"font_color": "#0000FF", "bg_color": "#FFFBE6", "num_format": "General", "border": 1, "border_color": "#E3D9A8"})
+        self.input = book.add_format(
+            {"font_color": "#0000FF", "bg_color": "#FFFBE6", "num_format": "General", "border": 1, "border_color": "#E3D9A8"}
+        )
         self.plain = book.add_format({"num_format": "General", "font_color": ink})
         self.warning = book.add_format({"bold": True, "font_color": "#C0392B"})
         self._formats: dict[tuple[str, bool], Any] = {}
@@ -81,9 +84,9 @@ class Sheets:
                 sheet.set_print_scale(45)
             else:
                 sheet.fit_to_pages(1, 0)
-        middle.repeat_rows(0, HEAD - 1)
+        middle.repeat_rows(0, ROWS_ABOVE - 1)
         middle.repeat_columns(0, len(self.calculation.design.strokes))
-        last.repeat_rows(0, RESULT_HEAD - 1)
+        last.repeat_rows(0, RESULT_ROWS_ABOVE - 1)
         self._dimensions(first)
         self._strokes(strokes)
         self._calculation(middle)
@@ -123,9 +126,9 @@ class Sheets:
             entry = design.plan.table.entries[name]
             unit = entry.unit or display_unit(self.calculation.measure(name), "mm")
             sheet.write_string(row, 0, name, self.text)
-            sheet.write_number(row, 1, decimals(value / factor(unit)), self.input)
+            sheet.write_number(row, 1, tidy(value / factor(unit)), self.input)
             sheet.write_string(row, 2, unit, self.muted)
-            sheet.write_formula(row, 3, f"=B{row + 1}{times(unit)}", self.plain, float(value))
+            sheet.write_formula(row, 3, f"=B{row + 1}{to_si(unit)}", self.plain, float(value))
             sheet.write_string(row, 4, self.names[name], self.muted)
             sheet.write_string(row, 5, self._note(name, entry.where), self.muted)
             self.book.define_name(self.names[name], f"=Dimensions!$D${row + 1}")
@@ -147,7 +150,7 @@ class Sheets:
         places = [place for place, column in enumerate(self.calculation.columns) if column.checks]
         if not places:
             return
-        ranges = [self._range("Calculation", self._place(place), HEAD) for place in places]
+        ranges = [self._range("Calculation", self._place(place), ROWS_ABOVE) for place in places]
         worst = ",".join(f"MAX({each}),-MIN({each})" for each in ranges)
         pins = " ".join(self.calculation.equations._listing.unknowns)
         text = f"The pins {pins} were found by iteration and do not fit these dimensions: export the changed design again."
@@ -182,9 +185,9 @@ class Sheets:
         for row, name in enumerate(strokes, 1):
             unit, runs = stroke_display_unit(plan, name, "mm"), name == run.stroke
             sheet.write_string(row, 0, name, self.text)
-            for column, (end, value) in enumerate(ends(run, name).items()):
-                sheet.write_number(row, 1 + column, decimals(value / factor(unit)), self.input)
-                sheet.write_formula(row, 4 + column, f"={'BC'[column]}{row + 1}{times(unit)}", self.plain, value)
+            for column, (end, value) in enumerate(stroke_ends_of(run, name).items()):
+                sheet.write_number(row, 1 + column, tidy(value / factor(unit)), self.input)
+                sheet.write_formula(row, 4 + column, f"={'BC'[column]}{row + 1}{to_si(unit)}", self.plain, value)
                 self.book.define_name(self.names[name, end], f"=Strokes!${'EF'[column]}${row + 1}")
             sheet.write_string(row, 3, unit, self.muted)
             sheet.write_string(row, 6, f"{self.count} poses from one end to the other" if runs else "held", self.muted)
@@ -223,7 +226,7 @@ class Sheets:
         return {symbol: str(xl_col_to_name(1 + place)) for place, symbol in enumerate(symbols)}
 
     def _text(self, expr: Any, sheet: str = "") -> str | None:
-        """Return an expression as a formula with ROW where the row's number goes; None for one that is too long.
+        """Return an expression as a formula with ROW_MARK where the row's number goes; None for one that is too long.
 
         A symbol is a cell of the calculation in the same row, or a dimension by its name.
         """
@@ -231,7 +234,7 @@ class Sheets:
 
         def read(symbol: Any) -> str:
             letter = self._letters.get(symbol)
-            return f"{sheet}{letter}{ROW}" if letter is not None else self.names[dimensions[symbol]]
+            return f"{sheet}{letter}{ROW_MARK}" if letter is not None else self.names[dimensions[symbol]]
 
         return formula(expr, read)
 
@@ -245,7 +248,7 @@ class Sheets:
         for column, texts in enumerate(given):
             self._heading(sheet, column, texts)
         for pose in range(self.count):
-            row = HEAD + pose
+            row = ROWS_ABOVE + pose
             sheet.write_formula(row, 0, f"=Strokes!A{self._stroke_head + pose + 1}", self.plain, pose)
             for column, name in enumerate(strokes, 1):
                 value = float(np.broadcast_to(self.calculation.stroke_values[name], (self.count,))[pose])
@@ -254,7 +257,7 @@ class Sheets:
         for place, each in enumerate(self.calculation.columns):
             self._heading(sheet, self._place(place), (each.number, each.name, each.unit, each.meaning), dead=each.expr is None)
             self._column(sheet, self._place(place), each)
-        sheet.freeze_panes(HEAD, 1 + len(strokes))
+        sheet.freeze_panes(ROWS_ABOVE, 1 + len(strokes))
 
     def _heading(self, sheet: Any, column: int, texts: Sequence[str], dead: bool = False) -> None:
         for row, text in enumerate(texts):
@@ -266,10 +269,10 @@ class Sheets:
         look = self._format(float(np.nanmax(np.abs(each.values), initial=0.0)), each.expr is None)
         template = None if each.expr is None else self._text(each.expr)
         for pose, value in enumerate(each.values.tolist()):
-            row = HEAD + pose
-            text = None if template is None else template.replace(ROW, str(row + 1))
+            row = ROWS_ABOVE + pose
+            text = None if template is None else template.replace(ROW_MARK, str(row + 1))
             if text is not None and each.turns is not None:
-                text = continued(text, each.turns, f"{self._letters[each.symbol]}{row}" if pose else "")
+                text = without_jump(text, each.turns, f"{self._letters[each.symbol]}{row}" if pose else "")
             self._number(sheet, row, place, text, value, look)
 
     def _number(self, sheet: Any, row: int, column: int, text: str | None, value: float, look: Any) -> None:
@@ -302,10 +305,10 @@ class Sheets:
             look = self._result_format(result)
             template = self._result_text(result)
             for pose, value in enumerate(shown.tolist()):
-                text = None if template is None else template.replace(ROW, str(HEAD + pose + 1))
-                self._number(sheet, RESULT_HEAD + pose, column, text, value, look)
+                formula_here = None if template is None else template.replace(ROW_MARK, str(ROWS_ABOVE + pose + 1))
+                self._number(sheet, RESULT_ROWS_ABOVE + pose, column, formula_here, value, look)
         sheet.set_row(2, 36)
-        sheet.freeze_panes(RESULT_HEAD, 1)
+        sheet.freeze_panes(RESULT_ROWS_ABOVE, 1)
 
     def _condition(self, result: LiveResult) -> str:
         own = self.calculation.design.dimensions
@@ -316,7 +319,7 @@ class Sheets:
         if text is None:
             return None
         body = text[1:] if result.expr.is_Symbol else f"({text[1:]})"
-        shown = f"{body}{over(result.column.unit)}"
+        shown = f"{body}{from_si(result.column.unit)}"
         if not result.kept:
             return f"={shown}"
         own = self.calculation.design.dimensions
@@ -335,14 +338,14 @@ class Sheets:
         """Draw what the machine is about over its stroke."""
         columns = [result.column for result in self.results]
         over_stroke = next((place for place, each in enumerate(columns) if each.name == self.calculation.run.stroke), None)
-        shown = featured_place(columns)
+        shown = featured_place(columns, self.calculation.design.featured().column)
         chart = self.book.add_chart({"type": "scatter", "subtype": "straight"})
         x, y = columns[over_stroke] if over_stroke is not None else None, columns[shown]
-        stroke = self._range("Calculation", 1 + list(self.calculation.design.strokes).index(self.calculation.run.stroke), HEAD)
+        stroke = self._range("Calculation", 1 + list(self.calculation.design.strokes).index(self.calculation.run.stroke), ROWS_ABOVE)
         chart.add_series({
             "name": y.heading,
-            "categories": f"={stroke if over_stroke is None else self._range('Results', over_stroke, RESULT_HEAD)}",
-            "values": f"={self._range('Results', shown, RESULT_HEAD)}",
+            "categories": f"={stroke if over_stroke is None else self._range('Results', over_stroke, RESULT_ROWS_ABOVE)}",
+            "values": f"={self._range('Results', shown, RESULT_ROWS_ABOVE)}",
             "line": {"color": "#1F5FA8", "width": 2.25},
         })  # fmt: skip
         unit = stroke_unit(self.calculation.design.plan, self.calculation.run.stroke)
@@ -364,38 +367,39 @@ class Sheets:
         return f"{sheet}!${letter}${head + 1}:${letter}${head + self.count}"
 
 
-def featured_place(columns: Sequence[Any]) -> int:
-    """Return the place of the column that is drawn: the last that changes."""
-    changing = [place for place, each in enumerate(columns) if np.nanmax(each.drawn, initial=-np.inf) > np.nanmin(each.drawn, initial=np.inf)]
-    return changing[-1] if changing else len(columns) - 1
+def featured_place(columns: Sequence[Column], wanted: str) -> int:
+    """Return the place of the column that is drawn: the one that is wanted, else the last that changes."""
+    names = [each.name for each in columns]
+    changing = [place for place, each in enumerate(columns) if float(np.ptp(each.drawn[np.isfinite(each.drawn)])) > 0.0]
+    return names.index(wanted) if wanted in names else changing[-1] if changing else len(columns) - 1
 
 
 def span(values: Any) -> tuple[float, float]:
     """Return the least and the greatest of some values, as an axis is labelled."""
-    return decimals(float(np.min(values))), decimals(float(np.max(values)))
+    return tidy(float(np.min(values))), tidy(float(np.max(values)))
 
 
-def ends(run: Run, name: str) -> Mapping[str, float]:
+def stroke_ends_of(run: Run, name: str) -> Mapping[str, float]:
     """Return the two ends of a stroke that runs [SI], or the value of one that is held."""
     return {"from": run.start, "to": run.end} if name == run.stroke else {"from": run.held[name]}
 
 
-def decimals(value: float) -> float:
+def tidy(value: float) -> float:
     """Return a number without the noise that a change of units leaves in its last digits."""
     return float(f"{value:.15g}")
 
 
-def times(unit: str) -> str:
+def to_si(unit: str) -> str:
     """Return what turns a number in a unit into SI, as the end of a formula."""
     return "*PI()/180" if unit and factor(unit) == deg else "" if factor(unit) == 1.0 else f"*{factor(unit)!r}"
 
 
-def over(unit: str) -> str:
+def from_si(unit: str) -> str:
     """Return what turns SI into a number in a unit, as the end of a formula."""
     return "*180/PI()" if unit and factor(unit) == deg else "" if factor(unit) == 1.0 else f"/{factor(unit)!r}"
 
 
-def continued(text: str, turns: int, before: str) -> str:
+def without_jump(text: str, turns: int, before: str) -> str:
     """Return the formula of a direction that goes on from the cell before without a jump; of the first one with its whole turns."""
     if not before:
         return f"{text}+2*PI()*({turns})" if turns else text

@@ -53,6 +53,8 @@ def check_exportable(what: Any, kind: str, at: Any, trace: Any, columns: Any) ->
     if not isinstance(what, Motion):
         require_mechanism(what)
     title = what.plan.title
+    if isinstance(what, Mechanism) and kind != ".csv" and any(np.ndim(value) for value in what.dimensions.values()):
+        raise DefinitionError(f"{title}: a file holds one design, and this machine is a batch of them; choose one of its designs.")
     if isinstance(what, Motion) and kind == ".xlsx":
         raise DefinitionError(f"{title}: a workbook follows its dimensions, so it is made of a machine: export(machine, ...).")
     if isinstance(what, Motion) and at:

@@ -60,9 +60,10 @@ class Calculation:
     def __init__(self, design: Mechanism, run: Run, count: int) -> None:
         self.design, self.run = design, run
         self.left_out: list[str] = []
-        self.stroke_values: dict[str, Any] = {
-            name: np.asarray(value, float) for name, value in run.over(np.linspace(run.start, run.end, count)).items()
-        }
+        if any(len(way) != 2 for way in run.ways.values()):
+            raise DefinitionError(f"{design.plan.title}: a workbook's strokes run from one value to another; give {run.stroke} two.")
+        over = run.over(np.linspace(0.0, 1.0, count))
+        self.stroke_values: dict[str, Any] = {name: np.asarray(value, float) for name, value in over.items()}
         self.motion = design.at(**self.stroke_values)
         self.equations = self._equations()
         self.columns: list[CalculatedColumn] = []

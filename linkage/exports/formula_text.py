@@ -81,8 +81,13 @@ class FormulaText(StrPrinter):  # type: ignore[misc]
             return f"SQRT({self._print(base)})"
         if power.is_number and power.is_negative:
             return f"1/{self.parenthesize(sympy.Pow(base, -power), PRECEDENCE['Pow'])}"
-        raised = self.parenthesize(power, PRECEDENCE["Atom"], strict=True)
-        return f"{self.parenthesize(base, PRECEDENCE['Atom'])}^{raised}"
+        return f"{self._alone(base)}^{self._alone(power)}"
+
+    def _alone(self, expr: Any) -> str:
+        """Return an expression as one piece: a cell, a function, a number without a sign, or in brackets."""
+        text = str(self._print(expr))
+        is_one = expr.is_Symbol or expr.is_Function or (expr.is_number and text.replace(".", "").isdigit())
+        return text if is_one else f"({text})"
 
     def _print_atan2(self, expr: Any) -> str:
         y, x = map(self._print, expr.args)

@@ -63,8 +63,7 @@ class FormulaSearch:
         self.calculation, self.table = calculation, table
         self.neutral = [name for name, value in calculation.design.dimensions.items() if value in (0.0, 1.0)]
         picks = np.unique(np.linspace(0, calculation.motion.shape[0] - 1, LOOKED_AT).round().astype(int))
-        moving = calculation.run.stroke
-        self.poses = {name: value[picks] if name == moving else value for name, value in calculation.stroke_values.items()}
+        self.poses = {name: value[picks] if np.ndim(value) else value for name, value in calculation.stroke_values.items()}
 
     def found(self) -> list[LiveResult]:
         """Return each column with the first formula that gives it everywhere."""

@@ -183,7 +183,7 @@ class Sheets:
         for column, text in enumerate(("Stroke", "From", "To", "Unit", "From, SI", "To, SI", "Note")):
             sheet.write_string(0, column, text, self.head)
         for row, name in enumerate(strokes, 1):
-            unit, runs = stroke_display_unit(plan, name, "mm"), name == run.stroke
+            unit, runs = stroke_display_unit(plan, name, "mm"), name in run.ways
             sheet.write_string(row, 0, name, self.text)
             for column, (end, value) in enumerate(stroke_ends_of(run, name).items()):
                 sheet.write_number(row, 1 + column, tidy(value / factor(unit)), self.input)
@@ -202,7 +202,7 @@ class Sheets:
 
     def _stroke_text(self, name: str, row: int) -> str:
         start = self.names[name, "from"]
-        if name != self.calculation.run.stroke or self.count == 1:
+        if name not in self.calculation.run.ways or self.count == 1:
             return start
         return f"{start}+({self.names[name, 'to']}-{start})*A{row}/{self.count - 1}"
 
@@ -381,7 +381,8 @@ def span(values: Any) -> tuple[float, float]:
 
 def stroke_ends_of(run: Run, name: str) -> Mapping[str, float]:
     """Return the two ends of a stroke that runs [SI], or the value of one that is held."""
-    return {"from": run.start, "to": run.end} if name == run.stroke else {"from": run.held[name]}
+    way = run.ways.get(name)
+    return {"from": run.held[name]} if way is None else {"from": way[0], "to": way[-1]}
 
 
 def tidy(value: float) -> float:

@@ -109,7 +109,7 @@ def test_values_in_the_workbook_are_the_engines(books, name):
     assert [cell.value for cell in book["Results"][1]] == [column.name for column in table]
     assert [cell.value or "" for cell in book["Results"][2]] == [column.unit for column in table]
     for column, found in zip(table, number_columns(book["Results"], 4), strict=True):
-        assert_allclose(found, column.shown, rtol=1e-12, atol=1e-12 * np.abs(column.shown).max(), err_msg=column.name)
+        assert_allclose(found, column.shown, rtol=1e-12, atol=1e-12 * max(np.abs(column.shown).max(), 1e-3), err_msg=column.name)
     points = {cell.value: place for place, cell in enumerate(book["Calculation"][2])}
     numbers = number_columns(book["Calculation"], 5)
     for point in motion.plan.moving:
@@ -147,7 +147,7 @@ def test_a_changed_dimension_changes_the_workbook_as_the_machine(books, recalcul
     table = results(changed, changed.sweep(101))
     for column, after in zip(table, number_columns(recalculated[f"{name} changed"]["Results"], 4), strict=True):
         if column.name != "of pin O":
-            assert_allclose(after, column.shown, rtol=0, atol=1e-12 * np.abs(column.shown).max(), err_msg=column.name)
+            assert_allclose(after, column.shown, rtol=0, atol=1e-12 * max(np.abs(column.shown).max(), 1e-3), err_msg=column.name)
     assert same_numbers(stored(books[name]), recalculated[f"{name} changed"], 1e-4)[0] == "Calculation"
 
 
@@ -261,7 +261,7 @@ def test_formulas_have_the_signs_and_the_order_of_a_spreadsheet():
     assert text(-(a**2)) == "=-1*a^2" and text(b - a**2) == "=b-a^2"
     assert text(sympy.atan2(y, x)) == "=ATAN2(x,y)" and text(sympy.log(a)) == "=LN(a)"
     assert text(sympy.sqrt(a) / (a * b)) in ("=1/(SQRT(a)*b)", "=1/(b*SQRT(a))")
-    assert text((a - b) * (a + b) ** 2) == "=(a-b)*(a+b)^2"
+    assert text((a - b) * (a + b) ** 2) in ("=(a-b)*(a+b)^2", "=(a+b)^2*(a-b)")
     assert text(sympy.Piecewise((a, a <= b), (b, True))) == "=IF(a<=b,a,b)"
     assert text(sympy.Add(*[a**n for n in range(3000)])) is None
 
@@ -409,8 +409,7 @@ def test_every_extra_is_imported_somewhere():
         for wanted in extras[extra]:
             library = known.get(wanted.split(">=")[0], wanted.split(">=")[0].lower())
             assert any(re.search(rf"^\s*(import|from) {library}\b", text, re.MULTILINE) for text in texts), f"{extra}: {library}"
-    configured = (root / "docs" / "conf.py").read_text()
-    assert "myst_parser" in configured and "sphinx" in (root / "run").read_text()
+    assert "myst_parser" in (root / "docs" / "conf.py").read_text() and "-m sphinx" in (root / "run").read_text()
 
 
 def test_the_command_writes_them(tmp_path, capsys):

@@ -109,7 +109,7 @@ def test_values_in_the_workbook_are_the_engines(books, name):
     assert [cell.value for cell in book["Results"][1]] == [column.name for column in table]
     assert [cell.value or "" for cell in book["Results"][2]] == [column.unit for column in table]
     for column, found in zip(table, number_columns(book["Results"], 4), strict=True):
-        assert_allclose(found, column.shown, rtol=1e-12, atol=1e-12 * max(np.abs(column.shown).max(), 1e-3), err_msg=column.name)
+        assert_allclose(found, column.shown, rtol=1e-12, atol=1e-12 * max(np.abs(column.shown).max(), 1.0), err_msg=column.name)
     points = {cell.value: place for place, cell in enumerate(book["Calculation"][2])}
     numbers = number_columns(book["Calculation"], 5)
     for point in motion.plan.moving:
@@ -147,7 +147,7 @@ def test_a_changed_dimension_changes_the_workbook_as_the_machine(books, recalcul
     table = results(changed, changed.sweep(101))
     for column, after in zip(table, number_columns(recalculated[f"{name} changed"]["Results"], 4), strict=True):
         if column.name != "of pin O":
-            assert_allclose(after, column.shown, rtol=0, atol=1e-12 * max(np.abs(column.shown).max(), 1e-3), err_msg=column.name)
+            assert_allclose(after, column.shown, rtol=0, atol=1e-12 * max(np.abs(column.shown).max(), 1.0), err_msg=column.name)
     assert same_numbers(stored(books[name]), recalculated[f"{name} changed"], 1e-4)[0] == "Calculation"
 
 

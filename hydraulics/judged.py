@@ -20,12 +20,12 @@ from linkage.verdict import Verdict
 
 from .cylinder import CylinderSize, standard_bores
 from .inputs import Array, not_negative, one_number
-from .lift import Choice, Holding, LiftCircuit, Lowering, Work
+from .line import Choice, Holding, LiftLine, Lowering, Work
 from .member import Cylinder, one_design, one_size
 
 
 def lift_verdicts(
-    circuit: LiftCircuit | str, motion: Motion, loads: Loads = None, *, case: Case = None, resistance: float = 0.0, unit: str = "bar"
+    circuit: LiftLine | str, motion: Motion, loads: Loads = None, *, case: Case = None, resistance: float = 0.0, unit: str = "bar"
 ) -> list[Verdict]:
     """Return the verdicts on lifting (with the remedy), oil and time, holding, and lowering against a `resistance` [Pa].
 
@@ -53,12 +53,27 @@ def lift_verdicts(
     ]
 
 
-def the_circuit(circuit: LiftCircuit | str, motion: Motion) -> LiftCircuit:
+def line_verdicts(circuit: LiftLine, motion: Motion) -> list[Verdict]:
+    """Return `lift_verdicts` of a circuit under the machine's own loads; over a grid of strokes its least reserve, and the holding."""
+    try:
+        if len(motion._stroke_shape) <= 1:
+            return lift_verdicts(circuit, motion)
+        cylinders = [LiftingCylinder(circuit, ram, motion) for ram in circuit.rams(motion)]
+        nothing = idle(cylinders)
+        if nothing is not None:
+            return [nothing]
+        several = len(cylinders) > 1
+        return [with_name(verdict, each.ram, several) for each in cylinders for verdict in (each.lifting(), each.holding())]
+    except DefinitionError as error:
+        return [Verdict("lifting", False, " ".join(str(error).split()))]
+
+
+def the_circuit(circuit: LiftLine | str, motion: Motion) -> LiftLine:
     """Return the circuit that is meant, by its name in the class too; DefinitionError for what is none."""
     require_motion(motion)
-    circuits = motion.plan.of_kind(LiftCircuit)
+    circuits = motion.plan.of_kind(LiftLine)
     found = circuits.get(circuit) if isinstance(circuit, str) else circuit
-    if not isinstance(found, LiftCircuit):
+    if not isinstance(found, LiftLine):
         raise unknown("LiftCircuit", str(circuit), circuits, where=motion.plan.title)
     return found
 
@@ -116,9 +131,7 @@ class Lifting:
 class LiftingCylinder:
     """One cylinder of a circuit over a motion."""
 
-    def __init__(
-        self, circuit: LiftCircuit, ram: Cylinder, motion: Motion, loads: Loads = None, case: Case = None, unit: str = "bar"
-    ) -> None:
+    def __init__(self, circuit: LiftLine, ram: Cylinder, motion: Motion, loads: Loads = None, case: Case = None, unit: str = "bar") -> None:
         self.circuit, self.ram, self.motion, self.loads, self.case, self.unit = circuit, ram, motion, loads, case, unit
 
     @property
@@ -160,18 +173,20 @@ class LiftingCylinder:
         says = f"at {pump} the least reserve is {found.least:.3f}, {found.where}"
         if found.least >= 1.0:
             return Verdict("lifting", True, f"{says}{free}.")
-        return Verdict("lifting", False, f"{says}; too weak {spans(found.short)}{free}. {self.remedy(found)}")
+        weak = f"; too weak {spans(found.short)}" if found.short else ""
+        return Verdict("lifting", False, f"{says}{weak}{free}. {self.remedy(found)}")
 
     def lifted(self) -> Lifting:
         """Return how the cylinder lifts, in numbers."""
         motion, worst = self.motion, greatest(self.motion, self.use)
-        driven = below_zero(motion, self.force)
+        along = len(motion._stroke_shape) <= 1  # parts of a way are told, not of a grid
+        driven = below_zero(motion, self.force) if along else ()
         if np.isnan(worst.value) or worst.value <= 0.0:
             return Lifting(np.inf, "", (), driven)
         least = 0.0 if worst.unbounded else 1.0 / float(worst.value)
         if least >= 1.0:
             return Lifting(least, worst.where, (), driven)
-        short = below_zero(motion, self.spare)
+        short = below_zero(motion, self.spare) if along else ()
         if worst.unbounded:
             return Lifting(least, worst.where, short, driven)
         needed = greatest(motion, lambda at: self.circuit.pressure_for(at, self.loads, **self.choice)).value
@@ -269,7 +284,7 @@ class LiftingCylinder:
         return Verdict("lowering", False, f"it does not sink by itself {where} {against}: the other side must push with up to {push}.")
 
 
-def oil_verdict(circuit: LiftCircuit, motion: Motion) -> Verdict:
+def oil_verdict(circuit: LiftLine, motion: Motion) -> Verdict:
     """Return how much oil the motion takes, and how long the pump's flow needs for it."""
     oil, back = float(circuit.oil(motion)), oil_back(circuit, motion)
     says = f"{oil / litre:.2f} l from end to end{f' outwards, {back / litre:.2f} l inwards' if back else ''}"
@@ -279,7 +294,7 @@ def oil_verdict(circuit: LiftCircuit, motion: Motion) -> Verdict:
     return Verdict("oil", True, f"{says}, {float(circuit.time(motion)):.1f} s at {flow:.4g} l/min.")
 
 
-def oil_back(circuit: LiftCircuit, motion: Motion) -> float:
+def oil_back(circuit: LiftLine, motion: Motion) -> float:
     """Return the oil [m3] that the rod sides take over the same way, of cylinders that work with both; 0 where none does."""
     both = [ram for ram in circuit.rams(motion) if ram.works == "both"]
     return sum(float(ram.travel(motion) * ram.sized(motion).pull_area) for ram in both)

@@ -24,7 +24,7 @@ from linkage.errors import DefinitionError, cited, unknown, unwarned
 from linkage.frozen import refuses_changes
 from linkage.loads import AT_REST, Declared, DrawnAs, ForceElement, LoadCase, Parameter, Poses, Push, Rates, TwoPoint, require_poses
 from linkage.loads.element import Formulas
-from linkage.motion import Column, Motion, Tabled, greatest, lowest, require_motion
+from linkage.motion import Column, Judged, Motion, Tabled, greatest, lowest, require_motion
 from linkage.quantities import Member, Reference, label, name_of
 from linkage.statics import AnyMotion, Case, Loads, elements_of, member_thrust, same
 from linkage.units import mm
@@ -42,7 +42,7 @@ DIRECTIONS = ("frictionless", "extending", "retracting")
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class Cylinder(TwoPoint, Tabled):
+class Cylinder(TwoPoint, Tabled, Judged):
     """`count` equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
 
     In a class bore and rod [m] are the design variables `lift.bore` and `lift.rod`. `works` is the side the pressure acts
@@ -191,11 +191,26 @@ class Cylinder(TwoPoint, Tabled):
         return pressure_of(self, motion, loads, case, direction)
 
     def columns(self, motion: Motion) -> list[Column]:
-        """Return its thrust without friction and, unless several circuits have it, its pressure, for the table of results."""
+        """Return its thrust without friction and, unless several circuits have it, its pressure and its reserve, for the table."""
+        return self.columns_in(motion)
+
+    def columns_in(self, motion: Motion, case: Case = None, direction: str | None = None) -> list[Column]:
         require_poses(motion)
-        pressed = len(circuits_of(self, motion.plan)) <= 1
-        thrust = Column("thrust", self.thrust(motion), "kN")
-        return [thrust, Column("pressure", self.pressure(motion), "bar", 2)] if pressed else [thrust]
+        found = [Column("thrust", self.thrust(motion, case=case, direction=direction or "frictionless"), "kN")]
+        if len(circuits_of(self, motion.plan)) > 1:
+            return found
+        found.append(Column("pressure", self.pressure(motion, case=case, direction=direction), "bar", 2))
+        circuit = circuit_having(self, motion.plan)
+        reserve = None if circuit is None else circuit.reserve_of(self, motion, case, direction)
+        return found if reserve is None else [*found, Column("reserve", reserve, "", 3)]
+
+    def verdicts(self, motion: Motion) -> list[Verdict]:
+        """Return whether it fits the motion, is of a standard size, and whether its rod buckles where it carries something."""
+        carries = any(each.loads(motion) or each.pushes(motion, AT_REST) for each in motion.plan.of_kind(ForceElement).values())
+        try:
+            return [*self.fits(motion), self.standard(motion), *(self.buckling(motion) if carries else [])]
+        except DefinitionError as error:
+            return [Verdict("cylinder", False, " ".join(str(error).split()))]
 
     def formulas(self, written: Formulas) -> None:
         """Write its area, and its pressure where no circuit says it."""
@@ -350,7 +365,7 @@ def circuits_of(cylinder: Cylinder, plan: Declared) -> list[Circuit]:
     return [each for each in plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(plan.members))]
 
 
-class Circuit(ForceElement):
+class Circuit(ForceElement, Judged):
     """The base of circuits: what feeds cylinders."""
 
     places: ClassVar[tuple[str, ...]] = ()
@@ -385,6 +400,10 @@ class Circuit(ForceElement):
     @abstractmethod
     def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
         """Return the pressure on the working side of one of its cylinders, shape (...) [Pa gauge]."""
+
+    def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, case: Case, direction: str | None) -> Array | None:
+        """Return the greatest rod force of one of its cylinders over the needed one, shape (...); None where no pump feeds it."""
+        return None
 
 
 def changes_in_motion(motion: AnyMotion, loads: Loads) -> bool:

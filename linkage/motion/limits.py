@@ -235,7 +235,7 @@ def span_text(values: Any, unit: str) -> str:
 def place_text(value: Any, unit: str) -> str:
     """Return a stroke [m or rad], or the range of several, as a place of it is read: `0.1234 m`, `25.00 deg`, `0.1000 to 0.2000 m`."""
     digits, shown = 2 if unit == "rad" else 4, display_unit(UNITS[unit][1])
-    ends = dict.fromkeys(f"{float(each) / factor(shown) + 0.0:.{digits}f}" for each in (np.min(value), np.max(value)))
+    ends = dict.fromkeys(f"{float(each) / factor(shown):z.{digits}f}" for each in (np.min(value), np.max(value)))
     return f"{' to '.join(ends)} {shown}"
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
+from ..loads import LoadCase
 from ..program import FloatArray
 from ..quantities import Dimension, Member, Quantity, Stroke
 from ..units import display_unit, factor, unit_or_none
@@ -95,6 +96,7 @@ def columns_of(motion: Motion) -> list[Column]:
 
 # Members that have columns of their own in a machine's table of results.
 
+
 class Tabled(Member):
     """A member that the table of results shows, such as a cylinder: its base beside that of its kind."""
 
@@ -104,3 +106,7 @@ class Tabled(Member):
 
         The motion was asked for with `unreachable="nan"`: values are NaN where there is none.
         """
+
+    def columns_in(self, motion: Motion, case: LoadCase | str | None = None, direction: str | None = None) -> list[Column]:
+        """Return its columns in a load case, while it moves in a direction; by default none but the plain ones of `columns`."""
+        return self.columns(motion) if case is None and direction is None else []

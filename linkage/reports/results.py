@@ -3,31 +3,32 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from dataclasses import replace
 
 from ..errors import DefinitionError, cited
 from ..loads import ForceElement
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Motion, Tabled, require_motion, stroke_unit
-from ..statics import driving_force
+from ..statics import Case, driving_force
 
 
 def results(machine: Mechanism, motion: Motion) -> list[Column]:
     """Return the columns of a machine; where it has no table of its own but loads, forces too, NaN at dead points.
 
-    They are the generalised forces of its strokes, and what its members show: of a cylinder its thrust and its pressure.
+    They are the generalised forces of its strokes, and what its members show: of a cylinder thrust, pressure and reserve. To a table
+    of its own are added those of members that a variant of the machine declares.
     """
     require_mechanism(machine)
     require_motion(motion)
     columns = columns_by(machine, motion)
-    if type(machine).columns is not Mechanism.columns:
-        return columns
     if not any(element.loads(motion) for element in motion.plan.of_kind(ForceElement).values()):
         return columns
     whole = motion.moved(motion.strokes)
     taken = {column.name for column in columns}
-    return columns + [column for column in (*drive_columns(whole), *member_columns(whole)) if column.name not in taken]
+    owner = type(machine).owner("columns")
+    further = [*drive_columns(whole), *member_columns(whole)] if owner is Mechanism else member_columns(whole, beside=owner.plan.members)
+    return columns + [column for column in further if column.name not in taken]
 
 
 def columns_by(machine: Mechanism, motion: Motion) -> list[Column]:
@@ -39,16 +40,27 @@ def columns_by(machine: Mechanism, motion: Motion) -> list[Column]:
     return list(found)
 
 
-def drive_columns(motion: Motion) -> Iterator[Column]:
-    """Yield the generalised force of each stroke under the machine's own loads, without friction: of a length [N], of an angle [Nm]."""
+def force_columns(motion: Motion, case: Case = None, direction: str | None = None) -> list[Column]:
+    """Return the generalised forces of a motion's strokes and what its members show, in a load case, while it moves in a direction.
+
+    NaN at dead points. The direction is of the stroke in its forces, of each cylinder in what is its own.
+    """
+    whole = require_motion(motion).moved(motion.strokes)
+    return [*drive_columns(whole, case, direction), *member_columns(whole, case, direction)]
+
+
+def drive_columns(motion: Motion, case: Case = None, direction: str | None = None) -> Iterator[Column]:
+    """Yield the generalised force of each stroke under the machine's own loads: of a length [N], of an angle [Nm]."""
     for name in motion.strokes:
         what, unit = ("torque", "Nm") if stroke_unit(motion.plan, name) == "rad" else ("drive force", "kN")
-        yield Column(what if len(motion.strokes) == 1 else f"{what} {name}", driving_force(motion, drive=name), unit)
+        force = driving_force(motion, drive=name, case=case, direction=direction or "frictionless")
+        yield Column(what if len(motion.strokes) == 1 else f"{what} {name}", force, unit)
 
 
-def member_columns(motion: Motion) -> Iterator[Column]:
-    """Yield the columns of the members that have some, with their names where several members have the same."""
-    found = [(name, column) for name, member in motion.plan.of_kind(Tabled).items() for column in member.columns(motion)]
+def member_columns(motion: Motion, case: Case = None, direction: str | None = None, *, beside: Container[str] = ()) -> Iterator[Column]:
+    """Yield the columns of the members that have some, with their names where several members have the same; not of those `beside`."""
+    members = {name: member for name, member in motion.plan.of_kind(Tabled).items() if name not in beside}
+    found = [(name, column) for name, member in members.items() for column in member.columns_in(motion, case, direction)]
     count = Counter(column.name for _, column in found)
     for name, column in found:
         yield column if count[column.name] == 1 else replace(column, name=f"{column.name} {name}")

@@ -53,12 +53,12 @@ def lift_verdicts(
     ]
 
 
-def line_verdicts(circuit: LiftLine, motion: Motion) -> list[Verdict]:
+def line_verdicts(circuit: LiftLine, motion: Motion, case: Case = None) -> list[Verdict]:
     """Return `lift_verdicts` of a circuit under the machine's own loads; over a grid of strokes its least reserve, and the holding."""
     try:
         if len(motion._stroke_shape) <= 1:
-            return lift_verdicts(circuit, motion)
-        cylinders = [LiftingCylinder(circuit, ram, motion) for ram in circuit.rams(motion)]
+            return lift_verdicts(circuit, motion, case=case)
+        cylinders = [LiftingCylinder(circuit, ram, motion, case=case) for ram in circuit.rams(motion)]
         nothing = idle(cylinders)
         if nothing is not None:
             return [nothing]

@@ -22,7 +22,7 @@ def results(machine: Mechanism, motion: Motion) -> list[Column]:
     require_mechanism(machine)
     require_motion(motion)
     columns = columns_by(machine, motion)
-    if not any(element.loads(motion) for element in motion.plan.of_kind(ForceElement).values()):
+    if not is_loaded(motion):
         return columns
     whole = motion.moved(motion.strokes)
     taken = {column.name for column in columns}
@@ -43,10 +43,17 @@ def columns_by(machine: Mechanism, motion: Motion) -> list[Column]:
 def force_columns(motion: Motion, case: Case = None, direction: str | None = None) -> list[Column]:
     """Return the generalised forces of a motion's strokes and what its members show, in a load case, while it moves in a direction.
 
-    NaN at dead points. The direction is of the stroke in its forces, of each cylinder in what is its own.
+    Nothing where nothing acts; NaN at dead points. The direction is of the stroke in its forces, of each cylinder in what is its own.
     """
-    whole = require_motion(motion).moved(motion.strokes)
+    if not is_loaded(require_motion(motion)):
+        return []
+    whole = motion.moved(motion.strokes)
     return [*drive_columns(whole, case, direction), *member_columns(whole, case, direction)]
+
+
+def is_loaded(motion: Motion) -> bool:
+    """Return whether anything acts on a machine."""
+    return any(element.loads(motion) for element in motion.plan.of_kind(ForceElement).values())
 
 
 def drive_columns(motion: Motion, case: Case = None, direction: str | None = None) -> Iterator[Column]:
@@ -61,6 +68,7 @@ def member_columns(motion: Motion, case: Case = None, direction: str | None = No
     """Yield the columns of the members that have some, with their names where several members have the same; not of those `beside`."""
     members = {name: member for name, member in motion.plan.of_kind(Tabled).items() if name not in beside}
     found = [(name, column) for name, member in members.items() for column in member.columns_in(motion, case, direction)]
-    count = Counter(column.name for _, column in found)
+    count, kinds = Counter(column.name for _, column in found), Counter(map(type, members.values()))
     for name, column in found:
-        yield column if count[column.name] == 1 else replace(column, name=f"{column.name} {name}")
+        alone = count[column.name] == kinds[type(members[name])] == 1
+        yield column if alone else replace(column, name=f"{column.name} {name}")

@@ -7,7 +7,7 @@ from argparse import ArgumentParser, Namespace
 from linkage import Motion
 from linkage.cli.command import Command, figure_path, machine_arguments, motion_arguments, picture_argument
 from linkage.cli.machines import find_like
-from linkage.cli.settings import design, motion_at
+from linkage.cli.settings import check_argument, design, judged_code, motion_at
 from linkage.cli.table import csv_argument, write_table
 from linkage.units import deg, mm
 
@@ -31,6 +31,7 @@ class Gripping(Command):
         picture_argument(parser, "the figure")
         parser.add_argument("--figure", choices=FIGURES, help="which figure (default: stems)")
         motion_arguments(parser, 11)
+        check_argument(parser)
 
     def run(self, options: Namespace) -> int:
         machine = design(find_like(options.machine, Grapple, "grapple"), options.settings)
@@ -40,11 +41,12 @@ class Gripping(Command):
         columns = machine.columns(over)
         print(f"{layout_words(over)}\n{LEGEND}\n")
         write_table(columns, over.reached.size, options.csv)
-        print("", *machine.verdicts(over), sep="\n")
+        verdicts = machine.verdicts(over)
+        print("", *verdicts, sep="\n")
         if path is not None:
             figure(options.figure or "stems", machine).savefig(path)
             print(path)
-        return 0
+        return judged_code(verdicts, options)
 
 
 def layout_words(motion: Motion) -> str:

@@ -12,6 +12,8 @@ from importlib.metadata import EntryPoint, PackageNotFoundError, entry_points, v
 from typing import Any, NoReturn, TextIO, cast, final
 
 from ..errors import DefinitionError, FileError, LinkageError, SingularWarning, unknown
+from ..language import ENGLISH, language, languages
+from ..units import SYSTEMS, unit_system
 from .command import Command
 
 # The commands there are: the built-in ones, and those of other packages by entry point.
@@ -113,11 +115,12 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def execute(arguments: list[str]) -> int:
     """Return the exit code of the command that the arguments name."""
+    arguments = behind_command(arguments)
     commands = commands_for(arguments)
     if arguments and not arguments[0].startswith("-"):
         (command,) = commands
         options = parsed(command, arguments[1:])
-        with lasting_output(names_file(options)) as output:
+        with lasting_output(names_file(options)) as output, unit_system(options.units), language(options.language):
             code = int(command.run(options))
             return PIPE_CLOSED if output.broken else code
     what = "Planar linkages moved by cylinders: numbers, equations and pictures."
@@ -131,10 +134,31 @@ def execute(arguments: list[str]) -> int:
     return BAD_INPUT
 
 
+COMMON = ("--units", "--language")
+
+
+def behind_command(arguments: list[str]) -> list[str]:
+    """Return arguments with those of every command, where they stand first, behind the command."""
+    first: list[str] = []
+    rest = arguments
+    while rest and rest[0].partition("=")[0] in COMMON:
+        count = 1 if "=" in rest[0] else 2
+        first, rest = [*first, *rest[:count]], rest[count:]
+    return [*rest[:1], *first, *rest[1:]] if rest and not rest[0].startswith("-") else arguments
+
+
+def common_arguments(parser: ArgumentParser) -> None:
+    """Declare the arguments that every command has."""
+    group = parser.add_argument_group("of every command")
+    group.add_argument("--units", choices=SYSTEMS, help="show everything in one system of units (default: each number in its own)")
+    group.add_argument("--language", choices=languages(), default=ENGLISH, help="the language of sentences and headings")
+
+
 def parsed(command: Command, arguments: list[str]) -> Namespace:
     """Return a command's arguments by name, options and others in any order."""
     parser = OneLineParser(prog=f"{PROGRAM} {command.name}", description=command.help, allow_abbrev=False)
     command.add(parser)
+    common_arguments(parser)
     try:
         return parser.parse_intermixed_args(arguments)
     except TypeError:  # a command with commands of its own takes them as they stand

@@ -84,8 +84,8 @@ def dead_point_verdicts(limits: StrokeLimits) -> Iterator[Verdict]:
         before = max((each for each in points if each[0] <= low + near), default=None)
         behind = min((each for each in points if each[0] >= high - near), default=None)
         ends = [(each, max(low - each[0], each[0] - high)) for each in (before, behind) if each is not None]
-        next_ones = [f"{step} at {place(limits, value)}, {away_text(away, limits.unit, near)}" for (value, step), away in ends]
-        yield Verdict("dead points", True, f"none within the stroke; next to it {' and '.join(next_ones)}.")
+        nearest = [f"{step} at {place(limits, value)}, {away_text(away, limits.unit, near)}" for (value, step), away in ends]
+        yield Verdict("dead points", True, f"none within the stroke; the nearest: {'; '.join(nearest)}.")
     crossing = [f"{step} at {place(limits, value)}" for value, step in limits.change_points if low <= value <= high]
     if crossing:
         text = f"branches cross: {' and '.join(crossing)}; there the motion may go on either way. Change a length, or guide it."

@@ -24,7 +24,7 @@ from linkage.errors import DefinitionError, cited, unknown, unwarned
 from linkage.frozen import refuses_changes
 from linkage.loads import AT_REST, Declared, DrawnAs, ForceElement, LoadCase, Parameter, Poses, Push, Rates, TwoPoint, require_poses
 from linkage.loads.element import Formulas
-from linkage.motion import Column, Judged, Motion, Tabled, greatest, lowest, require_motion
+from linkage.motion import Column, Judging, Motion, Tabled, greatest, lowest, require_motion
 from linkage.quantities import Member, Reference, label, name_of
 from linkage.statics import AnyMotion, Case, Loads, elements_of, member_thrust, same
 from linkage.units import mm
@@ -42,7 +42,7 @@ DIRECTIONS = ("frictionless", "extending", "retracting")
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class Cylinder(TwoPoint, Tabled, Judged):
+class Cylinder(TwoPoint, Tabled, Judging):
     """`count` equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
 
     In a class bore and rod [m] are the design variables `lift.bore` and `lift.rod`. `works` is the side the pressure acts
@@ -365,7 +365,7 @@ def circuits_of(cylinder: Cylinder, plan: Declared) -> list[Circuit]:
     return [each for each in plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(plan.members))]
 
 
-class Circuit(ForceElement, Judged):
+class Circuit(ForceElement, Judging):
     """The base of circuits: what feeds cylinders."""
 
     places: ClassVar[tuple[str, ...]] = ()

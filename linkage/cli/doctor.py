@@ -63,7 +63,7 @@ class DoctorCommand(Command):
         print(*lined_up(list(places())), sep="\n")
         print("\nBack ends", *(f"  {line}" for line in lined_up(list(backends()))), sep="\n")
         print("\nPackages", *(f"  {line}" for line in lined_up(list(packages()))), sep="\n")
-        print("\nEntry points", *(f"  {line}" for line in lined_up(list(entries()))), sep="\n")
+        print("\nEntry points", *(f"  {line}" for line in lined_up(list(entry_rows()))), sep="\n")
         faults = list(broken())
         print("\nBroken", *(f"  {line}" for line in faults or ["nothing"]), sep="\n")
         return BROKEN if faults else 0
@@ -139,7 +139,7 @@ def packages() -> Iterator[tuple[str, str, str]]:
         yield extra or "required", what, there
 
 
-def entries() -> Iterator[tuple[str, str, str]]:
+def entry_rows() -> Iterator[tuple[str, str, str]]:
     """Yield what packages bring, group by group: how many, from which distribution, from where."""
     for what, group in GROUPS.items():
         homes: dict[tuple[str, str], int] = {}

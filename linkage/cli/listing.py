@@ -56,13 +56,13 @@ class ListCommand(Command):
             except DefinitionError as error:
                 print(f"hydrolinkage: warning: {error}", file=sys.stderr)
             else:
-                title = titles[package] = titles.get(package) or kind_of(entry, package)
+                title = titles[package] = titles.get(package) or group_title(entry, package)
                 groups.setdefault(title, []).append(row)
         if not groups:
             raise DefinitionError(f"No machine is installed; install the package (pip install -e .). {OWN}")
         for title, rows in (groups | {"Commands": list(commands())}).items():
             print(title, *hanging(rows), "", sep="\n")
-        print(*filled(OWN, ""), sep="\n")
+        print(*wrapped(OWN, ""), sep="\n")
         return 0
 
 
@@ -78,7 +78,7 @@ def package_of(entry: EntryPoint) -> str:
     return two if path is not None and path.name == "__init__.py" else first
 
 
-def kind_of(entry: EntryPoint, package: str) -> str:
+def group_title(entry: EntryPoint, package: str) -> str:
     """Return the title of the kind that a machine is of: what its package says of itself, and whose it is where it is not shipped."""
     node = syntax(package)
     says = (ast.get_docstring(node) or "").partition("\n")[0] if node is not None else ""
@@ -98,10 +98,10 @@ def hanging(rows: Sequence[tuple[str, str]]) -> Iterator[str]:
     """Yield names and what is said of them as lines, which on a terminal are no wider than that."""
     size = max(len(name) for name, _ in rows)
     for name, text in rows:
-        yield from filled(text, f"  {name.ljust(size)}  ")
+        yield from wrapped(text, f"  {name.ljust(size)}  ")
 
 
-def filled(text: str, start: str) -> list[str]:
+def wrapped(text: str, start: str) -> list[str]:
     """Return a text that begins with a start as lines: on a terminal no wider than that, elsewhere one."""
     if not sys.stdout.isatty():
         return [f"{start}{text}".rstrip()]

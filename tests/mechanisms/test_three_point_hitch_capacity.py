@@ -452,7 +452,7 @@ def test_figures_refuse_what_they_cannot_show():
 
 
 def test_capacity_command(capsys):
-    assert main(["capacity", "three_point_hitch", "--count", "3", "--vertical", "--pins"]) == 0
+    assert main(["hitch", "three_point_hitch", "--count", "3", "--vertical", "--pins"]) == 0
     out = capsys.readouterr().out
     for words in ("2 cylinders 110/63 mm", "capacity, kN", "95.69", "80.23", "MK = 917.637 mm", "ok   upper link", "M    pin   MK"):
         assert words in out, words
@@ -460,7 +460,7 @@ def test_capacity_command(capsys):
 
 def test_capacity_command_zones_categories_and_files(capsys, tmp_path):
     table, picture = tmp_path / "zones.csv", tmp_path / "zones.svg"
-    arguments = ["capacity", "three_point_hitch", "--category", "1", "--zones", "--count", "3", "--csv", str(table), "-o", str(picture)]
+    arguments = ["hitch", "three_point_hitch", "--category", "1", "--zones", "--count", "3", "--csv", str(table), "-o", str(picture)]
     assert main(arguments) == 0
     assert "mast height 460 mm" in capsys.readouterr().out
     assert table.read_text().splitlines()[0] == '"S, mm","capacity_min, kN","capacity_max, kN","tilt_min, deg","tilt_max, deg",assembled'
@@ -477,6 +477,6 @@ def test_capacity_command_zones_categories_and_files(capsys, tmp_path):
     ],
 )
 def test_capacity_command_says_what_is_wrong(capsys, arguments, words):
-    assert main(["capacity", *arguments.split()]) == 2
+    assert main(["hitch", *arguments.split()]) == 2
     err = capsys.readouterr().err
     assert words in err and "Traceback" not in err

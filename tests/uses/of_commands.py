@@ -4,7 +4,7 @@ USES = [
     (
         "@",
         "shw; tabel mower_lift; plots; capacty",
-        ("hydrolinkage: Command", "is unknown. Did you mean", "Known: list, show, table, plot, animate, save, optimise, study, "),
+        ("hydrolinkage: Command", "is unknown. Did you mean", "Known: list, show, table, limits, forces, plot, animate, save, optimise, study, new, doctor"),
     ),
     ("@", "--verbos", ("hydrolinkage: unrecognized arguments: --verbos; see hydrolinkage --help.",)),
     (
@@ -167,7 +167,7 @@ USES = [
         "nothing; S_x; turn nothing",
         ("hydrolinkage: Column", "is unknown in the table of Lever.", "Known: S, B_x, B_y, turn."),
     ),
-    ("table lever.py @", "--nothing", ("hydrolinkage: unrecognized arguments: --nothing; see hydrolinkage --help.",)),
+    ("table lever.py @", "--nothing", ("hydrolinkage: unrecognized arguments: --nothing; see hydrolinkage table --help.",)),
     ("table lever.py @", "--csv", ("hydrolinkage: argument --csv: expected one argument; see hydrolinkage table --help.",)),
     ("table lever.py @", "--csv nowhere/a.csv", ("hydrolinkage: nowhere/a.csv: the folder nowhere is not there; make it first",)),
     ("plot lever.py @", "-o a.txt", ("hydrolinkage: -o a.txt: the file's name ends in", "of .png, .svg, .pdf, which chooses the format.")),
@@ -198,7 +198,7 @@ USES = [
     ("save lever.py @", "nowhere/a.toml", ("hydrolinkage: nowhere/a.toml: the folder nowhere is not there; make it first",)),
     ("save lever.py @", "a.toml --set QB=3", ("hydrolinkage: Dimension 'QB' is unknown in Lever. Did you mean OB? Known: A, O, OB.",)),
     (
-        "capacity @",
+        "hitch @",
         "lever.py; mower_lift",
         (
             "hydrolinkage:",
@@ -208,18 +208,18 @@ USES = [
         ),
     ),
     (
-        "capacity @",
+        "hitch @",
         "three_point_hitch --category 9; three_point_hitch --category x; three_point_hitch --figure nothing",
-        ("hydrolinkage: argument", "see hydrolinkage capacity --help."),
+        ("hydrolinkage: argument", "see hydrolinkage hitch --help."),
     ),
     (
-        "capacity @",
+        "hitch @",
         "three_point_hitch --set OB=-1",
         ("hydrolinkage: B = Dyad(A, O): the length OB=-1 m is negative; give a positive one.",),
     ),
-    ("capacity @", "three_point_hitch --at S=x", ("hydrolinkage: --at S: 'x' is not a value;", "and a unit, such as 180mm or -75deg.")),
+    ("hitch @", "three_point_hitch --at S=x", ("hydrolinkage: --at S: 'x' is not a value;", "and a unit, such as 180mm or -75deg.")),
     (
-        "capacity @",
+        "hitch @",
         "three_point_hitch -o a.txt",
         ("hydrolinkage: -o a.txt: the file's name ends in", "of .png, .svg, .pdf, which chooses the format."),
     ),
@@ -272,7 +272,7 @@ USES = [
         "header_balancer -o a.txt",
         ("hydrolinkage: -o a.txt: the file's name ends in", "of .png, .svg, .pdf, which chooses the format."),
     ),
-    ("list @", "nothing; --nothing", ("hydrolinkage: unrecognized arguments:", "see hydrolinkage --help.")),
-    ("show lever.py @", "--equation; nothing", ("hydrolinkage: unrecognized arguments:", "see hydrolinkage --help.")),
+    ("list @", "nothing; --nothing", ("hydrolinkage: unrecognized arguments:", "see hydrolinkage list --help.")),
+    ("show lever.py @", "--equation; nothing", ("hydrolinkage: unrecognized arguments:", "see hydrolinkage show --help.")),
     ("show lever.py @", "--set OB=2kg", ("hydrolinkage: --set OB: '2kg' is a mass where", "wanted; use one of: m, mm, cm, inch.")),
 ]

@@ -24,7 +24,7 @@ MOST_STROKES = 2
 ALONG = 21
 
 
-class Judged(Member):
+class Judging(Member):
     """A member that has something to say of a motion, such as a cylinder: its base beside that of its kind."""
 
     @abstractmethod
@@ -130,8 +130,8 @@ def member_verdicts(motion: Motion, names: Iterable[str] | None = None) -> list[
     """Return what the members that judge themselves say, all or those named; with their names where several follow the same rule."""
     moving = [name for name, value in motion.strokes.items() if np.ptp(value) > 0.0]
     if len(motion._stroke_shape) > MOST_STROKES and len(moving) > MOST_STROKES:
-        return [verdict for name in moving for verdict in along_one(motion, name, names)]
-    members = motion.plan.of_kind(Judged)
+        return [verdict for name in moving for verdict in along_stroke(motion, name, names)]
+    members = motion.plan.of_kind(Judging)
     chosen = [name for name in members if names is None or name in set(names)]
     found = [(name, verdict) for name in chosen for verdict in members[name].verdicts(motion)]
     count = Counter(rule for _, rule in {(name, verdict.rule) for name, verdict in found})
@@ -140,7 +140,7 @@ def member_verdicts(motion: Motion, names: Iterable[str] | None = None) -> list[
     ]
 
 
-def along_one(motion: Motion, stroke: str, names: Iterable[str] | None) -> Iterator[Verdict]:
+def along_stroke(motion: Motion, stroke: str, names: Iterable[str] | None) -> Iterator[Verdict]:
     """Yield what members say along one stroke of a grid, the others in the middle of theirs."""
     middle = {name: float(np.min(value) + np.max(value)) / 2.0 for name, value in motion.strokes.items()}
     values = np.linspace(np.min(motion.strokes[stroke]), np.max(motion.strokes[stroke]), ALONG)
@@ -153,7 +153,7 @@ def along_one(motion: Motion, stroke: str, names: Iterable[str] | None) -> Itera
 
 def added_verdicts(motion: Motion, own: Container[str]) -> list[str]:
     """Return what the members say that are not among a class's own: those of a variant, beside the class's own verdicts."""
-    names = [name for name in motion.plan.of_kind(Judged) if name not in own]
+    names = [name for name in motion.plan.of_kind(Judging) if name not in own]
     if not names or not motion.reached.any():
         return []
     return batch_verdicts(motion, names, with_assembly=False) if motion._design_shape else [*member_verdicts(motion, names)]
@@ -170,7 +170,7 @@ def batch_verdicts(motion: Motion, names: Iterable[str] | None = None, *, with_a
         found.append(
             Verdict("assembly", not lost.size, f"{lost.size} of {total} designs cannot be assembled over the whole motion{first}.")
         )
-    if not (motion.plan.of_kind(Judged) if names is None else [*names]):
+    if not (motion.plan.of_kind(Judging) if names is None else [*names]):
         return found
     if total > JUDGED:
         return [*found, f"Members are judged for up to {JUDGED} designs, this batch has {total}: take a part of it, or ask survey."]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -9,7 +10,7 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, unknown
+from ..errors import DefinitionError, cited, known_name, unknown
 from ..loads import LoadCase
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of, stroke_unit
@@ -17,7 +18,7 @@ from ..plan import Plan, plan_measure
 from ..quantities import Dimension, Quantity, Stroke
 from ..reports import NOTHING, At, force_columns, results, run_of
 from ..steps import Point
-from ..units import parse
+from ..units import UNITS, parse
 from ..verdict import Verdict
 
 DIRECTIONS = ("frictionless", "extending", "retracting")
@@ -108,12 +109,11 @@ def motion_at(machine: Mechanism, texts: Sequence[str], count: int, unreachable:
 
 
 def motion_along(machine: Mechanism, count: int, at: At = NOTHING) -> Motion:
-    """Return the motion along one stroke, the others held as `at` says, else in their middle: what a picture of the whole shows.
+    """Return the motion along one stroke or several together, the others held as `at` says, else in their middle.
 
     Raises AssemblyError where it cannot be assembled; a picture would leave those poses out.
     """
-    run = run_of(machine, at)
-    return machine.at(**run.over(np.linspace(run.start, run.end, count)))
+    return machine.at(**run_of(machine, at).over(np.linspace(0.0, 1.0, count)))
 
 
 def stroke_values(plan: Plan, text: str) -> tuple[str, Any]:
@@ -223,6 +223,28 @@ def ratio_columns(machine: Mechanism, motion: Motion, targets: Sequence[str], wr
             yield from (Column(f"d{name}/d{stroke}", value, unit) for name, value in zip(parts, values, strict=True))
 
 
+LIMITS = {"<=": ("above", "at most"), ">=": ("below", "at least")}
+
+
+def limit_argument(parser: ArgumentParser) -> None:
+    """Declare the argument that says which values of a column fail."""
+    parser.add_argument(
+        "--limit", dest="limits", metavar='"pressure<=180bar"', action="append", default=[],
+        help="draw this limit of a column, COLUMN<=VALUE or COLUMN>=VALUE with its unit, the side that fails shaded; repeatable",
+    )  # fmt: skip
+
+
+def parse_limit(text: str, columns: Sequence[Column]) -> tuple[str, tuple[float, str, str]]:
+    """Return a column's name and its limit as `plot` takes it: the value [SI], words, and the side that fails."""
+    name, sign, value = (part.strip() for part in re.fullmatch(r"(.*?)(<=|>=|$)(.*)", text, re.DOTALL).groups())  # type: ignore[union-attr]
+    if not (name and sign and value):
+        raise DefinitionError(f'--limit {text}: write a column, <= or >=, and a value, such as --limit "pressure<=180bar".')
+    units = {column.name: column.unit for column in columns}
+    unit = units[known_name("Column", name, units, "--limit")]
+    side, words = LIMITS[sign]
+    return name, (si_value(value, UNITS[unit][1] if unit else "", f"--limit {name}"), f"{words} {value}", side)
+
+
 def traced_points(machine: Mechanism, names: Sequence[str] | None) -> tuple[str, ...]:
-    """Return the points whose paths are drawn: those named, else the last one built."""
-    return machine.plan.moving[-1:] if names is None else tuple(names)
+    """Return the points whose paths are drawn: those named, else those the machine is about, else the last one built."""
+    return tuple(machine.featured().path) or machine.plan.moving[-1:] if names is None else tuple(names)

@@ -11,7 +11,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..loads import LoadCase
 from ..mechanism import Mechanism
-from ..motion import Column, Motion, columns_of, motion_verdicts
+from ..motion import Column, Motion, columns_of, geometry_verdicts
 from ..reports import force_columns, is_loaded
 from ..statics import PinForces
 from .command import Command, machine_arguments, motion_arguments
@@ -119,7 +119,7 @@ class LimitsCommand(Command):
             print(each)
         if not options.check:
             return 0
-        verdicts = motion_verdicts(over)
+        verdicts = geometry_verdicts(over)
         print("", *verdicts, sep="\n")
         return judged_code(verdicts, options)
 

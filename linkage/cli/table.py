@@ -60,9 +60,10 @@ class TableCommand(Command):
         names = options.columns or (strokes if options.ratio else [])  # ratios alone stand beside their strokes
         columns = columns_picked(machine, poses, names, strokes, acting)
         columns += ratio_columns(machine, poses, options.ratio, options.wrt)
+        pins = worst_pins(poses, acting) if options.pins else ""
         write_table(columns, poses.reached.size, options.csv)
-        if options.pins:
-            print(f"\n{worst_pins(poses, acting)}")
+        if pins:
+            print(f"\n{pins}")
         if options.limits:
             print(f"\n{poses.limits()}")
         if not options.check:

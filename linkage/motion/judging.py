@@ -39,9 +39,7 @@ def motion_verdicts(motion: Motion) -> list[str]:
     """Return what can be said of a motion of any machine; of a batch, how many designs fail."""
     if motion._design_shape:
         return batch_verdicts(motion)
-    if not motion.reached.any():
-        return [Verdict("assembly", False, one_line(out_of_reach(motion)))]
-    return [*geometry_verdicts(motion), *member_verdicts(motion)]
+    return [*geometry_verdicts(motion), *(member_verdicts(motion) if motion.reached.any() else [])]
 
 
 def one_line(error: LinkageError) -> str:
@@ -56,6 +54,8 @@ def geometry_verdicts(motion: Motion) -> list[str]:
     """Return whether one design is assembled over a motion, its dead points, and its least transmission angle where it is poor."""
     if not motion.strokes or not motion.plan.moving:
         return []
+    if not motion.reached.any():
+        return [assembly_verdict(motion)]
     limits = motion.limits().values()
     return [assembly_verdict(motion), *(each for one in limits for each in dead_point_verdicts(one)), *transmission_words(limits)]
 

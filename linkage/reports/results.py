@@ -61,7 +61,7 @@ def drive_columns(motion: Motion, case: Case = None, direction: str | None = Non
     for name in motion.strokes:
         what, unit = ("torque", "Nm") if stroke_unit(motion.plan, name) == "rad" else ("drive force", "kN")
         force = driving_force(motion, drive=name, case=case, direction=direction or "frictionless")
-        yield Column(what if len(motion.strokes) == 1 else f"{what} {name}", force, unit)
+        yield Column(what if len(motion.strokes) == 1 else f"{what} {name}", force, unit, 2 if unit == "Nm" else 4)
 
 
 def member_columns(motion: Motion, case: Case = None, direction: str | None = None, *, beside: Container[str] = ()) -> Iterator[Column]:

@@ -13,6 +13,7 @@ from linkage.cli.machines import find
 from linkage.cli.settings import check_argument, design, judged_code, motion_at, si_value
 from linkage.cli.table import csv_argument, write_table
 from linkage.errors import DefinitionError, known_name
+from linkage.language import said
 from linkage.loads import ForceElement, LoadCase
 from linkage.mechanism import Mechanism
 from linkage.motion import Column, Motion, columns_of, lowest
@@ -142,8 +143,13 @@ def capacity_verdict(motion: Motion, capacity: Callable[[Motion], Array], point:
     """Return the least capacity over a motion, and where."""
     found = lowest(motion, capacity)
     if np.isnan(found.value):
-        return Verdict("capacity", True, f"the load at {point} drives, or does nothing: it is not limited by this cylinder.")
+        text = said("the load at {point} drives, or does nothing: it is not limited by this cylinder.", point=point)
+        return Verdict("capacity", True, text)
     if found.value <= 0.0:
-        return Verdict("capacity", False, f"nothing more is lifted at {point} {found.where}: the machine alone is too heavy there.")
-    text = f"{show(found.value, 'kN', 4)} ({show(found.value / g0, 'kg', 4)}) are lifted at {point} everywhere, the least {found.where}."
+        text = said("nothing more is lifted at {point} {where}: the machine alone is too heavy there.", point=point, where=found.where)
+        return Verdict("capacity", False, text)
+    text = said(
+        "{force} ({mass}) are lifted at {point} everywhere, the least {where}.",
+        force=show(found.value, "kN", 4), mass=show(found.value / g0, "kg", 4), point=point, where=found.where,
+    )  # fmt: skip
     return Verdict("capacity", True, text)

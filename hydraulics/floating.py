@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import refuses_changes
+from linkage.language import said
 from linkage.loads import AT_REST, ForceElement, Load, Parameter, Poses, Push, Rate, Rates, require_poses
 from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
@@ -103,10 +104,13 @@ class FloatCircuit(Circuit):
         except DefinitionError as error:
             return [Verdict("line", False, " ".join(str(error).split()))]
         unit = self.accumulators(motion).unit or "bar"
-        says = f"its pressure goes from {show(low.value, unit, 4)} {low.where} to {show(high.value, unit, 4)} {high.where}"
+        says = said(
+            "its pressure goes from {low} {low_where} to {high} {high_where}",
+            low=show(low.value, unit, 4), low_where=low.where, high=show(high.value, unit, 4), high_where=high.where,
+        )  # fmt: skip
         if low.value > 0.0:
             return [Verdict("line", True, f"{says}.")]
-        return [Verdict("line", False, f"{says}: the line is empty there. Charge it higher, or take larger accumulators.")]
+        return [Verdict("line", False, says + said(": the line is empty there. Charge it higher, or take larger accumulators."))]
 
     def ram(self, motion: Poses) -> Cylinder:
         """Return its cylinder, as the motion's class has it."""

@@ -9,8 +9,9 @@ from collections.abc import Collection, Container, Iterable, Iterator
 import numpy as np
 
 from ..errors import LinkageError
+from ..language import said
 from ..quantities import Member
-from ..units import deg, mm
+from ..units import deg, show
 from ..verdict import Verdict
 from .limits import StrokeLimits, place_text, span_text, stroke_unit
 from .motion import Motion, out_of_reach
@@ -65,10 +66,13 @@ def assembly_verdict(motion: Motion) -> Verdict:
     if not motion.reached.all():
         return Verdict("assembly", False, one_line(out_of_reach(motion)))
     if motion.interruptions:
-        between = "; ".join(map(str, motion.interruptions))
-        return Verdict("assembly", False, f"between the poses the way is interrupted: {between}; shorten the stroke or change a length.")
+        text = said(
+            "between the poses the way is interrupted: {between}; shorten the stroke or change a length.",
+            between="; ".join(map(str, motion.interruptions)),
+        )
+        return Verdict("assembly", False, text)
     spans = [f"{name} = {span_text(values, stroke_unit(motion.plan, name))}" for name, values in motion.strokes.items()]
-    return Verdict("assembly", True, f"it is assembled over {', '.join(spans)}.")
+    return Verdict("assembly", True, said("it is assembled over {spans}.", spans=", ".join(spans)))
 
 
 def dead_point_verdicts(limits: StrokeLimits) -> Iterator[Verdict]:
@@ -76,36 +80,38 @@ def dead_point_verdicts(limits: StrokeLimits) -> Iterator[Verdict]:
     low, high = sorted((limits.start, limits.end))
     near = 1e-9 * (high - low)
     points = dict.fromkeys(limits.dead_points)
-    inside = [f"{step} at {place(limits, value)}" for value, step in points if low + near < value < high - near]
+    inside = [located(limits, value, step) for value, step in points if low + near < value < high - near]
     if inside:
-        text = f"{' and '.join(inside)}, within the stroke: no drive passes there. Shorten the stroke or change a length."
+        text = said("{places}, within the stroke: no drive passes there. Shorten the stroke or change a length.", places="; ".join(inside))
         yield Verdict("dead points", False, text)
     elif points:
         before = max((each for each in points if each[0] <= low + near), default=None)
         behind = min((each for each in points if each[0] >= high - near), default=None)
         ends = [(each, max(low - each[0], each[0] - high)) for each in (before, behind) if each is not None]
-        nearest = [f"{step} at {place(limits, value)}, {away_text(away, limits.unit, near)}" for (value, step), away in ends]
-        yield Verdict("dead points", True, f"none within the stroke; the nearest: {'; '.join(nearest)}.")
-    crossing = [f"{step} at {place(limits, value)}" for value, step in limits.change_points if low <= value <= high]
+        nearest = [f"{located(limits, value, step)}, {away_text(away, limits.unit, near)}" for (value, step), away in ends]
+        yield Verdict("dead points", True, said("none within the stroke; the nearest: {places}.", places="; ".join(nearest)))
+    crossing = [located(limits, value, step) for value, step in limits.change_points if low <= value <= high]
     if crossing:
-        text = f"branches cross: {' and '.join(crossing)}; there the motion may go on either way. Change a length, or guide it."
+        text = said(
+            "branches cross: {places}; there the motion may go on either way. Change a length, or guide it.", places="; ".join(crossing)
+        )
         yield Verdict("change points", False, text)
-    still = [f"{name} at {place(limits, value)}" for value, name in limits.cylinder_dead_points if low <= value <= high]
+    still = [located(limits, value, name) for value, name in limits.cylinder_dead_points if low <= value <= high]
     if still:
-        text = f"the length of {' and '.join(still)} stands still: its thrust moves nothing there."
+        text = said("its length stands still: {places}; there its thrust moves nothing.", places="; ".join(still))
         yield Verdict("cylinder's dead point", False, text)
 
 
-def place(limits: StrokeLimits, value: float) -> str:
-    """Return a place along a stroke [m or rad] in words: `S = 0.1234 m`."""
-    return f"{limits.stroke} = {place_text(value, limits.unit)}"
+def located(limits: StrokeLimits, value: float, what: str) -> str:
+    """Return what is at a place along a stroke [m or rad] in words: `B at S = 0.1234 m`."""
+    return said("{what} at {stroke} = {value}", what=what, stroke=limits.stroke, value=place_text(value, limits.unit))
 
 
 def away_text(value: float, unit: str, near: float) -> str:
     """Return how far beyond a stroke [m or rad] something is, in words: `13.2 mm beyond it`."""
     if value <= near:
-        return "where it ends"
-    return f"{value / deg:.3g} deg beyond it" if unit == "rad" else f"{value / mm:.3g} mm beyond it"
+        return said("where it ends")
+    return said("{distance} beyond it", distance=show(value, "deg" if unit == "rad" else "mm", 3))
 
 
 def transmission_words(limits: Collection[StrokeLimits]) -> list[str]:
@@ -119,8 +125,14 @@ def transmission_words(limits: Collection[StrokeLimits]) -> list[str]:
     if not within:
         return []
     angle, least, along = min(within, key=lambda each: each[0])
-    where = f"at {least.joint}, at {place(along, least.stroke)}"
-    return [f"The least transmission angle is {angle / deg:.3g} deg, {where}: below 40 deg pin forces and play grow."]
+    return [
+        said(
+            "The least transmission angle is {angle}, at {place}: below {poor} pin forces and play grow.",
+            angle=show(angle, "deg", 3),
+            place=located(along, least.stroke, least.joint),
+            poor=show(POOR, "deg", 3),
+        )
+    ]
 
 
 # -- members -----------------------------------------------------------------------------------------------
@@ -148,7 +160,8 @@ def along_stroke(motion: Motion, stroke: str, names: Iterable[str] | None) -> It
     if not over.reached.any():
         return
     for verdict in member_verdicts(over, names):
-        yield Verdict(f"{verdict.rule}, along {stroke}", verdict.ok, verdict.sentence)
+        heading = said("{rule}, along {stroke}", rule=verdict.heading, stroke=stroke)
+        yield Verdict(f"{verdict.rule}, along {stroke}", verdict.ok, verdict.sentence, heading)
 
 
 def added_verdicts(motion: Motion, own: Container[str]) -> list[str]:
@@ -166,14 +179,18 @@ def batch_verdicts(motion: Motion, names: Iterable[str] | None = None, *, with_a
     found: list[str] = []
     if with_assembly:
         lost = np.flatnonzero(~whole)
-        first = f"; the first is design {lost[0] + 1}" if lost.size else ""
-        found.append(
-            Verdict("assembly", not lost.size, f"{lost.size} of {total} designs cannot be assembled over the whole motion{first}.")
-        )
+        text = said("{n} of {total} designs cannot be assembled over the whole motion", n=lost.size, total=total)
+        text += said("; the first is design {number}.", number=lost[0] + 1) if lost.size else "."
+        found.append(Verdict("assembly", not lost.size, text))
     if not (motion.plan.of_kind(Judging) if names is None else [*names]):
         return found
     if total > JUDGED:
-        return [*found, f"Members are judged for up to {JUDGED} designs, this batch has {total}: take a part of it, or ask survey."]
+        text = said(
+            "Members are judged for up to {most} designs, this batch has {total}: take a part of it, or survey.",
+            most=JUDGED,
+            total=total,
+        )
+        return [*found, text]
     failed: dict[str, list[tuple[int, str]]] = {}
     for number in np.flatnonzero(reached.any(axis=1)).tolist():
         for verdict in member_verdicts(one_of(motion, number), names):
@@ -181,8 +198,9 @@ def batch_verdicts(motion: Motion, names: Iterable[str] | None = None, *, with_a
             if not verdict.ok:
                 failed[verdict.rule].append((number + 1, verdict.sentence))
     for rule, each_of in failed.items():
-        first = f"; the first is design {each_of[0][0]}: {each_of[0][1]}" if each_of else "."
-        found.append(Verdict(rule, not each_of, f"{len(each_of)} of {total} designs fail{first}"))
+        text = said("{n} of {total} designs fail", n=len(each_of), total=total)
+        text += said("; the first is design {number}: {sentence}", number=each_of[0][0], sentence=each_of[0][1]) if each_of else "."
+        found.append(Verdict(rule, not each_of, text))
     return found
 
 

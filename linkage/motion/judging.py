@@ -80,7 +80,7 @@ def dead_point_verdicts(limits: StrokeLimits) -> Iterator[Verdict]:
     low, high = sorted((limits.start, limits.end))
     near = 1e-9 * (high - low)
     points = dict.fromkeys(limits.dead_points)
-    inside = [located(limits, value, step) for value, step in points if low + near < value < high - near]
+    inside = [place_of(limits, value, step) for value, step in points if low + near < value < high - near]
     if inside:
         text = said("{places}, within the stroke: no drive passes there. Shorten the stroke or change a length.", places="; ".join(inside))
         yield Verdict("dead points", False, text)
@@ -88,21 +88,21 @@ def dead_point_verdicts(limits: StrokeLimits) -> Iterator[Verdict]:
         before = max((each for each in points if each[0] <= low + near), default=None)
         behind = min((each for each in points if each[0] >= high - near), default=None)
         ends = [(each, max(low - each[0], each[0] - high)) for each in (before, behind) if each is not None]
-        nearest = [f"{located(limits, value, step)}, {away_text(away, limits.unit, near)}" for (value, step), away in ends]
+        nearest = [f"{place_of(limits, value, step)}, {away_text(away, limits.unit, near)}" for (value, step), away in ends]
         yield Verdict("dead points", True, said("none within the stroke; the nearest: {places}.", places="; ".join(nearest)))
-    crossing = [located(limits, value, step) for value, step in limits.change_points if low <= value <= high]
+    crossing = [place_of(limits, value, step) for value, step in limits.change_points if low <= value <= high]
     if crossing:
         text = said(
             "branches cross: {places}; there the motion may go on either way. Change a length, or guide it.", places="; ".join(crossing)
         )
         yield Verdict("change points", False, text)
-    still = [located(limits, value, name) for value, name in limits.cylinder_dead_points if low <= value <= high]
+    still = [place_of(limits, value, name) for value, name in limits.cylinder_dead_points if low <= value <= high]
     if still:
         text = said("its length stands still: {places}; there its thrust moves nothing.", places="; ".join(still))
         yield Verdict("cylinder's dead point", False, text)
 
 
-def located(limits: StrokeLimits, value: float, what: str) -> str:
+def place_of(limits: StrokeLimits, value: float, what: str) -> str:
     """Return what is at a place along a stroke [m or rad] in words: `B at S = 0.1234 m`."""
     return said("{what} at {stroke} = {value}", what=what, stroke=limits.stroke, value=place_text(value, limits.unit))
 
@@ -129,7 +129,7 @@ def transmission_words(limits: Collection[StrokeLimits]) -> list[str]:
         said(
             "The least transmission angle is {angle}, at {place}: below {poor} pin forces and play grow.",
             angle=show(angle, "deg", 3),
-            place=located(along, least.stroke, least.joint),
+            place=place_of(along, least.stroke, least.joint),
             poor=show(POOR, "deg", 3),
         )
     ]

@@ -7,10 +7,11 @@ from collections.abc import Container, Iterator
 from dataclasses import replace
 
 from ..errors import DefinitionError, cited
+from ..files.callables import REQUESTS, brought, request_function
 from ..loads import ForceElement
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Motion, Tabled, require_motion, stroke_unit
-from ..statics import Case, driving_force
+from ..statics import Case, drive_force, driving_force
 
 
 def results(machine: Mechanism, motion: Motion) -> list[Column]:
@@ -61,14 +62,24 @@ def drive_columns(motion: Motion, case: Case = None, direction: str | None = Non
     for name in motion.strokes:
         what, unit = ("torque", "Nm") if stroke_unit(motion.plan, name) == "rad" else ("drive force", "kN")
         force = driving_force(motion, drive=name, case=case, direction=direction or "frictionless")
-        yield Column(what if len(motion.strokes) == 1 else f"{what} {name}", force, unit, 2 if unit == "Nm" else 4)
+        title, digits = what if len(motion.strokes) == 1 else f"{what} {name}", 2 if unit == "Nm" else 4
+        yield Column(title, force, unit, digits, request=drive_force(name, case=case) if direction is None else None)
 
 
 def member_columns(motion: Motion, case: Case = None, direction: str | None = None, *, beside: Container[str] = ()) -> Iterator[Column]:
     """Yield the columns of the members that have some, with their names where several members have the same; not of those `beside`."""
     members = {name: member for name, member in motion.plan.of_kind(Tabled).items() if name not in beside}
     found = [(name, column) for name, member in members.items() for column in member.columns_in(motion, case, direction)]
+    if case is None and direction is None:
+        found = [(name, asked_by_name(name, column)) for name, column in found]
     count, kinds = Counter(column.name for _, column in found), Counter(map(type, members.values()))
     for name, column in found:
         alone = count[column.name] == kinds[type(members[name])] == 1
         yield column if alone else replace(column, name=f"{column.name} {name}")
+
+
+def asked_by_name(member: str, column: Column) -> Column:
+    """Return a member's column with what it is asked for by: the request of the column's name, of the member, where there is one."""
+    if column.request is not None or not (column.name in REQUESTS or column.name in brought()):
+        return column
+    return replace(column, request=request_function(column.name)(member))

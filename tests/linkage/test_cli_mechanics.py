@@ -277,18 +277,38 @@ def test_limits_are_drawn(said, tmp_path):
     assert said("animate", "loader.py", "--limit", "reserve>=3", "-o", "a.gif", "--count", "3")[:2] == (0, "a.gif\n")
 
 
-def test_a_file_is_written_whole_though_nobody_reads_what_is_said(tmp_path):
-    (tmp_path / "loader.py").write_text(LOADER, encoding="utf-8")
+TALKS = """
+import sys
+from pathlib import Path
+from linkage.cli import Command, entry, main
+
+class Talks(Command):
+    name, help = "talks", "says much, then writes a file"
+
+    def add(self, parser):
+        parser.add_argument("-o", "--output")
+
+    def run(self, options):
+        for number in range(100_000):
+            print("line", number)
+        Path("said.txt").write_text("whole")
+        return 0
+
+entry.commands_for = lambda arguments: [Talks()]
+sys.exit(main(["talks", *sys.argv[1:]]))
+"""
+
+
+@pytest.mark.parametrize("options", [("-o", "said.txt"), ()])
+def test_a_file_that_is_named_is_written_though_nobody_reads_what_is_said(tmp_path, options):
     paths = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
-    arguments = [sys.executable, "-m", "linkage", "table", "four_bar", "--count", "3000", "--csv", "bar.csv"]
-    running = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=tmp_path, env=paths)
-    assert running.stdout.readline()
-    running.stdout.close()
-    assert running.wait() == 141
-    assert running.stderr.read() == b""
-    running.stderr.close()
-    assert (tmp_path / "bar.csv").read_text(encoding="utf-8").rstrip().endswith("</svg>")
-    assert sorted(each.name for each in tmp_path.iterdir()) == ["loader.py", "bar.csv"]
+    with subprocess.Popen(
+        [sys.executable, "-c", TALKS, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=tmp_path, env=paths
+    ) as running:
+        assert running.stdout.readline() == b"line 0\n"
+        running.stdout.close()
+        assert (running.wait(), running.stderr.read()) == (141, b"")
+    assert (tmp_path / "said.txt").exists() == bool(options)  # without a file there is nothing to go on for
 
 
 # -- list, new, doctor -------------------------------------------------------------------------------------

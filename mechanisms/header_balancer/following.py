@@ -18,7 +18,7 @@ from linkage.program import FloatArray
 from linkage.quantities import Coordinate, Distance, is_number, is_whole
 from linkage.statics import driving_force, reaction
 from linkage.statics.acting import SENSES
-from linkage.units import kgf_cm2, mm
+from linkage.units import mm, show
 
 AB = Distance("A", "B")  # one for all, so that its ratio is worked out once
 
@@ -267,4 +267,4 @@ def relief(motion: Motion) -> Relief:
 
 def kgf_cm2_text(pressure: float, digits: int = 2) -> str:
     """Return a pressure [Pa] in kgf/cm2."""
-    return f"{pressure / kgf_cm2:.{digits}f} kgf/cm2"
+    return show(float(pressure), "kgf/cm2", f".{digits}f")

@@ -85,7 +85,7 @@ class ThreePointHitch(Mechanism):
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return what an engineer should know: capacity and its weakest point, pressure, oil, upper link, mast, front axle."""
-        return verdicts(self, motion)
+        return [*verdicts(self, motion)]
 
 
 # Hitch categories 1 to 3: the dimensions that ISO 730 fixes, and hitches of such proportions.

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, unknown, unwarned
 from linkage.frozen import refuses_changes
-from linkage.language import said, said_of, with_and
+from linkage.language import noted, said, said_of, with_and
 from linkage.loads import AT_REST, Declared, DrawnAs, ForceElement, LoadCase, Parameter, Poses, Push, Rates, TwoPoint, require_poses
 from linkage.loads.element import Formulas
 from linkage.motion import Column, Motion, Tabled, greatest, lowest, require_motion
@@ -195,8 +195,8 @@ class Cylinder(TwoPoint, Tabled):
         """Return its thrust without friction and, unless several circuits have it, its pressure, for the table of results."""
         require_poses(motion)
         pressed = len(circuits_of(self, motion.plan)) <= 1
-        thrust = Column("thrust", self.thrust(motion), "kN")
-        return [thrust, Column("pressure", self.pressure(motion), "bar", 2)] if pressed else [thrust]
+        thrust = Column(noted("thrust"), self.thrust(motion), "kN")
+        return [thrust, Column(noted("pressure"), self.pressure(motion), "bar", 2)] if pressed else [thrust]
 
     def formulas(self, written: Formulas) -> None:
         """Write its area, and its pressure where no circuit says it."""

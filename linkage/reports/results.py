@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ..errors import DefinitionError, cited
+from ..language import noted
 from ..loads import ForceElement
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Motion, Tabled, require_motion, stroke_unit
@@ -42,7 +43,7 @@ def columns_by(machine: Mechanism, motion: Motion) -> list[Column]:
 def drive_columns(motion: Motion) -> Iterator[Column]:
     """Yield the generalised force of each stroke under the machine's own loads, without friction: of a length [N], of an angle [Nm]."""
     for name in motion.strokes:
-        what, unit = ("torque", "Nm") if stroke_unit(motion.plan, name) == "rad" else ("drive force", "kN")
+        what, unit = (noted("torque"), "Nm") if stroke_unit(motion.plan, name) == "rad" else (noted("drive force"), "kN")
         yield Column(what if len(motion.strokes) == 1 else f"{what} {name}", driving_force(motion, drive=name), unit)
 
 

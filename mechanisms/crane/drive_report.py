@@ -66,11 +66,12 @@ def movements_of(motion: Motion) -> tuple[Movement, ...]:
 def drive_columns(motion: Motion) -> list[Column]:
     """Return the angle, the cylinder's length and lever, and for every movement the moments asked for and given, and what is over."""
     angle = angle_of(motion)
-    found = [Column(angle, motion.strokes[angle], "deg", 2), Column("length", motion["length"], "mm", 1)]
-    found.append(Column("lever", np.abs(motion.ratio("length")), "mm", 1))
+    found = [Column(angle, motion.strokes[angle], "deg", 2), Column(noted("length"), motion["length"], "mm", 1)]
+    found.append(Column(noted("lever"), np.abs(motion.ratio("length")), "mm", 1))
     for each in movements_of(motion):
         asked, given = each.asked(motion), each.given(motion)
-        found += [Column(f"{each.name}: asked", asked, "kNm", 2), Column("given", given, "kNm", 2), Column("over", given - asked, "kNm", 2)]
+        found.append(Column(f"{each.name}: {noted('asked')}", asked, "kNm", 2))
+        found += [Column(noted("given"), given, "kNm", 2), Column(noted("over"), given - asked, "kNm", 2)]
     return found
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from hydraulics import Cylinder, LiftCircuit
 from hydraulics.inputs import positive
 from linkage import LEFT, RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, Motion, OnLink, Stroke, Weight, angle
+from linkage.language import noted
 from linkage.loads.element import Formulas
 from linkage.units import MPa, deg, kg, litre, minute, mm
 
@@ -75,8 +76,8 @@ class ThreePointHitch(Mechanism):
     def columns(self, motion: Motion) -> list[Column]:
         """Return the stroke, the moving points, the ratio I = dG_y/dS (27), the lifting capacity (28) and the upright's tilt."""
         points = [each for each in super().columns(motion) if each.name != "tilt"]
-        lifted = Column("capacity", capacity(motion), "kN", 3)
-        return [*points, Column("I", motion.ratio("G")[1], "", 4), lifted, Column("tilt", motion["tilt"], "deg", 3)]
+        lifted = Column(noted("capacity"), capacity(motion), "kN", 3)
+        return [*points, Column("I", motion.ratio("G")[1], "", 4), lifted, Column(noted("tilt"), motion["tilt"], "deg", 3)]
 
     def formulas(self, written: Formulas) -> None:
         """Write, after what its elements say, F_cyl = p_max area (29) and the lifting capacity G_g = F_cyl eta / I_G (28)."""

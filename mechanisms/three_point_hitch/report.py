@@ -6,7 +6,7 @@ import numpy as np
 
 from hydraulics import lift_verdicts
 from linkage import Column, ForceElement, Mechanism, Motion, pin_forces
-from linkage.language import said
+from linkage.language import noted, said
 from linkage.motion import out_of_reach
 from linkage.program import FloatArray
 from linkage.reports import closely, ranges_below_zero, spans_in_words
@@ -25,15 +25,15 @@ def capacity_columns(motion: Motion) -> list[Column]:
         Column("S", motion.strokes["S"], "mm", 1),
         Column("F_y", motion.y("F"), "mm", 1),
         Column("I", motion.ratio("G")[1], "", 4),
-        Column("capacity", capacity(motion), "kN", 2),
+        Column(noted("capacity"), capacity(motion), "kN", 2),
         Column("F 90%", at_hitch_points(motion), "kN", 2),
         Column("610 90%", behind(motion), "kN", 2),
-        Column("tilt", motion["tilt"], "deg", 3),
+        Column(noted("tilt"), motion["tilt"], "deg", 3),
         Column("MK", upper_link_force(motion), "kN", 2),
-        Column("front", front_axle(motion), "kN", 2),
-        Column("max", largest_mass(motion), "kg", 0),
-        Column("tips", tipping_mass(motion), "kg", 0),
-        Column("uphill", tipping_slope(motion), "deg", 1),
+        Column(noted("front"), front_axle(motion), "kN", 2),
+        Column(noted("max"), largest_mass(motion), "kg", 0),
+        Column(noted("tips"), tipping_mass(motion), "kg", 0),
+        Column(noted("uphill"), tipping_slope(motion), "deg", 1),
     ]
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from linkage import Column, Mechanism
-from linkage.language import said
+from linkage.language import noted, said
 from linkage.mechanism import require_mechanism
 from linkage.study import Settings, Zone, settings_for, zone
 from linkage.units import show, shown_number
@@ -47,11 +47,11 @@ def zone_columns(capacity: Zone, tilt: Zone) -> list[Column]:
     """Return both zones as a table over the stroke."""
     return [
         Column("S", capacity.strokes["S"], "mm", 1),
-        Column("capacity_min", capacity.low, "kN", 2),
-        Column("capacity_max", capacity.high, "kN", 2),
-        Column("tilt_min", tilt.low, "deg", 3),
-        Column("tilt_max", tilt.high, "deg", 3),
-        Column("assembled", tilt.reached, "", 3),
+        Column(noted("capacity_min"), capacity.low, "kN", 2),
+        Column(noted("capacity_max"), capacity.high, "kN", 2),
+        Column(noted("tilt_min"), tilt.low, "deg", 3),
+        Column(noted("tilt_max"), tilt.high, "deg", 3),
+        Column(noted("assembled"), tilt.reached, "", 3),
     ]
 
 

@@ -22,6 +22,7 @@ from linkage import (
     DefinitionError,
     Dimension,
     Dyad,
+    Featured,
     ForceElement,
     Ground,
     Mechanism,
@@ -127,6 +128,12 @@ class MowerLift(Mechanism):
         for name, element in self.plan.of_kind(ForceElement).items():
             if name not in ("lift", "circuit"):
                 element.formulas(written)
+
+    def featured(self) -> Featured:
+        """Return the reserve kz with the 1 that it needs, the supply's pressure with the pump's limit, and the path of G."""
+        most = float(self["p_max"])
+        limits = {"kz": (1.0, "kz = 1", "below"), "pd": (most, f"p_max = {show(most, 'kgf/cm2', 4)}", "above")}
+        return Featured("kz", ["G"], limits)
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return whether the section can be lifted, where not, the remedy, and the oil it takes; looked for between the poses too.

@@ -189,7 +189,7 @@ def test_unreached_poses_are_told():
     assert "least at S = 0.4083 m" in "\n".join(text)  # up to the dead point, though no pose was asked for there
     assert text[-1].startswith("FAIL reach: poses out of reach are left out of this. B = Dyad(A, O)")
     nowhere = hitch.at(S=[0.5, 0.6], unreachable="nan")
-    assert hitch.verdicts(nowhere) == ["No pose of this motion can be assembled; there is nothing to lift."]
+    assert hitch.verdicts(nowhere) == ["FAIL reach: No pose of this motion can be assembled; there is nothing to lift."]
 
 
 # -- the upper link ----------------------------------------------------------------------------------------------

@@ -191,7 +191,7 @@ def out_of(motion: Motion, short: Sequence[Span]) -> str:
         return said("beyond S = {end}", end=show(first, "m", ".4f"))
     if low == motion.plan.strokes["S"].start:
         return said("from its lowest position")
-    return said("from S = {start} on", start=show(low, "m", ".4f"))
+    return said("from S = {start}", start=show(low, "m", ".4f"))
 
 
 def remedy_words(circuit: LiftCircuit, motion: Motion, found: Lifting) -> str:

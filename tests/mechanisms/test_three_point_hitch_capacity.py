@@ -119,13 +119,13 @@ def test_batch_of_designs():
         assert_allclose(row, capacity(ThreePointHitch(**{"lift.bore": bore}).sweep(7)), rtol=1e-12)
     assert all(np.broadcast_shapes(column.values.shape, (3, 7)) == (3, 7) for column in capacity_columns(hitch.sweep(7)))
     (text,) = hitch.verdicts(hitch.sweep(7))
-    assert text.startswith("0 of 3 designs are too weak for their implement, 0 leave too little on the front axle, 0 do not reach")
+    assert text and text.sentence.startswith("0 of 3 designs are too weak for their implement, 0 leave too little on the front axle, 0 do not reach")
 
 
 def test_verdict_of_a_batch_counts_what_fails():
     hitch = ThreePointHitch(**{"load.mass": [2000, 3000, 9000]})
     (text,) = hitch.verdicts(hitch.sweep(7))
-    assert text.startswith("1 of 3 designs are too weak for their implement, 2 leave too little")
+    assert text.sentence.startswith("1 of 3 designs are too weak for their implement, 2 leave too little")
 
 
 # -- the weakest point -----------------------------------------------------------------------------------------
@@ -152,7 +152,7 @@ def test_weakest_point_inside_the_stroke():
 
 def test_stages_make_up_the_ratio():
     motion = ThreePointHitch().at(S=[0.1])
-    assert np.prod([factor for factor, _ in stages(motion).values()]) == pytest.approx(float(motion.ratio("G")[1, 0]), rel=1e-13)
+    assert np.prod([factor for factor, *_ in stages(motion).values()]) == pytest.approx(float(motion.ratio("G")[1, 0]), rel=1e-13)
 
 
 def test_weakest_point_in_words():

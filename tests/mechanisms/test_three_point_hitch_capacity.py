@@ -119,7 +119,8 @@ def test_batch_of_designs():
         assert_allclose(row, capacity(ThreePointHitch(**{"lift.bore": bore}).sweep(7)), rtol=1e-12)
     assert all(np.broadcast_shapes(column.values.shape, (3, 7)) == (3, 7) for column in capacity_columns(hitch.sweep(7)))
     (text,) = hitch.verdicts(hitch.sweep(7))
-    assert text and text.sentence.startswith("0 of 3 designs are too weak for their implement, 0 leave too little on the front axle, 0 do not reach")
+    none = "0 of 3 designs are too weak for their implement, 0 leave too little on the front axle, 0 do not reach"
+    assert text and text.sentence.startswith(none)
 
 
 def test_verdict_of_a_batch_counts_what_fails():

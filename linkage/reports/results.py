@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from ..errors import DefinitionError, cited
 from ..files.callables import REQUESTS, brought, request_function
+from ..language import noted
 from ..loads import ForceElement
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Motion, Tabled, require_motion, stroke_unit
@@ -60,7 +61,7 @@ def is_loaded(motion: Motion) -> bool:
 def drive_columns(motion: Motion, case: Case = None, direction: str | None = None) -> Iterator[Column]:
     """Yield the generalised force of each stroke under the machine's own loads: of a length [N], of an angle [Nm]."""
     for name in motion.strokes:
-        what, unit = ("torque", "Nm") if stroke_unit(motion.plan, name) == "rad" else ("drive force", "kN")
+        what, unit = (noted("torque"), "Nm") if stroke_unit(motion.plan, name) == "rad" else (noted("drive force"), "kN")
         force = driving_force(motion, drive=name, case=case, direction=direction or "frictionless")
         title, digits = what if len(motion.strokes) == 1 else f"{what} {name}", 2 if unit == "Nm" else 4
         yield Column(title, force, unit, digits, request=drive_force(name, case=case) if direction is None else None)

@@ -47,7 +47,7 @@ class PinLoad:
         """The row as text, in the units and the language that are chosen."""
         at = ", ".join(f"{name} = {place_text(value, self.units[name])}" for name, value in self.strokes.items())
         force, angle = shown_number(self.force, "kN", ".3f"), shown_number(self.angle, "deg", "z.1f")
-        kind, motion = translated(self.kind), translated(self.direction)
+        kind, motion = translated(WORDS.get(self.kind, self.kind)), translated(WORDS.get(self.direction, self.direction))
         return self.point, kind, self.on, self.by, force, angle, self.axis, at, self.case, motion
 
 
@@ -56,10 +56,11 @@ HEADINGS = (
     (noted("from axis"), ""), (noted("at"), ""), (noted("load case"), ""), (noted("motion"), ""),
 )  # fmt: skip
 """The headings of the table, each with the unit of its numbers."""
-WORDS = (
-    noted("guide"), noted("slot"), noted("driven"), noted("crank"), noted("slider"), noted("telescope"), noted("upright"),
-    noted("frictionless"), noted("extending"), noted("retracting"),
-)  # fmt: skip
+WORDS = {
+    "guide": noted("guide"), "slot": noted("slot"), "driven": noted("driven point"), "crank": noted("crank"), "slider": noted("slider"),
+    "telescope": noted("telescope"), "upright": noted("upright"), "frictionless": noted("frictionless"),
+    "extending": noted("extending"), "retracting": noted("retracting"),
+}  # fmt: skip
 """Kinds of joints and directions of motion that its cells hold."""
 
 

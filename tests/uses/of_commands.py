@@ -146,13 +146,13 @@ USES = [
     ("table lever.py --at @", "S; S=; S=x; S=nan; S=0.6,x; =0.6", ("hydrolinkage: --at",)),
     ("table lever.py --at @", "S=700", ("hydrolinkage: Lever: S = 700 m, and", "declare the stroke as long as that.")),
     ("table lever.py --at @", "Q=0.6", ("hydrolinkage: Stroke 'Q' is unknown in Lever. Known: S.",)),
-    ("table lever.py --at @", "S=0.6kg", ("hydrolinkage: --at S: '0.6kg' is a mass where", "wanted; use one of: m, mm, cm, inch.")),
+    ("table lever.py --at @", "S=0.6kg", ("hydrolinkage: --at S: '0.6kg' is a mass where", "wanted; use one of: m, mm, cm, inch, in, ft.")),
     ("table lever.py --at @", "S=0.1", ("hydrolinkage: B = Dyad(A, O) cannot be", "Start the stroke later or lengthen OB.")),
     ("table lever.py --set @", "OB; OB=; OB=x; OB=nan", ("hydrolinkage: --set",)),
     ("table lever.py --set @", "OB=0; OB=-0.2", ("hydrolinkage: B = Dyad(A, O): the length", "give a positive one.")),
     ("table lever.py --set @", "QB=0.2", ("hydrolinkage: Dimension 'QB' is unknown in Lever. Did you mean OB? Known: A, O, OB.",)),
     ("table lever.py --set @", "S=0.6", ("Lever, not a dimension; `table` takes --at S=0.6.",)),
-    ("table lever.py --set @", "OB=20deg", ("hydrolinkage: --set OB: '20deg' is an angle", "use one of: m, mm, cm, inch.")),
+    ("table lever.py --set @", "OB=20deg", ("hydrolinkage: --set OB: '20deg' is an angle", "use one of: m, mm, cm, inch, in, ft.")),
     (
         "table lever.py --set @",
         "O=0.6",
@@ -238,7 +238,7 @@ USES = [
     (
         "balance @",
         "header_balancer --pressure 40kg",
-        ("hydrolinkage: --pressure: '40kg' is a mass where", "of: Pa, kPa, MPa, bar, kgf_cm2, kgf/cm2."),
+        ("hydrolinkage: --pressure: '40kg' is a mass where", "of: Pa, kPa, MPa, bar, kgf_cm2, kgf/cm2, psi."),
     ),
     (
         "balance @",
@@ -246,7 +246,7 @@ USES = [
         ("hydrolinkage: A reaction of 1e+09 kgf is above the weights', 1143 kgf; ask for less.",),
     ),
     ("balance @", "header_balancer --measured nowhere.csv", ("hydrolinkage: nowhere.csv: there is no such file; look at its name",)),
-    ("balance @", "header_balancer --measured values.csv", ("is one of m, mm, cm, inch.",)),
+    ("balance @", "header_balancer --measured values.csv", ("is one of m, mm, cm, inch, in, ft.",)),
     (
         "balance @",
         "header_balancer --figure nothing",
@@ -274,5 +274,5 @@ USES = [
     ),
     ("list @", "nothing; --nothing", ("hydrolinkage: unrecognized arguments:", "see hydrolinkage list --help.")),
     ("show lever.py @", "--equation; nothing", ("hydrolinkage: unrecognized arguments:", "see hydrolinkage show --help.")),
-    ("show lever.py @", "--set OB=2kg", ("hydrolinkage: --set OB: '2kg' is a mass where", "wanted; use one of: m, mm, cm, inch.")),
+    ("show lever.py @", "--set OB=2kg", ("hydrolinkage: --set OB: '2kg' is a mass where", "wanted; use one of: m, mm, cm, inch, in, ft.")),
 ]

@@ -10,8 +10,9 @@ from typing import TypeAlias, final
 import numpy as np
 
 from ..errors import DefinitionError, cited, unwarned
+from ..language import said
 from ..motion import greatest
-from ..units import deg, kN
+from ..units import shown_number, unit_sign
 from .joint_forces import JointForce, PinForces
 
 Place: TypeAlias = tuple[np.intp, ...]
@@ -42,11 +43,16 @@ class PinLoad:
     def cells(self) -> tuple[str, ...]:
         """The row as text."""
         at = ", ".join(f"{name} = {value:.4f}" for name, value in self.strokes.items())
-        force, angle = f"{self.force / kN:.3f}", f"{self.angle / deg:.1f}"
+        force, angle = shown_number(self.force, "kN", ".3f"), shown_number(self.angle, "deg", ".1f")
         return self.point, self.kind, self.on, self.by, force, angle, self.axis, at, self.case, self.direction
 
 
-HEADINGS = ("pin", "kind", "on", "from", "force, kN", "angle, deg", "from axis", "at", "load case", "motion")
+def max_headings() -> tuple[str, ...]:
+    """Return the headings of the rows' cells, with units."""
+    force, angle = f"{said('force')}, {unit_sign('kN')}", f"{said('angle')}, {unit_sign('deg')}"
+    return (
+        said("pin"), said("kind"), said("on"), said("from"), force, angle, said("from axis"), said("at"), said("load case"), said("motion")
+    )  # fmt: skip
 
 
 def max_table(results: PinForces | Iterable[PinForces]) -> tuple[PinLoad, ...]:
@@ -126,6 +132,6 @@ def pin_load(
 
 def table_text(rows: Iterable[PinLoad]) -> str:
     """Return the table as aligned text."""
-    cells = [HEADINGS, *(row.cells for row in rows)]
+    cells = [max_headings(), *(row.cells for row in rows)]
     sizes = [max(map(len, column)) for column in zip(*cells, strict=True)]
     return "\n".join("  ".join(cell.ljust(size) for cell, size in zip(row, sizes, strict=True)).rstrip() for row in cells)

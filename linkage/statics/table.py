@@ -10,7 +10,7 @@ from typing import TypeAlias, final
 import numpy as np
 
 from ..errors import DefinitionError, cited, unwarned
-from ..language import noted, translated
+from ..language import noted, said, translated
 from ..motion import greatest, stroke_unit
 from ..motion.limits import place_text
 from ..units import shown_number, unit_sign
@@ -47,21 +47,24 @@ class PinLoad:
         """The row as text, in the units and the language that are chosen."""
         at = ", ".join(f"{name} = {place_text(value, self.units[name])}" for name, value in self.strokes.items())
         force, angle = shown_number(self.force, "kN", ".3f"), shown_number(self.angle, "deg", "z.1f")
-        kind, motion = translated(WORDS.get(self.kind, self.kind)), translated(WORDS.get(self.direction, self.direction))
+        kind, motion = (translated(WORDS.get(word, word)) for word in (self.kind, self.direction))
         return self.point, kind, self.on, self.by, force, angle, self.axis, at, self.case, motion
 
 
-HEADINGS = (
-    (noted("pin"), ""), (noted("kind"), ""), (noted("on"), ""), (noted("from"), ""), (noted("force"), "kN"), (noted("angle"), "deg"),
-    (noted("from axis"), ""), (noted("at"), ""), (noted("load case"), ""), (noted("motion"), ""),
-)  # fmt: skip
-"""The headings of the table, each with the unit of its numbers."""
 WORDS = {
-    "guide": noted("guide"), "slot": noted("slot"), "driven": noted("driven point"), "crank": noted("crank"), "slider": noted("slider"),
-    "telescope": noted("telescope"), "upright": noted("upright"), "frictionless": noted("frictionless"),
+    "pin": noted("pin"), "guide": noted("guide"), "slot": noted("slot"), "driven": noted("driven point"), "crank": noted("crank"),
+    "slider": noted("slider"), "telescope": noted("telescope"), "upright": noted("upright"), "frictionless": noted("frictionless"),
     "extending": noted("extending"), "retracting": noted("retracting"),
 }  # fmt: skip
-"""Kinds of joints and directions of motion that its cells hold."""
+"""Kinds of joints and directions of motion, as the table's cells say them."""
+
+
+def max_headings() -> tuple[str, ...]:
+    """Return the headings of the rows' cells, with units."""
+    force, angle = f"{said('force')}, {unit_sign('kN')}", f"{said('angle')}, {unit_sign('deg')}"
+    return (
+        said("pin"), said("kind"), said("on"), said("from"), force, angle, said("from axis"), said("at"), said("load case"), said("motion")
+    )  # fmt: skip
 
 
 def max_table(results: PinForces | Iterable[PinForces]) -> tuple[PinLoad, ...]:
@@ -140,7 +143,6 @@ def pin_load(result: PinForces, joint: JointForce, force: float, place: Place, d
 
 def table_text(rows: Iterable[PinLoad]) -> str:
     """Return the table as aligned text."""
-    headings = [f"{translated(name)}, {unit_sign(unit)}" if unit else translated(name) for name, unit in HEADINGS]
-    cells = [headings, *(row.cells for row in rows)]
+    cells = [max_headings(), *(row.cells for row in rows)]
     sizes = [max(map(len, column)) for column in zip(*cells, strict=True)]
     return "\n".join("  ".join(cell.ljust(size) for cell, size in zip(row, sizes, strict=True)).rstrip() for row in cells)

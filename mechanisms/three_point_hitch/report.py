@@ -147,7 +147,8 @@ def batch_verdict(motion: Motion) -> Verdict:
 def pressure_words(motion: Motion) -> str:
     """Return the pump's pressure and the cylinders in words."""
     circuit = circuit_of(motion)
-    return f"{circuit.rams(motion)[0].sized(motion)} at {float(circuit.supply(motion)) / 1e6:.4g} MPa"
+    pressure = show(float(circuit.supply(motion)), "MPa", 4)
+    return said("{size} at {pressure}", size=circuit.rams(motion)[0].sized(motion), pressure=pressure)
 
 
 # The force in the upper link, from the equilibrium of every body.

@@ -7,8 +7,9 @@ from importlib.metadata import entry_points
 import numpy as np
 import pytest
 
-from linkage import Mechanism
+from linkage import Mechanism, plot
 from linkage.language import language, said
+from linkage.pictures.strokes import StrokeAxis
 from linkage.reports import results, text_table
 from linkage.units import SYSTEMS, UNITS, unit_system
 
@@ -133,3 +134,16 @@ def is_label(word, machine):
 def test_a_word_that_is_not_translated_would_be_found():
     with language("ru"):
         assert LATIN.findall(said("the least reserve of all is {n}", n=3)) != []
+
+
+def test_axes_of_a_curve_are_of_the_system_and_the_language():
+    lift = SHIPPED["mower_lift"]()
+    motion = lift.sweep(5)
+    with unit_system("us"), language("ru"):
+        axis = StrokeAxis.of(motion)
+        (panel,) = [ax for ax in plot(lift, ["pd"], limits=dict(pd=(155 * UNITS["kgf_cm2"][0], "p")), count=5).axes if ax.lines]
+    assert axis.heading == panel.get_xlabel() == "S, in" and panel.get_title(loc="left") == "pd, psi"
+    np.testing.assert_allclose(axis.values[[0, -1]] * 0.0254, [0.55, 0.80], rtol=1e-12)
+    assert any(np.allclose(line.get_ydata(), 155 * UNITS["kgf_cm2"][0] / UNITS["psi"][0]) for line in panel.lines)
+    with language("ru"):
+        assert StrokeAxis.of(motion).heading == "S, мм"

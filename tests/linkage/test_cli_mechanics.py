@@ -32,8 +32,11 @@ class Loader(Mechanism):
     pump = LiftCircuit(lift, pressure=180 * bar)
     transport = LoadCase("on the road", scale={"load": 2.0})
 '''
-RUBBING = LOADER + """    rub = PinFriction(O, radius=0.03, coefficient=0.2)
+RUBBING = (
+    LOADER
+    + """    rub = PinFriction(O, radius=0.03, coefficient=0.2)
 """
+)
 
 
 @pytest.fixture

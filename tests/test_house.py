@@ -98,7 +98,7 @@ def import_faults(path: PurePosixPath, tree: ast.AST) -> Iterator[str]:
             yield f"{where}: {package} imports {owner}"
         elif package == owner == "linkage" and not door and (fault := climbing(here, module)):
             yield f"{where}: {fault}"
-        is_heavy = owner in HEAVY | OPTIONAL or ".".join(module.split(".")[:2]) in HEAVY_ROOMS or module.endswith(".figures")
+        is_heavy = owner in HEAVY | OPTIONAL | {"numpy"} or ".".join(module.split(".")[:2]) in HEAVY_ROOMS or module.endswith(".figures")
         if lazy and not door and not is_heavy:
             yield f"{where}: {module} is imported inside a function, which is for heavy libraries only: import it at the top"
 

@@ -11,6 +11,7 @@ import numpy as np
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
 from ..language import heading_of
+from ..loads import LoadCase
 from ..program import FloatArray
 from ..quantities import Coordinate, Dimension, Member, Quantity, Stroke
 from ..units import decimals, display_unit, factor, shown_in, unit_or_none, unit_sign
@@ -127,3 +128,7 @@ class Tabled(Member):
 
         The motion was asked for with `unreachable="nan"`: values are NaN where there is none.
         """
+
+    def columns_in(self, motion: Motion, case: LoadCase | str | None = None, direction: str | None = None) -> list[Column]:
+        """Return its columns in a load case, while it moves in a direction; by default none but the plain ones of `columns`."""
+        return self.columns(motion) if case is None and direction is None else []

@@ -1,0 +1,847 @@
+(() => {
+const data = JSON.parse(document.getElementById("data").textContent);
+const byId = (id) => document.getElementById(id);
+const css = (name) => `var(--${name})`;
+const { scene, dims, strokes } = data;
+const rows = data.rows;
+
+/* ---- words and numbers ---- */
+
+let language = data.language, place = {};
+function say(text, given) {
+  const said = (language === "ru" && data.words[text]) || text;
+  return given ? said.replace(/\{(\w+)\}/g, (_, name) => given[name]) : said;
+}
+const minus = (text) => (/^-[0.]*$/.test(text) ? text.slice(1) : text).replace("-", "\u2212");
+/* Return a number with its digits grouped, never in powers of ten. */
+function fixed(value, decimals) {
+  if (!Number.isFinite(value)) return "\u2013";
+  const [whole, part] = value.toFixed(decimals).split(".");
+  const grouped = whole.replace(/^-/, "").length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, "\u202f") : whole;
+  return minus(part ? `${grouped}.${part}` : grouped);
+}
+const places = (size, digits) => Math.min(Math.max(digits - 1 - Math.floor(Math.log10(size || 1)), 0), 9);
+/* Return a number with the digits that it has, up to so many. */
+function short(value, digits = 6) {
+  const text = fixed(value, places(Math.abs(value), digits));
+  return text.includes(".") ? minus(text.replace("\u2212", "-").replace(/\.?0+$/, "")) : text;
+}
+const unitText = (unit) => (unit === "deg" ? "\u00b0" : unit ? `\u2009${unit}` : "");
+const shown = (value, thing, digits) => short(value / thing.factor, digits) + unitText(thing.unit);
+
+/* ---- the state, and what follows from it ---- */
+
+const byName = new Map(dims.map((each, i) => [each.name, i]));
+const order = engine.d.map((name) => byName.get(name));
+const COUNT = data.count;
+const delivered = () => ({ design: dims.map((each) => each.value), at: strokes.map((each) => each.at), run: data.run, forces: false });
+let state = delivered(), chosen = [...data.shown], column = data.column, second = -1;
+let base, now, pose, before = null;
+
+const vector = (design) => order.map((i) => design[i]);
+function sweep(design, at, run) {
+  const { start, end } = strokes[run];
+  const along = Float64Array.from({ length: COUNT }, (_, i) => start + ((end - start) * i) / (COUNT - 1));
+  const found = engine.sweep(vector(design), at.map((value, k) => (k === run ? along : new Float64Array(COUNT).fill(value))));
+  return { ...found, along, reached: [...along.keys()].filter((i) => found.reason[i] === 0) };
+}
+const single = (design, at) => engine.sweep(vector(design), at.map((value) => [value]));
+const isChanged = () => dims.some((each, i) => state.design[i] !== each.value);
+const isMoved = () => state.run !== data.run || strokes.some((each, k) => k !== state.run && state.at[k] !== each.at);
+
+/* Return why a pose cannot be had. */
+function why(found, i, what) {
+  const k = found.reason[i], step = k > 0 ? engine.steps[k - 1] : (found.at && found.at[i]) || "";
+  const name = data.steps[step] || step, missing = found.missing[i];
+  if (k === -1) return say("{what}: a change point, where two branches cross", { what });
+  if (missing > 0) return say("{what}: {step} is {gap} mm short", { what, step: name, gap: fixed(missing * 1e3, missing < 0.01 ? 2 : 1) });
+  return say("{what}: {step} cannot be placed", { what, step: name });
+}
+/* Move part of the state as far towards what is asked as can be assembled; say why where that is not all the way. */
+function moved(design, at, what) {
+  const asked = single(design, at);
+  if (asked.reason[0] === 0) { Object.assign(state, { design, at }); warn(""); return true; }
+  const from = state, between = (a, b, t) => a.map((value, i) => (value === b[i] ? value : value + (b[i] - value) * t));
+  let low = 0, high = 1, best = null;
+  for (let i = 0; i < 24; i++) {
+    const t = 0.5 * (low + high), trial = { design: between(from.design, design, t), at: between(from.at, at, t) };
+    if (single(trial.design, trial.at).reason[0] === 0) { low = t; best = trial; } else high = t;
+  }
+  if (best) Object.assign(state, best);
+  warn(why(asked, 0, say("{what} stops here", { what })));
+  return false;
+}
+let fading;
+function warn(text) {
+  byId("message").textContent = text;
+  clearTimeout(fading);
+  if (text) fading = setTimeout(() => { byId("message").textContent = ""; }, 6000);
+}
+
+/* Return a row's values over the stroke; those of one that cannot be followed only while nothing was changed. */
+function series(each, found) {
+  if (!each) return null;
+  if (each.row !== undefined) return found.values[each.row];
+  return found === base || !(isChanged() || isMoved()) ? each.values : null;
+}
+const live = (each) => each && (each.row !== undefined || !(isChanged() || isMoved()));
+
+/* ---- the drawing: each part is made once and returns how it moves ---- */
+
+const SVG = "http://www.w3.org/2000/svg";
+function draw(parent, kind, attributes) { const element = document.createElementNS(SVG, kind); set(element, attributes); return parent.appendChild(element); }
+function set(element, attributes) { for (const name in attributes) element.setAttribute(name, attributes[name]); }
+const pairs = (points) => points.map((p) => `${p[0].toFixed(2)},${p[1].toFixed(2)}`).join(" ");
+/* Return a curve as a path, broken where there is no value. */
+function broken(points) {
+  let pen = "M", text = "";
+  for (const p of points) { if (!p) { pen = "M"; continue; } text += `${pen}${p[0].toFixed(1)} ${p[1].toFixed(1)}`; pen = "L"; }
+  return text;
+}
+const sheet = byId("mechanism"), EDGE = 1.3;
+const view = { k: 1, x: 0, y: 0, width: 0, height: 0, u: 1 };
+const px = (x, y) => [view.x + view.k * x, view.y - view.k * y];
+const spot = (found, point, i) => { const [x, y] = rows.points[point]; return [found.values[x][i], found.values[y][i]]; };
+let parts = [], gripped = null;
+
+/* Return the outermost of some points, counter-clockwise (A. M. Andrew, monotone chain). */
+function hull(points) {
+  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  const chain = (list) => {
+    const found = [];
+    for (const p of list) {
+      while (found.length > 1 && turn(found[found.length - 2], found[found.length - 1], p) <= 1e-6) found.pop();
+      found.push(p);
+    }
+    return found.slice(0, -1);
+  };
+  const turn = (a, b, c) => (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  const around = [...chain(sorted), ...chain(sorted.reverse())];
+  return around.length ? around : [points[0]];
+}
+const turned = (P, Q) => `translate(${P[0].toFixed(2)} ${P[1].toFixed(2)}) rotate(${((Math.atan2(Q[1] - P[1], Q[0] - P[0]) * 180) / Math.PI).toFixed(3)})`;
+const apart = (P, Q) => Math.hypot(Q[0] - P[0], Q[1] - P[1]);
+
+function body({ points, colour }) {
+  const plate = points.length > 2, group = draw(sheet, "g", { opacity: plate ? 0.72 : 1 }), r = view.u;
+  const edge = `color-mix(in srgb, ${css(`body${colour}`)} 40%, var(--ink))`;
+  const outer = draw(group, "polygon", { "stroke-width": 2 * r + 2 * EDGE, "stroke-linejoin": "round" });
+  const inner = draw(group, "polygon", { "stroke-width": 2 * r, "stroke-linejoin": "round" });
+  outer.style.cssText = `fill:${edge};stroke:${edge}`;
+  inner.style.cssText = `fill:${css(`body${colour}`)};stroke:${css(`body${colour}`)}`;
+  return (at) => { const around = points.map((i) => at[i]), text = pairs(plate ? hull(around) : around); set(outer, { points: text }); set(inner, { points: text }); };
+}
+/* The greatest and least distance of two points over the stroke [px]. */
+function span(P, Q) {
+  let low = Infinity, high = 0;
+  for (const found of [now, base]) for (const i of found.reached) {
+    const length = view.k * apart(spot(found, P, i), spot(found, Q, i));
+    low = Math.min(low, length); high = Math.max(high, length);
+  }
+  return [low, high];
+}
+const WIDTH = { eye: 0.62, rod: 0.42, barrel: 1.3, piston: 1.12, cap: 1.5 };
+function ram({ P, Q, aside, pressure, most }) {
+  const group = draw(sheet, "g", { "stroke-width": 0.8 * EDGE, "stroke-linejoin": "round" });
+  group.style.stroke = css("ink");
+  const [low, high] = span(P, Q), u = Math.min(view.u, 0.12 * low), off = aside * view.u;
+  const bottom = 1.4 * u, least = 2 * u, mouth = Math.min(Math.max(least + high - low + 1.5 * u, 0.68 * low), Math.max(0.68 * low, low - 1.2 * u));
+  const box = (name, fill) => {
+    const half = WIDTH[name] * u, rect = draw(group, "rect", { y: -off - half, height: 2 * half });
+    rect.style.fill = css(fill);
+    return [rect, (from, to) => set(rect, { x: from, width: Math.max(to - from, 0) })];
+  };
+  const [, eye] = box("eye", "piston"), [barrel, tube] = box("barrel", "barrel"), [, shaft] = box("rod", "rod");
+  const [, piston] = box("piston", "piston"), [, cap] = box("cap", "piston");
+  eye(0, bottom); tube(bottom, mouth); cap(mouth - 0.35 * u, mouth + 0.35 * u);
+  return (at) => {
+    const length = apart(at[P], at[Q]), place = Math.min(Math.max(length - low + least, least), mouth - 0.9 * u);
+    shaft(place, Math.max(length, place)); piston(place - 0.45 * u, place + 0.45 * u);
+    if (pressure !== undefined) barrel.style.fill = heat(pose.values[pressure][0], pose.values[most] ? pose.values[most][0] : scale.most);
+    set(group, { transform: turned(at[P], at[Q]) });
+  };
+}
+/* Lines from P to Q, each place a share of the length and a way along and across. */
+function straight({ P, Q, lines }) {
+  const group = draw(sheet, "g", { "stroke-linejoin": "round", "stroke-linecap": "round" }), k = (view.k * view.u) / (view.k * scene.size);
+  group.style.stroke = css("ink");
+  const drawn = lines.map(({ rows: places, fill, closed, bold, real }) => {
+    const line = draw(group, closed ? "polygon" : "polyline", { "stroke-width": (bold ? 1.5 : 0.8) * EDGE }), unit = real ? view.k : k;
+    line.style.fill = fill ? css(fill) : "none";
+    return (length) => set(line, { points: pairs(places.map(([share, along, across]) => [share * length + along * unit, -across * unit])) });
+  });
+  return (at) => { const length = apart(at[P], at[Q]); for (const line of drawn) line(length); set(group, { transform: turned(at[P], at[Q]) }); };
+}
+/* Where a track's ends stand: as far as its riders travel over the stroke, and a margin. */
+function track(each) {
+  let low = Infinity, high = -Infinity;
+  for (const found of [now, base]) for (const i of found.reached) {
+    const [o, d] = lineOf(each, found, i);
+    for (const rider of each.riders) { const p = spot(found, rider, i), s = (p[0] - o[0]) * d[0] + (p[1] - o[1]) * d[1]; low = Math.min(low, s); high = Math.max(high, s); }
+  }
+  if (!(low <= high)) low = high = 0;
+  const pad = (3.2 * view.u) / view.k;
+  return () => { const [o, d] = lineOf(each, pose, 0); return [low - pad, high + pad].map((s) => px(o[0] + s * d[0], o[1] + s * d[1])); };
+}
+function lineOf(each, found, i) { const [a, b, c, d] = each.line.map((row) => found.values[row][i]); return [[a, b], [c, d]]; }
+function slot(each) {
+  const outer = draw(sheet, "line", { "stroke-linecap": "round", "stroke-width": 1.4 * view.u + EDGE }), ends = track(each);
+  const inner = draw(sheet, "line", { "stroke-linecap": "round", "stroke-width": 1.4 * view.u - EDGE });
+  outer.style.stroke = css("ink"); inner.style.stroke = css("paper");
+  return () => { const [a, b] = ends(); for (const line of [outer, inner]) set(line, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] }); };
+}
+/* A fixed rail: its line under the blocks and its hatches, below the track, above where a pin stands on it. */
+function rail(each) {
+  const path = draw(sheet, "path", { class: "line", "stroke-width": 1 }), heavy = draw(sheet, "path", { class: "line", "stroke-width": 1.8 }), ends = track(each);
+  path.style.stroke = heavy.style.stroke = css("ink");
+  return (at) => {
+    const [a, b] = ends(), long = apart(a, b), u = view.u, d = [(b[0] - a[0]) / long, (b[1] - a[1]) / long];
+    let n = [-d[1], d[0]];
+    if (n[1] < -1e-6 || (Math.abs(n[1]) <= 1e-6 && n[0] < 0)) n = [-n[0], -n[1]];
+    const crowded = scene.grounds.some(({ point }) => {
+      const s = (at[point][0] - a[0]) * d[0] + (at[point][1] - a[1]) * d[1], h = (at[point][0] - a[0]) * n[0] + (at[point][1] - a[1]) * n[1];
+      return s > -2 * u && s < long + 2 * u && h > -u && h < 4 * u;
+    });
+    if (crowded) n = [-n[0], -n[1]];
+    const from = [a[0] + 1.25 * u * n[0], a[1] + 1.25 * u * n[1]], hatch = 0.9 * u, on = (s, h) => [from[0] + s * d[0] + h * n[0], from[1] + s * d[1] + h * n[1]];
+    const lines = [];
+    for (let s = 0; s < long - hatch; s += 1.1 * hatch) lines.push(on(s + hatch, 0), on(s, hatch), null);
+    set(path, { d: broken(lines) }); set(heavy, { d: broken([on(0, 0), on(long, 0)]) });
+  };
+}
+function block(each, rider) {
+  const long = 2.1 * view.u, wide = (each.fixed ? 1.25 : 0.7) * view.u;
+  const rect = draw(sheet, "rect", { x: -long, y: -wide, width: 2 * long, height: 2 * wide, "stroke-width": EDGE });
+  rect.style.cssText = `fill:${css("rule")};stroke:${css("ink")}`;
+  return (at) => { const [, d] = lineOf(each, pose, 0); set(rect, { transform: turned(at[rider], [at[rider][0] + d[0], at[rider][1] - d[1]]) }); };
+}
+function circle(index, radius, fill, stroke, width) {
+  const element = draw(sheet, "circle", { r: radius, "stroke-width": width });
+  element.style.cssText = `fill:${css(fill)};stroke:${css(stroke)}`;
+  return (at) => set(element, { cx: at[index][0], cy: at[index][1] });
+}
+function stay([P, X]) {
+  const line = draw(sheet, "line", { "stroke-width": EDGE, "stroke-dasharray": "7 4" });
+  line.style.stroke = css("muted");
+  return (at) => set(line, { x1: at[P][0], y1: at[P][1], x2: at[X][0], y2: at[X][1] });
+}
+function ground({ point, way }) {
+  const u = view.u, group = draw(sheet, "g", { "stroke-width": EDGE, "stroke-linejoin": "round" }), lines = [[3.2 * u, -2.66 * u], [3.2 * u, 2.66 * u], null];
+  for (let i = 0; i < 6; i++) { const v = -2.66 + (i * 4.42) / 5; lines.push([3.2 * u, (v + 0.9) * u], [4.1 * u, v * u], null); }
+  group.style.cssText = `fill:${css("rod")};stroke:${css("ink")}`;
+  draw(group, "polygon", { points: pairs([[0, 0], [3.2 * u, 1.9 * u], [3.2 * u, -1.9 * u]]) });
+  draw(group, "path", { d: broken(lines), "stroke-width": 1 });
+  return (at) => set(group, { transform: `translate(${at[point][0]} ${at[point][1]}) rotate(${(-way * 180) / Math.PI})` });
+}
+/* A ground pin that can be dragged: its two coordinates are dimensions. */
+function grip({ point, x, y }) {
+  const element = draw(sheet, "circle", { r: Math.max(22, 2 * view.u), class: "grip" }), name = scene.names[point];
+  draw(element, "title", {}).textContent = say("Drag {name}", { name });
+  element.dataset.pin = name;
+  element.addEventListener("pointerdown", (event) => {
+    event.preventDefault();
+    const box = sheet.getBoundingClientRect(), start = [event.clientX - box.left, event.clientY - box.top];
+    gripped = { id: event.pointerId, x, y, name, from: [state.design[x], state.design[y]], start };
+    sheet.setPointerCapture(event.pointerId);
+  });
+  return (at) => set(element, { cx: at[point][0], cy: at[point][1] });
+}
+sheet.addEventListener("pointermove", (event) => {
+  if (!gripped || event.pointerId !== gripped.id) return;
+  const box = sheet.getBoundingClientRect(), snap = (value) => Math.round(value * 1e3) / 1e3;
+  gripped.to = [gripped.from[0] + (event.clientX - box.left - gripped.start[0]) / view.k, gripped.from[1] - (event.clientY - box.top - gripped.start[1]) / view.k].map(snap);
+  soon("drag");
+});
+function dragged() {
+  const design = [...state.design];
+  [design[gripped.x], design[gripped.y]] = gripped.to;
+  gripped.to = null;
+  if (moved(design, state.at, gripped.name)) warn("");
+  byId("message").textContent ||= "";
+}
+for (const end of ["pointerup", "pointercancel"]) sheet.addEventListener(end, (event) => {
+  if (!gripped || event.pointerId !== gripped.id) return;
+  if (gripped.to) dragged();
+  const { x, y } = gripped;
+  gripped = null;
+  for (const i of [x, y]) if (!chosen.includes(i)) { chosen.push(i); }
+  listSizes(); soon("fit"); remember();
+});
+function name(index) {
+  const text = draw(sheet, "text", { class: "name-of" }), [dx, dy] = scene.labels[index];
+  text.textContent = scene.names[index];
+  return (at) => set(text, { x: Math.min(Math.max(at[index][0] + dx, 8), view.width - 8), y: Math.min(Math.max(at[index][1] + dy, 10), view.height - 10) });
+}
+/* An arrow: a force at a point, in the scale in which the greatest is a sixth of the sheet. */
+function arrow({ point, x, y, load }) {
+  const line = draw(sheet, "path", { "stroke-width": 2.2, "stroke-linejoin": "round" });
+  line.style.cssText = `fill:${css(load ? "accent" : "curve")};stroke:${css(load ? "accent" : "curve")}`;
+  return (at) => {
+    const k = pull.scale, f = [pose.values[x][0] * k, -pose.values[y][0] * k], long = Math.hypot(...f), head = Math.min(9, 0.5 * long);
+    if (!state.forces || !(long > 1)) { set(line, { d: "" }); return; }
+    const d = [f[0] / long, f[1] / long], tip = [at[point][0] + f[0], at[point][1] + f[1]], neck = [tip[0] - head * d[0], tip[1] - head * d[1]], w = 0.38 * head;
+    set(line, { d: broken([at[point], neck, [neck[0] - w * d[1], neck[1] + w * d[0]], tip, [neck[0] + w * d[1], neck[1] - w * d[0]], neck]) });
+  };
+}
+const pull = { scale: 0, most: 0 };
+function pullScale() {
+  pull.most = 0;
+  for (const { x, y } of data.arrows) for (const i of now.reached) pull.most = Math.max(pull.most, Math.hypot(now.values[x][i], now.values[y][i]) || 0);
+  pull.scale = pull.most ? Math.min(view.width, view.height) / 4.5 / pull.most : 0;
+}
+const scale = { most: 0 };
+/* The colour of a barrel at a pressure: from the barrel's own through amber to red. */
+function heat(value, most) {
+  const share = Math.min(Math.max(value / most, 0), 1) || 0, mix = (a, b, t) => `color-mix(in oklab, ${css(b)} ${(100 * t).toFixed(1)}%, ${css(a)})`;
+  return share < 0.5 ? mix("barrel", "warm", 2 * share) : mix("warm", "hot", 2 * share - 1);
+}
+function pressureScale() {
+  scale.most = 0;
+  for (const each of data.cylinders) if (each.pressure !== undefined) for (const found of [now, base]) for (const i of found.reached) {
+    scale.most = Math.max(scale.most, (each.most !== undefined && found.values[each.most][i]) || found.values[each.pressure][i] || 0);
+  }
+}
+function legend() {
+  const group = draw(sheet, "g", {}), bottom = view.height - 12;
+  if (scale.most > 0) {
+    const bar = Math.min(110, 0.3 * view.width);
+    for (let i = 0; i < 22; i++) draw(group, "rect", { x: 12 + (i * bar) / 22, y: bottom - 8, width: bar / 22 + 0.5, height: 9 }).style.fill = heat((i + 0.5) / 22, 1);
+    const unit = data.pressureUnit, top = short(scale.most / unit.factor, 3);
+    draw(group, "text", { x: 12, y: bottom - 13, class: "halo" }).textContent = "0";
+    draw(group, "text", { x: 12 + bar, y: bottom - 13, class: "halo", "text-anchor": "end" }).textContent = top + unitText(unit.unit);
+  }
+  if (state.forces && pull.most) {
+    const text = say("longest arrow {force}", { force: forceText(pull.most) });
+    draw(group, "text", { x: view.width - 12, y: bottom, class: "halo", "text-anchor": "end" }).textContent = text;
+  }
+}
+const forceText = (value) => (value >= 1e3 ? `${short(value / 1e3, 3)}\u2009kN` : `${short(value, 3)}\u2009N`);
+
+/* Choose the scale so that the delivered and the present design have room over the whole stroke. */
+function fit(grow) {
+  const box = sheet.getBoundingClientRect();
+  view.width = box.width || 600; view.height = box.height || 400;
+  let [left, right, bottom, top] = grow && before ? before : [Infinity, -Infinity, Infinity, -Infinity];
+  for (const found of [base, now]) for (const i of found.reached) for (let p = 0; p < scene.names.length; p++) {
+    const [x, y] = spot(found, p, i), r = scene.reach[p] || 0;
+    left = Math.min(left, x - r); right = Math.max(right, x + r); bottom = Math.min(bottom, y - r); top = Math.max(top, y + r);
+  }
+  if (!(left <= right)) [left, right, bottom, top] = [-1, 1, -1, 1];
+  before = [left, right, bottom, top];
+  const wide = right - left || 1e-3, high = top - bottom || 1e-3, pad = Math.min(46, 0.11 * Math.min(view.width, view.height));
+  for (let turn = 0, margin = pad; turn < 2; turn++) {
+    view.k = Math.min((view.width - 2 * margin) / wide, (view.height - 2 * margin) / high);
+    view.u = Math.max(scene.size * view.k, 3.4);
+    margin = Math.max(pad, 4.4 * view.u);
+  }
+  view.x = 0.5 * view.width - 0.5 * (left + right) * view.k;
+  view.y = 0.5 * view.height + 0.5 * (bottom + top) * view.k;
+}
+/* Draw everything anew: after a change of the design or of the sheet. */
+function build() {
+  sheet.replaceChildren();
+  set(sheet, { viewBox: `0 0 ${view.width} ${view.height}` });
+  pullScale(); pressureScale();
+  const ghost = draw(sheet, "path", { class: "line", "stroke-width": 2, "stroke-dasharray": "2 5" });
+  ghost.style.stroke = css("muted");
+  const still = [ghostly(ghost), ...scene.grounds.map(ground), ...scene.tracks.filter((each) => each.fixed).map(rail)];
+  const paths = data.paths.map((point) => {
+    const line = draw(sheet, "path", { class: "line", "stroke-width": 2.2, "stroke-dasharray": "0.1 4.6" });
+    line.style.stroke = css("accent");
+    set(line, { d: broken([...now.along.keys()].map((i) => (now.reason[i] ? null : px(...spot(now, point, i))))) });
+  });
+  const plates = scene.bodies.filter((each) => each.points.length > 2), bars = scene.bodies.filter((each) => each.points.length <= 2);
+  const blocks = (fixed) => scene.tracks.filter((each) => each.fixed === fixed).flatMap((each) => each.riders.map((rider) => block(each, rider)));
+  parts = [
+    ...still, ...scene.contours.map(straight), ...plates.map(body), ...blocks(true), ...bars.map(body),
+    ...scene.tracks.filter((each) => !each.fixed).map(slot), ...blocks(false), ...scene.stays.map(stay), ...data.cylinders.filter((each) => each.drawn).map(ram), ...scene.straights.map(straight),
+    ...scene.pins.map((i) => circle(i, 0.5 * view.u, "paper", "ink", 1.3 * EDGE)), ...scene.dots.map((i) => circle(i, 0.48 * view.u, "ink", "paper", 1)),
+    ...data.arrows.map(arrow), ...scene.names.map((_, i) => name(i)), ...data.grips.map(grip),
+  ];
+  legend();
+}
+/* The delivered design at the same stroke, as a faint outline, where the design has changed. */
+function ghostly(path) {
+  return () => {
+    if (!isChanged()) { set(path, { d: "" }); return; }
+    const found = single(dims.map((each) => each.value), state.at), lines = [];
+    if (found.reason[0] === 0) for (const { points } of [...scene.bodies, ...data.cylinders.map(({ P, Q }) => ({ points: [P, Q] }))]) {
+      const around = points.map((p) => px(...spot(found, p, 0))), ring = around.length > 2 ? hull(around) : around;
+      lines.push(...ring, ...(ring.length > 2 ? [ring[0]] : []), null);
+    }
+    set(path, { d: broken(lines) });
+  };
+}
+
+/* ---- the curve ---- */
+
+const plot = byId("curve");
+let chart = null;
+function ticks(low, high, count, turning) {
+  const rough = (high - low) / count, power = 10 ** Math.floor(Math.log10(rough));
+  const step = (turning ? [15, 30, 45, 60, 90, 180, 360] : [1, 2, 2.5, 5, 10].map((each) => each * power)).find((each) => each >= rough) || 720;
+  const found = [];
+  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i++) found.push(i * step);
+  const decimals = Math.min(Math.max(0, -Math.floor(Math.log10(step) + 1e-9) + (/^2\.?5/.test((step / power).toString()) ? 1 : 0)), 9);
+  return found.map((value) => [value, fixed(value, decimals)]);
+}
+const finite = (values) => Array.from(values || []).filter(Number.isFinite);
+/* Return a column's values in its unit, rounding noise as zero. */
+function inUnit(each, found) {
+  const values = series(each, found);
+  if (!values) return null;
+  const most = Math.max(...finite(values).map(Math.abs), 0), noise = Math.max(1e-9 * most, 1e-9 * each.factor);
+  return Array.from(values, (value) => (value === null || !Number.isFinite(value) ? NaN : Math.abs(value) < noise ? 0 : value / each.factor));
+}
+function range(lists, limit) {
+  const all = lists.flatMap((list) => finite(list));
+  let low = Math.min(...all), high = Math.max(...all);
+  if (!all.length) [low, high] = [0, 1];
+  let air = 0.09 * (high - low);
+  if (air <= 1e-9 * Math.max(Math.abs(low), Math.abs(high))) air = 0.1 * Math.max(Math.abs(low), Math.abs(high)) || 1;
+  low -= air; high += air;
+  if (limit) { const more = 0.06 * (high - low); low = Math.min(low, limit[0] - more); high = Math.max(high, limit[0] + more); }
+  return [low, high];
+}
+function plotted() {
+  const box = plot.getBoundingClientRect(), W = box.width || 400, H = box.height || 200, one = data.columns[column], two = data.columns[second];
+  plot.replaceChildren();
+  set(plot, { viewBox: `0 0 ${W} ${H}` });
+  const stroke = strokes[state.run], given = one && data.limits[one.name], limit = given ? [given[0] / one.factor, given[1], given[2]] : null;
+  const values = inUnit(one, now), others = two ? inUnit(two, now) : null, was = isChanged() || isMoved() ? inUnit(one, base) : null;
+  const same = two && two.unit === one.unit, T = 10, B = 40;
+  const [low, high] = range([values, isMoved() ? null : was, same ? others : null], limit), [low2, high2] = same ? [low, high] : range([others]);
+  const left = ticks(low, high, H < 180 ? 4 : 6), right = two && !same ? ticks(low2, high2, H < 180 ? 4 : 6) : [];
+  const L = 14 + 7.2 * Math.max(...left.map((each) => each[1].length), 2), R = right.length ? 14 + 7.2 * Math.max(...right.map((each) => each[1].length)) : 12;
+  const along = Array.from(now.along, (value) => value / stroke.factor), least = Math.min(...along), most = Math.max(...along);
+  const x = (s) => L + ((s - least) / (most - least || 1)) * (W - L - R), y = (v) => H - B - ((v - low) / (high - low || 1)) * (H - T - B), y2 = (v) => H - B - ((v - low2) / (high2 - low2 || 1)) * (H - T - B);
+  const write = (a, b, text, more) => { draw(plot, "text", { x: a, y: b, ...more }).textContent = text; };
+  const line = (list, up, colour, width, more) => {
+    const path = draw(plot, "path", { class: "line", "stroke-width": width, d: broken(list.map((v, i) => (Number.isFinite(v) ? [x(along[i]), up(v)] : null))), ...more });
+    path.style.stroke = css(colour);
+    return path;
+  };
+  const rule = (x1, y1, x2, y2, colour, more) => { draw(plot, "line", { x1, y1, x2, y2, ...more }).style.stroke = css(colour); };
+  if (limit) {
+    const at = y(limit[0]), above = limit[2] !== "below", shade = draw(plot, "rect", { x: L, width: W - L - R, y: above ? T : at, height: Math.max(above ? at - T : H - B - at, 0), opacity: 0.13 });
+    shade.style.fill = css("accent");
+  }
+  for (const [v, text] of left) { rule(L, y(v), W - R, y(v), "grid"); write(L - 6, y(v) + 4, text, { "text-anchor": "end" }); }
+  for (const [v, text] of right) write(W - R + 6, y2(v) + 4, text, {});
+  for (const [s, text] of ticks(least, most, Math.max(3, Math.floor((W - L - R) / 62)), stroke.unit === "deg" && most - least >= 90)) {
+    rule(x(s), T, x(s), H - B, "grid"); write(x(s), H - B + 15, text, { "text-anchor": x(s) > W - R - 10 ? "end" : "middle" });
+  }
+  rule(L, T, L, H - B, "rule"); rule(L, H - B, W - R, H - B, "rule");
+  write(0.5 * (L + W - R), H - 6, `${stroke.name}, ${stroke.unit === "deg" ? "\u00b0" : stroke.unit}`, { "text-anchor": "middle" });
+  if (was && !isMoved()) line(was, y, "muted", 2, { "stroke-dasharray": "3 4" });
+  if (others) line(others, same ? y : y2, "other", 2.2, {});
+  chart = { one, two, values, others, along, x, y, y2: same ? y : y2 };
+  if (values) {
+    line(values, y, "curve", 2.6, {});
+    if (limit) {
+      const fails = (v) => (limit[2] === "below" ? v < limit[0] : v > limit[0]);
+      line(values.map((v) => (fails(v) ? v : NaN)), y, "accent", 3.2, {});
+      for (let i = 1; i < values.length; i++) {
+        const a = values[i - 1] - limit[0], b = values[i] - limit[0];
+        if (a * b < 0) { const dot = draw(plot, "circle", { r: 4, cx: x(along[i - 1] - (a * (along[i] - along[i - 1])) / (b - a)), cy: y(limit[0]) }); dot.style.fill = css("accent"); }
+      }
+    }
+  }
+  if (limit) {
+    const at = y(limit[0]), late = values && Math.abs(values[values.length - 1] - limit[0]) >= Math.abs(values[0] - limit[0]);
+    rule(L, at, W - R, at, "accent", { "stroke-dasharray": "7 4", "stroke-width": 1.5 });
+    write(late ? W - R - 5 : L + 5, at + (limit[2] === "below" ? 15 : -6), limit[1], { class: "note halo", "text-anchor": late ? "end" : "start" });
+  }
+  const reason = one && one.row === undefined && one.why ? one.why : "";
+  if (!values && one) write(L + 8, T + 18, say("as delivered only: this column is not followed in the page"), { class: "note halo" });
+  byId("column").title = reason;
+  if (was && !isMoved()) write(W - R - 5, T + 12, say("dashed: as delivered"), { "text-anchor": "end", class: "halo" });
+  chart.second = draw(plot, "circle", { r: 4.5, "stroke-width": 2 }); chart.second.style.cssText = `fill:${css("other")};stroke:${css("paper")}`;
+  chart.marker = draw(plot, "circle", { r: 6, "stroke-width": 2 }); chart.marker.style.cssText = `fill:${css("curve")};stroke:${css("paper")}`;
+}
+/* Return a list's value at the present stroke, between two poses; NaN where there is none. */
+function between(list) {
+  const { start, end } = strokes[state.run], where = Math.min(Math.max(((state.at[state.run] - start) / (end - start)) * (COUNT - 1), 0), COUNT - 1);
+  const i = Math.min(Math.floor(where), COUNT - 2), t = where - i;
+  return !list ? NaN : t === 0 ? list[i] : list[i] + (list[i + 1] - list[i]) * t;
+}
+function mark(each, list, up, dot, out) {
+  const value = between(list), there = Number.isFinite(value);
+  set(dot, { visibility: there ? "visible" : "hidden" });
+  if (there) set(dot, { cx: chart.x(state.at[state.run] / strokes[state.run].factor), cy: up(value) });
+  byId(out).textContent = each ? (there ? fixed(value, places(Math.max(...finite(list).map(Math.abs), 0), 4)) + unitText(each.unit) : "\u2013") : "";
+}
+
+/* ---- verdicts ---- */
+
+const strokeText = (value) => { const stroke = strokes[state.run]; return `${stroke.name} = ${shown(value, stroke, 4)}`; };
+const mm = (value) => `${fixed(value * 1e3, 1)}\u2009mm`;
+/* Return the least and the greatest of some values with their strokes, a parabola laid through the poses next to them. */
+function extremes(values) {
+  let low = -1, high = -1;
+  for (const i of now.reached) if (Number.isFinite(values[i])) { if (low < 0 || values[i] < values[low]) low = i; if (high < 0 || values[i] > values[high]) high = i; }
+  if (low < 0) return null;
+  const peak = (i) => {
+    const a = values[i - 1], b = values[i], c = values[i + 1], bend = a - 2 * b + c;
+    if (!Number.isFinite(a) || !Number.isFinite(c) || !bend) return { value: b, at: now.along[i] };
+    const t = (0.5 * (a - c)) / bend;
+    return Math.abs(t) > 1 ? { value: b, at: now.along[i] } : { value: b - 0.25 * (a - c) * t, at: now.along[i] + t * (now.along[1] - now.along[0]) };
+  };
+  return { low: peak(low), high: peak(high) };
+}
+function verdicts() {
+  const found = [], add = (ok, rule, text) => found.push({ ok, rule, text }), all = now.reached.length === COUNT, stroke = strokes[state.run];
+  const from = shown(now.along[0], stroke, 4), to = shown(now.along[COUNT - 1], stroke, 4);
+  if (all) add(true, say("reach"), say("assembled over the whole stroke, {stroke} from {from} to {to}", { stroke: stroke.name, from, to }));
+  else {
+    const lost = [...now.along.keys()].filter((i) => now.reason[i]), worst = lost.reduce((a, b) => (now.missing[b] > (now.missing[a] || 0) ? b : a), lost[0]);
+    const spans = stretches(lost).map(([a, b]) => say("{from} to {to}", { from: shown(now.along[a], stroke, 4), to: shown(now.along[b], stroke, 4) })).join(", ");
+    add(false, say("reach"), why(now, worst, say("not assembled at {stroke} = {spans}", { stroke: stroke.name, spans })));
+    for (const text of ends(lost)) add(null, say("dead point"), text);
+  }
+  let tight = null;
+  for (const { point, row } of data.joints) { const ext = extremes(now.values[row]); if (ext && (!tight || ext.low.value < tight.value)) tight = { ...ext.low, point }; }
+  if (tight) add(null, say("dead point"), say("the nearest is at {joint}: least transmission angle {angle} at {where}", { joint: tight.point, angle: `${fixed((tight.value * 180) / Math.PI, 1)}\u00b0`, where: strokeText(tight.at) }));
+  for (const each of data.columns) if (data.limits[each.name] && live(each)) judged(each, data.limits[each.name], add);
+  for (const each of data.cylinders) cylinder(each, add);
+  return found;
+}
+function stretches(list) {
+  const found = [];
+  for (const i of list) { const last = found[found.length - 1]; if (last && last[1] === i - 1) last[1] = i; else found.push([i, i]); }
+  return found;
+}
+/* Return where the reach ends within the stroke, by bisection between the poses. */
+function ends(lost) {
+  const said = [];
+  for (const [a, b] of stretches(lost)) for (const [inside, outside] of [[a - 1, a], [b + 1, b]]) {
+    if (inside < 0 || inside >= COUNT || said.length > 3) continue;
+    let good = now.along[inside], bad = now.along[outside];
+    for (let i = 0; i < 20; i++) { const middle = 0.5 * (good + bad), at = [...state.at]; at[state.run] = middle; if (single(state.design, at).reason[0] === 0) good = middle; else bad = middle; }
+    const k = now.reason[outside], step = k > 0 ? engine.steps[k - 1] : "";
+    said.push(say("of {step} at {where}, where the reach ends", { step: data.steps[step] || step, where: strokeText(good) }));
+  }
+  return said;
+}
+function judged(each, [value, text, side], add) {
+  const ext = extremes(series(each, now));
+  if (!ext) return;
+  const worst = side === "below" ? ext.low : ext.high, ok = side === "below" ? worst.value >= value : worst.value <= value;
+  const words = { extreme: shown(worst.value, each, 4), where: strokeText(worst.at), limit: shown(value, each, 4), text };
+  add(ok, each.name, side === "below" ? say("least {extreme} at {where}; not below {limit} ({text})", words) : say("greatest {extreme} at {where}; not above {limit} ({text})", words));
+}
+function cylinder(each, add) {
+  const lengths = new Float64Array(COUNT).fill(NaN);
+  for (const i of now.reached) lengths[i] = apart(spot(now, each.P, i), spot(now, each.Q, i));
+  const ext = extremes(lengths), at = (row) => (row === undefined ? NaN : pose.values[row][0]);
+  if (!ext) return;
+  const closed = at(each.closed), stroke = at(each.stroke), words = { low: mm(ext.low.value), high: mm(ext.high.value), closed: mm(closed), open: mm(closed + stroke), stroke: mm(stroke), travel: mm(ext.high.value - ext.low.value) };
+  if (closed > 0) {
+    const inside = closed - ext.low.value, outside = ext.high.value - closed - stroke, faults = [];
+    if (inside > 1e-6) faults.push(say("{gap} too long closed", { gap: mm(inside) }));
+    if (outside > 1e-6) faults.push(say("{gap} missing open", { gap: mm(outside) }));
+    const text = stroke > 0 ? say("pins {low} to {high} apart; the cylinder is {closed} closed, {open} open", words) : say("pins {low} to {high} apart; the cylinder is {closed} closed", words);
+    add(!faults.length, each.name, [text, ...faults].join("; "));
+  } else if (stroke > 0) {
+    const gap = ext.high.value - ext.low.value - stroke;
+    add(gap <= 1e-6, each.name, [say("travels {travel}, its stroke is {stroke}", words), ...(gap > 1e-6 ? [say("{gap} missing", { gap: mm(gap) })] : [])].join("; "));
+  } else add(null, each.name, say("pins {low} to {high} apart", words));
+  if (each.beside) {
+    const slopes = now.reached.slice(1).map((i) => lengths[i] - lengths[i - 1]), k = slopes.findIndex((slope, i) => i && slope * slopes[i - 1] < 0);
+    if (k > 0) add(null, each.name, say("its length stands still at about {where}, where its thrust moves nothing", { where: strokeText(now.along[now.reached[k]]) }));
+  }
+  const pressed = each.pressure === undefined ? null : extremes(now.values[each.pressure]);
+  if (pressed) {
+    const unit = data.pressureUnit, most = at(each.most), given = { pressure: shown(pressed.high.value, unit, 4), where: strokeText(pressed.high.at), most: shown(most, unit, 4) };
+    if (most > 0) add(pressed.high.value <= most, each.name, say("needs up to {pressure} at {where}; {most} are allowed", given));
+    else add(null, each.name, say("needs up to {pressure} at {where}", given));
+  }
+  const spare = each.reserve === undefined ? null : extremes(now.values[each.reserve]);
+  if (spare) add(spare.low.value >= 1, each.name, say("least reserve {reserve} at {where}", { reserve: fixed(spare.low.value, 2), where: strokeText(spare.low.at) }));
+}
+let toldBefore = "";
+function judge() {
+  const found = verdicts(), key = JSON.stringify([language, found]);
+  byId("delivered").className = `${data.verdicts.length ? "" : "none"}${isChanged() ? " stale" : ""}`;
+  if (key === toldBefore) return;
+  toldBefore = key;
+  list(byId("live"), found);
+  const fails = found.filter((each) => each.ok === false).length, badge = byId("badge");
+  badge.dataset.fails = fails;
+  badge.textContent = fails === 0 ? say("all live verdicts hold") : fails === 1 ? `\u2715 ${found.find((each) => each.ok === false).rule}: ${say("does not hold")}` : say("{count} verdicts fail", { count: fails });
+}
+function list(parent, found) {
+  parent.replaceChildren(...found.map(({ ok, rule, text }) => {
+    const item = document.createElement("li");
+    if (ok === true || ok === false) item.className = ok ? "ok" : "bad";
+    if (rule) { const bold = document.createElement("b"); bold.textContent = `${rule}: `; item.append(bold); }
+    item.append(text);
+    return item;
+  }));
+}
+
+/* ---- controls ---- */
+
+const sizeRows = new Map();
+function strokeSliders() {
+  byId("strokes").replaceChildren(...strokes.map((each, k) => {
+    const row = document.createElement("label"), slider = document.createElement("input"), out = document.createElement("output"), label = document.createElement("span");
+    row.className = "stroke"; label.textContent = each.name;
+    Object.assign(slider, { type: "range", min: 0, max: 1000, step: "any" });
+    slider.setAttribute("aria-label", each.name);
+    slider.dataset.stroke = each.name;
+    slider.addEventListener("input", () => {
+      if (k === state.run) play(false);
+      const at = [...state.at];
+      at[k] = Number(slider.value) >= 1000 ? each.end : each.start + ((each.end - each.start) * Number(slider.value)) / 1000;
+      moved(state.design, at, each.name);
+      if (k === state.run) clock = phaseNow();
+      soon(k === state.run ? "pose" : "sweep"); remember();
+    });
+    row.append(label, slider, out);
+    each.slider = slider; each.out = out;
+    return row;
+  }));
+}
+const nice = (each) => { const wide = (each.high - each.low) / each.factor / 400, power = 10 ** Math.floor(Math.log10(wide)); return [1, 2, 5, 10].map((k) => k * power).find((k) => k >= wide) * each.factor; };
+function listSizes() {
+  const parent = byId("dimensions");
+  sizeRows.clear();
+  parent.replaceChildren(...chosen.map((i) => {
+    const each = dims[i], row = document.createElement("div"), label = document.createElement("span"), slide = document.createElement("div"), slider = document.createElement("input");
+    const mark = document.createElement("i"), box = document.createElement("input"), unit = document.createElement("span"), drop = document.createElement("button");
+    row.className = "size"; label.className = "name"; slide.className = "slide"; unit.className = "unit"; drop.className = "drop";
+    label.textContent = each.name; label.title = each.where || each.name;
+    Object.assign(slider, { type: "range", min: 0, max: 1000, step: "any" });
+    slider.setAttribute("aria-label", each.name); slider.dataset.size = each.name;
+    mark.style.left = `calc(8px + (100% - 16px) * ${((each.value - each.low) / (each.high - each.low)).toFixed(4)})`;
+    Object.assign(box, { type: "text", inputMode: "decimal", autocomplete: "off", spellcheck: false });
+    box.setAttribute("aria-label", `${each.name}, ${each.unit}`);
+    unit.textContent = each.unit === "deg" ? "\u00b0" : each.unit;
+    Object.assign(drop, { type: "button", textContent: "\u00d7", title: say("Hide {name}", { name: each.name }) });
+    drop.setAttribute("aria-label", drop.title);
+    slider.addEventListener("input", () => {
+      const step = nice(each), raw = each.low + ((each.high - each.low) * Number(slider.value)) / 1000, value = Math.round(raw / step) * step;
+      put(i, Math.abs(raw - each.value) < 0.006 * (each.high - each.low) ? each.value : Math.min(Math.max(value, each.low), each.high));
+    });
+    box.addEventListener("change", () => {
+      const value = Number(box.value.replace(/\u2212/g, "-").replace(",", ".").replace(/[^\d.eE+-]/g, "")) * each.factor;
+      if (box.value.trim() && Number.isFinite(value) && (!each.positive || value > 0)) put(i, value, true); else { warn(say("{name} = {text}: a number is expected", { name: each.name, text: box.value })); soon("size"); }
+    });
+    label.addEventListener("dblclick", () => put(i, each.value));
+    drop.addEventListener("click", () => { chosen = chosen.filter((other) => other !== i); listSizes(); remember(); });
+    slide.append(slider, mark); row.append(label, slide, box, unit, drop);
+    sizeRows.set(i, { row, slider, box });
+    return row;
+  }));
+  const add = byId("add"), first = document.createElement("option");
+  first.value = ""; first.textContent = say("Add a dimension \u2026");
+  add.replaceChildren(first, ...dims.map((each, i) => [each, i]).filter(([each, i]) => each.used && !chosen.includes(i)).map(([each, i]) => option(each.name, i)));
+  showSizes();
+}
+function option(text, value) { const found = document.createElement("option"); found.textContent = text; found.value = value; return found; }
+function put(i, value, exact) {
+  const design = [...state.design];
+  design[i] = value;
+  moved(design, state.at, dims[i].name);
+  soon("design"); remember();
+}
+function showSizes() {
+  for (const [i, { row, slider, box }] of sizeRows) {
+    const each = dims[i], value = state.design[i];
+    slider.value = String((1000 * (value - each.low)) / (each.high - each.low));
+    slider.setAttribute("aria-valuetext", shown(value, each));
+    if (document.activeElement !== box || box.dataset.value !== String(value)) { box.value = short(value / each.factor, 7); box.dataset.value = String(value); }
+    row.classList.toggle("changed", value !== each.value);
+  }
+}
+byId("add").addEventListener("change", (event) => { if (event.target.value !== "") { chosen.push(Number(event.target.value)); listSizes(); remember(); } });
+const heading = (each) => (each.unit ? `${each.name}, ${each.unit === "deg" ? "\u00b0" : each.unit}` : each.name);
+function choosers() {
+  const all = data.columns.map((each, i) => option(heading(each) + (each.row === undefined ? " *" : ""), i));
+  byId("column").replaceChildren(...all); byId("column").value = String(column);
+  byId("second").replaceChildren(option("\u2013", -1), ...all.map((each) => each.cloneNode(true))); byId("second").value = String(second);
+  byId("run").replaceChildren(...strokes.map((each, k) => option(each.name, k))); byId("run").value = String(state.run);
+  byId("runs").hidden = strokes.length < 2;
+  byId("runs").style.display = strokes.length < 2 ? "none" : "";
+  byId("forces").style.display = data.arrows.length ? "" : "none";
+  byId("forces").setAttribute("aria-pressed", String(state.forces));
+}
+byId("column").addEventListener("change", (event) => { column = Number(event.target.value); soon("curve"); remember(); });
+byId("second").addEventListener("change", (event) => { second = Number(event.target.value); soon("curve"); remember(); });
+byId("run").addEventListener("change", (event) => { state.run = Number(event.target.value); clock = phaseNow(); soon("design"); remember(); });
+byId("forces").addEventListener("click", () => { state.forces = !state.forces; choosers(); soon("fit"); remember(); });
+byId("reset").addEventListener("click", () => { state = { ...delivered(), forces: state.forces }; begin(); chosen = [...data.shown]; column = data.column; second = -1; play(false); warn(""); listSizes(); choosers(); soon("fit"); remember(); });
+byId("copy").addEventListener("click", async () => {
+  const link = `${location.href.split("#")[0]}#${told()}`;
+  try { await navigator.clipboard.writeText(link); } catch {
+    const area = document.createElement("textarea"); area.value = link; document.body.append(area); area.select(); document.execCommand("copy"); area.remove();
+  }
+  byId("copy").textContent = say("Copied");
+  setTimeout(() => { byId("copy").textContent = say("Copy link"); }, 1500);
+});
+byId("language").addEventListener("click", () => { language = language === "ru" ? "en" : "ru"; speak(); remember(); });
+byId("look").addEventListener("click", () => { look(document.documentElement.dataset.look === "dark" ? "light" : "dark"); chosenLook = true; remember(); });
+let chosenLook = false;
+function look(which) { document.documentElement.dataset.look = which; }
+const night = window.matchMedia("(prefers-color-scheme: dark)");
+night.addEventListener("change", () => { if (!chosenLook) look(night.matches ? "dark" : "light"); });
+function speak() {
+  document.documentElement.lang = language;
+  for (const each of document.querySelectorAll("[data-say]")) each.textContent = say(each.dataset.say);
+  for (const each of document.querySelectorAll("[data-tip]")) each.title = say(each.dataset.tip);
+  for (const each of document.querySelectorAll("[data-name]")) each.setAttribute("aria-label", say(each.dataset.name));
+  byId("look").setAttribute("aria-label", say("Light or dark"));
+  byId("play").setAttribute("aria-label", say(playing ? "Pause" : "Play"));
+  byId("language").textContent = language === "ru" ? "English" : "\u0420\u0443\u0441\u0441\u043a\u0438\u0439";
+  byId("language").lang = language === "ru" ? "en" : "ru";
+  toldBefore = "";
+  list(byId("told"), data.verdicts.map((each) => ({ ...each, text: each[language] || each.en })));
+  listSizes(); choosers(); soon("fit");
+}
+
+/* ---- a link that restores the state ---- */
+
+function told() {
+  const said = new URLSearchParams();
+  strokes.forEach((each, k) => said.set(`s.${each.name}`, String(state.at[k])));
+  dims.forEach((each, i) => { if (state.design[i] !== each.value) said.set(`d.${each.name}`, String(state.design[i])); });
+  if (state.run !== data.run) said.set("run", strokes[state.run].name);
+  if (column !== data.column) said.set("column", data.columns[column].name);
+  if (second >= 0) said.set("with", data.columns[second].name);
+  if (String(chosen) !== String(data.shown)) said.set("show", chosen.map((i) => dims[i].name).join(" "));
+  if (state.forces) said.set("forces", "1");
+  if (language !== data.language) said.set("language", language);
+  if (chosenLook) said.set("look", document.documentElement.dataset.look);
+  return said.toString();
+}
+let writing;
+function remember() {
+  clearTimeout(writing);
+  writing = setTimeout(() => { if (!playing) try { history.replaceState(null, "", `#${told()}`); } catch { /* a page in a frame has no address of its own */ } }, 250);
+}
+function recall() {
+  const said = new URLSearchParams(location.hash.slice(1)), index = (list, name) => list.findIndex((each) => each.name === name);
+  const number = (text, fallback) => (text !== null && text.trim() && Number.isFinite(Number(text)) ? Number(text) : fallback);
+  if (![...said.keys()].length || location.hash === "#verdicts") return false;
+  const asked = delivered();
+  asked.at = strokes.map((each, k) => Math.min(Math.max(number(said.get(`s.${each.name}`), asked.at[k]), Math.min(each.start, each.end)), Math.max(each.start, each.end)));
+  asked.design = dims.map((each) => { const value = number(said.get(`d.${each.name}`), each.value); return each.positive && !(value > 0) ? each.value : value; });
+  asked.run = Math.max(index(strokes, said.get("run")), 0) || (said.has("run") ? 0 : data.run);
+  asked.forces = said.get("forces") === "1";
+  column = index(data.columns, said.get("column")) < 0 ? data.column : index(data.columns, said.get("column"));
+  second = index(data.columns, said.get("with"));
+  if (said.has("show")) chosen = said.get("show").split(" ").map((each) => byName.get(each)).filter((i) => i !== undefined);
+  if (["en", "ru"].includes(said.get("language"))) language = said.get("language");
+  if (["light", "dark"].includes(said.get("look"))) { look(said.get("look")); chosenLook = true; }
+  state = { ...delivered(), run: asked.run, forces: asked.forces };
+  begin();
+  moved(asked.design, asked.at, say("The link"));
+  return true;
+}
+window.addEventListener("hashchange", () => { if (location.hash !== "#verdicts" && recall()) { play(false); speak(); soon("design"); } });
+
+/* ---- one frame at a time ---- */
+
+const PERIOD = 5; /* seconds for there and back, or once round */
+let playing = false, clock = 0, last = null, waiting = false, todo = new Set(), judgedAt = 0, later;
+const timing = { frames: 0, total: 0, most: 0 };
+/* The stretch of the running stroke that is played: the reached part that the present pose lies in. */
+function stretch() {
+  const { start, end } = strokes[state.run], list = stretches(now.reached), where = ((state.at[state.run] - start) / (end - start)) * (COUNT - 1);
+  const found = list.find(([a, b]) => where >= a - 1 && where <= b + 1) || list[0] || [0, 0];
+  return [now.along[found[0]], now.along[found[1]]];
+}
+const isTurn = () => strokes[state.run].turn && now.reached.length === COUNT;
+function phaseNow() {
+  const [low, high] = now ? stretch() : [0, 1], share = Math.min(Math.max((state.at[state.run] - low) / (high - low || 1), 0), 1);
+  return isTurn() ? share : Math.acos(1 - 2 * share) / (2 * Math.PI);
+}
+function soon(what) { todo.add(what); if (!waiting) { waiting = true; requestAnimationFrame(frame); } }
+function frame(time) {
+  waiting = false;
+  const began = performance.now();
+  if (playing) {
+    clock = (clock + ((time - (last ?? time)) / 1000 / PERIOD) * Number(byId("speed").value)) % 1;
+    last = time;
+    const [low, high] = stretch(), share = isTurn() ? clock : 0.5 - 0.5 * Math.cos(2 * Math.PI * clock), at = [...state.at];
+    at[state.run] = low + (high - low) * share;
+    if (single(state.design, at).reason[0] === 0) state.at = at;
+  }
+  const work = todo;
+  todo = new Set();
+  if (work.has("drag") && gripped && gripped.to) { dragged(); work.add("design"); }
+  render(work);
+  if (playing || work.size) { const took = performance.now() - began; timing.frames++; timing.total += took; timing.most = Math.max(timing.most, took); timing.last = took; }
+  if (playing) soon("pose");
+}
+function render(work) {
+  const anew = ["design", "sweep"].some((each) => work.has(each)), sized = work.has("fit");
+  if (anew || sized || !now) now = sweep(state.design, state.at, state.run);
+  if (isMoved() && (anew || sized)) base = sweep(dims.map((each) => each.value), state.at, state.run); else if (anew || sized || !base) base = first;
+  pose = single(state.design, state.at);
+  if (anew || sized) { if (!gripped) fit(!sized); build(); }
+  if (anew || sized || work.has("curve")) plotted();
+  const at = scene.names.map((_, p) => px(...spot(pose, p, 0)));
+  for (const part of parts) part(at);
+  mark(chart.one, chart.values, chart.y, chart.marker, "value");
+  mark(chart.two, chart.others, chart.y2, chart.second, "other");
+  strokes.forEach((each, k) => {
+    each.slider.value = String((1000 * (state.at[k] - each.start)) / (each.end - each.start));
+    const text = fixed(state.at[k] / each.factor, places(Math.max(Math.abs(each.start), Math.abs(each.end)) / each.factor, 4)) + unitText(each.unit);
+    each.out.textContent = text; each.slider.setAttribute("aria-valuetext", text);
+  });
+  if (anew || sized || work.has("size")) showSizes();
+  if (anew || sized) { clearTimeout(later); const idle = performance.now() - judgedAt; if (idle > 120) { judgedAt = performance.now(); judge(); } else later = setTimeout(() => { judgedAt = performance.now(); judge(); }, 130 - idle); }
+}
+function play(on) {
+  playing = on;
+  byId("play").setAttribute("aria-pressed", String(on));
+  byId("play").setAttribute("aria-label", say(on ? "Pause" : "Play"));
+  set(byId("sign"), { d: on ? "M6 4h4v16H6zM14 4h4v16h-4z" : "M7 4l13 8-13 8z" });
+  if (on) { last = null; if (now) clock = phaseNow(); soon("pose"); } else remember();
+}
+byId("play").addEventListener("click", () => play(!playing));
+document.addEventListener("keydown", (event) => {
+  if (event.altKey || event.ctrlKey || event.metaKey || /^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName)) return;
+  const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, Home: -COUNT, End: COUNT };
+  if (event.key === " " && event.target.tagName !== "BUTTON") { event.preventDefault(); play(!playing); }
+  else if (event.key in steps) {
+    event.preventDefault();
+    const { slider } = strokes[state.run];
+    slider.value = String(Math.min(Math.max(Number(slider.value) + (1000 * steps[event.key]) / (COUNT - 1), 0), 1000));
+    slider.dispatchEvent(new Event("input"));
+  }
+});
+/* Stand at the first pose that can be had where the delivered one cannot. */
+function begin() {
+  if (single(state.design, state.at).reason[0] === 0) return;
+  const found = sweep(state.design, state.at, state.run);
+  if (found.reached.length) state.at[state.run] = found.along[found.reached[0]];
+}
+
+look(night.matches ? "dark" : "light");
+begin();
+let first = (base = now = sweep(state.design, state.at, state.run));
+strokeSliders();
+const restored = recall();
+speak();
+frame(0);
+new ResizeObserver(() => soon("fit")).observe(sheet);
+new ResizeObserver(() => soon("curve")).observe(plot);
+play(!restored && !window.matchMedia("(prefers-reduced-motion: reduce)").matches);
+
+/* For tests and for pages around this one: read and set what is shown. */
+window.hydrolinkage = {
+  engine, data, timing,
+  state: () => ({ design: Object.fromEntries(dims.map((each, i) => [each.name, state.design[i]])), at: Object.fromEntries(strokes.map((each, k) => [each.name, state.at[k]])), playing, language, column, second, forces: state.forces }),
+  set: ({ design = {}, at = {} }) => {
+    const ok = moved(dims.map((each, i) => design[each.name] ?? state.design[i]), strokes.map((each, k) => at[each.name] ?? state.at[k]), "set");
+    render(new Set(["design"]));
+    return ok;
+  },
+  points: () => Object.fromEntries(scene.names.map((each, p) => [each, spot(pose, p, 0)])),
+  sweep: () => ({ along: [...now.along], values: now.values.map((each) => [...each]), reason: [...now.reason] }),
+  play, verdicts,
+};
+})();

@@ -28,4 +28,3 @@ from .requests import fits as fits
 from .requests import pressure as pressure
 from .requests import reserve as reserve
 from .requests import thrust as thrust
-from .verdict import Verdict as Verdict

@@ -28,6 +28,7 @@ from linkage.loads.element import value_text
 from linkage.program import is_traced
 from linkage.quantities import Dimension, Quantity, spelled
 from linkage.units import UNITS, cm3, litre, show, unit_or_none
+from linkage.verdict import Verdict
 
 from .files import GasLaw
 from .gas import Gas, Polytropic, isothermal
@@ -45,7 +46,6 @@ from .inputs import (
     positive,
     setting_of_designs,
 )
-from .verdict import Verdict
 
 VOLUME = "Accumulator volume"
 LARGEST = 10.0

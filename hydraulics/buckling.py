@@ -26,10 +26,10 @@ from linkage.errors import DefinitionError, known_name
 from linkage.frozen import refuses_changes
 from linkage.program import is_traced
 from linkage.units import MPa, kN, mm
+from linkage.verdict import Verdict
 
 from .cylinder import next_rod
 from .inputs import LONGEST, Array, in_metres, one_number, pose_values, positive
-from .verdict import Verdict
 
 MOUNTINGS = MappingProxyType({"pin-pin": 1.0, "fixed-pin": 0.699156, "fixed-fixed": 0.5, "fixed-free": 2.0})
 """Buckling length over length, by how the two ends are held (Euler's four cases; 0.699156 is pi over the root of tan x = x)."""

@@ -16,12 +16,12 @@ from linkage.errors import DefinitionError, known_name, unknown
 from linkage.motion import Motion, Span, below_zero, greatest, lowest, reached, require_motion
 from linkage.statics import Case, Loads, elements_of, same
 from linkage.units import UNITS, litre, mm, show
+from linkage.verdict import Verdict
 
 from .cylinder import CylinderSize, standard_bores
 from .inputs import Array, not_negative, one_number
 from .lift import Choice, Holding, LiftCircuit, Lowering, Work
 from .member import Cylinder, one_design, one_size
-from .verdict import Verdict
 
 
 def lift_verdicts(

@@ -28,11 +28,11 @@ from linkage.motion import Column, Motion, Tabled, greatest, lowest, require_mot
 from linkage.quantities import Member, Reference, label, name_of
 from linkage.statics import AnyMotion, Case, Loads, elements_of, member_thrust, same
 from linkage.units import mm
+from linkage.verdict import Verdict
 
 from .buckling import Buckling
 from .cylinder import BORES_MM, RODS_MM, CylinderSize, standard_rods
 from .inputs import Array, follows, number_set, one_number, positive, stroke_in_metres
-from .verdict import Verdict
 
 LENGTHS: Mapping[str, str] = MappingProxyType({"stroke": "Stroke of the cylinder", "closed": "Closed length of the cylinder"})
 """What its lengths are called in words."""

@@ -30,6 +30,7 @@ from .loads import Weight as Weight
 from .mechanism import Mechanism as Mechanism
 from .mobility import grashof as grashof
 from .motion import Column as Column
+from .motion import Featured as Featured
 from .motion import Motion as Motion
 from .motion import condition as condition
 from .motion import gap as gap
@@ -88,3 +89,4 @@ from .units import litre as litre
 from .units import mm as mm
 from .vectors import LEFT as LEFT
 from .vectors import RIGHT as RIGHT
+from .verdict import Verdict as Verdict

@@ -19,7 +19,19 @@ from .errors import DefinitionError, cited, told, unknown
 from .loads import ForceElement
 from .loads.element import Formulas
 from .mobility import FourBar, Mobility, check, four_bars, mobility
-from .motion import Column, Motion, PoseFunction, RequestLike, at_values, columns_of, evaluate, require_motion, source_of, sweep_values
+from .motion import (
+    Column,
+    Featured,
+    Motion,
+    PoseFunction,
+    RequestLike,
+    at_values,
+    columns_of,
+    evaluate,
+    require_motion,
+    source_of,
+    sweep_values,
+)
 from .plan import Body, Plan
 from .program import FloatArray, Way
 from .quantities import Member, Stroke
@@ -273,9 +285,14 @@ class Mechanism(metaclass=MechanismType):
 
     @of_a_design
     def verdicts(self, motion: Motion) -> list[str]:
-        """Return what an engineer should know of this motion, in sentences. A machine replaces it by its own."""
+        """Return what an engineer should know of this motion: sentences, or `Verdict`s. A machine replaces it by its own."""
         require_motion(motion)
         return []
+
+    @of_a_design
+    def featured(self) -> Featured:
+        """Return what pictures show of this design where nothing else is asked for. A machine replaces it by its own."""
+        return Featured()
 
     @of_a_design
     def formulas(self, written: Formulas) -> None:

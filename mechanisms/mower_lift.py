@@ -141,7 +141,7 @@ class MowerLift(Mechanism):
         apart = [] if motion.reached.all() else ["The poses out of reach are left out of this."]
         return [
             *lift_words(self.circuit, motion, found), *driven_words(found), *oil_words(self.circuit, motion),
-            *(str(each) for each in beside if not each), *apart,
+            *(each for each in beside if not each), *apart,
         ]  # fmt: skip
 
 

@@ -14,7 +14,7 @@ from linkage import steps
 ROOT = Path(__file__).parents[1]
 
 FLOORS = (
-    ("errors", "units", "vectors", "disk", "frozen"),
+    ("errors", "units", "vectors", "disk", "frozen", "language", "verdict"),
     ("quantities",),
     ("steps", "loads"),
     ("program",),

@@ -2,6 +2,7 @@
 
 from .evaluation import PoseFunction, evaluate, evaluate_grid, source_of
 from .extremes import Extremum, Span, below_zero, greatest, lowest, reached
+from .featured import Featured
 from .gaps import gap
 from .grid import Grid
 from .limits import stroke_display_unit, stroke_unit

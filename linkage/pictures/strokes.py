@@ -157,8 +157,10 @@ def is_changing(values: FloatArray) -> bool:
 
 
 def column_shown(machine: Mechanism, motion: Motion, name: str | None) -> Column:
-    """Return a column of results by name; without one, the last that is not a stroke and changes."""
+    """Return a column of results by name; without one, what the machine is about, else the last that is no stroke and changes."""
     columns = {column.name: column for column in results(machine, motion) if column.name not in motion.strokes}
+    if name is None:
+        name = machine.featured().column or None
     if name is None and columns:
         moving = [each for each, column in columns.items() if is_changing(column.drawn)]
         return columns[(moving or list(columns))[-1]]

@@ -11,11 +11,11 @@ from typing import final
 
 import numpy as np
 
-from hydraulics import Verdict
 from linkage import Column, DefinitionError, Motion
 from linkage.motion import Extremum, greatest, lowest
 from linkage.program import FloatArray
 from linkage.units import kN, mm
+from linkage.verdict import Verdict
 
 SHORT = 1e-6
 """Of the greatest moment asked for: what is missing by less is met to rounding."""

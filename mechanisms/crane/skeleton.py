@@ -12,7 +12,6 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from hydraulics import Verdict
 from linkage import (
     Column,
     Crank,
@@ -33,6 +32,7 @@ from linkage import (
 from linkage.errors import cited
 from linkage.program import FloatArray
 from linkage.units import deg, kN, mm
+from linkage.verdict import Verdict
 
 GRAVITY = 9.81
 """m/s2, the source's."""
@@ -163,7 +163,7 @@ class CraneSkeleton(Mechanism):
         """Return which of the source's conditions on the skeleton this design keeps, with what is to spare; of a batch nothing."""
         if any(np.ndim(value) for value in self.dimensions.values()):
             return []
-        return [str(each) for each in self.judged()]
+        return [*self.judged()]
 
     @classmethod
     def conditions(cls, reading: str) -> dict[str, str]:

@@ -117,7 +117,7 @@ class Grapple(Mechanism):
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return what an engineer should know: moment over the stems, way past the hinge, opening, stroke, E, the cylinder's size."""
-        return [str(each) for each in grapple_verdicts(motion)]
+        return [*grapple_verdicts(motion)]
 
 
 class InnerGrapple(Grapple):

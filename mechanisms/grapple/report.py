@@ -7,12 +7,13 @@ from functools import cached_property
 
 import numpy as np
 
-from hydraulics import Cylinder, LiftCircuit, Verdict
+from hydraulics import Cylinder, LiftCircuit
 from linkage import Column, DefinitionError, Motion, pin_forces, ref
 from linkage.motion import greatest, lowest, require_motion
 from linkage.program import FloatArray
 from linkage.quantities import is_whole
 from linkage.units import deg, kN, mm
+from linkage.verdict import Verdict
 
 ADVISED = (1.2, 1.4)
 """Opening angle over the release angle (2.81)."""

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydraulics import CylinderSize, Verdict, standard_bores
+from hydraulics import CylinderSize, standard_bores
 from hydraulics.member import one_size
 from linkage import DefinitionError, Motion
 from linkage.motion import below_zero
 from linkage.program import FloatArray
 from linkage.units import kgf, kgf_cm2, litre, mm
+from linkage.verdict import Verdict
 
 from .charge import FAST, HEADERS, NORMAL, PAPER, SLOW, Way, largest_charge
 from .following import PLAIN, HeaderState, kgf_cm2_text, over_following, relief

@@ -103,7 +103,7 @@ class HeaderBalancer(Mechanism):
         """Return the paper's five criteria in words, over the following range of one design."""
         if motion._design_shape:
             return ["The criteria are judged for one design at a time; this motion has a batch of them."]
-        return [str(each) for each in criteria(motion)]
+        return [*criteria(motion)]
 
 
 # The improved mechanism of figure 6: an arm that grows while the header rises matches needed and given pressure.

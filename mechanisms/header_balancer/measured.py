@@ -10,12 +10,12 @@ from pathlib import Path
 
 import numpy as np
 
-from hydraulics import Verdict
 from linkage import DefinitionError, FileError, Motion
 from linkage.disk import read
 from linkage.errors import cited
 from linkage.program import FloatArray
 from linkage.units import UNITS, mm
+from linkage.verdict import Verdict
 
 from .following import HeaderState, stroke_of
 

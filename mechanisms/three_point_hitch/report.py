@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydraulics import Verdict, lift_verdicts
+from hydraulics import lift_verdicts
 from linkage import Column, ForceElement, Mechanism, Motion, pin_forces
 from linkage.motion import out_of_reach
 from linkage.program import FloatArray
 from linkage.reports import closely, ranges_below_zero, spans_in_words
 from linkage.statics.acting import Case
 from linkage.units import deg, g0, kN
+from linkage.verdict import Verdict
 
 from .capacity import SHARE, at_hitch_points, behind, capacity, circuit_of, weakest
 from .tractor import balance_verdict, front_axle, largest_mass, tipping_mass, tipping_slope
@@ -47,7 +48,7 @@ def verdicts(hitch: Mechanism, motion: Motion) -> list[str]:
         test_verdict(motion), upper_link_verdict(motion), balance_verdict(motion), mast_verdict(hitch, motion),
     ]  # fmt: skip
     apart = [] if motion.reached.all() else [Verdict("reach", False, f"poses out of reach are left out of this. {out_of_reach(motion)}")]
-    return [str(each) for each in (*found, *apart)]
+    return [*found, *apart]
 
 
 def weakest_verdict(motion: Motion) -> Verdict:

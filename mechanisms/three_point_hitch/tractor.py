@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydraulics import Verdict
 from linkage import ForceElement, Motion
 from linkage.program import FloatArray
 from linkage.reports import closely
 from linkage.units import deg, g0, kN, mm
+from linkage.verdict import Verdict
 
 from .capacity import own_loads
 

@@ -1,0 +1,31 @@
+"""What a machine is about: the curve, the paths and the limits that its pictures show where nothing else is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, final
+
+from ..errors import DefinitionError, cited
+
+
+@final
+@dataclass(frozen=True)
+class Featured:
+    """The column of results that a machine is about, the points whose paths are drawn, and limits of columns by their names.
+
+    A limit is `(value [SI], text)` or `(value, text, "below")`: the side that fails, above unless said. What is left out is chosen
+    from the results: the last column that changes, no path, no limit.
+    """
+
+    column: str = ""
+    path: Sequence[str] = ()
+    limits: Mapping[str, Sequence[Any]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.column, str):
+            raise DefinitionError(f'Featured(column={cited(self.column)}): the name of a column of results is expected, "tilt".')
+        if not isinstance(self.path, (list, tuple)) or not all(isinstance(name, str) for name in self.path):
+            raise DefinitionError(f'Featured(path={cited(self.path)}): a list of points is expected, path=["G"].')
+        if not isinstance(self.limits, Mapping):
+            raise DefinitionError(f'Featured(limits={cited(self.limits)}): limits by column are expected, dict(tilt=(0.1, "most")).')

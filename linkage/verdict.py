@@ -1,0 +1,40 @@
+"""A rule that was looked at, and what came out, in words."""
+
+from __future__ import annotations
+
+from typing import Self, final
+
+from .errors import DefinitionError, cited
+
+
+@final
+class Verdict(str):
+    """One rule: its name, whether it is kept, and a sentence with the numbers and, where it is not kept, the remedy.
+
+    As text it is one line, `ok   lifting: ...` or `FAIL lifting: ...`; it counts as true where the rule is kept, so that
+    `all(machine.verdicts(motion))` says whether everything is.
+    """
+
+    __slots__ = ("ok", "rule", "sentence")
+
+    rule: str
+    ok: bool
+    sentence: str
+
+    def __new__(cls, rule: str, ok: bool, sentence: str) -> Self:
+        """Return a verdict; DefinitionError for a rule or a sentence that is no text."""
+        for what, text in (("rule", rule), ("sentence", sentence)):
+            if not isinstance(text, str) or not text:
+                raise DefinitionError(f"Verdict: its {what} is {cited(text)}; write Verdict(rule, ok, sentence), both in words.")
+        verdict = super().__new__(cls, f"{'ok  ' if ok else 'FAIL'} {rule}: {sentence}")
+        verdict.rule, verdict.ok, verdict.sentence = rule, bool(ok), sentence
+        return verdict
+
+    def __bool__(self) -> bool:
+        return self.ok
+
+    def __repr__(self) -> str:
+        return f"Verdict({self.rule!r}, {self.ok}, {self.sentence!r})"
+
+    def __reduce__(self) -> tuple[type[Self], tuple[str, bool, str]]:
+        return type(self), (self.rule, self.ok, self.sentence)

@@ -42,7 +42,7 @@ from .inputs import (
     only_where,
     positive,
 )
-from .member import DIRECTIONS, Circuit, Cylinder, the_cylinder, thrust_along
+from .member import DIRECTIONS, Circuit, Cylinder, Reading, the_cylinder, thrust_along
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
 
@@ -233,6 +233,9 @@ class LiftCircuit(Circuit):
 
     def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
         return self._pressure(motion, self.work(motion, loads, cylinder=cylinder, case=case, direction=direction))
+
+    def gauges_of(self, cylinder: Cylinder) -> dict[str, Reading]:
+        return {"most": self.supply, "reserve": lambda motion: self.reserve(motion, cylinder=cylinder)}
 
     def largest(self, motion: AnyMotion, loads: Loads = None, *, share: float = 1.0, **choice: Unpack[Choice]) -> Array:
         """Return the greatest rod force in the working direction [N]: k_h p area, less the back pressure's share."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +11,8 @@ import numpy as np
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
-from ..program import FloatArray
+from ..plan import Plan
+from ..program import FloatArray, claim, is_traced
 from ..quantities import Dimension, Member, Quantity, Stroke
 from ..units import display_unit, factor, unit_or_none
 from .limits import stroke_display_unit
@@ -41,6 +43,7 @@ class Column:
             what = f"Column {self.name}: {cited(self.values)} holds no numbers"
             raise DefinitionError(f"{what}; give one for each pose, NaN where it has none.")
         unit_or_none(self.unit, where=f"the column {self.name}")
+        claim(self.values, self.name)
 
     @classmethod
     def of(cls, motion: Motion, request: RequestLike, unit: str | None = None, name: str = "", digits: int = 4) -> Column:
@@ -78,7 +81,9 @@ class Column:
 def are_numbers(values: Any) -> bool:
     """Return whether values are real numbers or truth values, all of them known."""
     try:
-        return np.asarray(values).dtype.kind in "fiub" and not np.ma.is_masked(values)
+        array = np.asarray(values)
+        one = array.flat[0] if array.dtype.kind == "O" and array.size == 1 else None
+        return is_traced(one) or (array.dtype.kind in "fiub" and not np.ma.is_masked(values))
     except ValueError:
         return False
 
@@ -104,3 +109,10 @@ class Tabled(Member):
 
         The motion was asked for with `unreachable="nan"`: values are NaN where there is none.
         """
+
+    def gauges(self, plan: Plan) -> Mapping[str, Request]:
+        """Return what a live page shows of it beside its columns, by its name.
+
+        `thrust` [N], `pressure` [Pa] and the greatest that it may have, `most`; `reserve`; its `closed` length and its `stroke` [m].
+        """
+        return {}

@@ -1,9 +1,9 @@
 """Pictures: a mechanism at a pose, at its end positions, in motion, and curves of results over the stroke."""
 
-from .browser import page_html
+from .browser import page, page_html
 from .curves import Limit, plot
 from .drawing import Drawing, mechanism
-from .film import animate, page
+from .film import animate
 from .optimum import draw_optimum, plot_optimum
 from .poses import draw
 from .tolerances import plot_bands, plot_tornado

@@ -2,14 +2,19 @@
 const data = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
 const css = (name) => `var(--${name})`;
-const { scene, dims, strokes } = data;
+const { scene, strokes, units } = data;
+const on = (element, event, act) => element.addEventListener(event, act);
+const make = (kind, given) => Object.assign(document.createElement(kind), given);
+/* A dimension as it comes: its name, value, least and greatest [SI], unit, whether it is a length, and where it stands. */
+const dims = data.dims.map(([name, value, low, high, unit, positive, where]) => ({ name, value, low, high, unit, factor: units[unit], positive, where }));
 const rows = data.rows;
 
 /* ---- words and numbers ---- */
 
-let language = data.language, place = {};
-function say(text, given) {
-  const said = (language === "ru" && data.words[text]) || text;
+let language = data.language;
+/* Return a sentence in the language chosen; what is told in words here comes by its number in the page. */
+function say(number, given) {
+  const said = data.words[language][number];
   return given ? said.replace(/\{(\w+)\}/g, (_, name) => given[name]) : said;
 }
 const minus = (text) => (/^-[0.]*$/.test(text) ? text.slice(1) : text).replace("-", "\u2212");
@@ -238,7 +243,7 @@ function grip({ point, x, y }) {
   const element = draw(sheet, "circle", { r: Math.max(22, 2 * view.u), class: "grip" }), name = scene.names[point];
   draw(element, "title", {}).textContent = say("Drag {name}", { name });
   element.dataset.pin = name;
-  element.addEventListener("pointerdown", (event) => {
+  on(element, "pointerdown", (event) => {
     event.preventDefault();
     const box = sheet.getBoundingClientRect(), start = [event.clientX - box.left, event.clientY - box.top];
     gripped = { id: event.pointerId, x, y, name, from: [state.design[x], state.design[y]], start };
@@ -246,7 +251,7 @@ function grip({ point, x, y }) {
   });
   return (at) => set(element, { cx: at[point][0], cy: at[point][1] });
 }
-sheet.addEventListener("pointermove", (event) => {
+on(sheet, "pointermove", (event) => {
   if (!gripped || event.pointerId !== gripped.id) return;
   const box = sheet.getBoundingClientRect(), snap = (value) => Math.round(value * 1e3) / 1e3;
   gripped.to = [gripped.from[0] + (event.clientX - box.left - gripped.start[0]) / view.k, gripped.from[1] - (event.clientY - box.top - gripped.start[1]) / view.k].map(snap);
@@ -259,7 +264,7 @@ function dragged() {
   if (moved(design, state.at, gripped.name)) warn("");
   byId("message").textContent ||= "";
 }
-for (const end of ["pointerup", "pointercancel"]) sheet.addEventListener(end, (event) => {
+for (const end of ["pointerup", "pointercancel"]) on(sheet, end, (event) => {
   if (!gripped || event.pointerId !== gripped.id) return;
   if (gripped.to) dragged();
   const { x, y } = gripped;
@@ -572,9 +577,9 @@ function judge() {
 }
 function list(parent, found) {
   parent.replaceChildren(...found.map(({ ok, rule, text }) => {
-    const item = document.createElement("li");
+    const item = make("li");
     if (ok === true || ok === false) item.className = ok ? "ok" : "bad";
-    if (rule) { const bold = document.createElement("b"); bold.textContent = `${rule}: `; item.append(bold); }
+    if (rule) { const bold = make("b"); bold.textContent = `${rule}: `; item.append(bold); }
     item.append(text);
     return item;
   }));
@@ -585,12 +590,12 @@ function list(parent, found) {
 const sizeRows = new Map();
 function strokeSliders() {
   byId("strokes").replaceChildren(...strokes.map((each, k) => {
-    const row = document.createElement("label"), slider = document.createElement("input"), out = document.createElement("output"), label = document.createElement("span");
+    const row = make("label"), slider = make("input"), out = make("output"), label = make("span");
     row.className = "stroke"; label.textContent = each.name;
     Object.assign(slider, { type: "range", min: 0, max: 1000, step: "any" });
     slider.setAttribute("aria-label", each.name);
     slider.dataset.stroke = each.name;
-    slider.addEventListener("input", () => {
+    on(slider, "input", () => {
       if (k === state.run) play(false);
       const at = [...state.at];
       at[k] = Number(slider.value) >= 1000 ? each.end : each.start + ((each.end - each.start) * Number(slider.value)) / 1000;
@@ -608,8 +613,8 @@ function listSizes() {
   const parent = byId("dimensions");
   sizeRows.clear();
   parent.replaceChildren(...chosen.map((i) => {
-    const each = dims[i], row = document.createElement("div"), label = document.createElement("span"), slide = document.createElement("div"), slider = document.createElement("input");
-    const mark = document.createElement("i"), box = document.createElement("input"), unit = document.createElement("span"), drop = document.createElement("button");
+    const each = dims[i], row = make("div"), label = make("span"), slide = make("div"), slider = make("input");
+    const mark = make("i"), box = make("input"), unit = make("span"), drop = make("button");
     row.className = "size"; label.className = "name"; slide.className = "slide"; unit.className = "unit"; drop.className = "drop";
     label.textContent = each.name; label.title = each.where || each.name;
     Object.assign(slider, { type: "range", min: 0, max: 1000, step: "any" });
@@ -620,26 +625,26 @@ function listSizes() {
     unit.textContent = each.unit === "deg" ? "\u00b0" : each.unit;
     Object.assign(drop, { type: "button", textContent: "\u00d7", title: say("Hide {name}", { name: each.name }) });
     drop.setAttribute("aria-label", drop.title);
-    slider.addEventListener("input", () => {
+    on(slider, "input", () => {
       const step = nice(each), raw = each.low + ((each.high - each.low) * Number(slider.value)) / 1000, value = Math.round(raw / step) * step;
       put(i, Math.abs(raw - each.value) < 0.006 * (each.high - each.low) ? each.value : Math.min(Math.max(value, each.low), each.high));
     });
-    box.addEventListener("change", () => {
+    on(box, "change", () => {
       const value = Number(box.value.replace(/\u2212/g, "-").replace(",", ".").replace(/[^\d.eE+-]/g, "")) * each.factor;
       if (box.value.trim() && Number.isFinite(value) && (!each.positive || value > 0)) put(i, value, true); else { warn(say("{name} = {text}: a number is expected", { name: each.name, text: box.value })); soon("size"); }
     });
-    label.addEventListener("dblclick", () => put(i, each.value));
-    drop.addEventListener("click", () => { chosen = chosen.filter((other) => other !== i); listSizes(); remember(); });
+    on(label, "dblclick", () => put(i, each.value));
+    on(drop, "click", () => { chosen = chosen.filter((other) => other !== i); listSizes(); remember(); });
     slide.append(slider, mark); row.append(label, slide, box, unit, drop);
     sizeRows.set(i, { row, slider, box });
     return row;
   }));
-  const add = byId("add"), first = document.createElement("option");
-  first.value = ""; first.textContent = say("Add a dimension \u2026");
+  const add = byId("add"), first = make("option");
+  first.value = ""; first.textContent = say("Add a dimension …");
   add.replaceChildren(first, ...dims.map((each, i) => [each, i]).filter(([each, i]) => each.used && !chosen.includes(i)).map(([each, i]) => option(each.name, i)));
   showSizes();
 }
-function option(text, value) { const found = document.createElement("option"); found.textContent = text; found.value = value; return found; }
+function option(text, value) { const found = make("option"); found.textContent = text; found.value = value; return found; }
 function put(i, value, exact) {
   const design = [...state.design];
   design[i] = value;
@@ -655,7 +660,7 @@ function showSizes() {
     row.classList.toggle("changed", value !== each.value);
   }
 }
-byId("add").addEventListener("change", (event) => { if (event.target.value !== "") { chosen.push(Number(event.target.value)); listSizes(); remember(); } });
+on(byId("add"), "change", (event) => { if (event.target.value !== "") { chosen.push(Number(event.target.value)); listSizes(); remember(); } });
 const heading = (each) => (each.unit ? `${each.name}, ${each.unit === "deg" ? "\u00b0" : each.unit}` : each.name);
 function choosers() {
   const all = data.columns.map((each, i) => option(heading(each) + (each.row === undefined ? " *" : ""), i));
@@ -667,32 +672,32 @@ function choosers() {
   byId("forces").style.display = data.arrows.length ? "" : "none";
   byId("forces").setAttribute("aria-pressed", String(state.forces));
 }
-byId("column").addEventListener("change", (event) => { column = Number(event.target.value); soon("curve"); remember(); });
-byId("second").addEventListener("change", (event) => { second = Number(event.target.value); soon("curve"); remember(); });
-byId("run").addEventListener("change", (event) => { state.run = Number(event.target.value); clock = phaseNow(); soon("design"); remember(); });
-byId("forces").addEventListener("click", () => { state.forces = !state.forces; choosers(); soon("fit"); remember(); });
-byId("reset").addEventListener("click", () => { state = { ...delivered(), forces: state.forces }; begin(); chosen = [...data.shown]; column = data.column; second = -1; play(false); warn(""); listSizes(); choosers(); soon("fit"); remember(); });
-byId("copy").addEventListener("click", async () => {
+on(byId("column"), "change", (event) => { column = Number(event.target.value); soon("curve"); remember(); });
+on(byId("second"), "change", (event) => { second = Number(event.target.value); soon("curve"); remember(); });
+on(byId("run"), "change", (event) => { state.run = Number(event.target.value); clock = phaseNow(); soon("design"); remember(); });
+on(byId("forces"), "click", () => { state.forces = !state.forces; choosers(); soon("fit"); remember(); });
+on(byId("reset"), "click", () => { state = { ...delivered(), forces: state.forces }; begin(); chosen = [...data.shown]; column = data.column; second = -1; play(false); warn(""); listSizes(); choosers(); soon("fit"); remember(); });
+on(byId("copy"), "click", async () => {
   const link = `${location.href.split("#")[0]}#${told()}`;
   try { await navigator.clipboard.writeText(link); } catch {
-    const area = document.createElement("textarea"); area.value = link; document.body.append(area); area.select(); document.execCommand("copy"); area.remove();
+    const area = make("textarea"); area.value = link; document.body.append(area); area.select(); document.execCommand("copy"); area.remove();
   }
   byId("copy").textContent = say("Copied");
   setTimeout(() => { byId("copy").textContent = say("Copy link"); }, 1500);
 });
-byId("language").addEventListener("click", () => { language = language === "ru" ? "en" : "ru"; speak(); remember(); });
-byId("look").addEventListener("click", () => { look(document.documentElement.dataset.look === "dark" ? "light" : "dark"); chosenLook = true; remember(); });
+on(byId("language"), "click", () => { language = language === "ru" ? "en" : "ru"; speak(); remember(); });
+on(byId("look"), "click", () => { look(document.documentElement.dataset.look === "dark" ? "light" : "dark"); chosenLook = true; remember(); });
 let chosenLook = false;
 function look(which) { document.documentElement.dataset.look = which; }
 const night = window.matchMedia("(prefers-color-scheme: dark)");
-night.addEventListener("change", () => { if (!chosenLook) look(night.matches ? "dark" : "light"); });
+on(night, "change", () => { if (!chosenLook) look(night.matches ? "dark" : "light"); });
 function speak() {
   document.documentElement.lang = language;
   for (const each of document.querySelectorAll("[data-say]")) each.textContent = say(each.dataset.say);
   for (const each of document.querySelectorAll("[data-tip]")) each.title = say(each.dataset.tip);
   for (const each of document.querySelectorAll("[data-name]")) each.setAttribute("aria-label", say(each.dataset.name));
   byId("look").setAttribute("aria-label", say("Light or dark"));
-  byId("play").setAttribute("aria-label", say(playing ? "Pause" : "Play"));
+  byId("play").setAttribute("aria-label", playing ? say("Pause") : say("Play"));
   byId("language").textContent = language === "ru" ? "English" : "\u0420\u0443\u0441\u0441\u043a\u0438\u0439";
   byId("language").lang = language === "ru" ? "en" : "ru";
   toldBefore = "";
@@ -739,7 +744,7 @@ function recall() {
   moved(asked.design, asked.at, say("The link"));
   return true;
 }
-window.addEventListener("hashchange", () => { if (location.hash !== "#verdicts" && recall()) { play(false); speak(); soon("design"); } });
+on(window, "hashchange", () => { if (location.hash !== "#verdicts" && recall()) { play(false); speak(); soon("design"); } });
 
 /* ---- one frame at a time ---- */
 
@@ -797,12 +802,12 @@ function render(work) {
 function play(on) {
   playing = on;
   byId("play").setAttribute("aria-pressed", String(on));
-  byId("play").setAttribute("aria-label", say(on ? "Pause" : "Play"));
+  byId("play").setAttribute("aria-label", on ? say("Pause") : say("Play"));
   set(byId("sign"), { d: on ? "M6 4h4v16H6zM14 4h4v16h-4z" : "M7 4l13 8-13 8z" });
   if (on) { last = null; if (now) clock = phaseNow(); soon("pose"); } else remember();
 }
-byId("play").addEventListener("click", () => play(!playing));
-document.addEventListener("keydown", (event) => {
+on(byId("play"), "click", () => play(!playing));
+on(document, "keydown", (event) => {
   if (event.altKey || event.ctrlKey || event.metaKey || /^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName)) return;
   const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, Home: -COUNT, End: COUNT };
   if (event.key === " " && event.target.tagName !== "BUTTON") { event.preventDefault(); play(!playing); }

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import product
 from typing import TypeAlias, final
 
@@ -15,7 +15,8 @@ from ..errors import DefinitionError
 from ..loads import TwoPoint
 from ..motion import Motion, require_motion
 from ..program import FloatArray
-from ..quantities import Joint
+from ..quantities import Joint, Where
+from ..vectors import Line
 from ..steps import Guide
 from .shapes import APART, HALF, OUTLINES, Outline, hull, turning_with, yokes
 
@@ -35,6 +36,8 @@ class SlideTrack:
     along: FloatArray
     riders: tuple[str, ...]
     fixed: bool
+    line: Callable[[Where], Line]
+    """The same, of any reading."""
 
     @property
     def ends(self) -> tuple[str, str]:
@@ -68,7 +71,12 @@ def guides(motion: Motion) -> Iterator[SlideTrack]:
             fixed = set(guide.points) <= set(plan.ground) and (guide.angle is None or not plan.moves(guide.angle))
             line = motion._reading.line(guide)
             origin, along = pose_rows(motion, line.origin.x, line.origin.y), pose_rows(motion, line.direction.x, line.direction.y)
-            yield SlideTrack(name, origin, along, riders, fixed)
+            yield SlideTrack(name, origin, along, riders, fixed, partial(reading_line, guide))
+
+
+def reading_line(guide: Guide, where: Where) -> Line:
+    """Return a guide's line."""
+    return where.line(guide)
 
 
 def slots(motion: Motion) -> Iterator[SlideTrack]:
@@ -79,7 +87,7 @@ def slots(motion: Motion) -> Iterator[SlideTrack]:
             if joint.track and joint.line is not None and joint.track[0] not in guides:
                 line = joint.line(motion._reading)
                 along = pose_rows(motion, line.direction.x, line.direction.y)
-                yield SlideTrack(f"{name}|slot", pose_rows(motion, line.origin.x, line.origin.y), along, (joint.point,), False)
+                yield SlideTrack(f"{name}|slot", pose_rows(motion, line.origin.x, line.origin.y), along, (joint.point,), False, joint.line)
 
 
 def slide_joints(motion: Motion) -> Iterator[Joint]:

@@ -38,9 +38,21 @@ KEPT = frozenset(
 def compact_script(text: str) -> str:
     """Return a script that does the same: comments and white space are gone, and what is no property has a short name."""
     tokens = [token for token in tokens_of(text) if token[0] != "blank"]
-    short = short_names(tokens)
-    words = [said if kind != "word" or is_property(tokens, place) else short.get(said, said) for place, (kind, said) in enumerate(tokens)]
+    both = in_short(tokens)
+    short = names_for(tokens)
+    words = []
+    for place, (kind, said) in enumerate(tokens):
+        plain = kind != "word" or is_property(tokens, place)
+        name = said if plain else "let" if said == "const" else short.get(said, said)
+        words.append(f"{said}:{name}" if place in both and name != said else name)
     return "".join(apart(words))
+
+
+def numbered(text: str, words: Sequence[str]) -> str:
+    """Return a script or a page whose sentences are said by their number among `words`."""
+    number = {word: str(place) for place, word in enumerate(words)}
+    said = re.sub(r'\bsay\("((?:[^"\\]|\\.)*)"', lambda found: f"say({number[found[1]]}", text)
+    return re.sub(r'\b(data-(?:say|tip|name))="([^"]*)"', lambda found: f'{found[1]}="{number[found[2]]}"', said)
 
 
 @cache
@@ -87,25 +99,31 @@ def is_property(tokens: Sequence[Token], place: int) -> bool:
     return before in (".", "?.") or (behind == ":" and before in ("{", ","))
 
 
-def short_names(tokens: Sequence[Token]) -> dict[str, str]:
-    """Return a short name for each that may have one, the shortest for the most frequent; one that is an object's in short is kept."""
-    shared, brackets = set[str](), list[str]()
-    used: Counter[str] = Counter()
+OBJECT = frozenset("( , = : ? [ ... && || ?? return const let".split())
+"""What a brace stands behind that opens an object or takes one apart; behind anything else it opens a block."""
+
+
+def in_short(tokens: Sequence[Token]) -> set[int]:
+    """Return the places of the words that stand for a property and its value at once, `{ low, high }`."""
+    found, brackets = set[int](), list[str]()
     for place, (kind, said) in enumerate(tokens):
-        brackets += [said] if kind == "sign" and said in "{[(" else []
-        if kind == "sign" and said in "}])":
+        before, behind = beside(tokens, place)
+        if kind == "sign" and said in "{[(":
+            brackets.append("object" if said == "{" and before in OBJECT else said)
+        elif kind == "text" and said[-2:] == "${":
+            brackets[:] = [*(brackets[:-1] if said[0] == "}" else brackets), "${"]
+        elif (kind == "sign" and said in "}])") or (kind == "text" and said[:1] == "}"):
             brackets.pop()
-        if kind == "text" and said[-2:] == "${":
-            brackets.append("$")
-        if kind == "text" and said[:1] == "}":
-            brackets.pop()
-        if kind == "word" and not is_property(tokens, place):
-            before, behind = beside(tokens, place)
-            used[said] += 1
-            if brackets[-1:] == ["{"] and before in ("{", ",") and behind in (",", "}", "="):
-                shared.add(said)
-    names = [name for name, _ in used.most_common() if name not in KEPT and name not in shared]
-    free = (name for size in (1, 2, 3) for name in map("".join, product(ascii_letters, repeat=size)) if name not in KEPT | shared)
+        if kind == "word" and brackets[-1:] == ["object"] and before in ("{", ",") and behind in (",", "}", "="):
+            found.add(place)
+    return found
+
+
+def names_for(tokens: Sequence[Token]) -> dict[str, str]:
+    """Return a short name for each that may have one, the shortest for the most frequent."""
+    used = Counter(said for place, (kind, said) in enumerate(tokens) if kind == "word" and not is_property(tokens, place))
+    names = [name for name, _ in used.most_common() if name not in KEPT]
+    free = (name for size in (1, 2, 3) for name in map("".join, product(ascii_letters, repeat=size)) if name not in KEPT)
     return dict(zip(names, free, strict=False))
 
 

@@ -1,0 +1,453 @@
+"""What a live page is fed with: what its script asks the program for, and a mechanism as plain data [SI]."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import cycle
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import DefinitionError, LinkageError, cited, known_name, unknown, unwarned
+from ..loads import TwoPoint
+from ..mechanism import Mechanism
+from ..motion import Column, LiveText, Motion, Request, RequestLike, Tabled, stroke_display_unit, transmission
+from ..plan import Plan, opening, plan_measure
+from ..program import FloatArray
+from ..quantities import is_number
+from ..reports import At, column_requests, run_of
+from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, pin_force, pin_forces, traced_acting
+from ..statics.acting import AT_REST
+from ..units import UNITS, deg, display_unit, factor
+from ..verdict import Verdict
+from . import style
+from .curves import limit_of, typeset
+from .free_space import label_free, props
+from .labels import offsets
+from .poses import named_points
+from .scene import Scene, SlideTrack, Straight
+from .strokes import ends_where_begun, is_changing, is_turn
+
+FONT = 14.0
+ACROSS = 720.0
+"""The size of the letters and the width of the sheet for which names are placed [px]."""
+SHOWN = 6
+"""How many dimensions a page shows at first."""
+STEPS = ("length", "angle")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class TrackNumber(LawRequest):
+    """A number of a track's line at every pose: the x or y of its origin [m] or of its direction."""
+
+    track: SlideTrack
+    part: str
+    axis: str
+
+    def law(self, motion: AnyMotion) -> FloatArray:
+        vector = getattr(self.track.line(motion._reading), self.part)
+        value = getattr(vector, self.axis)
+        return motion.number(value) if isinstance(motion, TracedMotion) else np.broadcast_to(np.asarray(value, float), motion.shape)
+
+    def examine(self, plan: Plan) -> None:
+        """Look at nothing: the track is of the plan."""
+
+    def __str__(self) -> str:
+        return f"the {self.part} of {self.track.name}"
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class ActingForce(LawRequest):
+    """A part of one of the machine's own loads at every pose [N], by its place among them."""
+
+    place: int
+    axis: int
+
+    def law(self, motion: AnyMotion) -> FloatArray:
+        assert isinstance(motion, TracedMotion)  # it is asked for by a page alone
+        return traced_acting(motion, None, None, AT_REST).loads[self.place].force[self.axis]
+
+    def examine(self, plan: Plan) -> None:
+        """Look at nothing: the load is of the plan."""
+
+    def __str__(self) -> str:
+        return f"load {self.place}"
+
+
+@final
+class PageRequests:
+    """What a page of a machine shows, and what it asks the program for, by names of its own."""
+
+    def __init__(
+        self,
+        machine: Mechanism,
+        count: int,
+        *,
+        vary: Any = None,
+        columns: Sequence[Column | RequestLike] | None = None,
+        column: str | None = None,
+        trace: Sequence[str] | None = None,
+        limit: Any = None,
+        at: At,
+    ) -> None:
+        self.machine, self.plan, self.count = machine, machine.plan, count
+        self.run = run_of(machine, at)
+        values = self.run.over(np.linspace(self.run.start, self.run.end, count))
+        self.motion = machine.at(unreachable="nan", **values)
+        if not self.motion.reached.any():
+            machine.at(**values)
+        self.scene = Scene(self.motion)
+        self.featured = machine.featured()
+        self.trace = named_points(machine, list(self.featured.path) if trace is None else trace, "trace")
+        self.vary = ranges_given(machine, vary)
+        with unwarned():
+            self.columns = chosen_columns(machine, self.motion, columns)
+        self.column = self._column(column)
+        self.limits = self._limits(limit)
+        self.by_name: dict[str, RequestLike] = {}
+        self._ask()
+
+    def _column(self, name: str | None) -> str:
+        """Return the column that is shown first: the one named, the one that the machine is about, the last that changes."""
+        if name is None and self.featured.column in self.columns:
+            return self.featured.column
+        if name is not None:
+            return known_name("Column", name, self.columns, where=self.plan.title)
+        strokes = self.machine.strokes
+        moving = [each for each, (column, _, why) in self.columns.items() if each not in strokes and is_changing(column.drawn)]
+        alive = [each for each in moving if not self.columns[each][2]]
+        return (alive or moving or list(self.columns))[-1]
+
+    def _limits(self, limit: Any) -> dict[str, tuple[float, str, str]]:
+        """Return the limits by column: (value [SI], words, the side that fails)."""
+        given = dict(limit) if isinstance(limit, Mapping) else {} if limit is None else {self.column: limit}
+        for name in given:
+            if name not in self.columns:
+                raise unknown("Column", name, self.columns, where=f"{self.plan.title}: limit")
+        known = {name: each for name, each in self.featured.limits.items() if name in self.columns}
+        return {name: (float((found := limit_of(each)).value), found.text, found.fails) for name, each in (known | given).items()}
+
+    def _ask(self) -> None:
+        """Note all that is asked of the program."""
+        for name in self.plan.points:
+            self.by_name[f"point {name}"] = name
+        for name, (_, request, why) in self.columns.items():
+            if not why:
+                self.by_name[f"column {name}"] = request
+        for track in self.scene.tracks:
+            for k, (part, axis) in enumerate((part, axis) for part in ("origin", "direction") for axis in "xy"):
+                self.by_name[f"track {track.name} {k}"] = TrackNumber(track, part, axis)
+        for name in self.motion._joints:
+            self.by_name[f"joint {name}"] = transmission(name)
+        for name, member in self.plan.of_kind(Tabled).items():
+            self.by_name |= {f"gauge {name} {what}": request for what, request in member.gauges(self.plan).items()}
+        for k, (_, x, y) in enumerate(self.arrows):
+            self.by_name |= {f"arrow {k} x": x, f"arrow {k} y": y}
+
+    @cached_property
+    def arrows(self) -> list[tuple[str, Request, Request]]:
+        """The forces that can be drawn: their points, and their parts [N]; those at the pins, then the loads. None of what has none."""
+        poses = self.motion.moved({name: value[self.motion.reached][:1] for name, value in self.motion.strokes.items()})
+        try:
+            with unwarned():
+                joints = pin_forces(poses).joints
+        except LinkageError:
+            return []
+        loads = acting_points(self.plan)
+        if not loads:
+            return []
+        found = [(each.point, *(joint_part(each, joints, axis) for axis in "xy")) for each in joints if each.has_force]
+        return found + [(point, ActingForce(k, 0), ActingForce(k, 1)) for k, point in loads]
+
+
+def joint_part(joint: JointForce, joints: Sequence[JointForce], axis: str) -> Request:
+    """Return what asks for a part of a joint's force on its own body; where several joints of it meet there, by the other body's."""
+    bodies = [body for each in joints if each.point == joint.point for body in (each.on, each.by)]
+    if bodies.count(joint.on) == 1:
+        return pin_force(joint.point, joint.on, axis)
+    found: Request = -1.0 * pin_force(joint.point, joint.by, axis)
+    return found
+
+
+def acting_points(plan: Plan) -> list[tuple[int, str]]:
+    """Return the places of a machine's own loads among all that act, with their points; none where they have no program."""
+    try:
+        kept = plan.made(("traced loads",), lambda twin: twin)
+        acting = traced_acting(TracedMotion(kept, kept.trace.view()), None, None, AT_REST)
+    except LinkageError:
+        return []
+    return [(k, each.load.point) for k, each in enumerate(acting.loads)]
+
+
+def ranges_given(machine: Mechanism, vary: Any) -> dict[str, tuple[float, float] | None] | None:
+    """Return the dimensions chosen with their ranges [SI] where they are given; None where nothing is chosen."""
+    if vary is None:
+        return None
+    if not isinstance(vary, (list, tuple, Mapping)):
+        raise DefinitionError(f'{machine.plan.title}: vary={cited(vary)}: dimensions are expected, vary=["OB"] or vary=dict(OB=(0.28, 0.34)).')
+    given = dict(vary) if isinstance(vary, Mapping) else dict.fromkeys(vary)
+    found: dict[str, tuple[float, float] | None] = {}
+    for name, ends in given.items():
+        pair = [f"{name}.{axis}" for axis in "xy"]
+        names = pair if isinstance(name, str) and set(pair) & set(machine.dimensions) else [name]
+        for each in names:
+            owner, sign = machine.plan.table.spellings.get(each, (None, 1)) if isinstance(each, str) else (None, 1)
+            if owner is None:
+                raise unknown("Dimension", str(each), machine.plan.table.names(), where=f"{machine.plan.title}: vary")
+            found[owner] = None if ends is None else range_of(machine, owner, ends, sign)
+    return found
+
+
+def range_of(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[float, float]:
+    """Return a range with the design's own value in it; DefinitionError for what is none."""
+    if not isinstance(ends, (list, tuple)) or len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
+        raise DefinitionError(f"{machine.plan.title}: vary: {name}={cited(ends)}: the least and the greatest value are expected, (0.28, 0.34).")
+    low, high = sorted(sign * float(end) for end in ends)
+    value = float(machine.dimensions[name])
+    return min(low, value), max(high, value)
+
+
+def chosen_columns(machine: Mechanism, motion: Motion, given: Any) -> dict[str, tuple[Column, RequestLike, str]]:
+    """Return the columns of a page by name: each, what asks for it, and why it is not followed in the page, or ""."""
+    if given is None:
+        return column_requests(machine, motion)
+    if not isinstance(given, (list, tuple)) or not given:
+        raise DefinitionError(f'{machine.plan.title}: columns={cited(given)}: a list of columns is expected, such as ["tilt"].')
+    own = column_requests(machine, motion) if any(isinstance(each, (str, Column)) for each in given) else {}
+    found: dict[str, tuple[Column, RequestLike, str]] = {}
+    for each in given:
+        if isinstance(each, str):
+            found[each] = own[known_name("Column", each, own, where=machine.plan.title)]
+        elif isinstance(each, Column):
+            found[each.name] = own.get(each.name, (each, each.name, "its values were given, and not what asks for them"))
+        else:
+            column = Column.of(motion, each)
+            found[column.name] = column, each, ""
+    return found
+
+
+# -- the data ------------------------------------------------------------------------------------------------
+
+
+def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
+    """Return all that the page's script reads, as plain data: lengths in m, angles in rad, forces in N."""
+    machine, plan = requests.machine, requests.plan
+    dims = dimension_data(requests, live)
+    names = [each[0] for each in dims]
+    columns = [column_data(name, each, live, requests.motion) for name, each in requests.columns.items()]
+    run = requests.run
+    return {
+        "count": requests.count,
+        "dims": dims,
+        "units": {typeset(unit): factor(unit) for unit in ("", *UNITS) if typeset(unit) in {each[4] for each in dims}},
+        "shown": [names.index(name) for name in shown_first(requests, names)],
+        "strokes": [stroke_data(requests, name) for name in machine.strokes],
+        "run": list(machine.strokes).index(run.stroke),
+        "columns": columns,
+        "column": [each["name"] for each in columns].index(requests.column),
+        "limits": {name: [value, typeset(text), fails] for name, (value, text, fails) in requests.limits.items()},
+        "rows": {"points": [row_pair(live, f"point {name}") for name in plan.points]},
+        "scene": scene_data(requests, live),
+        "cylinders": cylinder_data(requests, live),
+        "pressureUnit": {"unit": "bar", "factor": factor("bar")},
+        "joints": [{"point": name, "row": live.rows[f"joint {name}"][0]} for name in requests.motion._joints if f"joint {name}" in live.rows],
+        "arrows": arrow_data(requests, live),
+        "paths": [list(plan.points).index(name) for name in requests.trace],
+        "grips": grip_data(plan, names),
+        "steps": {name: opening(plan, name) for name in plan.points},
+        "verdicts": verdict_data(machine, requests.motion),
+    }
+
+
+def row_pair(live: LiveText, name: str) -> list[int]:
+    """Return the two rows of a vector."""
+    first, _ = live.rows[name]
+    return [first, first + 1]
+
+
+def dimension_data(requests: PageRequests, live: LiveText) -> list[list[Any]]:
+    """Return the dimensions that anything on the page hangs on."""
+    size = float(np.hypot(*np.diff(np.reshape(requests.scene.extent, (2, 2)), axis=1).ravel()))
+    found = []
+    for name in live.dimensions:
+        entry, value = requests.plan.table.entries[name], float(requests.machine.dimensions[name])
+        measure = plan_measure(requests.plan, name)
+        unit = entry.unit or display_unit(measure, "mm")
+        low, high = (requests.vary or {}).get(name) or usual_range(value, entry.kind, measure, unit, size)
+        where = entry.where if entry.kind in STEPS else ""
+        found.append([name, value, tidy(low), tidy(high), typeset(unit), int(entry.kind == "length"), where][: None if where else 6])
+    return found
+
+
+def tidy(value: float) -> float:
+    """Return the end of a slider to four digits."""
+    return float(f"{value:.4g}")
+
+
+def usual_range(value: float, kind: str, measure: str, unit: str, size: float) -> tuple[float, float]:
+    """Return the range of a slider about a value [SI]: a coordinate by the machine's size, an angle 20 degrees, others by their own."""
+    if kind == "coordinate":
+        return value - 0.15 * size, value + 0.15 * size
+    if measure == "angle":
+        return value - 20 * deg, value + 20 * deg
+    if value == 0.0:
+        return (-0.15 * size, 0.15 * size) if measure == "length" else (-factor(unit), factor(unit))
+    share = 0.25 if measure == "length" else 0.5
+    return value - share * abs(value), value + share * abs(value)
+
+
+def shown_first(requests: PageRequests, names: Sequence[str]) -> list[str]:
+    """Return the dimensions shown at first: those chosen, else the first lengths and angles, a load's mass and a bore among them."""
+    if requests.vary is not None:
+        return [name for name in requests.vary if name in names]
+    entries = requests.plan.table.entries
+    coordinates = {name for name in names if entries[name].kind == "coordinate"}
+    steps = [name for name in names if entries[name].kind in STEPS]
+    plain = [name for name in names if name not in steps and name not in coordinates and plan_measure(requests.plan, name) in ("length", "angle")]
+    others = [name for name in names if name.endswith((".mass", ".bore"))][:2]
+    lengths = [*steps, *(name for name in plain if "." not in name)][: SHOWN - len(others)]
+    return [*lengths, *others] or list(names)[:SHOWN]
+
+
+def stroke_data(requests: PageRequests, name: str) -> dict[str, Any]:
+    """Return a stroke: its range, where it stands, its unit, and whether it goes round."""
+    stroke, run = requests.machine.strokes[name], requests.run
+    unit = stroke_display_unit(requests.plan, name, "mm")
+    runs = name == run.stroke
+    start, end = (run.start, run.end) if runs else (stroke.start, stroke.end)
+    turn = runs and is_turn(requests.machine, run) and bool(requests.motion.reached.all()) and ends_where_begun(requests.motion)
+    at = start if runs else run.held[name]
+    return {"name": name, "start": start, "end": end, "at": at, "unit": unit, "factor": factor(unit), "turn": int(turn)}
+
+
+def column_data(name: str, found: tuple[Column, RequestLike, str], live: LiveText, motion: Motion) -> dict[str, Any]:
+    """Return a column: its unit, and its row; its values where it is not followed in the page, and why."""
+    column, _, why = found
+    data: dict[str, Any] = {"name": typeset(name), "unit": typeset(column.unit), "factor": factor(column.unit)}
+    key = f"column {name}"
+    if key in live.rows:
+        return data | {"row": live.rows[key][0]}
+    values = np.broadcast_to(np.asarray(column.values, float), motion.shape)
+    return data | {"values": seven_digits(values), "why": why or live.left_out.get(key, "")}
+
+
+def seven_digits(values: FloatArray) -> list[float | None]:
+    """Return values to seven digits; None for one that is not finite."""
+    return [float(f"{value:.7g}") if np.isfinite(value) else None for value in values.tolist()]
+
+
+def grip_data(plan: Plan, names: Sequence[str]) -> list[dict[str, int]]:
+    """Return the pins on the ground that can be dragged, with their coordinates among the dimensions."""
+    points = list(plan.points)
+    pairs = {name: (f"{name}.x", f"{name}.y") for name in points}
+    return [{"point": points.index(name), "x": names.index(x), "y": names.index(y)} for name, (x, y) in pairs.items() if {x, y} <= set(names)]
+
+
+def arrow_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]]:
+    """Return the arrows whose both parts the program has."""
+    points, found = list(requests.plan.points), []
+    for k, (point, x, _) in enumerate(requests.arrows):
+        keys = f"arrow {k} x", f"arrow {k} y"
+        if all(key in live.rows for key in keys):
+            rows = {axis: live.rows[key][0] for axis, key in zip("xy", keys, strict=True)}
+            found.append({"point": points.index(point), **rows} | ({"load": 1} if isinstance(x, ActingForce) else {}))
+    return found
+
+
+def cylinder_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]]:
+    """Return the cylinders: where they hang, and the rows of what is read of them."""
+    plan, scene = requests.plan, requests.scene
+    points = list(plan.points)
+    driven = {frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
+    elements = defaultdict(list)
+    for name, element in plan.of_kind(TwoPoint).items():
+        if element.drawn_as == "cylinder":
+            elements[frozenset(element.ends)].append(name)
+    found = []
+    for each in scene.hung:
+        if each.drawn_as != "cylinder":
+            continue
+        pair = frozenset((each.P, each.Q))
+        name = elements[pair].pop(0) if elements[pair] else ""
+        gauges = {what: live.rows[f"gauge {name} {what}"][0] for what in GAUGES if f"gauge {name} {what}" in live.rows}
+        data = {"name": name or each.P + each.Q, "P": points.index(each.P), "Q": points.index(each.Q), "aside": each.aside, "drawn": 1}
+        found.append(data | gauges | ({} if pair in driven else {"beside": 1}))
+    return found
+
+
+GAUGES = ("thrust", "pressure", "most", "reserve", "closed", "stroke")
+"""What is read of a cylinder; see `Tabled.gauges`."""
+
+
+def scene_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
+    """Return what is drawn, by the points' places in `names`."""
+    scene, plan = requests.scene, requests.plan
+    names = list(plan.points)
+    index = {name: place for place, name in enumerate(names)}
+    return {
+        "size": scene.size,
+        "names": names,
+        "reach": contour_reach(scene, index),
+        "bodies": [
+            {"points": [index[name] for name in points], "colour": k} for points, k in zip(scene.bodies, cycle(range(len(style.BODIES))), strict=False)
+        ],
+        "tracks": [
+            {"riders": [index[name] for name in track.riders], "fixed": track.fixed, "line": [live.rows[f"track {track.name} {k}"][0] for k in range(4)]}
+            for track in scene.tracks
+        ],
+        "contours": [straight_data(each, index, real=True) for each in scene.contours],
+        "straights": [straight_data(each, index, real=False) for each in scene.straights],
+        "stays": [[index[P], index[X]] for P, X in scene.stays],
+        "pins": [index[name] for name in scene.pins],
+        "dots": [index[name] for name in scene.dots],
+        "grounds": [{"point": index[name], "way": round(way, 4)} for name, way in props(scene).items()],
+        "labels": label_offsets(scene),
+    }
+
+
+def contour_reach(scene: Scene, index: Mapping[str, int]) -> dict[int, float]:
+    """Return how far contours reach beyond the points that they turn about [m]."""
+    reach: dict[int, float] = {}
+    for each in scene.contours:
+        far = max(float(np.max(np.hypot(*line.rows.T[1:]), initial=0.0)) for line in each.lines)
+        reach[index[each.P]] = max(far, reach.get(index[each.P], 0.0))
+    return reach
+
+
+def straight_data(each: Straight, index: Mapping[str, int], *, real: bool) -> dict[str, Any]:
+    """Return lines from P to Q: rows of a share of the distance, and ways along and across [m]; `real` ones keep their size."""
+    lines = []
+    for line in each.lines:
+        rows = [[float(f"{part:.4g}") for part in row] for row in line.rows.tolist()]
+        flags = {"fill": line.fill.lower(), "closed": int(line.closed), "bold": int(line.bold), "real": int(real)}
+        lines.append({"rows": rows} | {name: flag for name, flag in flags.items() if flag})
+    return {"P": index[each.P], "Q": index[each.Q], "lines": lines}
+
+
+def label_offsets(scene: Scene) -> list[list[float]]:
+    """Return each name's offset from its point [px], in the order of the names."""
+    poses = scene.some(9)
+    left, right, bottom, top = scene.box()
+    scale = min(ACROSS / (right - left), 0.7 * ACROSS / (top - bottom))
+    spots = offsets(list(scene.places), poses, label_free(scene, poses), scale, 1.15 * scene.size * scale + 2.0, FONT)
+    return [[round(float(spots[name][0]), 1), round(-float(spots[name][1]), 1)] for name in scene.places]
+
+
+def verdict_data(machine: Mechanism, motion: Motion) -> list[dict[str, Any]]:
+    """Return the machine's own verdicts on the motion, as they stand for the design that is delivered."""
+    try:
+        with unwarned():
+            found = machine.verdicts(motion)
+    except LinkageError as error:
+        return [{"ok": None, "rule": "", "en": str(error)}]
+    return [
+        {"ok": each.ok, "rule": each.rule, "en": each.sentence} if isinstance(each, Verdict) else {"ok": None, "rule": "", "en": str(each)}
+        for each in found
+    ]
+
+

@@ -13,17 +13,18 @@ from pathlib import Path
 from typing import Any
 
 from ..disk import check_place, replacing_text
-from ..errors import DefinitionError, cited, one_word
+from ..errors import DefinitionError, cited, known_name
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, RequestLike, live_text
 from ..reports import NOTHING, At
 from . import style
 from .browser_data import PageRequests, page_data
-from .browser_words import RUSSIAN
+from .browser_words import SAID, words_in
 from .packing import compact_script, compact_style, numbered
 from .strokes import frame_count
 
 COLOURS = ("INK", "MUTED", "RULE", "GRID", "PAPER", "CURVE", "ACCENT", "BARREL", "ROD", "PISTON")
+LANGUAGES = ("en", "ru")
 COUNT = 101
 """Poses of the curve."""
 
@@ -57,14 +58,13 @@ def page(
 def page_html(machine: Mechanism, *, count: int = COUNT, language: str = "en", place: Path | None = None, **given: Any) -> str:
     """Return the HTML of a live page; `given` are the other arguments of `linkage.page`."""
     require_mechanism(machine)
-    one_word("language", language, ("en", "ru"))
+    known_name("Language", language, LANGUAGES, where="page(language=...)")
     requests = PageRequests(machine, frame_count(count), **given)
     if place is not None:
         check_place(place)
     live = live_text(machine.plan, requests.by_name, name="engine")
-    words = tuple(RUSSIAN)
-    data = page_data(requests, live) | {"language": language, "words": {"en": words, "ru": tuple(RUSSIAN.values())}}
-    script = f'"use strict";{live.text}\n{compact_script(numbered(page_part("page.js"), words))}'
+    data = page_data(requests, live) | {"language": language, "words": {name: words_in(name) for name in LANGUAGES}}
+    script = f'"use strict";{live.text}\n{compact_script(numbered(page_part("page.js"), SAID))}'
     styles = f":root{{{colours()}}}{compact_style(page_part('page.css'))}"
     parts = {
         "LANGUAGE": language,
@@ -75,7 +75,7 @@ def page_html(machine: Mechanism, *, count: int = COUNT, language: str = "en", p
         "SCRIPT_HASH": source_hash(script),
         "DATA": embedded(data),
     }
-    return filled(numbered(page_part("page.html"), words), parts)
+    return filled(numbered(page_part("page.html"), SAID), parts)
 
 
 def colours() -> str:

@@ -12,6 +12,7 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError, LinkageError, cited, known_name, unknown, unwarned
+from ..language import heading_of, language, translated
 from ..loads import TwoPoint
 from ..mechanism import Mechanism
 from ..motion import Column, LiveText, Motion, Request, RequestLike, Tabled, stroke_display_unit, transmission
@@ -21,7 +22,7 @@ from ..quantities import is_number
 from ..reports import At, column_requests, run_of
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, pin_force, pin_forces, traced_acting
 from ..statics.acting import AT_REST
-from ..units import UNITS, deg, display_unit, factor
+from ..units import UNITS, deg, display_unit, factor, shown_in
 from ..verdict import Verdict
 from . import style
 from .curves import limit_of, typeset
@@ -254,7 +255,10 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "rows": {"points": [row_pair(live, f"point {name}") for name in plan.points]},
         "scene": scene_data(requests, live),
         "cylinders": cylinder_data(requests, live),
-        "pressureUnit": {"unit": "bar", "factor": factor("bar")},
+        "pressureUnit": unit_data("bar"),
+        "length": unit_data("mm"),
+        "force": unit_data("kN"),
+        "signs": signs({each[4] for each in dims} | {str(each["unit"]) for each in columns} | {shown_in(each) for each in ("bar", "mm", "kN")}),
         "joints": [{"point": name, "row": live.rows[f"joint {name}"][0]} for name in requests.motion._joints if f"joint {name}" in live.rows],
         "arrows": arrow_data(requests, live),
         "paths": [list(plan.points).index(name) for name in requests.trace],
@@ -262,6 +266,19 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "steps": {name: opening(plan, name) for name in plan.points},
         "verdicts": verdict_data(machine, requests.motion),
     }
+
+
+def unit_data(unit: str) -> dict[str, Any]:
+    """Return the unit that values of a unit are shown in, and its factor."""
+    return {"unit": typeset(shown_in(unit)), "factor": factor(shown_in(unit))}
+
+
+def signs(units: set[str]) -> dict[str, str]:
+    """Return how units are written in Russian, those that are written otherwise."""
+    plain = {typeset(unit): unit for unit in UNITS}
+    with language("ru"):
+        found = {unit: typeset(translated(plain.get(unit, unit))) for unit in sorted(units)}
+    return {unit: sign for unit, sign in found.items() if sign != unit}
 
 
 def row_pair(live: LiveText, name: str) -> list[int]:
@@ -277,7 +294,7 @@ def dimension_data(requests: PageRequests, live: LiveText) -> list[list[Any]]:
     for name in live.dimensions:
         entry, value = requests.plan.table.entries[name], float(requests.machine.dimensions[name])
         measure = plan_measure(requests.plan, name)
-        unit = entry.unit or display_unit(measure, "mm")
+        unit = shown_in(entry.unit or display_unit(measure, "mm"))
         low, high = (requests.vary or {}).get(name) or usual_range(value, entry.kind, measure, unit, size)
         where = entry.where if entry.kind in STEPS else ""
         found.append([name, value, tidy(low), tidy(high), typeset(unit), int(entry.kind == "length"), where][: None if where else 6])
@@ -317,7 +334,7 @@ def shown_first(requests: PageRequests, names: Sequence[str]) -> list[str]:
 def stroke_data(requests: PageRequests, name: str) -> dict[str, Any]:
     """Return a stroke: its range, where it stands, its unit, and whether it goes round."""
     stroke, run = requests.machine.strokes[name], requests.run
-    unit = stroke_display_unit(requests.plan, name, "mm")
+    unit = shown_in(stroke_display_unit(requests.plan, name, "mm"))
     runs = name == run.stroke
     start, end = (run.start, run.end) if runs else (stroke.start, stroke.end)
     turn = runs and is_turn(requests.machine, run) and bool(requests.motion.reached.all()) and ends_where_begun(requests.motion)
@@ -328,7 +345,10 @@ def stroke_data(requests: PageRequests, name: str) -> dict[str, Any]:
 def column_data(name: str, found: tuple[Column, RequestLike, str], live: LiveText, motion: Motion) -> dict[str, Any]:
     """Return a column: its unit, and its row; its values where it is not followed in the page, and why."""
     column, _, why = found
-    data: dict[str, Any] = {"name": typeset(name), "unit": typeset(column.unit), "factor": factor(column.unit)}
+    data: dict[str, Any] = {"name": typeset(name), **unit_data(column.unit)}
+    with language("ru"):
+        russian = typeset(heading_of(name))
+    data |= {"ru": russian} if russian != data["name"] else {}
     key = f"column {name}"
     if key in live.rows:
         return data | {"row": live.rows[key][0]}
@@ -438,16 +458,22 @@ def label_offsets(scene: Scene) -> list[list[float]]:
     return [[round(float(spots[name][0]), 1), round(-float(spots[name][1]), 1)] for name in scene.places]
 
 
-def verdict_data(machine: Mechanism, motion: Motion) -> list[dict[str, Any]]:
-    """Return the machine's own verdicts on the motion, as they stand for the design that is delivered."""
-    try:
-        with unwarned():
-            found = machine.verdicts(motion)
-    except LinkageError as error:
-        return [{"ok": None, "rule": "", "en": str(error)}]
-    return [
-        {"ok": each.ok, "rule": each.rule, "en": each.sentence} if isinstance(each, Verdict) else {"ok": None, "rule": "", "en": str(each)}
-        for each in found
-    ]
+def verdict_data(machine: Mechanism, motion: Motion) -> list[list[Any]]:
+    """Return the machine's own verdicts on the motion, as they stand for the design that is delivered.
+
+    Each is 1 where it is kept, 0 where it is not, 2 where it is only said; its rule and its sentence, in English, then in Russian.
+    """
+    said = {}
+    for name in ("en", "ru"):
+        with language(name), unwarned():
+            try:
+                said[name] = [verdict_parts(each) for each in machine.verdicts(motion)]
+            except LinkageError as error:
+                said[name] = [(2, "", str(error))]
+    pairs = zip(said["en"], said["ru"], strict=True) if len(said["en"]) == len(said["ru"]) else [(each, each) for each in said["en"]]
+    return [[*english, *(russian[1:] if russian != english else ())] for english, russian in pairs]
 
 
+def verdict_parts(said: str) -> tuple[int, str, str]:
+    """Return whether a verdict is kept, what it is called and what it says."""
+    return (int(said.ok), said.heading, said.sentence) if isinstance(said, Verdict) else (2, "", str(said))

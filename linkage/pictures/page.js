@@ -31,7 +31,8 @@ function short(value, digits = 6) {
   const text = fixed(value, places(Math.abs(value), digits));
   return text.includes(".") ? minus(text.replace("\u2212", "-").replace(/\.?0+$/, "")) : text;
 }
-const unitText = (unit) => (unit === "deg" ? "\u00b0" : unit ? `\u2009${unit}` : "");
+const signed = (unit) => (unit === "deg" ? "\u00b0" : (language === "ru" && data.signs[unit]) || unit);
+const unitText = (unit) => (unit === "deg" ? "\u00b0" : unit ? `\u2009${signed(unit)}` : "");
 const shown = (value, thing, digits) => short(value / thing.factor, digits) + unitText(thing.unit);
 
 /* ---- the state, and what follows from it ---- */
@@ -59,7 +60,7 @@ function why(found, i, what) {
   const k = found.reason[i], step = k > 0 ? engine.steps[k - 1] : (found.at && found.at[i]) || "";
   const name = data.steps[step] || step, missing = found.missing[i];
   if (k === -1) return say("{what}: a change point, where two branches cross", { what });
-  if (missing > 0) return say("{what}: {step} is {gap} mm short", { what, step: name, gap: fixed(missing * 1e3, missing < 0.01 ? 2 : 1) });
+  if (missing > 0) return say("{what}: {step} is {gap} short", { what, step: name, gap: shown(missing, data.length, 3) });
   return say("{what}: {step} cannot be placed", { what, step: name });
 }
 /* Move part of the state as far towards what is asked as can be assembled; say why where that is not all the way. */
@@ -316,11 +317,10 @@ function legend() {
     draw(group, "text", { x: 12 + bar, y: bottom - 13, class: "halo", "text-anchor": "end" }).textContent = top + unitText(unit.unit);
   }
   if (state.forces && pull.most) {
-    const text = say("longest arrow {force}", { force: forceText(pull.most) });
+    const text = say("longest arrow {force}", { force: shown(pull.most, data.force, 3) });
     draw(group, "text", { x: view.width - 12, y: bottom, class: "halo", "text-anchor": "end" }).textContent = text;
   }
 }
-const forceText = (value) => (value >= 1e3 ? `${short(value / 1e3, 3)}\u2009kN` : `${short(value, 3)}\u2009N`);
 
 /* Choose the scale so that the delivered and the present design have room over the whole stroke. */
 function fit(grow) {
@@ -437,7 +437,7 @@ function plotted() {
     rule(x(s), T, x(s), H - B, "grid"); write(x(s), H - B + 15, text, { "text-anchor": x(s) > W - R - 10 ? "end" : "middle" });
   }
   rule(L, T, L, H - B, "rule"); rule(L, H - B, W - R, H - B, "rule");
-  write(0.5 * (L + W - R), H - 6, `${stroke.name}, ${stroke.unit === "deg" ? "\u00b0" : stroke.unit}`, { "text-anchor": "middle" });
+  write(0.5 * (L + W - R), H - 6, `${stroke.name}, ${signed(stroke.unit)}`, { "text-anchor": "middle" });
   if (was && !isMoved()) line(was, y, "muted", 2, { "stroke-dasharray": "3 4" });
   if (others) line(others, same ? y : y2, "other", 2.2, {});
   chart = { one, two, values, others, along, x, y, y2: same ? y : y2 };
@@ -480,7 +480,7 @@ function mark(each, list, up, dot, out) {
 /* ---- verdicts ---- */
 
 const strokeText = (value) => { const stroke = strokes[state.run]; return `${stroke.name} = ${shown(value, stroke, 4)}`; };
-const mm = (value) => `${fixed(value * 1e3, 1)}\u2009mm`;
+const mm = (value) => fixed(value / data.length.factor, data.length.factor > 0.01 ? 2 : 1) + unitText(data.length.unit);
 /* Return the least and the greatest of some values with their strokes, a parabola laid through the poses next to them. */
 function extremes(values) {
   let low = -1, high = -1;
@@ -497,11 +497,11 @@ function extremes(values) {
 function verdicts() {
   const found = [], add = (ok, rule, text) => found.push({ ok, rule, text }), all = now.reached.length === COUNT, stroke = strokes[state.run];
   const from = shown(now.along[0], stroke, 4), to = shown(now.along[COUNT - 1], stroke, 4);
-  if (all) add(true, say("reach"), say("assembled over the whole stroke, {stroke} from {from} to {to}", { stroke: stroke.name, from, to }));
+  if (all) add(true, say("assembly"), say("assembled over the whole stroke, {stroke} from {from} to {to}", { stroke: stroke.name, from, to }));
   else {
     const lost = [...now.along.keys()].filter((i) => now.reason[i]), worst = lost.reduce((a, b) => (now.missing[b] > (now.missing[a] || 0) ? b : a), lost[0]);
     const spans = stretches(lost).map(([a, b]) => say("{from} to {to}", { from: shown(now.along[a], stroke, 4), to: shown(now.along[b], stroke, 4) })).join(", ");
-    add(false, say("reach"), why(now, worst, say("not assembled at {stroke} = {spans}", { stroke: stroke.name, spans })));
+    add(false, say("assembly"), why(now, worst, say("not assembled at {stroke} = {spans}", { stroke: stroke.name, spans })));
     for (const text of ends(lost)) add(null, say("dead point"), text);
   }
   let tight = null;
@@ -622,7 +622,7 @@ function listSizes() {
     mark.style.left = `calc(8px + (100% - 16px) * ${((each.value - each.low) / (each.high - each.low)).toFixed(4)})`;
     Object.assign(box, { type: "text", inputMode: "decimal", autocomplete: "off", spellcheck: false });
     box.setAttribute("aria-label", `${each.name}, ${each.unit}`);
-    unit.textContent = each.unit === "deg" ? "\u00b0" : each.unit;
+    unit.textContent = signed(each.unit);
     Object.assign(drop, { type: "button", textContent: "\u00d7", title: say("Hide {name}", { name: each.name }) });
     drop.setAttribute("aria-label", drop.title);
     on(slider, "input", () => {
@@ -661,7 +661,7 @@ function showSizes() {
   }
 }
 on(byId("add"), "change", (event) => { if (event.target.value !== "") { chosen.push(Number(event.target.value)); listSizes(); remember(); } });
-const heading = (each) => (each.unit ? `${each.name}, ${each.unit === "deg" ? "\u00b0" : each.unit}` : each.name);
+const heading = (each) => (each.unit ? `${(language === "ru" && each.ru) || each.name}, ${signed(each.unit)}` : (language === "ru" && each.ru) || each.name);
 function choosers() {
   const all = data.columns.map((each, i) => option(heading(each) + (each.row === undefined ? " *" : ""), i));
   byId("column").replaceChildren(...all); byId("column").value = String(column);
@@ -701,7 +701,7 @@ function speak() {
   byId("language").textContent = language === "ru" ? "English" : "\u0420\u0443\u0441\u0441\u043a\u0438\u0439";
   byId("language").lang = language === "ru" ? "en" : "ru";
   toldBefore = "";
-  list(byId("told"), data.verdicts.map((each) => ({ ...each, text: each[language] || each.en })));
+  list(byId("told"), data.verdicts.map(([ok, ...said]) => { const [rule, text] = said.slice(language === "ru" ? -2 : 0); return { ok: [false, true][ok], rule, text }; }));
   listSizes(); choosers(); soon("fit");
 }
 

@@ -323,12 +323,13 @@ def shown_first(requests: PageRequests, names: Sequence[str]) -> list[str]:
     if requests.vary is not None:
         return [name for name in requests.vary if name in names]
     entries = requests.plan.table.entries
-    coordinates = {name for name in names if entries[name].kind == "coordinate"}
+    coordinates = [name for name in names if entries[name].kind == "coordinate"]
     steps = [name for name in names if entries[name].kind in STEPS]
     plain = [name for name in names if name not in steps and name not in coordinates and plan_measure(requests.plan, name) in ("length", "angle")]
     others = [name for name in names if name.endswith((".mass", ".bore"))][:2]
-    lengths = [*steps, *(name for name in plain if "." not in name)][: SHOWN - len(others)]
-    return [*lengths, *others] or list(names)[:SHOWN]
+    lengths = [name for name in (*steps, *plain) if "." not in name][: SHOWN - len(others)]
+    rest = [name for name in (*coordinates, *names) if name not in (*lengths, *others)]
+    return [*lengths, *others, *rest[: SHOWN - len(lengths) - len(others)]]
 
 
 def stroke_data(requests: PageRequests, name: str) -> dict[str, Any]:

@@ -2,7 +2,8 @@
 const data = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
 const css = (name) => `var(--${name})`;
-const { scene, strokes, units } = data;
+const { scene, strokes, units } = data, { abs, acos, atan2, ceil, cos, floor, hypot, log10, max, min, round, PI } = Math;
+const isNumber = Number.isFinite, root = document.documentElement;
 const on = (element, event, act) => element.addEventListener(event, act);
 const make = (kind, given) => Object.assign(document.createElement(kind), given);
 /* A dimension as it comes: its name, value, least and greatest [SI], unit, whether it is a length, and where it stands. */
@@ -20,15 +21,15 @@ function say(number, given) {
 const minus = (text) => (/^-[0.]*$/.test(text) ? text.slice(1) : text).replace("-", "\u2212");
 /* Return a number with its digits grouped, never in powers of ten. */
 function fixed(value, decimals) {
-  if (!Number.isFinite(value)) return "\u2013";
+  if (!isNumber(value)) return "\u2013";
   const [whole, part] = value.toFixed(decimals).split(".");
   const grouped = whole.replace(/^-/, "").length > 4 ? whole.replace(/\B(?=(\d{3})+$)/g, "\u202f") : whole;
   return minus(part ? `${grouped}.${part}` : grouped);
 }
-const places = (size, digits) => Math.min(Math.max(digits - 1 - Math.floor(Math.log10(size || 1)), 0), 9);
+const places = (size, digits) => min(max(digits - 1 - floor(log10(size || 1)), 0), 9);
 /* Return a number with the digits that it has, up to so many. */
 function short(value, digits = 6) {
-  const text = fixed(value, places(Math.abs(value), digits));
+  const text = fixed(value, places(abs(value), digits));
   return text.includes(".") ? minus(text.replace("\u2212", "-").replace(/\.?0+$/, "")) : text;
 }
 const signed = (unit) => (unit === "deg" ? "\u00b0" : (language === "ru" && data.signs[unit]) || unit);
@@ -96,7 +97,8 @@ const live = (each) => each && (each.row !== undefined || !(isChanged() || isMov
 
 const SVG = "http://www.w3.org/2000/svg";
 function draw(parent, kind, attributes) { const element = document.createElementNS(SVG, kind); set(element, attributes); return parent.appendChild(element); }
-function set(element, attributes) { for (const name in attributes) element.setAttribute(name, attributes[name]); }
+const LONG = { w: "stroke-width", join: "stroke-linejoin", cap: "stroke-linecap", dash: "stroke-dasharray", anchor: "text-anchor" };
+function set(element, attributes) { for (const name in attributes) element.setAttribute(LONG[name] || name, attributes[name]); }
 const pairs = (points) => points.map((p) => `${p[0].toFixed(2)},${p[1].toFixed(2)}`).join(" ");
 /* Return a curve as a path, broken where there is no value. */
 function broken(points) {
@@ -125,16 +127,16 @@ function hull(points) {
   const around = [...chain(sorted), ...chain(sorted.reverse())];
   return around.length ? around : [points[0]];
 }
-const turned = (P, Q) => `translate(${P[0].toFixed(2)} ${P[1].toFixed(2)}) rotate(${((Math.atan2(Q[1] - P[1], Q[0] - P[0]) * 180) / Math.PI).toFixed(3)})`;
-const apart = (P, Q) => Math.hypot(Q[0] - P[0], Q[1] - P[1]);
+const turned = (P, Q) => `translate(${P[0].toFixed(2)} ${P[1].toFixed(2)}) rotate(${((atan2(Q[1] - P[1], Q[0] - P[0]) * 180) / PI).toFixed(3)})`;
+const apart = (P, Q) => hypot(Q[0] - P[0], Q[1] - P[1]);
 
 function body({ points, colour }) {
   const plate = points.length > 2, group = draw(sheet, "g", { opacity: plate ? 0.72 : 1 }), r = view.u;
-  const edge = `color-mix(in srgb, ${css(`body${colour}`)} 40%, var(--ink))`;
-  const outer = draw(group, "polygon", { "stroke-width": 2 * r + 2 * EDGE, "stroke-linejoin": "round" });
-  const inner = draw(group, "polygon", { "stroke-width": 2 * r, "stroke-linejoin": "round" });
-  outer.style.cssText = `fill:${edge};stroke:${edge}`;
-  inner.style.cssText = `fill:${css(`body${colour}`)};stroke:${css(`body${colour}`)}`;
+  const own = css(`body${colour}`), edge = `color-mix(in srgb, ${own} 40%, var(--ink))`;
+  const outer = draw(group, "polygon", { w: 2 * r + 2 * EDGE, join: "round" });
+  const inner = draw(group, "polygon", { w: 2 * r, join: "round" });
+  set(outer, { fill: edge, stroke: edge });
+  set(inner, { fill: own, stroke: own });
   return (at) => { const around = points.map((i) => at[i]), text = pairs(plate ? hull(around) : around); set(outer, { points: text }); set(inner, { points: text }); };
 }
 /* The greatest and least distance of two points over the stroke [px]. */
@@ -142,38 +144,37 @@ function span(P, Q) {
   let low = Infinity, high = 0;
   for (const found of [now, base]) for (const i of found.reached) {
     const length = view.k * apart(spot(found, P, i), spot(found, Q, i));
-    low = Math.min(low, length); high = Math.max(high, length);
+    low = min(low, length); high = max(high, length);
   }
   return [low, high];
 }
 const WIDTH = { eye: 0.62, rod: 0.42, barrel: 1.3, piston: 1.12, cap: 1.5 };
 function ram({ P, Q, aside, pressure, most }) {
-  const group = draw(sheet, "g", { "stroke-width": 0.8 * EDGE, "stroke-linejoin": "round" });
-  group.style.stroke = css("ink");
-  const [low, high] = span(P, Q), u = Math.min(view.u, 0.12 * low), off = aside * view.u;
-  const bottom = 1.4 * u, least = 2 * u, mouth = Math.min(Math.max(least + high - low + 1.5 * u, 0.68 * low), Math.max(0.68 * low, low - 1.2 * u));
+  const group = draw(sheet, "g", { w: 0.8 * EDGE, join: "round", stroke: css("ink") });
+  const [low, high] = span(P, Q), u = min(view.u, 0.12 * low), off = aside * view.u;
+  const bottom = 1.4 * u, least = 2 * u, mouth = min(max(least + high - low + 1.5 * u, 0.68 * low), max(0.68 * low, low - 1.2 * u));
   const box = (name, fill) => {
     const half = WIDTH[name] * u, rect = draw(group, "rect", { y: -off - half, height: 2 * half });
-    rect.style.fill = css(fill);
-    return [rect, (from, to) => set(rect, { x: from, width: Math.max(to - from, 0) })];
+    set(rect, { fill: css(fill) });
+    return [rect, (from, to) => set(rect, { x: from, width: max(to - from, 0) })];
   };
   const [, eye] = box("eye", "piston"), [barrel, tube] = box("barrel", "barrel"), [, shaft] = box("rod", "rod");
   const [, piston] = box("piston", "piston"), [, cap] = box("cap", "piston");
   eye(0, bottom); tube(bottom, mouth); cap(mouth - 0.35 * u, mouth + 0.35 * u);
   return (at) => {
-    const length = apart(at[P], at[Q]), place = Math.min(Math.max(length - low + least, least), mouth - 0.9 * u);
-    shaft(place, Math.max(length, place)); piston(place - 0.45 * u, place + 0.45 * u);
-    if (pressure !== undefined) barrel.style.fill = heat(pose.values[pressure][0], pose.values[most] ? pose.values[most][0] : scale.most);
+    const length = apart(at[P], at[Q]), place = min(max(length - low + least, least), mouth - 0.9 * u);
+    shaft(place, max(length, place)); piston(place - 0.45 * u, place + 0.45 * u);
+    if (pressure !== undefined) set(barrel, { fill: heat(pose.values[pressure][0], pose.values[most] ? pose.values[most][0] : scale.most) });
     set(group, { transform: turned(at[P], at[Q]) });
   };
 }
 /* Lines from P to Q, each place a share of the length and a way along and across. */
 function straight({ P, Q, lines }) {
-  const group = draw(sheet, "g", { "stroke-linejoin": "round", "stroke-linecap": "round" }), k = (view.k * view.u) / (view.k * scene.size);
-  group.style.stroke = css("ink");
+  const group = draw(sheet, "g", { join: "round", cap: "round" }), k = (view.k * view.u) / (view.k * scene.size);
+  set(group, { stroke: css("ink") });
   const drawn = lines.map(({ rows: places, fill, closed, bold, real }) => {
-    const line = draw(group, closed ? "polygon" : "polyline", { "stroke-width": (bold ? 1.5 : 0.8) * EDGE }), unit = real ? view.k : k;
-    line.style.fill = fill ? css(fill) : "none";
+    const line = draw(group, closed ? "polygon" : "polyline", { w: (bold ? 1.5 : 0.8) * EDGE }), unit = real ? view.k : k;
+    set(line, { fill: fill ? css(fill) : "none" });
     return (length) => set(line, { points: pairs(places.map(([share, along, across]) => [share * length + along * unit, -across * unit])) });
   });
   return (at) => { const length = apart(at[P], at[Q]); for (const line of drawn) line(length); set(group, { transform: turned(at[P], at[Q]) }); };
@@ -183,7 +184,7 @@ function track(each) {
   let low = Infinity, high = -Infinity;
   for (const found of [now, base]) for (const i of found.reached) {
     const [o, d] = lineOf(each, found, i);
-    for (const rider of each.riders) { const p = spot(found, rider, i), s = (p[0] - o[0]) * d[0] + (p[1] - o[1]) * d[1]; low = Math.min(low, s); high = Math.max(high, s); }
+    for (const rider of each.riders) { const p = spot(found, rider, i), s = (p[0] - o[0]) * d[0] + (p[1] - o[1]) * d[1]; low = min(low, s); high = max(high, s); }
   }
   if (!(low <= high)) low = high = 0;
   const pad = (3.2 * view.u) / view.k;
@@ -191,19 +192,19 @@ function track(each) {
 }
 function lineOf(each, found, i) { const [a, b, c, d] = each.line.map((row) => found.values[row][i]); return [[a, b], [c, d]]; }
 function slot(each) {
-  const outer = draw(sheet, "line", { "stroke-linecap": "round", "stroke-width": 1.4 * view.u + EDGE }), ends = track(each);
-  const inner = draw(sheet, "line", { "stroke-linecap": "round", "stroke-width": 1.4 * view.u - EDGE });
-  outer.style.stroke = css("ink"); inner.style.stroke = css("paper");
+  const outer = draw(sheet, "line", { cap: "round", w: 1.4 * view.u + EDGE }), ends = track(each);
+  const inner = draw(sheet, "line", { cap: "round", w: 1.4 * view.u - EDGE });
+  set(outer, { stroke: css("ink") }); set(inner, { stroke: css("paper") });
   return () => { const [a, b] = ends(); for (const line of [outer, inner]) set(line, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] }); };
 }
 /* A fixed rail: its line under the blocks and its hatches, below the track, above where a pin stands on it. */
 function rail(each) {
-  const path = draw(sheet, "path", { class: "line", "stroke-width": 1 }), heavy = draw(sheet, "path", { class: "line", "stroke-width": 1.8 }), ends = track(each);
-  path.style.stroke = heavy.style.stroke = css("ink");
+  const path = draw(sheet, "path", { class: "line", w: 1 }), heavy = draw(sheet, "path", { class: "line", w: 1.8 }), ends = track(each);
+  for (const each of [path, heavy]) set(each, { stroke: css("ink") });
   return (at) => {
     const [a, b] = ends(), long = apart(a, b), u = view.u, d = [(b[0] - a[0]) / long, (b[1] - a[1]) / long];
     let n = [-d[1], d[0]];
-    if (n[1] < -1e-6 || (Math.abs(n[1]) <= 1e-6 && n[0] < 0)) n = [-n[0], -n[1]];
+    if (n[1] < -1e-6 || (abs(n[1]) <= 1e-6 && n[0] < 0)) n = [-n[0], -n[1]];
     const crowded = scene.grounds.some(({ point }) => {
       const s = (at[point][0] - a[0]) * d[0] + (at[point][1] - a[1]) * d[1], h = (at[point][0] - a[0]) * n[0] + (at[point][1] - a[1]) * n[1];
       return s > -2 * u && s < long + 2 * u && h > -u && h < 4 * u;
@@ -217,31 +218,28 @@ function rail(each) {
 }
 function block(each, rider) {
   const long = 2.1 * view.u, wide = (each.fixed ? 1.25 : 0.7) * view.u;
-  const rect = draw(sheet, "rect", { x: -long, y: -wide, width: 2 * long, height: 2 * wide, "stroke-width": EDGE });
-  rect.style.cssText = `fill:${css("rule")};stroke:${css("ink")}`;
+  const rect = draw(sheet, "rect", { x: -long, y: -wide, width: 2 * long, height: 2 * wide, w: EDGE, fill: css("rule"), stroke: css("ink") });
   return (at) => { const [, d] = lineOf(each, pose, 0); set(rect, { transform: turned(at[rider], [at[rider][0] + d[0], at[rider][1] - d[1]]) }); };
 }
 function circle(index, radius, fill, stroke, width) {
-  const element = draw(sheet, "circle", { r: radius, "stroke-width": width });
-  element.style.cssText = `fill:${css(fill)};stroke:${css(stroke)}`;
+  const element = draw(sheet, "circle", { r: radius, w: width, fill: css(fill), stroke: css(stroke) });
   return (at) => set(element, { cx: at[index][0], cy: at[index][1] });
 }
 function stay([P, X]) {
-  const line = draw(sheet, "line", { "stroke-width": EDGE, "stroke-dasharray": "7 4" });
-  line.style.stroke = css("muted");
+  const line = draw(sheet, "line", { w: EDGE, dash: "7 4", stroke: css("muted") });
   return (at) => set(line, { x1: at[P][0], y1: at[P][1], x2: at[X][0], y2: at[X][1] });
 }
 function ground({ point, way }) {
-  const u = view.u, group = draw(sheet, "g", { "stroke-width": EDGE, "stroke-linejoin": "round" }), lines = [[3.2 * u, -2.66 * u], [3.2 * u, 2.66 * u], null];
+  const u = view.u, group = draw(sheet, "g", { w: EDGE, join: "round" }), lines = [[3.2 * u, -2.66 * u], [3.2 * u, 2.66 * u], null];
   for (let i = 0; i < 6; i++) { const v = -2.66 + (i * 4.42) / 5; lines.push([3.2 * u, (v + 0.9) * u], [4.1 * u, v * u], null); }
-  group.style.cssText = `fill:${css("rod")};stroke:${css("ink")}`;
+  set(group, { fill: css("rod"), stroke: css("ink") });
   draw(group, "polygon", { points: pairs([[0, 0], [3.2 * u, 1.9 * u], [3.2 * u, -1.9 * u]]) });
-  draw(group, "path", { d: broken(lines), "stroke-width": 1 });
-  return (at) => set(group, { transform: `translate(${at[point][0]} ${at[point][1]}) rotate(${(-way * 180) / Math.PI})` });
+  draw(group, "path", { d: broken(lines), w: 1 });
+  return (at) => set(group, { transform: `translate(${at[point][0]} ${at[point][1]}) rotate(${(-way * 180) / PI})` });
 }
 /* A ground pin that can be dragged: its two coordinates are dimensions. */
 function grip({ point, x, y }) {
-  const element = draw(sheet, "circle", { r: Math.max(22, 2 * view.u), class: "grip" }), name = scene.names[point];
+  const element = draw(sheet, "circle", { r: max(22, 2 * view.u), class: "grip" }), name = scene.names[point];
   draw(element, "title", {}).textContent = say("Drag {name}", { name });
   element.dataset.pin = name;
   on(element, "pointerdown", (event) => {
@@ -254,7 +252,7 @@ function grip({ point, x, y }) {
 }
 on(sheet, "pointermove", (event) => {
   if (!gripped || event.pointerId !== gripped.id) return;
-  const box = sheet.getBoundingClientRect(), snap = (value) => Math.round(value * 1e3) / 1e3;
+  const box = sheet.getBoundingClientRect(), snap = (value) => round(value * 1e3) / 1e3;
   gripped.to = [gripped.from[0] + (event.clientX - box.left - gripped.start[0]) / view.k, gripped.from[1] - (event.clientY - box.top - gripped.start[1]) / view.k].map(snap);
   soon("drag");
 });
@@ -276,14 +274,13 @@ for (const end of ["pointerup", "pointercancel"]) on(sheet, end, (event) => {
 function name(index) {
   const text = draw(sheet, "text", { class: "name-of" }), [dx, dy] = scene.labels[index];
   text.textContent = scene.names[index];
-  return (at) => set(text, { x: Math.min(Math.max(at[index][0] + dx, 8), view.width - 8), y: Math.min(Math.max(at[index][1] + dy, 10), view.height - 10) });
+  return (at) => set(text, { x: min(max(at[index][0] + dx, 8), view.width - 8), y: min(max(at[index][1] + dy, 10), view.height - 10) });
 }
 /* An arrow: a force at a point, in the scale in which the greatest is a sixth of the sheet. */
 function arrow({ point, x, y, load }) {
-  const line = draw(sheet, "path", { "stroke-width": 2.2, "stroke-linejoin": "round" });
-  line.style.cssText = `fill:${css(load ? "accent" : "curve")};stroke:${css(load ? "accent" : "curve")}`;
+  const line = draw(sheet, "path", { w: 2.2, join: "round", fill: css(load ? "accent" : "curve"), stroke: css(load ? "accent" : "curve") });
   return (at) => {
-    const k = pull.scale, f = [pose.values[x][0] * k, -pose.values[y][0] * k], long = Math.hypot(...f), head = Math.min(9, 0.5 * long);
+    const k = pull.scale, f = [pose.values[x][0] * k, -pose.values[y][0] * k], long = hypot(...f), head = min(9, 0.5 * long);
     if (!state.forces || !(long > 1)) { set(line, { d: "" }); return; }
     const d = [f[0] / long, f[1] / long], tip = [at[point][0] + f[0], at[point][1] + f[1]], neck = [tip[0] - head * d[0], tip[1] - head * d[1]], w = 0.38 * head;
     set(line, { d: broken([at[point], neck, [neck[0] - w * d[1], neck[1] + w * d[0]], tip, [neck[0] + w * d[1], neck[1] - w * d[0]], neck]) });
@@ -292,33 +289,33 @@ function arrow({ point, x, y, load }) {
 const pull = { scale: 0, most: 0 };
 function pullScale() {
   pull.most = 0;
-  for (const { x, y } of data.arrows) for (const i of now.reached) pull.most = Math.max(pull.most, Math.hypot(now.values[x][i], now.values[y][i]) || 0);
-  pull.scale = pull.most ? Math.min(view.width, view.height) / 4.5 / pull.most : 0;
+  for (const { x, y } of data.arrows) for (const i of now.reached) pull.most = max(pull.most, hypot(now.values[x][i], now.values[y][i]) || 0);
+  pull.scale = pull.most ? min(view.width, view.height) / 4.5 / pull.most : 0;
 }
 const scale = { most: 0 };
 /* The colour of a barrel at a pressure: from the barrel's own through amber to red. */
 function heat(value, most) {
-  const share = Math.min(Math.max(value / most, 0), 1) || 0, mix = (a, b, t) => `color-mix(in oklab, ${css(b)} ${(100 * t).toFixed(1)}%, ${css(a)})`;
+  const share = min(max(value / most, 0), 1) || 0, mix = (a, b, t) => `color-mix(in oklab, ${css(b)} ${(100 * t).toFixed(1)}%, ${css(a)})`;
   return share < 0.5 ? mix("barrel", "warm", 2 * share) : mix("warm", "hot", 2 * share - 1);
 }
 function pressureScale() {
   scale.most = 0;
   for (const each of data.cylinders) if (each.pressure !== undefined) for (const found of [now, base]) for (const i of found.reached) {
-    scale.most = Math.max(scale.most, (each.most !== undefined && found.values[each.most][i]) || found.values[each.pressure][i] || 0);
+    scale.most = max(scale.most, (each.most !== undefined && found.values[each.most][i]) || found.values[each.pressure][i] || 0);
   }
 }
 function legend() {
   const group = draw(sheet, "g", {}), bottom = view.height - 12;
   if (scale.most > 0) {
-    const bar = Math.min(110, 0.3 * view.width);
-    for (let i = 0; i < 22; i++) draw(group, "rect", { x: 12 + (i * bar) / 22, y: bottom - 8, width: bar / 22 + 0.5, height: 9 }).style.fill = heat((i + 0.5) / 22, 1);
+    const bar = min(110, 0.3 * view.width);
+    for (let i = 0; i < 22; i++) draw(group, "rect", { x: 12 + (i * bar) / 22, y: bottom - 8, width: bar / 22 + 0.5, height: 9, fill: heat((i + 0.5) / 22, 1) });
     const unit = data.pressureUnit, top = short(scale.most / unit.factor, 3);
     draw(group, "text", { x: 12, y: bottom - 13, class: "halo" }).textContent = "0";
-    draw(group, "text", { x: 12 + bar, y: bottom - 13, class: "halo", "text-anchor": "end" }).textContent = top + unitText(unit.unit);
+    draw(group, "text", { x: 12 + bar, y: bottom - 13, class: "halo", anchor: "end" }).textContent = top + unitText(unit.unit);
   }
   if (state.forces && pull.most) {
     const text = say("longest arrow {force}", { force: shown(pull.most, data.force, 3) });
-    draw(group, "text", { x: view.width - 12, y: bottom, class: "halo", "text-anchor": "end" }).textContent = text;
+    draw(group, "text", { x: view.width - 12, y: bottom, class: "halo", anchor: "end" }).textContent = text;
   }
 }
 
@@ -326,33 +323,32 @@ function legend() {
 function fit(grow) {
   const box = sheet.getBoundingClientRect();
   view.width = box.width || 600; view.height = box.height || 400;
+  const under = state.forces || data.cylinders.some((each) => each.pressure !== undefined) ? 24 : 0;
   let [left, right, bottom, top] = grow && before ? before : [Infinity, -Infinity, Infinity, -Infinity];
   for (const found of [base, now]) for (const i of found.reached) for (let p = 0; p < scene.names.length; p++) {
     const [x, y] = spot(found, p, i), r = scene.reach[p] || 0;
-    left = Math.min(left, x - r); right = Math.max(right, x + r); bottom = Math.min(bottom, y - r); top = Math.max(top, y + r);
+    left = min(left, x - r); right = max(right, x + r); bottom = min(bottom, y - r); top = max(top, y + r);
   }
   if (!(left <= right)) [left, right, bottom, top] = [-1, 1, -1, 1];
   before = [left, right, bottom, top];
-  const wide = right - left || 1e-3, high = top - bottom || 1e-3, pad = Math.min(46, 0.11 * Math.min(view.width, view.height));
+  const wide = right - left || 1e-3, high = top - bottom || 1e-3, pad = min(46, 0.11 * min(view.width, view.height));
   for (let turn = 0, margin = pad; turn < 2; turn++) {
-    view.k = Math.min((view.width - 2 * margin) / wide, (view.height - 2 * margin) / high);
-    view.u = Math.max(scene.size * view.k, 3.4);
-    margin = Math.max(pad, 4.4 * view.u);
+    view.k = min((view.width - 2 * margin) / wide, (view.height - under - 2 * margin) / high);
+    view.u = max(scene.size * view.k, 3.4);
+    margin = max(pad, 4.4 * view.u);
   }
   view.x = 0.5 * view.width - 0.5 * (left + right) * view.k;
-  view.y = 0.5 * view.height + 0.5 * (bottom + top) * view.k;
+  view.y = 0.5 * (view.height - under) + 0.5 * (bottom + top) * view.k;
 }
 /* Draw everything anew: after a change of the design or of the sheet. */
 function build() {
   sheet.replaceChildren();
   set(sheet, { viewBox: `0 0 ${view.width} ${view.height}` });
   pullScale(); pressureScale();
-  const ghost = draw(sheet, "path", { class: "line", "stroke-width": 2, "stroke-dasharray": "2 5" });
-  ghost.style.stroke = css("muted");
+  const ghost = draw(sheet, "path", { class: "line", w: 2, dash: "2 5", stroke: css("muted") });
   const still = [ghostly(ghost), ...scene.grounds.map(ground), ...scene.tracks.filter((each) => each.fixed).map(rail)];
   const paths = data.paths.map((point) => {
-    const line = draw(sheet, "path", { class: "line", "stroke-width": 2.2, "stroke-dasharray": "0.1 4.6" });
-    line.style.stroke = css("accent");
+    const line = draw(sheet, "path", { class: "line", w: 2.2, dash: "0.1 4.6", stroke: css("accent") });
     set(line, { d: broken([...now.along.keys()].map((i) => (now.reason[i] ? null : px(...spot(now, point, i))))) });
   });
   const plates = scene.bodies.filter((each) => each.points.length > 2), bars = scene.bodies.filter((each) => each.points.length <= 2);
@@ -383,29 +379,29 @@ function ghostly(path) {
 const plot = byId("curve");
 let chart = null;
 function ticks(low, high, count, turning) {
-  const rough = (high - low) / count, power = 10 ** Math.floor(Math.log10(rough));
+  const rough = (high - low) / count, power = 10 ** floor(log10(rough));
   const step = (turning ? [15, 30, 45, 60, 90, 180, 360] : [1, 2, 2.5, 5, 10].map((each) => each * power)).find((each) => each >= rough) || 720;
   const found = [];
-  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i++) found.push(i * step);
-  const decimals = Math.min(Math.max(0, -Math.floor(Math.log10(step) + 1e-9) + (/^2\.?5/.test((step / power).toString()) ? 1 : 0)), 9);
+  for (let i = ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i++) found.push(i * step);
+  const decimals = min(max(0, -floor(log10(step) + 1e-9) + (/^2\.?5/.test((step / power).toString()) ? 1 : 0)), 9);
   return found.map((value) => [value, fixed(value, decimals)]);
 }
-const finite = (values) => Array.from(values || []).filter(Number.isFinite);
+const finite = (values) => Array.from(values || []).filter(isNumber);
 /* Return a column's values in its unit, rounding noise as zero. */
 function inUnit(each, found) {
   const values = series(each, found);
   if (!values) return null;
-  const most = Math.max(...finite(values).map(Math.abs), 0), noise = Math.max(1e-9 * most, 1e-9 * each.factor);
-  return Array.from(values, (value) => (value === null || !Number.isFinite(value) ? NaN : Math.abs(value) < noise ? 0 : value / each.factor));
+  const most = max(...finite(values).map(abs), 0), noise = max(1e-9 * most, 1e-9 * each.factor);
+  return Array.from(values, (value) => (value === null || !isNumber(value) ? NaN : abs(value) < noise ? 0 : value / each.factor));
 }
 function range(lists, limit) {
   const all = lists.flatMap((list) => finite(list));
-  let low = Math.min(...all), high = Math.max(...all);
+  let low = min(...all), high = max(...all);
   if (!all.length) [low, high] = [0, 1];
   let air = 0.09 * (high - low);
-  if (air <= 1e-9 * Math.max(Math.abs(low), Math.abs(high))) air = 0.1 * Math.max(Math.abs(low), Math.abs(high)) || 1;
+  if (air <= 1e-9 * max(abs(low), abs(high))) air = 0.1 * max(abs(low), abs(high)) || 1;
   low -= air; high += air;
-  if (limit) { const more = 0.06 * (high - low); low = Math.min(low, limit[0] - more); high = Math.max(high, limit[0] + more); }
+  if (limit) { const more = 0.06 * (high - low); low = min(low, limit[0] - more); high = max(high, limit[0] + more); }
   return [low, high];
 }
 function plotted() {
@@ -417,28 +413,27 @@ function plotted() {
   const same = two && two.unit === one.unit, T = 10, B = 40;
   const [low, high] = range([values, isMoved() ? null : was, same ? others : null], limit), [low2, high2] = same ? [low, high] : range([others]);
   const left = ticks(low, high, H < 180 ? 4 : 6), right = two && !same ? ticks(low2, high2, H < 180 ? 4 : 6) : [];
-  const L = 14 + 7.2 * Math.max(...left.map((each) => each[1].length), 2), R = right.length ? 14 + 7.2 * Math.max(...right.map((each) => each[1].length)) : 12;
-  const along = Array.from(now.along, (value) => value / stroke.factor), least = Math.min(...along), most = Math.max(...along);
+  const L = 14 + 7.2 * max(...left.map((each) => each[1].length), 2), R = right.length ? 14 + 7.2 * max(...right.map((each) => each[1].length)) : 12;
+  const along = Array.from(now.along, (value) => value / stroke.factor), least = min(...along), most = max(...along);
   const x = (s) => L + ((s - least) / (most - least || 1)) * (W - L - R), y = (v) => H - B - ((v - low) / (high - low || 1)) * (H - T - B), y2 = (v) => H - B - ((v - low2) / (high2 - low2 || 1)) * (H - T - B);
   const write = (a, b, text, more) => { draw(plot, "text", { x: a, y: b, ...more }).textContent = text; };
   const line = (list, up, colour, width, more) => {
-    const path = draw(plot, "path", { class: "line", "stroke-width": width, d: broken(list.map((v, i) => (Number.isFinite(v) ? [x(along[i]), up(v)] : null))), ...more });
-    path.style.stroke = css(colour);
+    const path = draw(plot, "path", { class: "line", w: width, d: broken(list.map((v, i) => (isNumber(v) ? [x(along[i]), up(v)] : null))), ...more, stroke: css(colour) });
     return path;
   };
-  const rule = (x1, y1, x2, y2, colour, more) => { draw(plot, "line", { x1, y1, x2, y2, ...more }).style.stroke = css(colour); };
+  const rule = (x1, y1, x2, y2, colour, more) => draw(plot, "line", { x1, y1, x2, y2, stroke: css(colour), ...more });
   if (limit) {
-    const at = y(limit[0]), above = limit[2] !== "below", shade = draw(plot, "rect", { x: L, width: W - L - R, y: above ? T : at, height: Math.max(above ? at - T : H - B - at, 0), opacity: 0.13 });
-    shade.style.fill = css("accent");
+    const at = y(limit[0]), above = limit[2] !== "below", shade = draw(plot, "rect", { x: L, width: W - L - R, y: above ? T : at, height: max(above ? at - T : H - B - at, 0), opacity: 0.13 });
+    set(shade, { fill: css("accent") });
   }
-  for (const [v, text] of left) { rule(L, y(v), W - R, y(v), "grid"); write(L - 6, y(v) + 4, text, { "text-anchor": "end" }); }
+  for (const [v, text] of left) { rule(L, y(v), W - R, y(v), "grid"); write(L - 6, y(v) + 4, text, { anchor: "end" }); }
   for (const [v, text] of right) write(W - R + 6, y2(v) + 4, text, {});
-  for (const [s, text] of ticks(least, most, Math.max(3, Math.floor((W - L - R) / 62)), stroke.unit === "deg" && most - least >= 90)) {
-    rule(x(s), T, x(s), H - B, "grid"); write(x(s), H - B + 15, text, { "text-anchor": x(s) > W - R - 10 ? "end" : "middle" });
+  for (const [s, text] of ticks(least, most, max(3, floor((W - L - R) / 62)), stroke.unit === "deg" && most - least >= 90)) {
+    rule(x(s), T, x(s), H - B, "grid"); write(x(s), H - B + 15, text, { anchor: x(s) > W - R - 10 ? "end" : "middle" });
   }
   rule(L, T, L, H - B, "rule"); rule(L, H - B, W - R, H - B, "rule");
-  write(0.5 * (L + W - R), H - 6, `${stroke.name}, ${signed(stroke.unit)}`, { "text-anchor": "middle" });
-  if (was && !isMoved()) line(was, y, "muted", 2, { "stroke-dasharray": "3 4" });
+  write(0.5 * (L + W - R), H - 6, `${stroke.name}, ${signed(stroke.unit)}`, { anchor: "middle" });
+  if (was && !isMoved()) line(was, y, "muted", 2, { dash: "3 4" });
   if (others) line(others, same ? y : y2, "other", 2.2, {});
   chart = { one, two, values, others, along, x, y, y2: same ? y : y2 };
   if (values) {
@@ -448,33 +443,33 @@ function plotted() {
       line(values.map((v) => (fails(v) ? v : NaN)), y, "accent", 3.2, {});
       for (let i = 1; i < values.length; i++) {
         const a = values[i - 1] - limit[0], b = values[i] - limit[0];
-        if (a * b < 0) { const dot = draw(plot, "circle", { r: 4, cx: x(along[i - 1] - (a * (along[i] - along[i - 1])) / (b - a)), cy: y(limit[0]) }); dot.style.fill = css("accent"); }
+        if (a * b < 0) { const dot = draw(plot, "circle", { r: 4, cx: x(along[i - 1] - (a * (along[i] - along[i - 1])) / (b - a)), cy: y(limit[0]) }); set(dot, { fill: css("accent") }); }
       }
     }
   }
   if (limit) {
-    const at = y(limit[0]), late = values && Math.abs(values[values.length - 1] - limit[0]) >= Math.abs(values[0] - limit[0]);
-    rule(L, at, W - R, at, "accent", { "stroke-dasharray": "7 4", "stroke-width": 1.5 });
-    write(late ? W - R - 5 : L + 5, at + (limit[2] === "below" ? 15 : -6), limit[1], { class: "note halo", "text-anchor": late ? "end" : "start" });
+    const at = y(limit[0]), late = values && abs(values[values.length - 1] - limit[0]) >= abs(values[0] - limit[0]);
+    rule(L, at, W - R, at, "accent", { dash: "7 4", w: 1.5 });
+    write(late ? W - R - 5 : L + 5, at + (limit[2] === "below" ? 15 : -6), limit[1], { class: "note halo", anchor: late ? "end" : "start" });
   }
   const reason = one && one.row === undefined && one.why ? one.why : "";
   if (!values && one) write(L + 8, T + 18, say("as delivered only: this column is not followed in the page"), { class: "note halo" });
   byId("column").title = reason;
-  if (was && !isMoved()) write(W - R - 5, T + 12, say("dashed: as delivered"), { "text-anchor": "end", class: "halo" });
-  chart.second = draw(plot, "circle", { r: 4.5, "stroke-width": 2 }); chart.second.style.cssText = `fill:${css("other")};stroke:${css("paper")}`;
-  chart.marker = draw(plot, "circle", { r: 6, "stroke-width": 2 }); chart.marker.style.cssText = `fill:${css("curve")};stroke:${css("paper")}`;
+  if (was && !isMoved()) write(W - R - 5, T + 12, say("dashed: as delivered"), { anchor: "end", class: "halo" });
+  chart.second = draw(plot, "circle", { r: 4.5, w: 2, fill: css("other"), stroke: css("paper") });
+  chart.marker = draw(plot, "circle", { r: 6, w: 2, fill: css("curve"), stroke: css("paper") });
 }
 /* Return a list's value at the present stroke, between two poses; NaN where there is none. */
 function between(list) {
-  const { start, end } = strokes[state.run], where = Math.min(Math.max(((state.at[state.run] - start) / (end - start)) * (COUNT - 1), 0), COUNT - 1);
-  const i = Math.min(Math.floor(where), COUNT - 2), t = where - i;
+  const { start, end } = strokes[state.run], where = min(max(((state.at[state.run] - start) / (end - start)) * (COUNT - 1), 0), COUNT - 1);
+  const i = min(floor(where), COUNT - 2), t = where - i;
   return !list ? NaN : t === 0 ? list[i] : list[i] + (list[i + 1] - list[i]) * t;
 }
 function mark(each, list, up, dot, out) {
-  const value = between(list), there = Number.isFinite(value);
+  const value = between(list), there = isNumber(value);
   set(dot, { visibility: there ? "visible" : "hidden" });
   if (there) set(dot, { cx: chart.x(state.at[state.run] / strokes[state.run].factor), cy: up(value) });
-  byId(out).textContent = each ? (there ? fixed(value, places(Math.max(...finite(list).map(Math.abs), 0), 4)) + unitText(each.unit) : "\u2013") : "";
+  byId(out).textContent = each ? (there ? fixed(value, places(max(...finite(list).map(abs), 0), 4)) + unitText(each.unit) : "\u2013") : "";
 }
 
 /* ---- verdicts ---- */
@@ -484,13 +479,13 @@ const mm = (value) => fixed(value / data.length.factor, data.length.factor > 0.0
 /* Return the least and the greatest of some values with their strokes, a parabola laid through the poses next to them. */
 function extremes(values) {
   let low = -1, high = -1;
-  for (const i of now.reached) if (Number.isFinite(values[i])) { if (low < 0 || values[i] < values[low]) low = i; if (high < 0 || values[i] > values[high]) high = i; }
+  for (const i of now.reached) if (isNumber(values[i])) { if (low < 0 || values[i] < values[low]) low = i; if (high < 0 || values[i] > values[high]) high = i; }
   if (low < 0) return null;
   const peak = (i) => {
     const a = values[i - 1], b = values[i], c = values[i + 1], bend = a - 2 * b + c;
-    if (!Number.isFinite(a) || !Number.isFinite(c) || !bend) return { value: b, at: now.along[i] };
+    if (!isNumber(a) || !isNumber(c) || !bend) return { value: b, at: now.along[i] };
     const t = (0.5 * (a - c)) / bend;
-    return Math.abs(t) > 1 ? { value: b, at: now.along[i] } : { value: b - 0.25 * (a - c) * t, at: now.along[i] + t * (now.along[1] - now.along[0]) };
+    return abs(t) > 1 ? { value: b, at: now.along[i] } : { value: b - 0.25 * (a - c) * t, at: now.along[i] + t * (now.along[1] - now.along[0]) };
   };
   return { low: peak(low), high: peak(high) };
 }
@@ -506,7 +501,7 @@ function verdicts() {
   }
   let tight = null;
   for (const { point, row } of data.joints) { const ext = extremes(now.values[row]); if (ext && (!tight || ext.low.value < tight.value)) tight = { ...ext.low, point }; }
-  if (tight) add(null, say("dead point"), say("the nearest is at {joint}: least transmission angle {angle} at {where}", { joint: tight.point, angle: `${fixed((tight.value * 180) / Math.PI, 1)}\u00b0`, where: strokeText(tight.at) }));
+  if (tight) add(null, say("dead point"), say("the nearest is at {joint}: least transmission angle {angle} at {where}", { joint: tight.point, angle: `${fixed((tight.value * 180) / PI, 1)}\u00b0`, where: strokeText(tight.at) }));
   for (const each of data.columns) if (data.limits[each.name] && live(each)) judged(each, data.limits[each.name], add);
   for (const each of data.cylinders) cylinder(each, add);
   return found;
@@ -550,19 +545,20 @@ function cylinder(each, add) {
   } else if (stroke > 0) {
     const gap = ext.high.value - ext.low.value - stroke;
     add(gap <= 1e-6, each.name, [say("travels {travel}, its stroke is {stroke}", words), ...(gap > 1e-6 ? [say("{gap} missing", { gap: mm(gap) })] : [])].join("; "));
-  } else add(null, each.name, say("pins {low} to {high} apart", words));
-  if (each.beside) {
+  } else if (ext.high.value - ext.low.value > 1e-6) add(null, each.name, say("pins {low} to {high} apart", words));
+  if (each.beside && ext.high.value - ext.low.value > 1e-6) {
     const slopes = now.reached.slice(1).map((i) => lengths[i] - lengths[i - 1]), k = slopes.findIndex((slope, i) => i && slope * slopes[i - 1] < 0);
     if (k > 0) add(null, each.name, say("its length stands still at about {where}, where its thrust moves nothing", { where: strokeText(now.along[now.reached[k]]) }));
   }
   const pressed = each.pressure === undefined ? null : extremes(now.values[each.pressure]);
+  const judges = !data.verdicts.length || !base.reached.some((i) => base.values[each.pressure][i] > (each.most === undefined ? Infinity : base.values[each.most][i]));
   if (pressed) {
     const unit = data.pressureUnit, most = at(each.most), given = { pressure: shown(pressed.high.value, unit, 4), where: strokeText(pressed.high.at), most: shown(most, unit, 4) };
-    if (most > 0) add(pressed.high.value <= most, each.name, say("needs up to {pressure} at {where}; {most} are allowed", given));
+    if (most > 0) add(judges ? pressed.high.value <= most : null, each.name, say("needs up to {pressure} at {where}; {most} are allowed", given));
     else add(null, each.name, say("needs up to {pressure} at {where}", given));
   }
   const spare = each.reserve === undefined ? null : extremes(now.values[each.reserve]);
-  if (spare) add(spare.low.value >= 1, each.name, say("least reserve {reserve} at {where}", { reserve: fixed(spare.low.value, 2), where: strokeText(spare.low.at) }));
+  if (spare) add(judges ? spare.low.value >= 1 : null, each.name, say("least reserve {reserve} at {where}", { reserve: fixed(spare.low.value, 2), where: strokeText(spare.low.at) }));
 }
 let toldBefore = "";
 function judge() {
@@ -608,7 +604,7 @@ function strokeSliders() {
     return row;
   }));
 }
-const nice = (each) => { const wide = (each.high - each.low) / each.factor / 400, power = 10 ** Math.floor(Math.log10(wide)); return [1, 2, 5, 10].map((k) => k * power).find((k) => k >= wide) * each.factor; };
+const nice = (each) => { const wide = (each.high - each.low) / each.factor / 400, power = 10 ** floor(log10(wide)); return [1, 2, 5, 10].map((k) => k * power).find((k) => k >= wide) * each.factor; };
 function listSizes() {
   const parent = byId("dimensions");
   sizeRows.clear();
@@ -626,12 +622,12 @@ function listSizes() {
     Object.assign(drop, { type: "button", textContent: "\u00d7", title: say("Hide {name}", { name: each.name }) });
     drop.setAttribute("aria-label", drop.title);
     on(slider, "input", () => {
-      const step = nice(each), raw = each.low + ((each.high - each.low) * Number(slider.value)) / 1000, value = Math.round(raw / step) * step;
-      put(i, Math.abs(raw - each.value) < 0.006 * (each.high - each.low) ? each.value : Math.min(Math.max(value, each.low), each.high));
+      const step = nice(each), raw = each.low + ((each.high - each.low) * Number(slider.value)) / 1000, value = round(raw / step) * step;
+      put(i, abs(raw - each.value) < 0.006 * (each.high - each.low) ? each.value : min(max(value, each.low), each.high));
     });
     on(box, "change", () => {
       const value = Number(box.value.replace(/\u2212/g, "-").replace(",", ".").replace(/[^\d.eE+-]/g, "")) * each.factor;
-      if (box.value.trim() && Number.isFinite(value) && (!each.positive || value > 0)) put(i, value, true); else { warn(say("{name} = {text}: a number is expected", { name: each.name, text: box.value })); soon("size"); }
+      if (box.value.trim() && isNumber(value) && (!each.positive || value > 0)) put(i, value, true); else { warn(say("{name} = {text}: a number is expected", { name: each.name, text: box.value })); soon("size"); }
     });
     on(label, "dblclick", () => put(i, each.value));
     on(drop, "click", () => { chosen = chosen.filter((other) => other !== i); listSizes(); remember(); });
@@ -686,13 +682,13 @@ on(byId("copy"), "click", async () => {
   setTimeout(() => { byId("copy").textContent = say("Copy link"); }, 1500);
 });
 on(byId("language"), "click", () => { language = language === "ru" ? "en" : "ru"; speak(); remember(); });
-on(byId("look"), "click", () => { look(document.documentElement.dataset.look === "dark" ? "light" : "dark"); chosenLook = true; remember(); });
+on(byId("look"), "click", () => { look(root.dataset.look === "dark" ? "light" : "dark"); chosenLook = true; remember(); });
 let chosenLook = false;
-function look(which) { document.documentElement.dataset.look = which; }
+function look(which) { root.dataset.look = which; }
 const night = window.matchMedia("(prefers-color-scheme: dark)");
 on(night, "change", () => { if (!chosenLook) look(night.matches ? "dark" : "light"); });
 function speak() {
-  document.documentElement.lang = language;
+  root.lang = language;
   for (const each of document.querySelectorAll("[data-say]")) each.textContent = say(each.dataset.say);
   for (const each of document.querySelectorAll("[data-tip]")) each.title = say(each.dataset.tip);
   for (const each of document.querySelectorAll("[data-name]")) each.setAttribute("aria-label", say(each.dataset.name));
@@ -717,7 +713,7 @@ function told() {
   if (String(chosen) !== String(data.shown)) said.set("show", chosen.map((i) => dims[i].name).join(" "));
   if (state.forces) said.set("forces", "1");
   if (language !== data.language) said.set("language", language);
-  if (chosenLook) said.set("look", document.documentElement.dataset.look);
+  if (chosenLook) said.set("look", root.dataset.look);
   return said.toString();
 }
 let writing;
@@ -727,12 +723,12 @@ function remember() {
 }
 function recall() {
   const said = new URLSearchParams(location.hash.slice(1)), index = (list, name) => list.findIndex((each) => each.name === name);
-  const number = (text, fallback) => (text !== null && text.trim() && Number.isFinite(Number(text)) ? Number(text) : fallback);
+  const number = (text, fallback) => (text !== null && text.trim() && isNumber(Number(text)) ? Number(text) : fallback);
   if (![...said.keys()].length || location.hash === "#verdicts") return false;
   const asked = delivered();
-  asked.at = strokes.map((each, k) => Math.min(Math.max(number(said.get(`s.${each.name}`), asked.at[k]), Math.min(each.start, each.end)), Math.max(each.start, each.end)));
+  asked.at = strokes.map((each, k) => min(max(number(said.get(`s.${each.name}`), asked.at[k]), min(each.start, each.end)), max(each.start, each.end)));
   asked.design = dims.map((each) => { const value = number(said.get(`d.${each.name}`), each.value); return each.positive && !(value > 0) ? each.value : value; });
-  asked.run = Math.max(index(strokes, said.get("run")), 0) || (said.has("run") ? 0 : data.run);
+  asked.run = max(index(strokes, said.get("run")), 0) || (said.has("run") ? 0 : data.run);
   asked.forces = said.get("forces") === "1";
   column = index(data.columns, said.get("column")) < 0 ? data.column : index(data.columns, said.get("column"));
   second = index(data.columns, said.get("with"));
@@ -759,8 +755,8 @@ function stretch() {
 }
 const isTurn = () => strokes[state.run].turn && now.reached.length === COUNT;
 function phaseNow() {
-  const [low, high] = now ? stretch() : [0, 1], share = Math.min(Math.max((state.at[state.run] - low) / (high - low || 1), 0), 1);
-  return isTurn() ? share : Math.acos(1 - 2 * share) / (2 * Math.PI);
+  const [low, high] = now ? stretch() : [0, 1], share = min(max((state.at[state.run] - low) / (high - low || 1), 0), 1);
+  return isTurn() ? share : acos(1 - 2 * share) / (2 * PI);
 }
 function soon(what) { todo.add(what); if (!waiting) { waiting = true; requestAnimationFrame(frame); } }
 function frame(time) {
@@ -769,7 +765,7 @@ function frame(time) {
   if (playing) {
     clock = (clock + ((time - (last ?? time)) / 1000 / PERIOD) * Number(byId("speed").value)) % 1;
     last = time;
-    const [low, high] = stretch(), share = isTurn() ? clock : 0.5 - 0.5 * Math.cos(2 * Math.PI * clock), at = [...state.at];
+    const [low, high] = stretch(), share = isTurn() ? clock : 0.5 - 0.5 * cos(2 * PI * clock), at = [...state.at];
     at[state.run] = low + (high - low) * share;
     if (single(state.design, at).reason[0] === 0) state.at = at;
   }
@@ -777,7 +773,7 @@ function frame(time) {
   todo = new Set();
   if (work.has("drag") && gripped && gripped.to) { dragged(); work.add("design"); }
   render(work);
-  if (playing || work.size) { const took = performance.now() - began; timing.frames++; timing.total += took; timing.most = Math.max(timing.most, took); timing.last = took; }
+  if (playing || work.size) { const took = performance.now() - began; timing.frames++; timing.total += took; timing.most = max(timing.most, took); timing.last = took; }
   if (playing) soon("pose");
 }
 function render(work) {
@@ -793,7 +789,7 @@ function render(work) {
   mark(chart.two, chart.others, chart.y2, chart.second, "other");
   strokes.forEach((each, k) => {
     each.slider.value = String((1000 * (state.at[k] - each.start)) / (each.end - each.start));
-    const text = fixed(state.at[k] / each.factor, places(Math.max(Math.abs(each.start), Math.abs(each.end)) / each.factor, 4)) + unitText(each.unit);
+    const text = fixed(state.at[k] / each.factor, places(max(abs(each.start), abs(each.end)) / each.factor, 4)) + unitText(each.unit);
     each.out.textContent = text; each.slider.setAttribute("aria-valuetext", text);
   });
   if (anew || sized || work.has("size")) showSizes();
@@ -814,7 +810,7 @@ on(document, "keydown", (event) => {
   else if (event.key in steps) {
     event.preventDefault();
     const { slider } = strokes[state.run];
-    slider.value = String(Math.min(Math.max(Number(slider.value) + (1000 * steps[event.key]) / (COUNT - 1), 0), 1000));
+    slider.value = String(min(max(Number(slider.value) + (1000 * steps[event.key]) / (COUNT - 1), 0), 1000));
     slider.dispatchEvent(new Event("input"));
   }
 });

@@ -6,6 +6,7 @@ from .featured import Featured
 from .gaps import gap
 from .grid import Grid
 from .limits import stroke_display_unit, stroke_unit
+from .live import LiveText, live_text
 from .motion import Motion, OnePose, Target, each_at_its_stroke, out_of_reach, require_motion
 from .peaks import highest, last_holding
 from .pose_requests import condition, transmission

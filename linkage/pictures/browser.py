@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from hashlib import sha256
@@ -33,7 +34,7 @@ def page(
     machine: Mechanism,
     path: str | Path,
     *,
-    vary: Sequence[str] | Mapping[str, Sequence[float]] | None = None,
+    vary: Sequence[str] | Mapping[str, Sequence[float] | None] | None = None,
     columns: Sequence[Column | RequestLike] | None = None,
     column: str | None = None,
     trace: Sequence[str] | None = None,
@@ -97,7 +98,7 @@ def source_hash(text: str) -> str:
 def embedded(data: Any) -> str:
     """Return data as JSON that may stand in a script element: nothing in it ends the element or starts a comment."""
     plain = json.dumps(data, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    return plain.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+    return re.sub("[<>&\u2028\u2029]", lambda found: f"\\u{ord(found[0]):04x}", plain)
 
 
 def filled(template: str, parts: dict[str, str]) -> str:

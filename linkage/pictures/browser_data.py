@@ -6,8 +6,7 @@ from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import cycle
-from typing import Any, final
+from typing import Any, cast, final
 
 import numpy as np
 
@@ -52,7 +51,9 @@ class TrackNumber(LawRequest):
     def law(self, motion: AnyMotion) -> FloatArray:
         vector = getattr(self.track.line(motion._reading), self.part)
         value = getattr(vector, self.axis)
-        return motion.number(value) if isinstance(motion, TracedMotion) else np.broadcast_to(np.asarray(value, float), motion.shape)
+        if isinstance(motion, TracedMotion):
+            return motion.number(value)
+        return np.array(np.broadcast_to(np.asarray(value, float), motion.shape))
 
     def examine(self, plan: Plan) -> None:
         """Look at nothing: the track is of the plan."""
@@ -71,7 +72,7 @@ class ActingForce(LawRequest):
 
     def law(self, motion: AnyMotion) -> FloatArray:
         assert isinstance(motion, TracedMotion)  # it is asked for by a page alone
-        return traced_acting(motion, None, None, AT_REST).loads[self.place].force[self.axis]
+        return cast(FloatArray, traced_acting(motion, None, None, AT_REST).loads[self.place].force[self.axis])
 
     def examine(self, plan: Plan) -> None:
         """Look at nothing: the load is of the plan."""
@@ -162,7 +163,7 @@ class PageRequests:
         loads = acting_points(self.plan)
         if not loads:
             return []
-        found = [(each.point, *(joint_part(each, joints, axis) for axis in "xy")) for each in joints if each.has_force]
+        found = [(each.point, joint_part(each, joints, "x"), joint_part(each, joints, "y")) for each in joints if each.has_force]
         return found + [(point, ActingForce(k, 0), ActingForce(k, 1)) for k, point in loads]
 
 
@@ -190,7 +191,8 @@ def ranges_given(machine: Mechanism, vary: Any) -> dict[str, tuple[float, float]
     if vary is None:
         return None
     if not isinstance(vary, (list, tuple, Mapping)):
-        raise DefinitionError(f'{machine.plan.title}: vary={cited(vary)}: dimensions are expected, vary=["OB"] or vary=dict(OB=(0.28, 0.34)).')
+        said = f"{machine.plan.title}: vary={cited(vary)}: dimensions are expected"
+        raise DefinitionError(f'{said}, vary=["OB"] or vary=dict(OB=(0.28, 0.34)).')
     given = dict(vary) if isinstance(vary, Mapping) else dict.fromkeys(vary)
     found: dict[str, tuple[float, float] | None] = {}
     for name, ends in given.items():
@@ -207,7 +209,8 @@ def ranges_given(machine: Mechanism, vary: Any) -> dict[str, tuple[float, float]
 def range_of(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[float, float]:
     """Return a range with the design's own value in it; DefinitionError for what is none."""
     if not isinstance(ends, (list, tuple)) or len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
-        raise DefinitionError(f"{machine.plan.title}: vary: {name}={cited(ends)}: the least and the greatest value are expected, (0.28, 0.34).")
+        said = f"{machine.plan.title}: vary: {name}={cited(ends)}"
+        raise DefinitionError(f"{said}: the least and the greatest value are expected, (0.28, 0.34).")
     low, high = sorted(sign * float(end) for end in ends)
     value = float(machine.dimensions[name])
     return min(low, value), max(high, value)
@@ -241,25 +244,25 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
     dims = dimension_data(requests, live)
     names = [each[0] for each in dims]
     columns = [column_data(name, each, live, requests.motion) for name, each in requests.columns.items()]
-    run = requests.run
+    run, used = requests.run, {*(each[4] for each in dims), *(str(each[1]) for each in columns)}
     return {
         "count": requests.count,
         "dims": dims,
-        "units": {typeset(unit): factor(unit) for unit in ("", *UNITS) if typeset(unit) in {each[4] for each in dims}},
+        "units": {typeset(unit): factor(unit) for unit in ("", *UNITS) if typeset(unit) in used},
         "shown": [names.index(name) for name in shown_first(requests, names)],
         "strokes": [stroke_data(requests, name) for name in machine.strokes],
         "run": list(machine.strokes).index(run.stroke),
         "columns": columns,
-        "column": [each["name"] for each in columns].index(requests.column),
-        "limits": {name: [value, typeset(text), fails] for name, (value, text, fails) in requests.limits.items()},
+        "column": list(requests.columns).index(requests.column),
+        "limits": {typeset(name): [value, typeset(text), fails] for name, (value, text, fails) in requests.limits.items()},
         "rows": {"points": [row_pair(live, f"point {name}") for name in plan.points]},
         "scene": scene_data(requests, live),
         "cylinders": cylinder_data(requests, live),
         "pressureUnit": unit_data("bar"),
         "length": unit_data("mm"),
         "force": unit_data("kN"),
-        "signs": signs({each[4] for each in dims} | {str(each["unit"]) for each in columns} | {shown_in(each) for each in ("bar", "mm", "kN")}),
-        "joints": [{"point": name, "row": live.rows[f"joint {name}"][0]} for name in requests.motion._joints if f"joint {name}" in live.rows],
+        "signs": signs({*used, *map(shown_in, ("bar", "mm", "kN"))}),
+        "joints": [{"point": name, "row": live.rows[key][0]} for name in requests.motion._joints if (key := f"joint {name}") in live.rows],
         "arrows": arrow_data(requests, live),
         "paths": [list(plan.points).index(name) for name in requests.trace],
         "grips": grip_data(plan, names),
@@ -325,7 +328,8 @@ def shown_first(requests: PageRequests, names: Sequence[str]) -> list[str]:
     entries = requests.plan.table.entries
     coordinates = [name for name in names if entries[name].kind == "coordinate"]
     steps = [name for name in names if entries[name].kind in STEPS]
-    plain = [name for name in names if name not in steps and name not in coordinates and plan_measure(requests.plan, name) in ("length", "angle")]
+    measured = [name for name in names if plan_measure(requests.plan, name) in ("length", "angle")]
+    plain = [name for name in measured if name not in steps and name not in coordinates]
     others = [name for name in names if name.endswith((".mass", ".bore"))][:2]
     lengths = [name for name in (*steps, *plain) if "." not in name][: SHOWN - len(others)]
     rest = [name for name in (*coordinates, *names) if name not in (*lengths, *others)]
@@ -343,18 +347,17 @@ def stroke_data(requests: PageRequests, name: str) -> dict[str, Any]:
     return {"name": name, "start": start, "end": end, "at": at, "unit": unit, "factor": factor(unit), "turn": int(turn)}
 
 
-def column_data(name: str, found: tuple[Column, RequestLike, str], live: LiveText, motion: Motion) -> dict[str, Any]:
-    """Return a column: its unit, and its row; its values where it is not followed in the page, and why."""
+def column_data(name: str, found: tuple[Column, RequestLike, str], live: LiveText, motion: Motion) -> list[Any]:
+    """Return a column: its name, unit and row, -1 for none, its name in Russian; without a row its values, and why it has none."""
     column, _, why = found
-    data: dict[str, Any] = {"name": typeset(name), **unit_data(column.unit)}
     with language("ru"):
         russian = typeset(heading_of(name))
-    data |= {"ru": russian} if russian != data["name"] else {}
-    key = f"column {name}"
+    shown, key = typeset(name), f"column {name}"
+    start = [shown, typeset(shown_in(column.unit))]
     if key in live.rows:
-        return data | {"row": live.rows[key][0]}
+        return [*start, live.rows[key][0], *([russian] if russian != shown else [])]
     values = np.broadcast_to(np.asarray(column.values, float), motion.shape)
-    return data | {"values": seven_digits(values), "why": why or live.left_out.get(key, "")}
+    return [*start, -1, russian, seven_digits(values), why or live.left_out.get(key, "")]
 
 
 def seven_digits(values: FloatArray) -> list[float | None]:
@@ -366,7 +369,8 @@ def grip_data(plan: Plan, names: Sequence[str]) -> list[dict[str, int]]:
     """Return the pins on the ground that can be dragged, with their coordinates among the dimensions."""
     points = list(plan.points)
     pairs = {name: (f"{name}.x", f"{name}.y") for name in points}
-    return [{"point": points.index(name), "x": names.index(x), "y": names.index(y)} for name, (x, y) in pairs.items() if {x, y} <= set(names)]
+    free = {name: pair for name, pair in pairs.items() if set(pair) <= set(names)}
+    return [{"point": points.index(name), "x": names.index(x), "y": names.index(y)} for name, (x, y) in free.items()]
 
 
 def arrow_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]]:
@@ -414,13 +418,8 @@ def scene_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "size": scene.size,
         "names": names,
         "reach": contour_reach(scene, index),
-        "bodies": [
-            {"points": [index[name] for name in points], "colour": k} for points, k in zip(scene.bodies, cycle(range(len(style.BODIES))), strict=False)
-        ],
-        "tracks": [
-            {"riders": [index[name] for name in track.riders], "fixed": track.fixed, "line": [live.rows[f"track {track.name} {k}"][0] for k in range(4)]}
-            for track in scene.tracks
-        ],
+        "bodies": [{"points": [index[name] for name in points], "colour": k % len(style.BODIES)} for k, points in enumerate(scene.bodies)],
+        "tracks": [track_data(track, index, live) for track in scene.tracks],
         "contours": [straight_data(each, index, real=True) for each in scene.contours],
         "straights": [straight_data(each, index, real=False) for each in scene.straights],
         "stays": [[index[P], index[X]] for P, X in scene.stays],
@@ -429,6 +428,12 @@ def scene_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "grounds": [{"point": index[name], "way": round(way, 4)} for name, way in props(scene).items()],
         "labels": label_offsets(scene),
     }
+
+
+def track_data(track: SlideTrack, index: Mapping[str, int], live: LiveText) -> dict[str, Any]:
+    """Return a track: what slides on it, and the rows of its origin and its direction."""
+    rows = [live.rows[f"track {track.name} {k}"][0] for k in range(4)]
+    return {"riders": [index[name] for name in track.riders], "fixed": track.fixed, "line": rows}
 
 
 def contour_reach(scene: Scene, index: Mapping[str, int]) -> dict[int, float]:
@@ -462,7 +467,7 @@ def label_offsets(scene: Scene) -> list[list[float]]:
 def verdict_data(machine: Mechanism, motion: Motion) -> list[list[Any]]:
     """Return the machine's own verdicts on the motion, as they stand for the design that is delivered.
 
-    Each is 1 where it is kept, 0 where it is not, 2 where it is only said; its rule and its sentence, in English, then in Russian.
+    Each is 1 where it is kept, 0 where it is not, 2 where it is only said; its rule and its sentence in English, then what differs in Russian.
     """
     said = {}
     for name in ("en", "ru"):
@@ -472,7 +477,10 @@ def verdict_data(machine: Mechanism, motion: Motion) -> list[list[Any]]:
             except LinkageError as error:
                 said[name] = [(2, "", str(error))]
     pairs = zip(said["en"], said["ru"], strict=True) if len(said["en"]) == len(said["ru"]) else [(each, each) for each in said["en"]]
-    return [[*english, *(russian[1:] if russian != english else ())] for english, russian in pairs]
+    return [
+        [*english, *(() if russian == english else (russian[1],) if russian[2] == english[2] else russian[1:])]
+        for english, russian in pairs
+    ]
 
 
 def verdict_parts(said: str) -> tuple[int, str, str]:

@@ -61,10 +61,7 @@ SAID = (
     noted("Verdicts and limits, live"),
     noted("Verdicts of the delivered design"),
     noted("the design has changed since"),
-    noted(
-        "Space plays and pauses; the arrow keys, Home and End move the stroke. Ground pins can be dragged in "
-        "the drawing; a double click on a name puts a dimension back."
-    ),
+    noted("Space plays; arrow keys, Home and End move the stroke. Drag a ground pin; double-click a name to put it back."),
     noted("Play"),
     noted("Pause"),
 )

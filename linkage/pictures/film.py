@@ -236,6 +236,7 @@ def palette_of(sample: npt.NDArray[np.uint8]) -> Image.Image:
 
 # Frames written as an MP4 (H.264) through ffmpeg.
 
+
 def write_mp4(path: Path, frames: Iterable[npt.NDArray[np.uint8]], size: tuple[int, int]) -> None:
     """Write frames of a size, width and height in pixels; LinkageError where ffmpeg is not installed, FileError where it fails."""
     try:

@@ -22,15 +22,14 @@ TOKEN = re.compile(
     re.VERBOSE | re.DOTALL,
 )
 PATTERN = re.compile(r"/(?:[^/\\\n\[]|\\.|\[(?:[^\]\\\n]|\\.)*\])+/[a-z]*")
-BEFORE_PATTERN = frozenset("( , = : [ ! & | ? { } ; => && || return".split())
+BEFORE_PATTERN = frozenset(("return", "=>", "&&", "||", *"(,=:[!&|?{};"))
 """What stands before a regular expression; behind anything else a slash divides."""
 
-KEPT = frozenset(
-    "async await break case catch const continue default delete do else export extends false finally for function if in instanceof let new"
-    " null of return static super switch this throw true try typeof undefined var void while yield use strict"
-    " document window location history navigator performance engine requestAnimationFrame setTimeout clearTimeout ResizeObserver"
-    " URLSearchParams Array Float64Array Infinity JSON Map Math NaN Number Object Set String".split()
-)
+WORDS = """async await break case catch const continue default delete do else export extends false finally for function if in instanceof let
+new null of return static super switch this throw true try typeof undefined var void while yield use strict
+document window location history navigator performance engine requestAnimationFrame setTimeout clearTimeout ResizeObserver URLSearchParams
+Array Float64Array Infinity JSON Map Math NaN Number Object Set String"""
+KEPT = frozenset(WORDS.split())
 """The words of the language, and of a browser those that a page uses."""
 
 
@@ -45,7 +44,26 @@ def compact_script(text: str) -> str:
         plain = kind != "word" or is_property(tokens, place)
         name = said if plain else "let" if said == "const" else short.get(said, said)
         words.append(f"{said}:{name}" if place in both and name != said else name)
-    return "".join(apart(words))
+    return "".join(apart(one_by_one(words)))
+
+
+def one_by_one(words: Sequence[str]) -> list[str]:
+    """Return words with one declaration where several follow each other in a block."""
+    found: list[str] = []
+    declares = [False]
+    for place, word in enumerate(words):
+        if word in ("}", ")", "]") or word[:1] == "}":
+            declares.pop()
+        if word in ("{", "(", "[") or word[-2:] == "${":
+            declares.append(False)
+        last = words[place - 1] if place else ";"
+        if word == "let" and last == ";" and declares[-1]:
+            found[-1] = ","
+            continue
+        if last in (";", "{") or (last == "}" and word[:1].isalpha()):
+            declares[-1] = word == "let"
+        found.append(word)
+    return found
 
 
 def numbered(text: str, words: Sequence[str]) -> str:
@@ -99,7 +117,7 @@ def is_property(tokens: Sequence[Token], place: int) -> bool:
     return before in (".", "?.") or (behind == ":" and before in ("{", ","))
 
 
-OBJECT = frozenset("( , = : ? [ ... && || ?? return const let".split())
+OBJECT = frozenset(("...", "&&", "||", "??", "return", "const", "let", *"(,=:?["))
 """What a brace stands behind that opens an object or takes one apart; behind anything else it opens a block."""
 
 
@@ -131,7 +149,7 @@ def apart(words: Sequence[str]) -> Iterator[str]:
     """Yield words with a space where two would run together."""
     last = ""
     for word in words:
-        if re.match(r"[\w$]", word) and re.search(r"[\w$]\Z", last) or (word[:1] in "+-" and last[-1:] == word[:1]):
+        if (re.match(r"[\w$]", word) and re.search(r"[\w$]\Z", last)) or (word[:1] in "+-" and last[-1:] == word[:1]):
             yield " "
         yield word
         last = word

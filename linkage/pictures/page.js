@@ -7,6 +7,7 @@ const isNumber = Number.isFinite, root = document.documentElement;
 const on = (element, event, act) => element.addEventListener(event, act);
 const make = (kind, given) => Object.assign(document.createElement(kind), given);
 /* A dimension as it comes: its name, value, least and greatest [SI], unit, whether it is a length, and where it stands. */
+const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: units[unit], row: row < 0 ? undefined : row, ru, values, why }));
 const dims = data.dims.map(([name, value, low, high, unit, positive, where]) => ({ name, value, low, high, unit, factor: units[unit], positive, where }));
 const rows = data.rows;
 
@@ -41,8 +42,10 @@ const shown = (value, thing, digits) => short(value / thing.factor, digits) + un
 const byName = new Map(dims.map((each, i) => [each.name, i]));
 const order = engine.d.map((name) => byName.get(name));
 const COUNT = data.count;
-const delivered = () => ({ design: dims.map((each) => each.value), at: strokes.map((each) => each.at), run: data.run, forces: false });
-let state = delivered(), chosen = [...data.shown], column = data.column, second = -1;
+const original = dims.map((each) => each.value), firstStand = () => strokes.map((each) => each.at);
+/* The design and the strokes as they are, which stroke runs, and what else is chosen. */
+let present = [...original], stands = firstStand(), runs = data.run, showsForces = false;
+let chosen = [...data.shown], column = data.column, second = -1;
 let base, now, pose, before = null;
 
 const vector = (design) => order.map((i) => design[i]);
@@ -53,8 +56,8 @@ function sweep(design, at, run) {
   return { ...found, along, reached: [...along.keys()].filter((i) => found.reason[i] === 0) };
 }
 const single = (design, at) => engine.sweep(vector(design), at.map((value) => [value]));
-const isChanged = () => dims.some((each, i) => state.design[i] !== each.value);
-const isMoved = () => state.run !== data.run || strokes.some((each, k) => k !== state.run && state.at[k] !== each.at);
+const isChanged = () => dims.some((each, i) => present[i] !== each.value);
+const isMoved = () => runs !== data.run || strokes.some((each, k) => k !== runs && stands[k] !== each.at);
 
 /* Return why a pose cannot be had. */
 function why(found, i, what) {
@@ -67,14 +70,14 @@ function why(found, i, what) {
 /* Move part of the state as far towards what is asked as can be assembled; say why where that is not all the way. */
 function moved(design, at, what) {
   const asked = single(design, at);
-  if (asked.reason[0] === 0) { Object.assign(state, { design, at }); warn(""); return true; }
-  const from = state, between = (a, b, t) => a.map((value, i) => (value === b[i] ? value : value + (b[i] - value) * t));
+  if (asked.reason[0] === 0) { present = design; stands = at; warn(""); return true; }
+  const from = present, stood = stands, between = (a, b, t) => a.map((value, i) => (value === b[i] ? value : value + (b[i] - value) * t));
   let low = 0, high = 1, best = null;
   for (let i = 0; i < 24; i++) {
-    const t = 0.5 * (low + high), trial = { design: between(from.design, design, t), at: between(from.at, at, t) };
-    if (single(trial.design, trial.at).reason[0] === 0) { low = t; best = trial; } else high = t;
+    const t = 0.5 * (low + high), trial = [between(from, design, t), between(stood, at, t)];
+    if (single(...trial).reason[0] === 0) { low = t; best = trial; } else high = t;
   }
-  if (best) Object.assign(state, best);
+  if (best) [present, stands] = best;
   warn(why(asked, 0, say("{what} stops here", { what })));
   return false;
 }
@@ -107,8 +110,8 @@ function broken(points) {
   return text;
 }
 const sheet = byId("mechanism"), EDGE = 1.3;
-const view = { k: 1, x: 0, y: 0, width: 0, height: 0, u: 1 };
-const px = (x, y) => [view.x + view.k * x, view.y - view.k * y];
+let zoom = 1, left0 = 0, top0 = 0, sheetWide = 0, sheetTall = 0, unit0 = 1;
+const px = (x, y) => [left0 + zoom * x, top0 - zoom * y];
 const spot = (found, point, i) => { const [x, y] = rows.points[point]; return [found.values[x][i], found.values[y][i]]; };
 let parts = [], gripped = null;
 
@@ -131,7 +134,7 @@ const turned = (P, Q) => `translate(${P[0].toFixed(2)} ${P[1].toFixed(2)}) rotat
 const apart = (P, Q) => hypot(Q[0] - P[0], Q[1] - P[1]);
 
 function body({ points, colour }) {
-  const plate = points.length > 2, group = draw(sheet, "g", { opacity: plate ? 0.72 : 1 }), r = view.u;
+  const plate = points.length > 2, group = draw(sheet, "g", { opacity: plate ? 0.72 : 1 }), r = unit0;
   const own = css(`body${colour}`), edge = `color-mix(in srgb, ${own} 40%, var(--ink))`;
   const outer = draw(group, "polygon", { w: 2 * r + 2 * EDGE, join: "round" });
   const inner = draw(group, "polygon", { w: 2 * r, join: "round" });
@@ -143,7 +146,7 @@ function body({ points, colour }) {
 function span(P, Q) {
   let low = Infinity, high = 0;
   for (const found of [now, base]) for (const i of found.reached) {
-    const length = view.k * apart(spot(found, P, i), spot(found, Q, i));
+    const length = zoom * apart(spot(found, P, i), spot(found, Q, i));
     low = min(low, length); high = max(high, length);
   }
   return [low, high];
@@ -151,7 +154,7 @@ function span(P, Q) {
 const WIDTH = { eye: 0.62, rod: 0.42, barrel: 1.3, piston: 1.12, cap: 1.5 };
 function ram({ P, Q, aside, pressure, most }) {
   const group = draw(sheet, "g", { w: 0.8 * EDGE, join: "round", stroke: css("ink") });
-  const [low, high] = span(P, Q), u = min(view.u, 0.12 * low), off = aside * view.u;
+  const [low, high] = span(P, Q), u = min(unit0, 0.12 * low), off = aside * unit0;
   const bottom = 1.4 * u, least = 2 * u, mouth = min(max(least + high - low + 1.5 * u, 0.68 * low), max(0.68 * low, low - 1.2 * u));
   const box = (name, fill) => {
     const half = WIDTH[name] * u, rect = draw(group, "rect", { y: -off - half, height: 2 * half });
@@ -170,10 +173,10 @@ function ram({ P, Q, aside, pressure, most }) {
 }
 /* Lines from P to Q, each place a share of the length and a way along and across. */
 function straight({ P, Q, lines }) {
-  const group = draw(sheet, "g", { join: "round", cap: "round" }), k = (view.k * view.u) / (view.k * scene.size);
+  const group = draw(sheet, "g", { join: "round", cap: "round" }), k = (zoom * unit0) / (zoom * scene.size);
   set(group, { stroke: css("ink") });
   const drawn = lines.map(({ rows: places, fill, closed, bold, real }) => {
-    const line = draw(group, closed ? "polygon" : "polyline", { w: (bold ? 1.5 : 0.8) * EDGE }), unit = real ? view.k : k;
+    const line = draw(group, closed ? "polygon" : "polyline", { w: (bold ? 1.5 : 0.8) * EDGE }), unit = real ? zoom : k;
     set(line, { fill: fill ? css(fill) : "none" });
     return (length) => set(line, { points: pairs(places.map(([share, along, across]) => [share * length + along * unit, -across * unit])) });
   });
@@ -187,13 +190,13 @@ function track(each) {
     for (const rider of each.riders) { const p = spot(found, rider, i), s = (p[0] - o[0]) * d[0] + (p[1] - o[1]) * d[1]; low = min(low, s); high = max(high, s); }
   }
   if (!(low <= high)) low = high = 0;
-  const pad = (3.2 * view.u) / view.k;
+  const pad = (3.2 * unit0) / zoom;
   return () => { const [o, d] = lineOf(each, pose, 0); return [low - pad, high + pad].map((s) => px(o[0] + s * d[0], o[1] + s * d[1])); };
 }
 function lineOf(each, found, i) { const [a, b, c, d] = each.line.map((row) => found.values[row][i]); return [[a, b], [c, d]]; }
 function slot(each) {
-  const outer = draw(sheet, "line", { cap: "round", w: 1.4 * view.u + EDGE }), ends = track(each);
-  const inner = draw(sheet, "line", { cap: "round", w: 1.4 * view.u - EDGE });
+  const outer = draw(sheet, "line", { cap: "round", w: 1.4 * unit0 + EDGE }), ends = track(each);
+  const inner = draw(sheet, "line", { cap: "round", w: 1.4 * unit0 - EDGE });
   set(outer, { stroke: css("ink") }); set(inner, { stroke: css("paper") });
   return () => { const [a, b] = ends(); for (const line of [outer, inner]) set(line, { x1: a[0], y1: a[1], x2: b[0], y2: b[1] }); };
 }
@@ -202,7 +205,7 @@ function rail(each) {
   const path = draw(sheet, "path", { class: "line", w: 1 }), heavy = draw(sheet, "path", { class: "line", w: 1.8 }), ends = track(each);
   for (const each of [path, heavy]) set(each, { stroke: css("ink") });
   return (at) => {
-    const [a, b] = ends(), long = apart(a, b), u = view.u, d = [(b[0] - a[0]) / long, (b[1] - a[1]) / long];
+    const [a, b] = ends(), long = apart(a, b), u = unit0, d = [(b[0] - a[0]) / long, (b[1] - a[1]) / long];
     let n = [-d[1], d[0]];
     if (n[1] < -1e-6 || (abs(n[1]) <= 1e-6 && n[0] < 0)) n = [-n[0], -n[1]];
     const crowded = scene.grounds.some(({ point }) => {
@@ -217,7 +220,7 @@ function rail(each) {
   };
 }
 function block(each, rider) {
-  const long = 2.1 * view.u, wide = (each.fixed ? 1.25 : 0.7) * view.u;
+  const long = 2.1 * unit0, wide = (each.fixed ? 1.25 : 0.7) * unit0;
   const rect = draw(sheet, "rect", { x: -long, y: -wide, width: 2 * long, height: 2 * wide, w: EDGE, fill: css("rule"), stroke: css("ink") });
   return (at) => { const [, d] = lineOf(each, pose, 0); set(rect, { transform: turned(at[rider], [at[rider][0] + d[0], at[rider][1] - d[1]]) }); };
 }
@@ -230,7 +233,7 @@ function stay([P, X]) {
   return (at) => set(line, { x1: at[P][0], y1: at[P][1], x2: at[X][0], y2: at[X][1] });
 }
 function ground({ point, way }) {
-  const u = view.u, group = draw(sheet, "g", { w: EDGE, join: "round" }), lines = [[3.2 * u, -2.66 * u], [3.2 * u, 2.66 * u], null];
+  const u = unit0, group = draw(sheet, "g", { w: EDGE, join: "round" }), lines = [[3.2 * u, -2.66 * u], [3.2 * u, 2.66 * u], null];
   for (let i = 0; i < 6; i++) { const v = -2.66 + (i * 4.42) / 5; lines.push([3.2 * u, (v + 0.9) * u], [4.1 * u, v * u], null); }
   set(group, { fill: css("rod"), stroke: css("ink") });
   draw(group, "polygon", { points: pairs([[0, 0], [3.2 * u, 1.9 * u], [3.2 * u, -1.9 * u]]) });
@@ -239,13 +242,13 @@ function ground({ point, way }) {
 }
 /* A ground pin that can be dragged: its two coordinates are dimensions. */
 function grip({ point, x, y }) {
-  const element = draw(sheet, "circle", { r: max(22, 2 * view.u), class: "grip" }), name = scene.names[point];
+  const element = draw(sheet, "circle", { r: max(22, 2 * unit0), class: "grip" }), name = scene.names[point];
   draw(element, "title", {}).textContent = say("Drag {name}", { name });
   element.dataset.pin = name;
   on(element, "pointerdown", (event) => {
     event.preventDefault();
     const box = sheet.getBoundingClientRect(), start = [event.clientX - box.left, event.clientY - box.top];
-    gripped = { id: event.pointerId, x, y, name, from: [state.design[x], state.design[y]], start };
+    gripped = { id: event.pointerId, x, y, name, from: [present[x], present[y]], start };
     sheet.setPointerCapture(event.pointerId);
   });
   return (at) => set(element, { cx: at[point][0], cy: at[point][1] });
@@ -253,14 +256,14 @@ function grip({ point, x, y }) {
 on(sheet, "pointermove", (event) => {
   if (!gripped || event.pointerId !== gripped.id) return;
   const box = sheet.getBoundingClientRect(), snap = (value) => round(value * 1e3) / 1e3;
-  gripped.to = [gripped.from[0] + (event.clientX - box.left - gripped.start[0]) / view.k, gripped.from[1] - (event.clientY - box.top - gripped.start[1]) / view.k].map(snap);
+  gripped.to = [gripped.from[0] + (event.clientX - box.left - gripped.start[0]) / zoom, gripped.from[1] - (event.clientY - box.top - gripped.start[1]) / zoom].map(snap);
   soon("drag");
 });
 function dragged() {
-  const design = [...state.design];
+  const design = [...present];
   [design[gripped.x], design[gripped.y]] = gripped.to;
   gripped.to = null;
-  if (moved(design, state.at, gripped.name)) warn("");
+  if (moved(design, stands, gripped.name)) warn("");
   byId("message").textContent ||= "";
 }
 for (const end of ["pointerup", "pointercancel"]) on(sheet, end, (event) => {
@@ -274,14 +277,14 @@ for (const end of ["pointerup", "pointercancel"]) on(sheet, end, (event) => {
 function name(index) {
   const text = draw(sheet, "text", { class: "name-of" }), [dx, dy] = scene.labels[index];
   text.textContent = scene.names[index];
-  return (at) => set(text, { x: min(max(at[index][0] + dx, 8), view.width - 8), y: min(max(at[index][1] + dy, 10), view.height - 10) });
+  return (at) => set(text, { x: min(max(at[index][0] + dx, 8), sheetWide - 8), y: min(max(at[index][1] + dy, 10), sheetTall - 10) });
 }
 /* An arrow: a force at a point, in the scale in which the greatest is a sixth of the sheet. */
 function arrow({ point, x, y, load }) {
   const line = draw(sheet, "path", { w: 2.2, join: "round", fill: css(load ? "accent" : "curve"), stroke: css(load ? "accent" : "curve") });
   return (at) => {
     const k = pull.scale, f = [pose.values[x][0] * k, -pose.values[y][0] * k], long = hypot(...f), head = min(9, 0.5 * long);
-    if (!state.forces || !(long > 1)) { set(line, { d: "" }); return; }
+    if (!showsForces || !(long > 1)) { set(line, { d: "" }); return; }
     const d = [f[0] / long, f[1] / long], tip = [at[point][0] + f[0], at[point][1] + f[1]], neck = [tip[0] - head * d[0], tip[1] - head * d[1]], w = 0.38 * head;
     set(line, { d: broken([at[point], neck, [neck[0] - w * d[1], neck[1] + w * d[0]], tip, [neck[0] + w * d[1], neck[1] - w * d[0]], neck]) });
   };
@@ -290,7 +293,7 @@ const pull = { scale: 0, most: 0 };
 function pullScale() {
   pull.most = 0;
   for (const { x, y } of data.arrows) for (const i of now.reached) pull.most = max(pull.most, hypot(now.values[x][i], now.values[y][i]) || 0);
-  pull.scale = pull.most ? min(view.width, view.height) / 4.5 / pull.most : 0;
+  pull.scale = pull.most ? min(sheetWide, sheetTall) / 4.5 / pull.most : 0;
 }
 const scale = { most: 0 };
 /* The colour of a barrel at a pressure: from the barrel's own through amber to red. */
@@ -305,25 +308,25 @@ function pressureScale() {
   }
 }
 function legend() {
-  const group = draw(sheet, "g", {}), bottom = view.height - 12;
+  const group = draw(sheet, "g", {}), bottom = sheetTall - 12;
   if (scale.most > 0) {
-    const bar = min(110, 0.3 * view.width);
+    const bar = min(110, 0.3 * sheetWide);
     for (let i = 0; i < 22; i++) draw(group, "rect", { x: 12 + (i * bar) / 22, y: bottom - 8, width: bar / 22 + 0.5, height: 9, fill: heat((i + 0.5) / 22, 1) });
     const unit = data.pressureUnit, top = short(scale.most / unit.factor, 3);
     draw(group, "text", { x: 12, y: bottom - 13, class: "halo" }).textContent = "0";
     draw(group, "text", { x: 12 + bar, y: bottom - 13, class: "halo", anchor: "end" }).textContent = top + unitText(unit.unit);
   }
-  if (state.forces && pull.most) {
+  if (showsForces && pull.most) {
     const text = say("longest arrow {force}", { force: shown(pull.most, data.force, 3) });
-    draw(group, "text", { x: view.width - 12, y: bottom, class: "halo", anchor: "end" }).textContent = text;
+    draw(group, "text", { x: sheetWide - 12, y: bottom, class: "halo", anchor: "end" }).textContent = text;
   }
 }
 
 /* Choose the scale so that the delivered and the present design have room over the whole stroke. */
 function fit(grow) {
   const box = sheet.getBoundingClientRect();
-  view.width = box.width || 600; view.height = box.height || 400;
-  const under = state.forces || data.cylinders.some((each) => each.pressure !== undefined) ? 24 : 0;
+  sheetWide = box.width || 600; sheetTall = box.height || 400;
+  const under = showsForces || data.cylinders.some((each) => each.pressure !== undefined) ? 24 : 0;
   let [left, right, bottom, top] = grow && before ? before : [Infinity, -Infinity, Infinity, -Infinity];
   for (const found of [base, now]) for (const i of found.reached) for (let p = 0; p < scene.names.length; p++) {
     const [x, y] = spot(found, p, i), r = scene.reach[p] || 0;
@@ -331,19 +334,19 @@ function fit(grow) {
   }
   if (!(left <= right)) [left, right, bottom, top] = [-1, 1, -1, 1];
   before = [left, right, bottom, top];
-  const wide = right - left || 1e-3, high = top - bottom || 1e-3, pad = min(46, 0.11 * min(view.width, view.height));
+  const wide = right - left || 1e-3, high = top - bottom || 1e-3, pad = min(46, 0.11 * min(sheetWide, sheetTall));
   for (let turn = 0, margin = pad; turn < 2; turn++) {
-    view.k = min((view.width - 2 * margin) / wide, (view.height - under - 2 * margin) / high);
-    view.u = max(scene.size * view.k, 3.4);
-    margin = max(pad, 4.4 * view.u);
+    zoom = min((sheetWide - 2 * margin) / wide, (sheetTall - under - 2 * margin) / high);
+    unit0 = max(scene.size * zoom, 3.4);
+    margin = max(pad, 4.4 * unit0);
   }
-  view.x = 0.5 * view.width - 0.5 * (left + right) * view.k;
-  view.y = 0.5 * (view.height - under) + 0.5 * (bottom + top) * view.k;
+  left0 = 0.5 * sheetWide - 0.5 * (left + right) * zoom;
+  top0 = 0.5 * (sheetTall - under) + 0.5 * (bottom + top) * zoom;
 }
 /* Draw everything anew: after a change of the design or of the sheet. */
 function build() {
   sheet.replaceChildren();
-  set(sheet, { viewBox: `0 0 ${view.width} ${view.height}` });
+  set(sheet, { viewBox: `0 0 ${sheetWide} ${sheetTall}` });
   pullScale(); pressureScale();
   const ghost = draw(sheet, "path", { class: "line", w: 2, dash: "2 5", stroke: css("muted") });
   const still = [ghostly(ghost), ...scene.grounds.map(ground), ...scene.tracks.filter((each) => each.fixed).map(rail)];
@@ -356,7 +359,7 @@ function build() {
   parts = [
     ...still, ...scene.contours.map(straight), ...plates.map(body), ...blocks(true), ...bars.map(body),
     ...scene.tracks.filter((each) => !each.fixed).map(slot), ...blocks(false), ...scene.stays.map(stay), ...data.cylinders.filter((each) => each.drawn).map(ram), ...scene.straights.map(straight),
-    ...scene.pins.map((i) => circle(i, 0.5 * view.u, "paper", "ink", 1.3 * EDGE)), ...scene.dots.map((i) => circle(i, 0.48 * view.u, "ink", "paper", 1)),
+    ...scene.pins.map((i) => circle(i, 0.5 * unit0, "paper", "ink", 1.3 * EDGE)), ...scene.dots.map((i) => circle(i, 0.48 * unit0, "ink", "paper", 1)),
     ...data.arrows.map(arrow), ...scene.names.map((_, i) => name(i)), ...data.grips.map(grip),
   ];
   legend();
@@ -365,7 +368,7 @@ function build() {
 function ghostly(path) {
   return () => {
     if (!isChanged()) { set(path, { d: "" }); return; }
-    const found = single(dims.map((each) => each.value), state.at), lines = [];
+    const found = single(original, stands), lines = [];
     if (found.reason[0] === 0) for (const { points } of [...scene.bodies, ...data.cylinders.map(({ P, Q }) => ({ points: [P, Q] }))]) {
       const around = points.map((p) => px(...spot(found, p, 0))), ring = around.length > 2 ? hull(around) : around;
       lines.push(...ring, ...(ring.length > 2 ? [ring[0]] : []), null);
@@ -405,10 +408,10 @@ function range(lists, limit) {
   return [low, high];
 }
 function plotted() {
-  const box = plot.getBoundingClientRect(), W = box.width || 400, H = box.height || 200, one = data.columns[column], two = data.columns[second];
+  const box = plot.getBoundingClientRect(), W = box.width || 400, H = box.height || 200, one = columns[column], two = columns[second];
   plot.replaceChildren();
   set(plot, { viewBox: `0 0 ${W} ${H}` });
-  const stroke = strokes[state.run], given = one && data.limits[one.name], limit = given ? [given[0] / one.factor, given[1], given[2]] : null;
+  const stroke = strokes[runs], given = one && data.limits[one.name], limit = given ? [given[0] / one.factor, given[1], given[2]] : null;
   const values = inUnit(one, now), others = two ? inUnit(two, now) : null, was = isChanged() || isMoved() ? inUnit(one, base) : null;
   const same = two && two.unit === one.unit, T = 10, B = 40;
   const [low, high] = range([values, isMoved() ? null : was, same ? others : null], limit), [low2, high2] = same ? [low, high] : range([others]);
@@ -461,20 +464,20 @@ function plotted() {
 }
 /* Return a list's value at the present stroke, between two poses; NaN where there is none. */
 function between(list) {
-  const { start, end } = strokes[state.run], where = min(max(((state.at[state.run] - start) / (end - start)) * (COUNT - 1), 0), COUNT - 1);
+  const { start, end } = strokes[runs], where = min(max(((stands[runs] - start) / (end - start)) * (COUNT - 1), 0), COUNT - 1);
   const i = min(floor(where), COUNT - 2), t = where - i;
   return !list ? NaN : t === 0 ? list[i] : list[i] + (list[i + 1] - list[i]) * t;
 }
 function mark(each, list, up, dot, out) {
   const value = between(list), there = isNumber(value);
   set(dot, { visibility: there ? "visible" : "hidden" });
-  if (there) set(dot, { cx: chart.x(state.at[state.run] / strokes[state.run].factor), cy: up(value) });
+  if (there) set(dot, { cx: chart.x(stands[runs] / strokes[runs].factor), cy: up(value) });
   byId(out).textContent = each ? (there ? fixed(value, places(max(...finite(list).map(abs), 0), 4)) + unitText(each.unit) : "\u2013") : "";
 }
 
 /* ---- verdicts ---- */
 
-const strokeText = (value) => { const stroke = strokes[state.run]; return `${stroke.name} = ${shown(value, stroke, 4)}`; };
+const strokeText = (value) => { const stroke = strokes[runs]; return `${stroke.name} = ${shown(value, stroke, 4)}`; };
 const mm = (value) => fixed(value / data.length.factor, data.length.factor > 0.01 ? 2 : 1) + unitText(data.length.unit);
 /* Return the least and the greatest of some values with their strokes, a parabola laid through the poses next to them. */
 function extremes(values) {
@@ -490,7 +493,7 @@ function extremes(values) {
   return { low: peak(low), high: peak(high) };
 }
 function verdicts() {
-  const found = [], add = (ok, rule, text) => found.push({ ok, rule, text }), all = now.reached.length === COUNT, stroke = strokes[state.run];
+  const found = [], add = (ok, rule, text) => found.push({ ok, rule, text }), all = now.reached.length === COUNT, stroke = strokes[runs];
   const from = shown(now.along[0], stroke, 4), to = shown(now.along[COUNT - 1], stroke, 4);
   if (all) add(true, say("assembly"), say("assembled over the whole stroke, {stroke} from {from} to {to}", { stroke: stroke.name, from, to }));
   else {
@@ -502,7 +505,7 @@ function verdicts() {
   let tight = null;
   for (const { point, row } of data.joints) { const ext = extremes(now.values[row]); if (ext && (!tight || ext.low.value < tight.value)) tight = { ...ext.low, point }; }
   if (tight) add(null, say("dead point"), say("the nearest is at {joint}: least transmission angle {angle} at {where}", { joint: tight.point, angle: `${fixed((tight.value * 180) / PI, 1)}\u00b0`, where: strokeText(tight.at) }));
-  for (const each of data.columns) if (data.limits[each.name] && live(each)) judged(each, data.limits[each.name], add);
+  for (const each of columns) if (data.limits[each.name] && live(each)) judged(each, data.limits[each.name], add);
   for (const each of data.cylinders) cylinder(each, add);
   return found;
 }
@@ -517,7 +520,7 @@ function ends(lost) {
   for (const [a, b] of stretches(lost)) for (const [inside, outside] of [[a - 1, a], [b + 1, b]]) {
     if (inside < 0 || inside >= COUNT || said.length > 3) continue;
     let good = now.along[inside], bad = now.along[outside];
-    for (let i = 0; i < 20; i++) { const middle = 0.5 * (good + bad), at = [...state.at]; at[state.run] = middle; if (single(state.design, at).reason[0] === 0) good = middle; else bad = middle; }
+    for (let i = 0; i < 20; i++) { const middle = 0.5 * (good + bad), at = [...stands]; at[runs] = middle; if (single(present, at).reason[0] === 0) good = middle; else bad = middle; }
     const k = now.reason[outside], step = k > 0 ? engine.steps[k - 1] : "";
     said.push(say("of {step} at {where}, where the reach ends", { step: data.steps[step] || step, where: strokeText(good) }));
   }
@@ -592,12 +595,12 @@ function strokeSliders() {
     slider.setAttribute("aria-label", each.name);
     slider.dataset.stroke = each.name;
     on(slider, "input", () => {
-      if (k === state.run) play(false);
-      const at = [...state.at];
+      if (k === runs) play(false);
+      const at = [...stands];
       at[k] = Number(slider.value) >= 1000 ? each.end : each.start + ((each.end - each.start) * Number(slider.value)) / 1000;
-      moved(state.design, at, each.name);
-      if (k === state.run) clock = phaseNow();
-      soon(k === state.run ? "pose" : "sweep"); remember();
+      moved(present, at, each.name);
+      if (k === runs) clock = phaseNow();
+      soon(k === runs ? "pose" : "sweep"); remember();
     });
     row.append(label, slider, out);
     each.slider = slider; each.out = out;
@@ -642,14 +645,14 @@ function listSizes() {
 }
 function option(text, value) { const found = make("option"); found.textContent = text; found.value = value; return found; }
 function put(i, value, exact) {
-  const design = [...state.design];
+  const design = [...present];
   design[i] = value;
-  moved(design, state.at, dims[i].name);
+  moved(design, stands, dims[i].name);
   soon("design"); remember();
 }
 function showSizes() {
   for (const [i, { row, slider, box }] of sizeRows) {
-    const each = dims[i], value = state.design[i];
+    const each = dims[i], value = present[i];
     slider.value = String((1000 * (value - each.low)) / (each.high - each.low));
     slider.setAttribute("aria-valuetext", shown(value, each));
     if (document.activeElement !== box || box.dataset.value !== String(value)) { box.value = short(value / each.factor, 7); box.dataset.value = String(value); }
@@ -659,20 +662,20 @@ function showSizes() {
 on(byId("add"), "change", (event) => { if (event.target.value !== "") { chosen.push(Number(event.target.value)); listSizes(); remember(); } });
 const heading = (each) => (each.unit ? `${(language === "ru" && each.ru) || each.name}, ${signed(each.unit)}` : (language === "ru" && each.ru) || each.name);
 function choosers() {
-  const all = data.columns.map((each, i) => option(heading(each) + (each.row === undefined ? " *" : ""), i));
+  const all = columns.map((each, i) => option(heading(each) + (each.row === undefined ? " *" : ""), i));
   byId("column").replaceChildren(...all); byId("column").value = String(column);
   byId("second").replaceChildren(option("\u2013", -1), ...all.map((each) => each.cloneNode(true))); byId("second").value = String(second);
-  byId("run").replaceChildren(...strokes.map((each, k) => option(each.name, k))); byId("run").value = String(state.run);
+  byId("run").replaceChildren(...strokes.map((each, k) => option(each.name, k))); byId("run").value = String(runs);
   byId("runs").hidden = strokes.length < 2;
   byId("runs").style.display = strokes.length < 2 ? "none" : "";
   byId("forces").style.display = data.arrows.length ? "" : "none";
-  byId("forces").setAttribute("aria-pressed", String(state.forces));
+  byId("forces").setAttribute("aria-pressed", String(showsForces));
 }
 on(byId("column"), "change", (event) => { column = Number(event.target.value); soon("curve"); remember(); });
 on(byId("second"), "change", (event) => { second = Number(event.target.value); soon("curve"); remember(); });
-on(byId("run"), "change", (event) => { state.run = Number(event.target.value); clock = phaseNow(); soon("design"); remember(); });
-on(byId("forces"), "click", () => { state.forces = !state.forces; choosers(); soon("fit"); remember(); });
-on(byId("reset"), "click", () => { state = { ...delivered(), forces: state.forces }; begin(); chosen = [...data.shown]; column = data.column; second = -1; play(false); warn(""); listSizes(); choosers(); soon("fit"); remember(); });
+on(byId("run"), "change", (event) => { runs = Number(event.target.value); clock = phaseNow(); soon("design"); remember(); });
+on(byId("forces"), "click", () => { showsForces = !showsForces; choosers(); soon("fit"); remember(); });
+on(byId("reset"), "click", () => { present = [...original]; stands = firstStand(); runs = data.run; begin(); chosen = [...data.shown]; column = data.column; second = -1; play(false); warn(""); listSizes(); choosers(); soon("fit"); remember(); });
 on(byId("copy"), "click", async () => {
   const link = `${location.href.split("#")[0]}#${told()}`;
   try { await navigator.clipboard.writeText(link); } catch {
@@ -697,7 +700,7 @@ function speak() {
   byId("language").textContent = language === "ru" ? "English" : "\u0420\u0443\u0441\u0441\u043a\u0438\u0439";
   byId("language").lang = language === "ru" ? "en" : "ru";
   toldBefore = "";
-  list(byId("told"), data.verdicts.map(([ok, ...said]) => { const [rule, text] = said.slice(language === "ru" ? -2 : 0); return { ok: [false, true][ok], rule, text }; }));
+  list(byId("told"), data.verdicts.map(([ok, rule, text, ruled, ru]) => (language === "ru" ? { ok: [false, true][ok], rule: ruled || rule, text: ru || text } : { ok: [false, true][ok], rule, text })));
   listSizes(); choosers(); soon("fit");
 }
 
@@ -705,13 +708,13 @@ function speak() {
 
 function told() {
   const said = new URLSearchParams();
-  strokes.forEach((each, k) => said.set(`s.${each.name}`, String(state.at[k])));
-  dims.forEach((each, i) => { if (state.design[i] !== each.value) said.set(`d.${each.name}`, String(state.design[i])); });
-  if (state.run !== data.run) said.set("run", strokes[state.run].name);
-  if (column !== data.column) said.set("column", data.columns[column].name);
-  if (second >= 0) said.set("with", data.columns[second].name);
+  strokes.forEach((each, k) => said.set(`s.${each.name}`, String(stands[k])));
+  dims.forEach((each, i) => { if (present[i] !== each.value) said.set(`d.${each.name}`, String(present[i])); });
+  if (runs !== data.run) said.set("run", strokes[runs].name);
+  if (column !== data.column) said.set("column", columns[column].name);
+  if (second >= 0) said.set("with", columns[second].name);
   if (String(chosen) !== String(data.shown)) said.set("show", chosen.map((i) => dims[i].name).join(" "));
-  if (state.forces) said.set("forces", "1");
+  if (showsForces) said.set("forces", "1");
   if (language !== data.language) said.set("language", language);
   if (chosenLook) said.set("look", root.dataset.look);
   return said.toString();
@@ -725,19 +728,18 @@ function recall() {
   const said = new URLSearchParams(location.hash.slice(1)), index = (list, name) => list.findIndex((each) => each.name === name);
   const number = (text, fallback) => (text !== null && text.trim() && isNumber(Number(text)) ? Number(text) : fallback);
   if (![...said.keys()].length || location.hash === "#verdicts") return false;
-  const asked = delivered();
-  asked.at = strokes.map((each, k) => min(max(number(said.get(`s.${each.name}`), asked.at[k]), min(each.start, each.end)), max(each.start, each.end)));
-  asked.design = dims.map((each) => { const value = number(said.get(`d.${each.name}`), each.value); return each.positive && !(value > 0) ? each.value : value; });
-  asked.run = max(index(strokes, said.get("run")), 0) || (said.has("run") ? 0 : data.run);
-  asked.forces = said.get("forces") === "1";
-  column = index(data.columns, said.get("column")) < 0 ? data.column : index(data.columns, said.get("column"));
-  second = index(data.columns, said.get("with"));
+  const at = strokes.map((each) => min(max(number(said.get(`s.${each.name}`), each.at), min(each.start, each.end)), max(each.start, each.end)));
+  const design = dims.map((each) => { const value = number(said.get(`d.${each.name}`), each.value); return each.positive && !(value > 0) ? each.value : value; });
+  runs = index(strokes, said.get("run")) < 0 ? data.run : index(strokes, said.get("run"));
+  showsForces = said.get("forces") === "1";
+  column = index(columns, said.get("column")) < 0 ? data.column : index(columns, said.get("column"));
+  second = index(columns, said.get("with"));
   if (said.has("show")) chosen = said.get("show").split(" ").map((each) => byName.get(each)).filter((i) => i !== undefined);
   if (["en", "ru"].includes(said.get("language"))) language = said.get("language");
   if (["light", "dark"].includes(said.get("look"))) { look(said.get("look")); chosenLook = true; }
-  state = { ...delivered(), run: asked.run, forces: asked.forces };
+  present = [...original]; stands = firstStand();
   begin();
-  moved(asked.design, asked.at, say("The link"));
+  moved(design, at, say("The link"));
   return true;
 }
 on(window, "hashchange", () => { if (location.hash !== "#verdicts" && recall()) { play(false); speak(); soon("design"); } });
@@ -749,13 +751,13 @@ let playing = false, clock = 0, last = null, waiting = false, todo = new Set(), 
 const timing = { frames: 0, total: 0, most: 0 };
 /* The stretch of the running stroke that is played: the reached part that the present pose lies in. */
 function stretch() {
-  const { start, end } = strokes[state.run], list = stretches(now.reached), where = ((state.at[state.run] - start) / (end - start)) * (COUNT - 1);
+  const { start, end } = strokes[runs], list = stretches(now.reached), where = ((stands[runs] - start) / (end - start)) * (COUNT - 1);
   const found = list.find(([a, b]) => where >= a - 1 && where <= b + 1) || list[0] || [0, 0];
   return [now.along[found[0]], now.along[found[1]]];
 }
-const isTurn = () => strokes[state.run].turn && now.reached.length === COUNT;
+const isTurn = () => strokes[runs].turn && now.reached.length === COUNT;
 function phaseNow() {
-  const [low, high] = now ? stretch() : [0, 1], share = min(max((state.at[state.run] - low) / (high - low || 1), 0), 1);
+  const [low, high] = now ? stretch() : [0, 1], share = min(max((stands[runs] - low) / (high - low || 1), 0), 1);
   return isTurn() ? share : acos(1 - 2 * share) / (2 * PI);
 }
 function soon(what) { todo.add(what); if (!waiting) { waiting = true; requestAnimationFrame(frame); } }
@@ -765,9 +767,9 @@ function frame(time) {
   if (playing) {
     clock = (clock + ((time - (last ?? time)) / 1000 / PERIOD) * Number(byId("speed").value)) % 1;
     last = time;
-    const [low, high] = stretch(), share = isTurn() ? clock : 0.5 - 0.5 * cos(2 * PI * clock), at = [...state.at];
-    at[state.run] = low + (high - low) * share;
-    if (single(state.design, at).reason[0] === 0) state.at = at;
+    const [low, high] = stretch(), share = isTurn() ? clock : 0.5 - 0.5 * cos(2 * PI * clock), at = [...stands];
+    at[runs] = low + (high - low) * share;
+    if (single(present, at).reason[0] === 0) stands = at;
   }
   const work = todo;
   todo = new Set();
@@ -778,9 +780,9 @@ function frame(time) {
 }
 function render(work) {
   const anew = ["design", "sweep"].some((each) => work.has(each)), sized = work.has("fit");
-  if (anew || sized || !now) now = sweep(state.design, state.at, state.run);
-  if (isMoved() && (anew || sized)) base = sweep(dims.map((each) => each.value), state.at, state.run); else if (anew || sized || !base) base = first;
-  pose = single(state.design, state.at);
+  if (anew || sized || !now) now = sweep(present, stands, runs);
+  if (isMoved() && (anew || sized)) base = sweep(original, stands, runs); else if (anew || sized || !base) base = first;
+  pose = single(present, stands);
   if (anew || sized) { if (!gripped) fit(!sized); build(); }
   if (anew || sized || work.has("curve")) plotted();
   const at = scene.names.map((_, p) => px(...spot(pose, p, 0)));
@@ -788,8 +790,8 @@ function render(work) {
   mark(chart.one, chart.values, chart.y, chart.marker, "value");
   mark(chart.two, chart.others, chart.y2, chart.second, "other");
   strokes.forEach((each, k) => {
-    each.slider.value = String((1000 * (state.at[k] - each.start)) / (each.end - each.start));
-    const text = fixed(state.at[k] / each.factor, places(max(abs(each.start), abs(each.end)) / each.factor, 4)) + unitText(each.unit);
+    each.slider.value = String((1000 * (stands[k] - each.start)) / (each.end - each.start));
+    const text = fixed(stands[k] / each.factor, places(max(abs(each.start), abs(each.end)) / each.factor, 4)) + unitText(each.unit);
     each.out.textContent = text; each.slider.setAttribute("aria-valuetext", text);
   });
   if (anew || sized || work.has("size")) showSizes();
@@ -809,21 +811,21 @@ on(document, "keydown", (event) => {
   if (event.key === " " && event.target.tagName !== "BUTTON") { event.preventDefault(); play(!playing); }
   else if (event.key in steps) {
     event.preventDefault();
-    const { slider } = strokes[state.run];
+    const { slider } = strokes[runs];
     slider.value = String(min(max(Number(slider.value) + (1000 * steps[event.key]) / (COUNT - 1), 0), 1000));
     slider.dispatchEvent(new Event("input"));
   }
 });
 /* Stand at the first pose that can be had where the delivered one cannot. */
 function begin() {
-  if (single(state.design, state.at).reason[0] === 0) return;
-  const found = sweep(state.design, state.at, state.run);
-  if (found.reached.length) state.at[state.run] = found.along[found.reached[0]];
+  if (single(present, stands).reason[0] === 0) return;
+  const found = sweep(present, stands, runs);
+  if (found.reached.length) stands[runs] = found.along[found.reached[0]];
 }
 
 look(night.matches ? "dark" : "light");
 begin();
-let first = (base = now = sweep(state.design, state.at, state.run));
+let first = (base = now = sweep(present, stands, runs));
 strokeSliders();
 const restored = recall();
 speak();
@@ -835,9 +837,9 @@ play(!restored && !window.matchMedia("(prefers-reduced-motion: reduce)").matches
 /* For tests and for pages around this one: read and set what is shown. */
 window.hydrolinkage = {
   engine, data, timing,
-  state: () => ({ design: Object.fromEntries(dims.map((each, i) => [each.name, state.design[i]])), at: Object.fromEntries(strokes.map((each, k) => [each.name, state.at[k]])), playing, language, column, second, forces: state.forces }),
+  state: () => ({ design: Object.fromEntries(dims.map((each, i) => [each.name, present[i]])), at: Object.fromEntries(strokes.map((each, k) => [each.name, stands[k]])), playing, language, column, second, forces: showsForces }),
   set: ({ design = {}, at = {} }) => {
-    const ok = moved(dims.map((each, i) => design[each.name] ?? state.design[i]), strokes.map((each, k) => at[each.name] ?? state.at[k]), "set");
+    const ok = moved(dims.map((each, i) => design[each.name] ?? present[i]), strokes.map((each, k) => at[each.name] ?? stands[k]), "set");
     render(new Set(["design"]));
     return ok;
   },

@@ -16,8 +16,8 @@ from ..loads import TwoPoint
 from ..motion import Motion, require_motion
 from ..program import FloatArray
 from ..quantities import Joint, Where
-from ..vectors import Line
 from ..steps import Guide
+from ..vectors import Line
 from .shapes import APART, HALF, OUTLINES, Outline, hull, turning_with, yokes
 
 # What points slide along: fixed rails and slots on moving bodies, each as long as the travel asks.

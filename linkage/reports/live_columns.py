@@ -12,7 +12,6 @@ import numpy as np
 from ..errors import LinkageError
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, require_motion
-from ..motion.grid import MotionLike
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke, x, y

@@ -51,7 +51,7 @@ let base, now, pose, before = null;
 const vector = (design) => order.map((i) => design[i]);
 function sweep(design, at, run) {
   const { start, end } = strokes[run];
-  const along = Float64Array.from({ length: COUNT }, (_, i) => start + ((end - start) * i) / (COUNT - 1));
+  const along = Float64Array.from({ length: COUNT }, (_, i) => (i === COUNT - 1 ? end : start + ((end - start) * i) / (COUNT - 1)));
   const found = engine.sweep(vector(design), at.map((value, k) => (k === run ? along : new Float64Array(COUNT).fill(value))));
   return { ...found, along, reached: [...along.keys()].filter((i) => found.reason[i] === 0) };
 }
@@ -113,7 +113,7 @@ const sheet = byId("mechanism"), EDGE = 1.3;
 let zoom = 1, left0 = 0, top0 = 0, sheetWide = 0, sheetTall = 0, unit0 = 1;
 const px = (x, y) => [left0 + zoom * x, top0 - zoom * y];
 const spot = (found, point, i) => { const [x, y] = rows.points[point]; return [found.values[x][i], found.values[y][i]]; };
-let parts = [], gripped = null;
+let parts = [], gripped = null, edition = 0;
 
 /* Return the outermost of some points, counter-clockwise (A. M. Andrew, monotone chain). */
 function hull(points) {
@@ -151,22 +151,20 @@ function span(P, Q) {
   }
   return [low, high];
 }
-const WIDTH = { eye: 0.62, rod: 0.42, barrel: 1.3, piston: 1.12, cap: 1.5 };
 function ram({ P, Q, aside, pressure, most }) {
-  const group = draw(sheet, "g", { w: 0.8 * EDGE, join: "round", stroke: css("ink") });
-  const [low, high] = span(P, Q), u = min(unit0, 0.12 * low), off = aside * unit0;
-  const bottom = 1.4 * u, least = 2 * u, mouth = min(max(least + high - low + 1.5 * u, 0.68 * low), max(0.68 * low, low - 1.2 * u));
-  const box = (name, fill) => {
-    const half = WIDTH[name] * u, rect = draw(group, "rect", { y: -off - half, height: 2 * half });
-    set(rect, { fill: css(fill) });
-    return [rect, (from, to) => set(rect, { x: from, width: max(to - from, 0) })];
-  };
-  const [, eye] = box("eye", "piston"), [barrel, tube] = box("barrel", "barrel"), [, shaft] = box("rod", "rod");
-  const [, piston] = box("piston", "piston"), [, cap] = box("cap", "piston");
-  eye(0, bottom); tube(bottom, mouth); cap(mouth - 0.35 * u, mouth + 0.35 * u);
+  const group = draw(sheet, "g", { w: 0.8 * EDGE, join: "round", stroke: css("ink") }), off = aside * unit0;
+  const parts = ["eye", "barrel", "rod", "piston", "cap"].map((name) => draw(group, "rect", { fill: css(name === "barrel" || name === "rod" ? name : "piston") }));
+  const [eye, barrel, shaft, piston, cap] = parts, put = (rect, from, to) => set(rect, { x: from, width: max(to - from, 0) });
+  let low, high, u, least, mouth, seen;
   return (at) => {
+    if (seen !== edition) {
+      seen = edition; [low, high] = span(P, Q); u = min(unit0, 0.12 * low); least = 2 * u;
+      mouth = min(max(least + high - low + 1.5 * u, 0.68 * low), max(0.68 * low, low - 1.2 * u));
+      [0.62, 1.3, 0.42, 1.12, 1.5].forEach((half, i) => set(parts[i], { y: -off - half * u, height: 2 * half * u }));
+      put(eye, 0, 1.4 * u); put(barrel, 1.4 * u, mouth); put(cap, mouth - 0.35 * u, mouth + 0.35 * u);
+    }
     const length = apart(at[P], at[Q]), place = min(max(length - low + least, least), mouth - 0.9 * u);
-    shaft(place, max(length, place)); piston(place - 0.45 * u, place + 0.45 * u);
+    put(shaft, place, max(length, place)); put(piston, place - 0.45 * u, place + 0.45 * u);
     if (pressure !== undefined) set(barrel, { fill: heat(pose.values[pressure][0], pose.values[most] ? pose.values[most][0] : scale.most) });
     set(group, { transform: turned(at[P], at[Q]) });
   };
@@ -184,14 +182,19 @@ function straight({ P, Q, lines }) {
 }
 /* Where a track's ends stand: as far as its riders travel over the stroke, and a margin. */
 function track(each) {
-  let low = Infinity, high = -Infinity;
-  for (const found of [now, base]) for (const i of found.reached) {
-    const [o, d] = lineOf(each, found, i);
-    for (const rider of each.riders) { const p = spot(found, rider, i), s = (p[0] - o[0]) * d[0] + (p[1] - o[1]) * d[1]; low = min(low, s); high = max(high, s); }
-  }
-  if (!(low <= high)) low = high = 0;
-  const pad = (3.2 * unit0) / zoom;
-  return () => { const [o, d] = lineOf(each, pose, 0); return [low - pad, high + pad].map((s) => px(o[0] + s * d[0], o[1] + s * d[1])); };
+  let low, high, seen;
+  return () => {
+    if (seen !== edition) {
+      seen = edition; low = Infinity; high = -Infinity;
+      for (const found of [now, base]) for (const i of found.reached) {
+        const [o, d] = lineOf(each, found, i);
+        for (const rider of each.riders) { const p = spot(found, rider, i), s = (p[0] - o[0]) * d[0] + (p[1] - o[1]) * d[1]; low = min(low, s); high = max(high, s); }
+      }
+      if (!(low <= high)) low = high = 0;
+    }
+    const pad = (3.2 * unit0) / zoom, [o, d] = lineOf(each, pose, 0);
+    return [low - pad, high + pad].map((s) => px(o[0] + s * d[0], o[1] + s * d[1]));
+  };
 }
 function lineOf(each, found, i) { const [a, b, c, d] = each.line.map((row) => found.values[row][i]); return [[a, b], [c, d]]; }
 function slot(each) {
@@ -281,7 +284,7 @@ function name(index) {
 }
 /* An arrow: a force at a point, in the scale in which the greatest is a sixth of the sheet. */
 function arrow({ point, x, y, load }) {
-  const line = draw(sheet, "path", { w: 2.2, join: "round", fill: css(load ? "accent" : "curve"), stroke: css(load ? "accent" : "curve") });
+  const line = draw(sheet, "path", { w: 2.2, join: "round", fill: css(load ? "accent" : "other"), stroke: css(load ? "accent" : "other") });
   return (at) => {
     const k = pull.scale, f = [pose.values[x][0] * k, -pose.values[y][0] * k], long = hypot(...f), head = min(9, 0.5 * long);
     if (!showsForces || !(long > 1)) { set(line, { d: "" }); return; }
@@ -307,8 +310,12 @@ function pressureScale() {
     scale.most = max(scale.most, (each.most !== undefined && found.values[each.most][i]) || found.values[each.pressure][i] || 0);
   }
 }
+let keys, told0 = "";
 function legend() {
-  const group = draw(sheet, "g", {}), bottom = sheetTall - 12;
+  const bottom = sheetTall - 12, told = [scale.most, showsForces && pull.most, sheetWide, bottom, language].join(), group = keys;
+  if (told === told0 && group.firstChild) return;
+  told0 = told;
+  group.replaceChildren();
   if (scale.most > 0) {
     const bar = min(110, 0.3 * sheetWide);
     for (let i = 0; i < 22; i++) draw(group, "rect", { x: 12 + (i * bar) / 22, y: bottom - 8, width: bar / 22 + 0.5, height: 9, fill: heat((i + 0.5) / 22, 1) });
@@ -347,22 +354,22 @@ function fit(grow) {
 function build() {
   sheet.replaceChildren();
   set(sheet, { viewBox: `0 0 ${sheetWide} ${sheetTall}` });
-  pullScale(); pressureScale();
   const ghost = draw(sheet, "path", { class: "line", w: 2, dash: "2 5", stroke: css("muted") });
   const still = [ghostly(ghost), ...scene.grounds.map(ground), ...scene.tracks.filter((each) => each.fixed).map(rail)];
   const paths = data.paths.map((point) => {
     const line = draw(sheet, "path", { class: "line", w: 2.2, dash: "0.1 4.6", stroke: css("accent") });
-    set(line, { d: broken([...now.along.keys()].map((i) => (now.reason[i] ? null : px(...spot(now, point, i))))) });
+    let seen;
+    return () => { if (seen !== edition) { seen = edition; set(line, { d: broken([...now.along.keys()].map((i) => (now.reason[i] ? null : px(...spot(now, point, i))))) }); } };
   });
   const plates = scene.bodies.filter((each) => each.points.length > 2), bars = scene.bodies.filter((each) => each.points.length <= 2);
   const blocks = (fixed) => scene.tracks.filter((each) => each.fixed === fixed).flatMap((each) => each.riders.map((rider) => block(each, rider)));
   parts = [
-    ...still, ...scene.contours.map(straight), ...plates.map(body), ...blocks(true), ...bars.map(body),
+    ...still, ...paths, ...scene.contours.map(straight), ...plates.map(body), ...blocks(true), ...bars.map(body),
     ...scene.tracks.filter((each) => !each.fixed).map(slot), ...blocks(false), ...scene.stays.map(stay), ...data.cylinders.filter((each) => each.drawn).map(ram), ...scene.straights.map(straight),
     ...scene.pins.map((i) => circle(i, 0.5 * unit0, "paper", "ink", 1.3 * EDGE)), ...scene.dots.map((i) => circle(i, 0.48 * unit0, "ink", "paper", 1)),
     ...data.arrows.map(arrow), ...scene.names.map((_, i) => name(i)), ...data.grips.map(grip),
   ];
-  legend();
+  keys = draw(sheet, "g", {});
 }
 /* The delivered design at the same stroke, as a faint outline, where the design has changed. */
 function ghostly(path) {
@@ -458,7 +465,7 @@ function plotted() {
   const reason = one && one.row === undefined && one.why ? one.why : "";
   if (!values && one) write(L + 8, T + 18, say("as delivered only: this column is not followed in the page"), { class: "note halo" });
   byId("column").title = reason;
-  if (was && !isMoved()) write(W - R - 5, T + 12, say("dashed: as delivered"), { anchor: "end", class: "halo" });
+  if (was && !isMoved()) write(W - R, H - 6, say("dashed: as delivered"), { anchor: "end" });
   chart.second = draw(plot, "circle", { r: 4.5, w: 2, fill: css("other"), stroke: css("paper") });
   chart.marker = draw(plot, "circle", { r: 6, w: 2, fill: css("curve"), stroke: css("paper") });
 }
@@ -640,7 +647,7 @@ function listSizes() {
   }));
   const add = byId("add"), first = make("option");
   first.value = ""; first.textContent = say("Add a dimension …");
-  add.replaceChildren(first, ...dims.map((each, i) => [each, i]).filter(([each, i]) => each.used && !chosen.includes(i)).map(([each, i]) => option(each.name, i)));
+  add.replaceChildren(first, ...dims.map((each, i) => [each, i]).filter(([, i]) => !chosen.includes(i)).map(([each, i]) => option(each.name, i)));
   showSizes();
 }
 function option(text, value) { const found = make("option"); found.textContent = text; found.value = value; return found; }
@@ -697,7 +704,7 @@ function speak() {
   for (const each of document.querySelectorAll("[data-name]")) each.setAttribute("aria-label", say(each.dataset.name));
   byId("look").setAttribute("aria-label", say("Light or dark"));
   byId("play").setAttribute("aria-label", playing ? say("Pause") : say("Play"));
-  byId("language").textContent = language === "ru" ? "English" : "\u0420\u0443\u0441\u0441\u043a\u0438\u0439";
+  byId("language").textContent = language === "ru" ? "EN" : "RU";
   byId("language").lang = language === "ru" ? "en" : "ru";
   toldBefore = "";
   list(byId("told"), data.verdicts.map(([ok, rule, text, ruled, ru]) => (language === "ru" ? { ok: [false, true][ok], rule: ruled || rule, text: ru || text } : { ok: [false, true][ok], rule, text })));
@@ -783,7 +790,7 @@ function render(work) {
   if (anew || sized || !now) now = sweep(present, stands, runs);
   if (isMoved() && (anew || sized)) base = sweep(original, stands, runs); else if (anew || sized || !base) base = first;
   pose = single(present, stands);
-  if (anew || sized) { if (!gripped) fit(!sized); build(); }
+  if (anew || sized) { edition++; const was = [zoom, left0, top0].join(); if (!gripped) fit(!sized); pullScale(); pressureScale(); if (sized || !parts.length || was !== [zoom, left0, top0].join()) build(); legend(); }
   if (anew || sized || work.has("curve")) plotted();
   const at = scene.names.map((_, p) => px(...spot(pose, p, 0)));
   for (const part of parts) part(at);

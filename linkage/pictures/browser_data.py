@@ -467,7 +467,7 @@ def label_offsets(scene: Scene) -> list[list[float]]:
 def verdict_data(machine: Mechanism, motion: Motion) -> list[list[Any]]:
     """Return the machine's own verdicts on the motion, as they stand for the design that is delivered.
 
-    Each is 1 where it is kept, 0 where it is not, 2 where it is only said; its rule and its sentence in English, then what differs in Russian.
+    Each is 1 where it is kept, 0 where it is not, 2 where it is only said; its rule and its sentence, then what differs in Russian.
     """
     said = {}
     for name in ("en", "ru"):

@@ -18,7 +18,7 @@ from ..motion import Column, LiveText, Motion, Request, RequestLike, Tabled, str
 from ..plan import Plan, opening, plan_measure
 from ..program import FloatArray
 from ..quantities import is_number
-from ..reports import At, column_requests, run_of
+from ..reports import At, Run, column_requests, run_of
 from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, pin_force, pin_forces, traced_acting
 from ..statics.acting import AT_REST
 from ..units import UNITS, deg, display_unit, factor, shown_in
@@ -99,7 +99,8 @@ class PageRequests:
     ) -> None:
         self.machine, self.plan, self.count = machine, machine.plan, count
         self.run = run_of(machine, at)
-        values = self.run.over(np.linspace(self.run.start, self.run.end, count))
+        self.ends = one_way(machine, self.run)
+        values: dict[str, Any] = {**self.run.held, self.run.stroke: np.linspace(*self.ends, count)}
         self.motion = machine.at(unreachable="nan", **values)
         if not self.motion.reached.any():
             machine.at(**values)
@@ -174,6 +175,15 @@ def joint_part(joint: JointForce, joints: Sequence[JointForce], axis: str) -> Re
         return pin_force(joint.point, joint.on, axis)
     found: Request = -1.0 * pin_force(joint.point, joint.by, axis)
     return found
+
+
+def one_way(machine: Mechanism, run: Run) -> tuple[float, float]:
+    """Return the two ends of the one stroke that runs [m or rad]; DefinitionError where several run, or one turns back."""
+    way = run.ways[run.stroke]
+    if len(run.ways) > 1 or len(way) != 2:
+        said = f"{machine.plan.title}: on a page one stroke runs between two values, and each has a slider"
+        raise DefinitionError(f"{said}; hold the others, at=dict({run.stroke}=({way[0]:.4g}, {way[-1]:.4g})), or animate them as a .gif.")
+    return way[0], way[1]
 
 
 def acting_points(plan: Plan) -> list[tuple[int, str]]:
@@ -341,7 +351,7 @@ def stroke_data(requests: PageRequests, name: str) -> dict[str, Any]:
     stroke, run = requests.machine.strokes[name], requests.run
     unit = shown_in(stroke_display_unit(requests.plan, name, "mm"))
     runs = name == run.stroke
-    start, end = (run.start, run.end) if runs else (stroke.start, stroke.end)
+    start, end = requests.ends if runs else (stroke.start, stroke.end)
     turn = runs and is_turn(requests.machine, run) and bool(requests.motion.reached.all()) and ends_where_begun(requests.motion)
     at = start if runs else run.held[name]
     return {"name": name, "start": start, "end": end, "at": at, "unit": unit, "factor": factor(unit), "turn": int(turn)}

@@ -538,7 +538,7 @@ function judged(each, [value, text, side], add) {
   if (!ext) return;
   const worst = side === "below" ? ext.low : ext.high, ok = side === "below" ? worst.value >= value : worst.value <= value;
   const words = { extreme: shown(worst.value, each, 4), where: strokeText(worst.at), limit: shown(value, each, 4), text };
-  add(ok, each.name, side === "below" ? say("least {extreme} at {where}; not below {limit} ({text})", words) : say("greatest {extreme} at {where}; not above {limit} ({text})", words));
+  add(ok, called(each), side === "below" ? say("least {extreme} at {where}; not below {limit} ({text})", words) : say("greatest {extreme} at {where}; not above {limit} ({text})", words));
 }
 function cylinder(each, add) {
   const lengths = new Float64Array(COUNT).fill(NaN);
@@ -667,7 +667,8 @@ function showSizes() {
   }
 }
 on(byId("add"), "change", (event) => { if (event.target.value !== "") { chosen.push(Number(event.target.value)); listSizes(); remember(); } });
-const heading = (each) => (each.unit ? `${(language === "ru" && each.ru) || each.name}, ${signed(each.unit)}` : (language === "ru" && each.ru) || each.name);
+const called = (each) => (language === "ru" && each.ru) || each.name;
+const heading = (each) => (each.unit ? `${called(each)}, ${signed(each.unit)}` : called(each));
 function choosers() {
   const all = columns.map((each, i) => option(heading(each) + (each.row === undefined ? " *" : ""), i));
   byId("column").replaceChildren(...all); byId("column").value = String(column);
@@ -688,8 +689,8 @@ on(byId("copy"), "click", async () => {
   try { await navigator.clipboard.writeText(link); } catch {
     const area = make("textarea"); area.value = link; document.body.append(area); area.select(); document.execCommand("copy"); area.remove();
   }
-  byId("copy").textContent = say("Copied");
-  setTimeout(() => { byId("copy").textContent = say("Copy link"); }, 1500);
+  byId("copy").firstChild.textContent = say("Copied");
+  setTimeout(() => { byId("copy").firstChild.textContent = say("Copy link"); }, 1500);
 });
 on(byId("language"), "click", () => { language = language === "ru" ? "en" : "ru"; speak(); remember(); });
 on(byId("look"), "click", () => { look(root.dataset.look === "dark" ? "light" : "dark"); chosenLook = true; remember(); });

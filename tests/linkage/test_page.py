@@ -188,6 +188,7 @@ def test_wrong_questions_are_answered_in_words(tmp_path):
         ({"language": "de"}, r"Language 'de' is unknown"),
         ({"count": 1}, r"at least 2 poses"),
         ({"trace": ["H"]}, r"Point 'H' is unknown"),
+        ({"at": {"phi": (0.0, 1.0, 0.5)}}, r"one stroke runs between two values"),
     ):
         with pytest.raises(DefinitionError, match=said):
             page(machine, file, **options)
@@ -324,10 +325,8 @@ def test_what_is_not_reached_over_the_stroke_is_told_with_step_and_millimetres(c
 
 def test_a_pin_on_the_ground_is_dragged_and_joins_the_sliders(chromium, written):
     with Shown(chromium, written(ThreePointHitch())) as shown:
-        place = shown(
-            "(() => { const { x, y, width } = document.querySelector('[data-pin=M]').getBoundingClientRect(); return [x, y, width]; })()"
-        )
-        place = [place[0] + 0.5 * place[2], place[1] + 0.5 * place[2]]
+        box = shown("JSON.parse(JSON.stringify(document.querySelector('[data-pin=M]').getBoundingClientRect()))")
+        place = [box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["width"]]
         shown.tab.mouse.move(*place)
         shown.tab.mouse.down()
         shown.tab.mouse.move(place[0] - 6, place[1] + 12, steps=4)
@@ -343,9 +342,9 @@ def test_a_pin_on_the_ground_is_dragged_and_joins_the_sliders(chromium, written)
 def test_a_finger_drags_too(chromium, written):
     with Shown(chromium, written(FourBar()), PHONE, has_touch=True) as shown:
         shown(
-            """() => { const pin = document.querySelector('[data-pin=Q]'), box = pin.getBoundingClientRect(), x = box.x + 22, y = box.y + 22;
-            const send = (target, type, dx) => target.dispatchEvent(new PointerEvent(type, { pointerId: 7, pointerType: 'touch', bubbles: true,
-              cancelable: true, clientX: x + dx, clientY: y }));
+            """() => { const pin = document.querySelector('[data-pin=Q]'), box = pin.getBoundingClientRect();
+            const send = (target, type, dx) => target.dispatchEvent(new PointerEvent(type, { pointerId: 7, pointerType: 'touch',
+              bubbles: true, cancelable: true, clientX: box.x + 22 + dx, clientY: box.y + 22 }));
             SVGElement.prototype.setPointerCapture = () => {};
             send(pin, 'pointerdown', 0); send(pin, 'pointermove', 10); send(pin, 'pointerup', 10); }"""
         )
@@ -401,8 +400,10 @@ def test_a_link_restores_what_is_shown(chromium, written):
 LAYOUT = """() => {
   const box = (each) => each.getBoundingClientRect(), told = (list) => list.map((each) => each.outerHTML.slice(0, 80));
   const size = (each) => parseFloat(getComputedStyle(each).fontSize);
-  const all = [...document.querySelectorAll("body *")].filter((each) => box(each).width > 1 && getComputedStyle(each).visibility !== "hidden");
-  const beyond = (own, frame) => own.left < frame.left - 1 || own.right > frame.right + 1 || own.top < frame.top - 1 || own.bottom > frame.bottom + 1;
+  const seen = (each) => box(each).width > 1 && getComputedStyle(each).visibility !== "hidden";
+  const all = [...document.querySelectorAll("body *")].filter(seen);
+  const beyond = (own, frame) =>
+    own.left < frame.left - 1 || own.right > frame.right + 1 || own.top < frame.top - 1 || own.bottom > frame.bottom + 1;
   const says = (each) => [...each.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
   const touched = [...document.querySelectorAll("button:not(.drop), select, input[type=range]")];
   return {

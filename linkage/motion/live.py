@@ -18,7 +18,7 @@ from typing import final
 import numpy as np
 
 from ..assembly import angles_text, constants_text, groups_text, json_of
-from ..errors import DefinitionError, UntracedError
+from ..errors import DefinitionError, LawError, UntracedError
 from ..frozen import FrozenDict
 from ..plan import ArrayReading, Plan
 from ..program import Inputs, Level, Node, ancestors, arrow, replaced
@@ -58,7 +58,7 @@ def live_text(plan: Plan, requests: Mapping[str, RequestLike], name: str = "engi
     for each, request in requests.items():
         try:
             found[each] = bound(plan, request)
-        except UntracedError as error:
+        except (LawError, UntracedError) as error:
             left_out[each] = str(error)
     program = live_program(plan, tuple(found.values()))
     ends = np.cumsum([0, *(each.rows for each in found.values())]).tolist()

@@ -36,7 +36,7 @@ const anglesOf=(d,groups)=>{
     vectors.forEach((f,k)=>known.push(track(t=>{
       const p=sketch.map((s,j)=>s+along[j]*t);
       groups(p);
-      known.forEach((a,j)=>p[first+j]=rint(a(t)));
+      known.forEach((a,j)=>p[FOLLOWED+j]=rint(a(t)));
       const v=f(p),r=[v[0],v[1],0,0];
       along.forEach((a,j)=>{r[2]+=v[2+2*j]*a;r[3]+=v[3+2*j]*a;});
       return r;
@@ -59,7 +59,7 @@ const anglesOf=(d,groups)=>{
       t=q.reduce((m,v,k)=>M(m,Math.ceil(A(v-sketch[k])/units[k])),1);
       known=line(q.map((v,k)=>(v-sketch[k])/t),t);
     }
-    known.forEach((a,j)=>p[first+j]=rint(a(t)));
+    known.forEach((a,j)=>p[FOLLOWED+j]=rint(a(t)));
   };
 };
 const rint=a=>{const r=Math.round(a);return A(a-r)===.5&&r%2?r-1:r;};

@@ -28,7 +28,8 @@ from .curves import limit_of, typeset
 from .free_space import label_free, props
 from .labels import offsets
 from .poses import named_points
-from .scene import Scene, SlideTrack, Straight
+from .scene import Piece, Plate, Scene, SlideTrack, Straight
+from .shapes import DrawnLine
 from .strokes import ends_where_begun, is_changing, is_turn
 
 FONT = 14.0
@@ -403,6 +404,7 @@ def cylinder_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]
     for name, element in plan.of_kind(TwoPoint).items():
         if element.drawn_as == "cylinder":
             elements[frozenset(element.ends)].append(name)
+    drawn = {(each.P, each.Q, each.aside) for each in scene.hung if not scene._is_telescope(each)}
     found = []
     for each in scene.hung:
         if each.drawn_as != "cylinder":
@@ -410,7 +412,8 @@ def cylinder_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]
         pair = frozenset((each.P, each.Q))
         name = elements[pair].pop(0) if elements[pair] else ""
         gauges = {what: live.rows[f"gauge {name} {what}"][0] for what in GAUGES if f"gauge {name} {what}" in live.rows}
-        data = {"name": name or each.P + each.Q, "P": points.index(each.P), "Q": points.index(each.Q), "aside": each.aside, "drawn": 1}
+        data = {"name": name or each.P + each.Q, "P": points.index(each.P), "Q": points.index(each.Q), "aside": each.aside}
+        data |= {"drawn": 1} if (each.P, each.Q, each.aside) in drawn else {}
         found.append(data | gauges | ({} if pair in driven else {"beside": 1}))
     return found
 
@@ -424,14 +427,17 @@ def scene_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
     scene, plan = requests.scene, requests.plan
     names = list(plan.points)
     index = {name: place for place, name in enumerate(names)}
+    forms = list(zip(scene.plates, scene.bodies, strict=True))
     return {
         "size": scene.size,
         "names": names,
-        "reach": contour_reach(scene, index),
-        "bodies": [{"points": [index[name] for name in points], "colour": k % len(style.BODIES)} for k, points in enumerate(scene.bodies)],
+        "box": [tidy(side) for side in scene.box(0.0)],
+        "bodies": [body_data(plate, points, index) | {"colour": k % len(style.BODIES)} for k, (plate, points) in enumerate(forms)],
         "tracks": [track_data(track, index, live) for track in scene.tracks],
-        "contours": [straight_data(each, index, real=True) for each in scene.contours],
-        "straights": [straight_data(each, index, real=False) for each in scene.straights],
+        "contours": [straight_data(each, index) for each in (*scene.contours, *scene.sections)],
+        "straights": [straight_data(each, index) for each in scene.straights],
+        "pieces": [piece_data(each, index, scene) for each in scene.surroundings],
+        "marks": [piece_data(each, index, scene) for each in scene.marks],
         "stays": [[index[P], index[X]] for P, X in scene.stays],
         "pins": [index[name] for name in scene.pins],
         "dots": [index[name] for name in scene.dots],
@@ -446,23 +452,36 @@ def track_data(track: SlideTrack, index: Mapping[str, int], live: LiveText) -> d
     return {"riders": [index[name] for name in track.riders], "fixed": track.fixed, "line": rows}
 
 
-def contour_reach(scene: Scene, index: Mapping[str, int]) -> dict[int, float]:
-    """Return how far contours reach beyond the points that they turn about [m]."""
-    reach: dict[int, float] = {}
-    for each in scene.contours:
-        far = max(float(np.max(np.hypot(*line.rows.T[1:]), initial=0.0)) for line in each.lines)
-        reach[index[each.P]] = max(far, reach.get(index[each.P], 0.0))
-    return reach
+def body_data(plate: Plate, points: Sequence[str], index: Mapping[str, int]) -> dict[str, Any]:
+    """Return a body: its points, of which it is the hull, or where it has another form its corners' shares of them."""
+    if len(plate.shares) <= len(plate.points) and np.all((plate.shares == 0.0) | (plate.shares == 1.0)):
+        return {"points": [index[name] for name in points]}
+    return {"points": [index[name] for name in plate.points], "shares": [[tidy(share) for share in row] for row in plate.shares.tolist()]}
 
 
-def straight_data(each: Straight, index: Mapping[str, int], *, real: bool) -> dict[str, Any]:
-    """Return lines from P to Q: rows of a share of the distance, and ways along and across [m]; `real` ones keep their size."""
-    lines = []
-    for line in each.lines:
-        rows = [[float(f"{part:.4g}") for part in row] for row in line.rows.tolist()]
-        flags = {"fill": line.fill.lower(), "closed": int(line.closed), "bold": int(line.bold), "real": int(real)}
-        lines.append({"rows": rows} | {name: flag for name, flag in flags.items() if flag})
-    return {"P": index[each.P], "Q": index[each.Q], "lines": lines}
+def line_data(line: DrawnLine, rows: FloatArray) -> dict[str, Any]:
+    """Return a line: its rows, and how it is drawn."""
+    flags = {"fill": line.fill.lower(), "closed": int(line.closed), "bold": int(line.bold)}
+    return {"rows": [[tidy(part) for part in row] for row in rows.tolist()]} | {name: flag for name, flag in flags.items() if flag}
+
+
+def straight_data(each: Straight, index: Mapping[str, int]) -> dict[str, Any]:
+    """Return lines from P to Q: rows of a share of the distance, and ways along and across [m]."""
+    return {"P": index[each.P], "Q": index[each.Q], "lines": [line_data(line, line.rows) for line in each.lines]}
+
+
+def piece_data(piece: Piece, index: Mapping[str, int], scene: Scene) -> dict[str, Any]:
+    """Return what some points carry, or nothing does: lines and hatches in its own axes [m]; of what stands fixed, those in sight."""
+    seen = piece.hatched
+    if not piece.on and len(seen):
+        left, right, bottom, top = scene.box(40.0)
+        seen = seen[np.any(np.all((seen >= (left, bottom)) & (seen <= (right, top)), axis=2), axis=1)]
+    hatched = [[tidy(part) for part in row] for row in seen.reshape(-1, 4).tolist()]
+    return {
+        "on": [index[name] for name in piece.on],
+        "lines": [line_data(line, line.rows[:, 1:]) for line in piece.lines],
+        "hatched": hatched,
+    }
 
 
 def label_offsets(scene: Scene) -> list[list[float]]:

@@ -133,14 +133,26 @@ function hull(points) {
 const turned = (P, Q) => `translate(${P[0].toFixed(2)} ${P[1].toFixed(2)}) rotate(${((atan2(Q[1] - P[1], Q[0] - P[0]) * 180) / PI).toFixed(3)})`;
 const apart = (P, Q) => hypot(Q[0] - P[0], Q[1] - P[1]);
 
-function body({ points, colour }) {
-  const plate = points.length > 2, group = draw(sheet, "g", { opacity: plate ? 0.72 : 1 }), r = unit0;
+function body({ points, shares, colour }) {
+  const plate = (shares || points).length > 2, group = draw(sheet, "g", { opacity: plate ? 0.72 : 1 }), r = unit0;
   const own = css(`body${colour}`), edge = `color-mix(in srgb, ${own} 40%, var(--ink))`;
-  const outer = draw(group, "polygon", { w: 2 * r + 2 * EDGE, join: "round" });
-  const inner = draw(group, "polygon", { w: 2 * r, join: "round" });
-  set(outer, { fill: edge, stroke: edge });
-  set(inner, { fill: own, stroke: own });
-  return (at) => { const around = points.map((i) => at[i]), text = pairs(plate ? hull(around) : around); set(outer, { points: text }); set(inner, { points: text }); };
+  const outer = draw(group, "polygon", { w: 2 * r + 2 * EDGE, join: "round", fill: edge, stroke: edge });
+  const inner = draw(group, "polygon", { w: 2 * r, join: "round", fill: own, stroke: own });
+  const corner = (at, row) => [0, 1].map((axis) => row.reduce((sum, share, k) => sum + share * at[points[k]][axis], 0));
+  return (at) => {
+    const around = shares ? shares.map((row) => corner(at, row)) : points.map((i) => at[i]), text = pairs(plate && !shares ? hull(around) : around);
+    set(outer, { points: text }); set(inner, { points: text });
+  };
+}
+/* What some points carry, or nothing does: lines that keep their form. */
+function piece({ on: [P, Q], lines, hatched }, ink) {
+  const group = draw(sheet, "g", { stroke: css(ink), join: "round", cap: "round" }), flip = (rows) => rows.map(([x, y]) => [x * zoom, -y * zoom]);
+  for (const { rows, fill, closed, bold } of lines) draw(group, closed ? "polygon" : "polyline", { points: pairs(flip(rows)), fill: fill ? css(fill) : "none", w: (bold ? 1.5 : 0.9) * EDGE });
+  draw(group, "path", { w: 0.7, fill: "none", d: broken(hatched.flatMap(([a, b, c, d]) => [...flip([[a, b], [c, d]]), null])) });
+  return (at) => {
+    const [x, y] = P === undefined ? px(0, 0) : at[P], beyond = Q === undefined ? [x + 1, y] : at[Q];
+    set(group, { transform: turned([x, y], beyond) });
+  };
 }
 /* The greatest and least distance of two points over the stroke [px]. */
 function span(P, Q) {
@@ -171,12 +183,10 @@ function ram({ P, Q, aside, pressure, most }) {
 }
 /* Lines from P to Q, each place a share of the length and a way along and across. */
 function straight({ P, Q, lines }) {
-  const group = draw(sheet, "g", { join: "round", cap: "round" }), k = (zoom * unit0) / (zoom * scene.size);
-  set(group, { stroke: css("ink") });
-  const drawn = lines.map(({ rows: places, fill, closed, bold, real }) => {
-    const line = draw(group, closed ? "polygon" : "polyline", { w: (bold ? 1.5 : 0.8) * EDGE }), unit = real ? zoom : k;
-    set(line, { fill: fill ? css(fill) : "none" });
-    return (length) => set(line, { points: pairs(places.map(([share, along, across]) => [share * length + along * unit, -across * unit])) });
+  const group = draw(sheet, "g", { join: "round", cap: "round", stroke: css("ink") });
+  const drawn = lines.map(({ rows, fill, closed, bold }) => {
+    const line = draw(group, closed ? "polygon" : "polyline", { w: (bold ? 1.5 : 0.8) * EDGE, fill: fill ? css(fill) : "none" });
+    return (length) => set(line, { points: pairs(rows.map(([share, along, across]) => [share * length + along * zoom, -across * zoom])) });
   });
   return (at) => { const length = apart(at[P], at[Q]); for (const line of drawn) line(length); set(group, { transform: turned(at[P], at[Q]) }); };
 }
@@ -334,12 +344,11 @@ function fit(grow) {
   const box = sheet.getBoundingClientRect();
   sheetWide = box.width || 600; sheetTall = box.height || 400;
   const under = showsForces || data.cylinders.some((each) => each.pressure !== undefined) ? 24 : 0;
-  let [left, right, bottom, top] = grow && before ? before : [Infinity, -Infinity, Infinity, -Infinity];
+  let [left, right, bottom, top] = grow && before ? before : scene.box;
   for (const found of [base, now]) for (const i of found.reached) for (let p = 0; p < scene.names.length; p++) {
-    const [x, y] = spot(found, p, i), r = scene.reach[p] || 0;
-    left = min(left, x - r); right = max(right, x + r); bottom = min(bottom, y - r); top = max(top, y + r);
+    const [x, y] = spot(found, p, i);
+    left = min(left, x); right = max(right, x); bottom = min(bottom, y); top = max(top, y);
   }
-  if (!(left <= right)) [left, right, bottom, top] = [-1, 1, -1, 1];
   before = [left, right, bottom, top];
   const wide = right - left || 1e-3, high = top - bottom || 1e-3, pad = min(46, 0.11 * min(sheetWide, sheetTall));
   for (let turn = 0, margin = pad; turn < 2; turn++) {
@@ -355,18 +364,19 @@ function build() {
   sheet.replaceChildren();
   set(sheet, { viewBox: `0 0 ${sheetWide} ${sheetTall}` });
   const ghost = draw(sheet, "path", { class: "line", w: 2, dash: "2 5", stroke: css("muted") });
-  const still = [ghostly(ghost), ...scene.grounds.map(ground), ...scene.tracks.filter((each) => each.fixed).map(rail)];
+  const still = [...scene.pieces.map((each) => piece(each, "muted")), ghostly(ghost), ...scene.grounds.map(ground), ...scene.tracks.filter((each) => each.fixed).map(rail)];
   const paths = data.paths.map((point) => {
     const line = draw(sheet, "path", { class: "line", w: 2.2, dash: "0.1 4.6", stroke: css("accent") });
     let seen;
     return () => { if (seen !== edition) { seen = edition; set(line, { d: broken([...now.along.keys()].map((i) => (now.reason[i] ? null : px(...spot(now, point, i))))) }); } };
   });
-  const plates = scene.bodies.filter((each) => each.points.length > 2), bars = scene.bodies.filter((each) => each.points.length <= 2);
+  const isPlate = (each) => (each.shares || each.points).length > 2, plates = scene.bodies.filter(isPlate), bars = scene.bodies.filter((each) => !isPlate(each));
+  const marks = (pinned) => scene.marks.filter((each) => scene.pins.includes(each.on[0]) === pinned).map((each) => piece(each, "ink"));
   const blocks = (fixed) => scene.tracks.filter((each) => each.fixed === fixed).flatMap((each) => each.riders.map((rider) => block(each, rider)));
   parts = [
     ...still, ...paths, ...scene.contours.map(straight), ...plates.map(body), ...blocks(true), ...bars.map(body),
-    ...scene.tracks.filter((each) => !each.fixed).map(slot), ...blocks(false), ...scene.stays.map(stay), ...data.cylinders.filter((each) => each.drawn).map(ram), ...scene.straights.map(straight),
-    ...scene.pins.map((i) => circle(i, 0.5 * unit0, "paper", "ink", 1.3 * EDGE)), ...scene.dots.map((i) => circle(i, 0.48 * unit0, "ink", "paper", 1)),
+    ...scene.tracks.filter((each) => !each.fixed).map(slot), ...blocks(false), ...scene.stays.map(stay), ...data.cylinders.filter((each) => each.drawn).map(ram), ...scene.straights.map(straight), ...marks(true),
+    ...scene.pins.map((i) => circle(i, 0.5 * unit0, "paper", "ink", 1.3 * EDGE)), ...scene.dots.map((i) => circle(i, 0.48 * unit0, "ink", "paper", 1)), ...marks(false),
     ...data.arrows.map(arrow), ...scene.names.map((_, i) => name(i)), ...data.grips.map(grip),
   ];
   keys = draw(sheet, "g", {});

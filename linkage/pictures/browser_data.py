@@ -255,7 +255,7 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
     dims = dimension_data(requests, live)
     names = [each[0] for each in dims]
     columns = [column_data(name, each, live, requests.motion) for name, each in requests.columns.items()]
-    run, used = requests.run, {*(each[4] for each in dims), *(str(each[1]) for each in columns)}
+    run, used = requests.run, {*(each[3] for each in dims), *(str(each[1]) for each in columns)}
     return {
         "count": requests.count,
         "dims": dims,
@@ -309,27 +309,27 @@ def dimension_data(requests: PageRequests, live: LiveText) -> list[list[Any]]:
         entry, value = requests.plan.table.entries[name], float(requests.machine.dimensions[name])
         measure = plan_measure(requests.plan, name)
         unit = shown_in(entry.unit or display_unit(measure, "mm"))
-        low, high = (requests.vary or {}).get(name) or usual_range(value, entry.kind, measure, unit, size)
+        given = (requests.vary or {}).get(name)
+        ends = list(given) if given else tidy(usual_reach(value, entry.kind, measure, unit, size))
         where = entry.where if entry.kind in STEPS else ""
-        found.append([name, value, tidy(low), tidy(high), typeset(unit), int(entry.kind == "length"), where][: None if where else 6])
+        found.append([name, value, ends, typeset(unit), int(entry.kind == "length"), where][: None if where else 5])
     return found
 
 
 def tidy(value: float) -> float:
-    """Return the end of a slider to four digits."""
+    """Return a number to four digits."""
     return float(f"{value:.4g}")
 
 
-def usual_range(value: float, kind: str, measure: str, unit: str, size: float) -> tuple[float, float]:
-    """Return the range of a slider about a value [SI]: a coordinate by the machine's size, an angle 20 degrees, others by their own."""
+def usual_reach(value: float, kind: str, measure: str, unit: str, size: float) -> float:
+    """Return how far a slider goes to either side of a value [SI]: a coordinate by the machine's size, others by it."""
     if kind == "coordinate":
-        return value - 0.15 * size, value + 0.15 * size
+        return 0.15 * size
     if measure == "angle":
-        return value - 20 * deg, value + 20 * deg
+        return 20 * deg
     if value == 0.0:
-        return (-0.15 * size, 0.15 * size) if measure == "length" else (-factor(unit), factor(unit))
-    share = 0.25 if measure == "length" else 0.5
-    return value - share * abs(value), value + share * abs(value)
+        return 0.15 * size if measure == "length" else factor(unit)
+    return (0.25 if measure == "length" else 0.5) * abs(value)
 
 
 def shown_first(requests: PageRequests, names: Sequence[str]) -> list[str]:
@@ -462,7 +462,7 @@ def body_data(plate: Plate, points: Sequence[str], index: Mapping[str, int]) -> 
 def line_data(line: DrawnLine, rows: FloatArray) -> dict[str, Any]:
     """Return a line: its rows, and how it is drawn."""
     flags = {"fill": line.fill.lower(), "closed": int(line.closed), "bold": int(line.bold)}
-    return {"rows": [[tidy(part) for part in row] for row in rows.tolist()]} | {name: flag for name, flag in flags.items() if flag}
+    return {"rows": [[round(part, 4) for part in row] for row in rows.tolist()]} | {name: flag for name, flag in flags.items() if flag}
 
 
 def straight_data(each: Straight, index: Mapping[str, int]) -> dict[str, Any]:
@@ -471,17 +471,23 @@ def straight_data(each: Straight, index: Mapping[str, int]) -> dict[str, Any]:
 
 
 def piece_data(piece: Piece, index: Mapping[str, int], scene: Scene) -> dict[str, Any]:
-    """Return what some points carry, or nothing does: lines and hatches in its own axes [m]; of what stands fixed, those in sight."""
-    seen = piece.hatched
-    if not piece.on and len(seen):
-        left, right, bottom, top = scene.box(40.0)
-        seen = seen[np.any(np.all((seen >= (left, bottom)) & (seen <= (right, top)), axis=2), axis=1)]
-    hatched = [[tidy(part) for part in row] for row in seen.reshape(-1, 4).tolist()]
-    return {
-        "on": [index[name] for name in piece.on],
-        "lines": [line_data(line, line.rows[:, 1:]) for line in piece.lines],
-        "hatched": hatched,
-    }
+    """Return what some points carry, or nothing does: lines in its own axes [m], and whether they are hatched on their right."""
+    lines = [line_data(line, sparse(line.rows[:, 1:], 0.05 * scene.size)) for line in piece.lines]
+    return {"on": [index[name] for name in piece.on], "lines": lines} | ({"hatched": 1} if len(piece.hatched) else {})
+
+
+def sparse(rows: FloatArray, near: float) -> FloatArray:
+    """Return a line's points without those that lie so near to the straight line of their neighbours [m] (Douglas and Peucker, 1973)."""
+    if len(rows) < 3:
+        return rows
+    along = rows[-1] - rows[0]
+    off = rows[1:-1] - rows[0]
+    length = float(np.hypot(*along))
+    gaps = np.abs(off[:, 0] * along[1] - off[:, 1] * along[0]) / length if length > near else np.hypot(*off.T)
+    farthest = 1 + int(np.argmax(gaps))
+    if gaps[farthest - 1] <= near:
+        return rows[[0, -1]]
+    return np.concatenate([sparse(rows[: farthest + 1], near)[:-1], sparse(rows[farthest:], near)])
 
 
 def label_offsets(scene: Scene) -> list[list[float]]:

@@ -28,7 +28,7 @@ BEFORE_PATTERN = frozenset(("return", "=>", "&&", "||", *"(,=:[!&|?{};"))
 WORDS = """async await break case catch const continue default delete do else export extends false finally for function if in instanceof let
 new null of return static super switch this throw true try typeof undefined var void while yield use strict
 document window location history navigator performance engine requestAnimationFrame setTimeout clearTimeout ResizeObserver URLSearchParams
-Event Array Float64Array Infinity JSON Map Math NaN Number Object Set String"""
+Event Response Blob DecompressionStream atob Uint8Array Array Float64Array Infinity JSON Map Math NaN Number Object Set String"""
 KEPT = frozenset(WORDS.split())
 """The words of the language, and of a browser those that a page uses."""
 

@@ -1,5 +1,7 @@
-(() => {
-const data = JSON.parse(document.getElementById("data").textContent);
+(async () => {
+/* The data come packed, and are JSON. */
+const packed = new Blob([Uint8Array.from(atob(document.getElementById("data").textContent), (letter) => letter.charCodeAt(0))]).stream();
+const data = await new Response(packed.pipeThrough(new DecompressionStream("deflate"))).json();
 const byId = (id) => document.getElementById(id);
 const css = (name) => `var(--${name})`;
 const { scene, strokes, units } = data, { abs, acos, atan2, ceil, cos, floor, hypot, log10, max, min, round, PI } = Math;
@@ -8,7 +10,7 @@ const on = (element, event, act) => element.addEventListener(event, act);
 const make = (kind, given) => Object.assign(document.createElement(kind), given);
 /* A dimension as it comes: its name, value, least and greatest [SI], unit, whether it is a length, and where it stands. */
 const columns = data.columns.map(([name, unit, row, ru, values, why]) => ({ name, unit, factor: units[unit], row: row < 0 ? undefined : row, ru, values, why }));
-const dims = data.dims.map(([name, value, low, high, unit, positive, where]) => ({ name, value, low, high, unit, factor: units[unit], positive, where }));
+const dims = data.dims.map(([name, value, ends, unit, positive, where]) => ({ name, value, low: ends[0] ?? value - ends, high: ends[1] ?? value + ends, unit, factor: units[unit], positive, where }));
 const rows = data.rows;
 
 /* ---- words and numbers ---- */
@@ -144,11 +146,21 @@ function body({ points, shares, colour }) {
     set(outer, { points: text }); set(inner, { points: text });
   };
 }
+/* Short lines on the right of a line, those in sight of one that stands fixed. */
+function hatches(line, fixed) {
+  const found = [], size = 0.9 * unit0;
+  for (let i = 1; i < line.length; i++) {
+    const [a, b] = [line[i - 1], line[i]], long = apart(a, b), d = [(b[0] - a[0]) / long, (b[1] - a[1]) / long];
+    const from = fixed && long > 4e3 ? max(0, -left0 - a[0]) : 0, to = fixed ? min(long, from + 4e3) : long;
+    for (let s = from; s < to - size; s += 1.6 * size) found.push([a[0] + (s + size) * d[0], a[1] + (s + size) * d[1]], [a[0] + s * d[0] - size * d[1], a[1] + s * d[1] + size * d[0]], null);
+  }
+  return found;
+}
 /* What some points carry, or nothing does: lines that keep their form. */
 function piece({ on: [P, Q], lines, hatched }, ink) {
   const group = draw(sheet, "g", { stroke: css(ink), join: "round", cap: "round" }), flip = (rows) => rows.map(([x, y]) => [x * zoom, -y * zoom]);
   for (const { rows, fill, closed, bold } of lines) draw(group, closed ? "polygon" : "polyline", { points: pairs(flip(rows)), fill: fill ? css(fill) : "none", w: (bold ? 1.5 : 0.9) * EDGE });
-  draw(group, "path", { w: 0.7, fill: "none", d: broken(hatched.flatMap(([a, b, c, d]) => [...flip([[a, b], [c, d]]), null])) });
+  if (hatched) draw(group, "path", { w: 0.7, fill: "none", d: broken(lines.flatMap(({ rows, closed }) => hatches(flip(closed ? [...rows, rows[0]] : rows), P === undefined))) });
   return (at) => {
     const [x, y] = P === undefined ? px(0, 0) : at[P], beyond = Q === undefined ? [x + 1, y] : at[Q];
     set(group, { transform: turned([x, y], beyond) });

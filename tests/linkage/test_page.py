@@ -2,7 +2,9 @@
 
 import json
 import re
+from base64 import b64decode
 from pathlib import Path
+from zlib import decompress
 
 import numpy as np
 import pytest
@@ -145,8 +147,8 @@ def written(tmp_path_factory):
 
 
 def data_of(text):
-    (found,) = re.findall(r'<script id="data" type="application/json">(.*?)</script>', text, re.DOTALL)
-    return json.loads(found)
+    (found,) = re.findall(r'<script id="data" type="text/plain">(.*?)</script>', text, re.DOTALL)
+    return json.loads(decompress(b64decode(found)))
 
 
 # -- the file ----------------------------------------------------------------------------------------------
@@ -201,7 +203,8 @@ def test_wrong_questions_are_answered_in_words(tmp_path):
 
 def test_a_packed_script_keeps_its_texts_patterns_and_properties():
     plain = """
-    const double = (value) => { const twice = value * 2; /* not this */ const said = `a ${value} b ${{ twice }.twice}`; return { twice, said }; };
+    const double = (value) => { const twice = value * 2; /* not this */
+      const said = `a ${value} b ${{ twice }.twice}`; return { twice, said }; };
     const { twice, said: words } = double(4); let counted = 0;
     for (let index = 0; index < 3; index++) counted += index;
     result = [twice, words, "const value", /[/"]value/.test('/value'), counted, - -counted];
@@ -361,7 +364,7 @@ def test_it_speaks_both_languages_and_keeps_the_numbers(chromium, written):
         assert "собирается на всём ходе" in russian and "мм" in russian
         assert re.findall(r"\d+\.\d+", russian) == re.findall(r"\d+\.\d+", english)
         assert shown("document.documentElement.lang") == "ru"
-        assert shown("document.getElementById('live').innerText.match(/[A-Za-z]{5,}/)") is None
+        assert re.search(r"[A-Za-z]{5,}", russian.replace("weight of the implement", "")) is None  # a limit's own words are the user's
     assert len(set(SAID)) == len(SAID)
 
 

@@ -213,11 +213,11 @@ def ranges_given(machine: Mechanism, vary: Any) -> dict[str, tuple[float, float]
             owner, sign = machine.plan.table.spellings.get(each, (None, 1)) if isinstance(each, str) else (None, 1)
             if owner is None:
                 raise unknown("Dimension", str(each), machine.plan.table.names(), where=f"{machine.plan.title}: vary")
-            found[owner] = None if ends is None else range_of(machine, owner, ends, sign)
+            found[owner] = None if ends is None else slider_ends(machine, owner, ends, sign)
     return found
 
 
-def range_of(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[float, float]:
+def slider_ends(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[float, float]:
     """Return a range with the design's own value in it; DefinitionError for what is none."""
     if not isinstance(ends, (list, tuple)) or len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
         said = f"{machine.plan.title}: vary: {name}={cited(ends)}"
@@ -310,13 +310,13 @@ def dimension_data(requests: PageRequests, live: LiveText) -> list[list[Any]]:
         measure = plan_measure(requests.plan, name)
         unit = shown_in(entry.unit or display_unit(measure, "mm"))
         given = (requests.vary or {}).get(name)
-        ends = list(given) if given else tidy(usual_reach(value, entry.kind, measure, unit, size))
+        ends = list(given) if given else four_digits(usual_reach(value, entry.kind, measure, unit, size))
         where = entry.where if entry.kind in STEPS else ""
         found.append([name, value, ends, typeset(unit), int(entry.kind == "length"), where][: None if where else 5])
     return found
 
 
-def tidy(value: float) -> float:
+def four_digits(value: float) -> float:
     """Return a number to four digits."""
     return float(f"{value:.4g}")
 
@@ -431,7 +431,7 @@ def scene_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
     return {
         "size": scene.size,
         "names": names,
-        "box": [tidy(side) for side in scene.box(0.0)],
+        "box": [four_digits(side) for side in scene.box(0.0)],
         "bodies": [body_data(plate, points, index) | {"colour": k % len(style.BODIES)} for k, (plate, points) in enumerate(forms)],
         "tracks": [track_data(track, index, live) for track in scene.tracks],
         "contours": [straight_data(each, index) for each in (*scene.contours, *scene.sections)],
@@ -456,7 +456,10 @@ def body_data(plate: Plate, points: Sequence[str], index: Mapping[str, int]) -> 
     """Return a body: its points, of which it is the hull, or where it has another form its corners' shares of them."""
     if len(plate.shares) <= len(plate.points) and np.all((plate.shares == 0.0) | (plate.shares == 1.0)):
         return {"points": [index[name] for name in points]}
-    return {"points": [index[name] for name in plate.points], "shares": [[tidy(share) for share in row] for row in plate.shares.tolist()]}
+    return {
+        "points": [index[name] for name in plate.points],
+        "shares": [[four_digits(share) for share in row] for row in plate.shares.tolist()],
+    }
 
 
 def line_data(line: DrawnLine, rows: FloatArray) -> dict[str, Any]:

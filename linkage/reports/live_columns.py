@@ -59,11 +59,11 @@ def column_requests(machine: Mechanism, motion: Motion) -> dict[str, tuple[Colum
         names[column.name] += 1
         name = column.name if names[column.name] == 1 else f"{column.name} ({names[column.name]})"
         request = plain.get(name)
-        if request is not None and is_same(motion, request, column):
+        if request is not None and column_agrees(motion, request, column):
             found[name] = column, request, ""
         else:
             own = ColumnOf(machine, place, column.name)
-            found[name] = column, own, refusal(motion, own, column)
+            found[name] = column, own, not_followed(motion, own, column)
     return found
 
 
@@ -74,15 +74,15 @@ def plain_requests(plan: Plan) -> dict[str, RequestLike]:
     return points | outputs | {name: name for name in plan.strokes}
 
 
-def refusal(motion: Motion, request: Request, column: Column) -> str:
+def not_followed(motion: Motion, request: Request, column: Column) -> str:
     """Return why a program does not give a column, in words; empty where it does."""
     try:
-        return "" if is_same(motion, request, column) else "what its program gives is not what the table says"
+        return "" if column_agrees(motion, request, column) else "what its program gives is not what the table says"
     except LinkageError as error:
         return str(error)
 
 
-def is_same(motion: Motion, request: RequestLike, column: Column) -> bool:
+def column_agrees(motion: Motion, request: RequestLike, column: Column) -> bool:
     """Return whether a request's program gives what a column holds, NaN at the same poses."""
     own = np.broadcast_to(np.asarray(column.values, float), motion.shape)
     found = motion._requested(request) if isinstance(request, Request) else motion[request]

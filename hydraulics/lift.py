@@ -43,7 +43,7 @@ from .inputs import (
 )
 from .judged import line_verdicts
 from .line import Choice, Holding, LiftLine, Lowering, Work
-from .member import DIRECTIONS, Cylinder, the_cylinder, thrust_along
+from .member import DIRECTIONS, Cylinder, Reading, the_cylinder, thrust_along
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
 
@@ -233,6 +233,9 @@ class LiftCircuit(LiftLine):
     def verdicts(self, motion: Motion) -> list[Verdict]:
         """Return the verdicts on lifting, oil, holding and lowering; over a grid of several strokes the least reserve and the holding."""
         return line_verdicts(self, motion)
+
+    def gauges_of(self, cylinder: Cylinder) -> dict[str, Reading]:
+        return {"most": self.supply, "reserve": lambda motion: self.reserve(motion, cylinder=cylinder)}
 
     def largest(self, motion: AnyMotion, loads: Loads = None, *, share: float = 1.0, **choice: Unpack[Choice]) -> Array:
         """Return the greatest rod force in the working direction [N]: k_h p area, less the back pressure's share."""

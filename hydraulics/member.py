@@ -11,11 +11,11 @@ FAIL standard size: bore 110 mm and rod 60 mm; the rod is not of ISO 3320, next 
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import reduce
+from functools import partial, reduce
 from types import MappingProxyType
-from typing import ClassVar, Literal, cast, final
+from typing import ClassVar, Literal, TypeAlias, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,9 +25,10 @@ from linkage.frozen import refuses_changes
 from linkage.language import noted, said, said_of, with_and
 from linkage.loads import AT_REST, Declared, DrawnAs, ForceElement, LoadCase, Parameter, Poses, Push, Rates, TwoPoint, require_poses
 from linkage.loads.element import Formulas
-from linkage.motion import Column, Judging, Motion, Tabled, greatest, lowest, require_motion
+from linkage.motion import Column, Judging, Motion, Request, Tabled, greatest, lowest, require_motion
+from linkage.plan import Plan
 from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import AnyMotion, Case, Loads, elements_of, member_thrust, same
+from linkage.statics import AnyMotion, Case, LawRequest, Loads, elements_of, member_thrust, same
 from linkage.units import mm, show, shown_number, unit_sign
 from linkage.verdict import Verdict
 
@@ -213,6 +214,20 @@ class Cylinder(TwoPoint, Tabled, Judging):
         except DefinitionError as error:
             return [Verdict("cylinder", False, " ".join(str(error).split()))]
 
+    def gauges(self, plan: Plan) -> dict[str, Request]:
+        circuits = circuits_of(self, plan)
+        found: dict[str, Reading] = {"thrust": self.thrust}
+        if len(circuits) <= 1:
+            found["pressure"] = self.pressure
+        if len(circuits) == 1:
+            found |= circuits[0].gauges_of(self)
+        found |= {name: partial(self._length_given, name) for name in LENGTHS if getattr(self, name) is not None}
+        return {name: Gauge(f"{self.name} {name}", read) for name, read in found.items()}
+
+    def _length_given(self, name: str, motion: AnyMotion) -> Array:
+        """Return its closed length or its stroke as it is given [m]."""
+        return positive(stroke_in_metres(number_set(self, motion, name), LENGTHS[name], self.sized(motion).bore), LENGTHS[name])
+
     def formulas(self, written: Formulas) -> None:
         """Write its area, and its pressure where no circuit says it."""
         thrust, members = written.thrust(self), written.plan.members
@@ -360,6 +375,28 @@ class Cylinder(TwoPoint, Tabled, Judging):
         return "".join(label(end) for end in (self.A, self.B))
 
 
+Reading: TypeAlias = Callable[[AnyMotion], Array]
+"""A number of a cylinder over the poses of a motion [SI]."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Gauge(LawRequest):
+    """What a live page reads of a cylinder at every pose, with its words."""
+
+    words: str
+    read: Reading
+
+    def law(self, motion: AnyMotion) -> Array:
+        return self.read(motion)
+
+    def examine(self, plan: Plan) -> None:
+        """Look at nothing: it was made by a cylinder of the plan."""
+
+    def __str__(self) -> str:
+        return self.words
+
+
 def thrust_along(cylinder: Cylinder, thrust: Array) -> Array:
     """Return a thrust in the direction in which the working side pushes or pulls [N]."""
     return np.abs(thrust) if cylinder.works == "both" else -thrust if cylinder.works == "rod" else thrust
@@ -422,6 +459,10 @@ class Circuit(ForceElement, Judging):
         title = self.name or type(self).__name__
         found = (found_in(members, each, title) if is_named(each) else each for each in self.references)
         return tuple(each for each in found if isinstance(each, Cylinder))
+
+    def gauges_of(self, cylinder: Cylinder) -> dict[str, Reading]:
+        """Return what it tells of one of its cylinders on a live page: the `most` pressure it may have [Pa], its `reserve`."""
+        return {}
 
     @abstractmethod
     def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:

@@ -196,19 +196,36 @@ def page(
     machine: Mechanism,
     path: str | Path,
     *,
-    count: int = 60,
+    vary: Sequence[str] | Mapping[str, Sequence[float] | None] | None = None,
+    columns: Sequence[Column | RequestLike] | None = None,
     column: str | None = None,
     trace: Sequence[str] | None = None,
-    limit: Sequence[Any] | None = None,
+    limit: Sequence[Any] | Mapping[str, Sequence[Any]] | None = None,
     at: Mapping[str, Any] = NOTHING,
+    count: int = 101,
+    language: str = "en",
 ) -> Path:
-    """Return the path of the browser page it wrote, .html: the mechanism moved by hand or running, in one file without network access.
+    """Return the path of the live page it wrote, .html: one file without network access, in which the mechanism moves and changes.
 
-    The arguments are those of `animate`. Raises DefinitionError for a name that does not end in .html.
+    Every stroke has a slider, and so have the dimensions of `vary`, `["OB", "CD"]` or with their ranges [SI], `{"OB": (0.28, 0.34)}`, of a
+    point "M" both coordinates; without it the first lengths, a mass and a bore. All others can be added in the page, and pins on the
+    ground can be dragged. Everything is worked out anew in the browser by the machine's own program; a value goes only as far as the
+    mechanism can be assembled, and the page says which step is how much short.
+
+    `columns` are what its chooser offers, names of columns or requests such as `capacity("lift", "G")`, by default the table of
+    results; `column` is shown first, else what the machine is about. A column that no program gives is shown for the delivered design
+    alone, with the reason. `limit` is the limit of that column, `(value [SI], text, "above" or "below")`, or limits by column. `trace`
+    names points whose paths are drawn, `at=dict(tilt=0.1)` holds another stroke, `at=dict(S=(0.1, 0.2))` says where one runs [m or rad],
+    `count` is the number of poses of the curve. The page speaks English and Russian, `language` is the one it begins with.
+
+    Raises DefinitionError for a batch of designs, an unknown name, or a file that does not end in .html, FileError for a path that cannot
+    be written.
     """
     from .pictures import page
 
-    return page(machine, path, count=count, column=column, trace=trace, limit=limit, at=at)
+    return page(
+        machine, path, vary=vary, columns=columns, column=column, trace=trace, limit=limit, at=at, count=count, language=language
+    )  # fmt: skip
 
 
 def export(

@@ -27,6 +27,7 @@ HOMES = {
     "forces": "forces:ForcesCommand",
     "plot": "plot:PlotCommand",
     "animate": "plot:AnimateCommand",
+    "page": "page:PageCommand",
     "export": "export:ExportCommand",
     "save": "show:SaveCommand",
     "optimise": "optimise:OptimiseCommand",

@@ -7,10 +7,12 @@ from importlib.metadata import entry_points
 import numpy as np
 import pytest
 
-from linkage import Mechanism, plot
+from linkage import Mechanism, pin_forces, plot
 from linkage.language import language, said
 from linkage.pictures.strokes import StrokeAxis
 from linkage.reports import results, text_table
+from linkage.statics import max_table
+from linkage.statics.table import table_text
 from linkage.units import SYSTEMS, UNITS, unit_system
 
 SHIPPED = {point.name: point.load() for point in entry_points(group="hydrolinkage.machines")}
@@ -147,3 +149,13 @@ def test_axes_of_a_curve_are_of_the_system_and_the_language():
     assert any(np.allclose(line.get_ydata(), 155 * UNITS["kgf_cm2"][0] / UNITS["psi"][0]) for line in panel.lines)
     with language("ru"):
         assert StrokeAxis.of(motion).heading == "S, мм"
+
+
+def test_the_table_of_pin_forces_is_in_the_units_of_the_system():
+    rows = max_table(pin_forces(SHIPPED["mower_lift"]().at(S=[0.6])))
+    with unit_system("us"):
+        head, *lines = table_text(rows).splitlines()
+        assert "force, lbf" in head and len(lines) == len(rows)
+        assert [float(row.cells[4]) for row in rows] == pytest.approx([row.force / UNITS["lbf"][0] for row in rows], abs=0.5)
+    with language("ru"):
+        assert table_text(rows).splitlines()[0].split()[:2] == ["шарнир", "вид"] and "сила, кН" in table_text(rows)

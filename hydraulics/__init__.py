@@ -1,5 +1,9 @@
 """Cylinders, gas and accumulators: what moves a linkage and what it rests on."""
 
+from pathlib import Path
+
+from linkage.language import add_catalogue
+
 from .accumulator import Accumulator as Accumulator
 from .accumulator import AccumulatorBlock as AccumulatorBlock
 from .buckling import Buckling as Buckling
@@ -28,3 +32,5 @@ from .requests import fits as fits
 from .requests import pressure as pressure
 from .requests import reserve as reserve
 from .requests import thrust as thrust
+
+add_catalogue("hydraulics", Path(__file__).with_name("locale"))

@@ -1,51 +1,78 @@
 """Factors to SI, and quantities read and written with their unit.
 
 A value times its unit is the value in SI: `80 * mm` is 0.08 (m), `-75 * deg` is -1.309 (rad).
+
+What is shown keeps the unit that is written beside it, until a system is chosen: then everything is shown in the units of that system,
+in sentences as in tables, with about as many digits as before.
+
+    >>> show(0.18, "mm")
+    '180 mm'
+    >>> with unit_system("us"):
+    ...     show(0.18, "mm", ".1f")
+    '7.087 in'
 """
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from types import MappingProxyType
 from typing import Any
 
 from .errors import DefinitionError, cited, known_name, unknown
+from .language import noted, translated
 
 m = 1.0
 mm = 1e-3
 cm = 1e-2
 inch = 0.0254
+ft = 12 * inch
 rad = 1.0
 deg = math.pi / 180.0
 s = 1.0
 minute = 60.0
 kg = 1.0
+lb = 0.45359237  # avoirdupois pound (international yard and pound agreement, 1959)
 g0 = 9.80665  # standard gravity, m/s2 (ISO 80000-4)
 N = 1.0
 kN = 1e3
 kgf = g0
+lbf = lb * g0
 Pa = 1.0
 kPa = 1e3
 MPa = 1e6
 bar = 1e5
 kgf_cm2 = kgf / cm**2
+psi = lbf / inch**2
 litre = 1e-3
+gal = 231 * inch**3  # the US liquid gallon
 cm3 = 1e-6
 cm2 = 1e-4
 
 #: name -> (factor to SI, what it measures)
 UNITS: dict[str, tuple[float, str]] = {
     "m": (m, "length"), "mm": (mm, "length"), "cm": (cm, "length"), "inch": (inch, "length"),
+    "in": (inch, "length"), "ft": (ft, "length"),
     "rad": (rad, "angle"), "deg": (deg, "angle"), "°": (deg, "angle"),
     "s": (s, "time"), "min": (minute, "time"),
-    "kg": (kg, "mass"), "t": (1e3, "mass"),
-    "N": (N, "force"), "kN": (kN, "force"), "kgf": (kgf, "force"),
-    "Nm": (N, "moment"), "kNm": (kN, "moment"),
+    "kg": (kg, "mass"), "t": (1e3, "mass"), "lb": (lb, "mass"),
+    "N": (N, "force"), "kN": (kN, "force"), "kgf": (kgf, "force"), "lbf": (lbf, "force"),
+    "Nm": (N, "moment"), "kNm": (kN, "moment"), "kgf m": (kgf, "moment"), "lbf ft": (lbf * ft, "moment"),
     "Pa": (Pa, "pressure"), "kPa": (kPa, "pressure"), "MPa": (MPa, "pressure"), "bar": (bar, "pressure"),
     "kgf_cm2": (kgf_cm2, "pressure"), "kgf/cm2": (kgf_cm2, "pressure"),
+    "psi": (psi, "pressure"),
     "l": (litre, "volume"), "litre": (litre, "volume"), "cm3": (cm3, "volume"), "m3": (1.0, "volume"),
-    "cm2": (cm2, "area"), "m2": (1.0, "area"), "rad/m": (1.0, "angle per length"),
+    "gal": (gal, "volume"), "in3": (inch**3, "volume"),
+    "mm2": (mm**2, "area"), "cm2": (cm2, "area"), "m2": (1.0, "area"), "in2": (inch**2, "area"),
+    "l/min": (litre / minute, "flow"), "gal/min": (gal / minute, "flow"), "m3/s": (1.0, "flow"),
+    "N/m": (N, "stiffness"), "N/mm": (N / mm, "stiffness"), "kN/m": (kN, "stiffness"), "kgf/mm": (kgf / mm, "stiffness"),
+    "lbf/in": (lbf / inch, "stiffness"),
+    "W": (1.0, "power"), "kW": (1e3, "power"), "hp": (550 * lbf * ft, "power"),
+    "m/s": (1.0, "speed"), "mm/s": (mm, "speed"), "in/s": (inch, "speed"),
+    "rad/m": (1.0, "angle per length"),
 }  # fmt: skip
 
 
@@ -59,7 +86,7 @@ def display_unit(measure: str, length: str = "m") -> str:
     return {"angle": "deg", "length": length, "force": "kN", "pressure": "bar"}.get(measure, "")
 
 
-_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\s\d]\S*)?\s*\Z")
+_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\s\d]\S*(?: [^\s\d]+)?)?\s*\Z")
 _COMMA = re.compile(r"\s*[-+]?\d*,\d+\s*[^\s\d,]*\s*\Z")
 
 
@@ -101,11 +128,102 @@ def unit_or_none(unit: object, where: str, among: Iterable[str] = UNITS) -> str:
     return "" if isinstance(unit, str) and not unit else known_name("Unit", unit, among, where=where)
 
 
-def show(value: float, unit: str, digits: int = 6) -> str:
-    """Return an SI value as text in a unit: `show(0.18, "mm")` is `180 mm`; as it is where the unit is ""."""
+# -- one system of units for all that is shown -------------------------------------------------------------
+
+SYSTEMS: Mapping[str, Mapping[str, str]] = MappingProxyType({
+    "si": {
+        "length": "mm", "angle": "deg", "mass": "kg", "force": "kN", "moment": "kNm", "pressure": "MPa", "volume": "l", "area": "cm2",
+        "flow": "l/min", "stiffness": "N/mm", "power": "kW", "speed": "mm/s",
+    },
+    "bar-mm": {
+        "length": "mm", "angle": "deg", "mass": "kg", "force": "kN", "moment": "kNm", "pressure": "bar", "volume": "l", "area": "cm2",
+        "flow": "l/min", "stiffness": "N/mm", "power": "kW", "speed": "mm/s",
+    },
+    "kgf": {
+        "length": "mm", "angle": "deg", "mass": "kg", "force": "kgf", "moment": "kgf m", "pressure": "kgf/cm2", "volume": "l",
+        "area": "cm2", "flow": "l/min", "stiffness": "kgf/mm", "power": "kW", "speed": "mm/s",
+    },
+    "us": {
+        "length": "in", "angle": "deg", "mass": "lb", "force": "lbf", "moment": "lbf ft", "pressure": "psi", "volume": "gal",
+        "area": "in2", "flow": "gal/min", "stiffness": "lbf/in", "power": "hp", "speed": "in/s",
+    },
+})  # fmt: skip
+"""The unit of every measure in each system; a measure that is not in it keeps its unit."""
+
+SIGNS = (
+    noted("m"), noted("mm"), noted("cm"), noted("inch"), noted("in"), noted("ft"), noted("rad"), noted("deg"), noted("s"), noted("min"),
+    noted("kg"), noted("t"), noted("lb"), noted("N"), noted("kN"), noted("kgf"), noted("lbf"), noted("Nm"), noted("kNm"), noted("kgf m"),
+    noted("lbf ft"), noted("Pa"), noted("kPa"), noted("MPa"), noted("bar"), noted("kgf_cm2"), noted("kgf/cm2"), noted("psi"), noted("l"),
+    noted("litre"), noted("cm3"), noted("m3"), noted("gal"), noted("in3"), noted("mm2"), noted("cm2"), noted("m2"), noted("in2"),
+    noted("l/min"), noted("gal/min"), noted("m3/s"), noted("N/m"), noted("N/mm"), noted("kN/m"), noted("kgf/mm"), noted("lbf/in"),
+    noted("W"), noted("kW"), noted("hp"), noted("m/s"), noted("mm/s"), noted("in/s"), noted("rad/m"),
+)  # fmt: skip
+"""The units that another language writes in its own way."""
+
+_SYSTEM: ContextVar[str] = ContextVar("unit_system", default="")
+
+_CLOSE = 0.15
+"""A resolution that is coarser by less than this power of ten is still as fine."""
+
+_FORMAT = re.compile(r"([+z]*)\.(\d+)([fg])")
+
+
+@contextmanager
+def unit_system(name: str | None) -> Iterator[None]:
+    """Show everything inside `with` in one system, "si", "bar-mm", "kgf" or "us"; None: each number in the unit it is given."""
+    token = _SYSTEM.set("" if name is None else known_name("System of units", name, SYSTEMS, where="unit_system(...)"))
+    try:
+        yield
+    finally:
+        _SYSTEM.reset(token)
+
+
+def current_system() -> str:
+    """Return the system of units that things are shown in; "" for none."""
+    return _SYSTEM.get()
+
+
+def shown_in(unit: str) -> str:
+    """Return the unit that values of a unit are shown in: that of the system for the same measure, without a system itself."""
+    system = SYSTEMS.get(_SYSTEM.get(), {})
+    return system.get(UNITS[unit][1], unit) if unit else ""
+
+
+def unit_sign(unit: str) -> str:
+    """Return how a unit is written in the language that is spoken, in the system that is chosen: "kgf/cm2" is "psi" in "us"."""
+    return translated(shown_in(unit))
+
+
+def decimals(digits: int, unit: str) -> int:
+    """Return the decimals that a value of a unit with so many decimals has where it is shown: as fine, never below none."""
+    coarser = factor(shown_in(unit)) / factor(unit)
+    return max(0, math.ceil(digits + math.log10(coarser) - _CLOSE)) if coarser != 1.0 else digits
+
+
+def shown_number(value: float, unit: str, digits: int | str = 6) -> str:
+    """Return an SI value as a number alone, without its unit, in the unit that it is shown in.
+
+    `digits`: how many count, or a format, ".1f", "+.0f", "z.0f", ".4g", whose decimals hold for `unit` itself.
+    """
     unit_or_none(unit, where="")
     given: Any = value
     is_one = isinstance(given, (float, int)) or getattr(given, "shape", None) == ()
-    if not is_one or isinstance(given, bool) or not isinstance(digits, int) or isinstance(digits, bool) or not 0 < digits < 20:
+    form = _FORMAT.fullmatch(f".{digits}g" if isinstance(digits, int) and not isinstance(digits, bool) else str(digits))
+    if not is_one or isinstance(given, bool) or form is None or not (0 if form[3] == "f" else 1) <= int(form[2]) < 20:
         raise DefinitionError(f"show({cited(value)}, {unit!r}, {cited(digits)}): a number and its digits are expected.")
-    return f"{value / UNITS[unit][0]:.{digits}g} {unit}" if unit else f"{value:.{digits}g}"
+    flags, count, kind = form[1], int(form[2]), form[3]
+    shown = value / factor(shown_in(unit))
+    if kind == "f":
+        return f"{shown:{flags}.{decimals(count, unit)}f}"
+    if shown_in(unit) != unit and 10.0**count <= abs(shown) < 1e9:
+        return f"{shown:{flags}.0f}"
+    return f"{shown:{flags}.{count}g}"
+
+
+def show(value: float, unit: str, digits: int | str = 6) -> str:
+    """Return an SI value as text in a unit: `show(0.18, "mm")` is `180 mm`; as it is where the unit is "".
+
+    `digits`: how many count, or a format such as ".1f"; in a chosen system it is in the unit of that, as fine as here.
+    """
+    text = shown_number(value, unit, digits)
+    return f"{text} {unit_sign(unit)}" if unit else text

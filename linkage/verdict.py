@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Self, final
 
 from .errors import DefinitionError, cited
+from .language import heading_of, said
 
 
 @final
@@ -15,19 +16,24 @@ class Verdict(str):
     `all(machine.verdicts(motion))` says whether everything is.
     """
 
-    __slots__ = ("ok", "rule", "sentence")
+    __slots__ = ("heading", "ok", "rule", "sentence")
 
     rule: str
     ok: bool
     sentence: str
+    heading: str
 
-    def __new__(cls, rule: str, ok: bool, sentence: str) -> Self:
-        """Return a verdict; DefinitionError for a rule or a sentence that is no text."""
+    def __new__(cls, rule: str, ok: bool, sentence: str, heading: str = "") -> Self:
+        """Return a verdict; DefinitionError for a rule or a sentence that is no text.
+
+        `rule` is its name for programs, English; `heading` is it in the language that is spoken, from the catalogues where it is not given.
+        """
         for what, text in (("rule", rule), ("sentence", sentence)):
             if not isinstance(text, str) or not text:
                 raise DefinitionError(f"Verdict: its {what} is {cited(text)}; write Verdict(rule, ok, sentence), both in words.")
-        verdict = super().__new__(cls, f"{'ok  ' if ok else 'FAIL'} {rule}: {sentence}")
-        verdict.rule, verdict.ok, verdict.sentence = rule, bool(ok), sentence
+        named = heading or heading_of(rule)
+        verdict = super().__new__(cls, f"{said('ok  ') if ok else said('FAIL')} {named}: {sentence}")
+        verdict.rule, verdict.ok, verdict.sentence, verdict.heading = rule, bool(ok), sentence, named
         return verdict
 
     def __bool__(self) -> bool:
@@ -36,5 +42,5 @@ class Verdict(str):
     def __repr__(self) -> str:
         return f"Verdict({self.rule!r}, {self.ok}, {self.sentence!r})"
 
-    def __reduce__(self) -> tuple[type[Self], tuple[str, bool, str]]:
-        return type(self), (self.rule, self.ok, self.sentence)
+    def __reduce__(self) -> tuple[type[Self], tuple[str, bool, str, str]]:
+        return type(self), (self.rule, self.ok, self.sentence, self.heading)

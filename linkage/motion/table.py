@@ -10,9 +10,10 @@ import numpy as np
 
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
+from ..language import heading_of
 from ..program import FloatArray
 from ..quantities import Dimension, Member, Quantity, Stroke
-from ..units import display_unit, factor, unit_or_none
+from ..units import decimals, display_unit, factor, shown_in, unit_or_none, unit_sign
 from .limits import stroke_display_unit
 from .motion import Motion, require_motion
 from .requests import Request, RequestLike
@@ -27,7 +28,10 @@ LEAST = 1e-9
 @refuses_changes
 @dataclass(frozen=True, eq=False)
 class Column:
-    """Values in SI, shape (...), and the unit they are read in; a unit of "" is a plain number."""
+    """Values in SI, shape (...), and the unit they are read in; a unit of "" is a plain number.
+
+    In a chosen system of units, `linkage.units.unit_system`, they are shown in the unit of that.
+    """
 
     name: str
     values: FloatArray
@@ -58,21 +62,32 @@ class Column:
         return cls(title, values, display_unit(measures) if unit is None else unit, digits)
 
     @property
+    def shown_unit(self) -> str:
+        """The unit that its values are shown in: the column's own, or that of the chosen system for the same measure."""
+        return shown_in(self.unit)
+
+    @property
+    def shown_digits(self) -> int:
+        """The decimals that its values are shown with, in that unit."""
+        return decimals(self.digits, self.unit)
+
+    @property
     def shown(self) -> FloatArray:
-        """The values in the column's unit."""
-        return np.asarray(self.values) / factor(self.unit)
+        """The values in the unit that they are shown in."""
+        return np.asarray(self.values) / factor(self.shown_unit)
 
     @property
     def drawn(self) -> FloatArray:
-        """The values in the column's unit, rounding noise as zero: for pictures."""
+        """The values in the unit that they are shown in, rounding noise as zero: for pictures."""
         size = float(np.nanmax(np.abs(self.shown), initial=0.0))
         noise = max(NOISE * size, LEAST if self.unit else 0.0)
         return np.where(np.abs(self.shown) < noise, 0.0, self.shown)
 
     @property
     def heading(self) -> str:
-        """The name with its unit: `pd, kgf/cm2`."""
-        return f"{self.name}, {self.unit}" if self.unit else self.name
+        """The name with its unit, in the language that is spoken: `pd, kgf/cm2`."""
+        name = heading_of(self.name)
+        return f"{name}, {unit_sign(self.unit)}" if self.unit else name
 
 
 def are_numbers(values: Any) -> bool:
@@ -94,6 +109,7 @@ def columns_of(motion: Motion) -> list[Column]:
 
 
 # Members that have columns of their own in a machine's table of results.
+
 
 class Tabled(Member):
     """A member that the table of results shows, such as a cylinder: its base beside that of its kind."""

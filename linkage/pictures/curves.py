@@ -65,6 +65,7 @@ def panel_grid(count: int) -> tuple[Figure, list[Axes]]:
 
 # Limit lines: a value that a result may not pass, and on which side it fails.
 
+
 class Limit(NamedTuple):
     """A value [SI] that a column may not pass, its words, and the side that fails: "above" or "below"."""
 
@@ -74,7 +75,7 @@ class Limit(NamedTuple):
 
     def drawn(self, column: Column) -> float:
         """Return the value in the unit of a column."""
-        return self.value / factor(column.unit)
+        return self.value / factor(column.shown_unit)
 
     def failing(self, values: FloatArray) -> FloatArray:
         """Return the mask of the values [SI] that fail."""
@@ -101,6 +102,7 @@ def limit_crossings(along: FloatArray, values: FloatArray, at: float) -> list[fl
 
 
 # One curve over a stroke: its line, its limit with the failing side shaded, its axes.
+
 
 def panel(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None = None, colour: str = style.CURVE) -> None:
     """Draw a column over the stroke that a motion runs along, with its limit `(value [SI], text, fails)`."""

@@ -34,7 +34,8 @@ def flat(columns: Sequence[Column]) -> list[FloatArray]:
 
 def cells(column: Column, values: FloatArray) -> list[str]:
     """Return a column's numbers as text, with its number of decimals."""
-    return [NO_VALUE if np.isnan(value) else f"{value:z.{column.digits}f}" for value in values.tolist()]
+    digits = column.shown_digits
+    return [NO_VALUE if np.isnan(value) else f"{value:z.{digits}f}" for value in values.tolist()]
 
 
 def checked_width(width: int | None) -> int | None:

@@ -6,10 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ..language import said
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import stroke_display_unit
 from ..plan import plan_measure
-from ..units import display_unit, factor, show
+from ..units import display_unit, show, shown_number
 
 STEPS = ("length", "angle")  # kinds of variables that a step's label makes
 
@@ -21,7 +22,7 @@ def design_rows(machine: Mechanism) -> Iterator[tuple[str, str, str]]:
         entry = machine.plan.table.entries[name]
         unit = entry.unit or display_unit(plan_measure(machine.plan, name), "mm")
         low, high = show(float(np.min(value)), unit), show(float(np.max(value)), unit)
-        yield name, low if low == high else f"{low} to {high}", entry.where if entry.kind in STEPS else ""
+        yield name, low if low == high else said("{low} to {high}", low=low, high=high), entry.where if entry.kind in STEPS else ""
 
 
 def stroke_rows(machine: Mechanism) -> Iterator[tuple[str, str]]:
@@ -29,4 +30,4 @@ def stroke_rows(machine: Mechanism) -> Iterator[tuple[str, str]]:
     require_mechanism(machine)
     for name, stroke in machine.strokes.items():
         unit = stroke_display_unit(machine.plan, name, "mm")
-        yield name, f"{stroke.start / factor(unit):.6g} to {stroke.end / factor(unit):.6g} {unit}"
+        yield name, said("{low} to {high}", low=shown_number(stroke.start, unit), high=show(stroke.end, unit))

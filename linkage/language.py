@@ -1,0 +1,118 @@
+"""One language for everything that is said: sentences are templates, translated where a catalogue has them, and filled in.
+
+    >>> from linkage.language import language, said
+    >>> said("{low} to {high}", low="0", high="250 mm")
+    '0 to 250 mm'
+    >>> with language("ru"):
+    ...     said("{low} to {high}", low="0", high="250 мм")
+    '0…250 мм'
+
+Catalogues are gettext's: `locale/ru/LC_MESSAGES/linkage.mo` beside this file, made from the `.po` of the same name. Another package
+brings its own with one line, `add_catalogue("machines", Path(__file__).parent / "locale")`. Messages of errors stay English, and so do
+the names of members. Decimals have a point in every language: what is printed can be read again, by this program and by others.
+"""
+
+from __future__ import annotations
+
+import gettext
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from functools import lru_cache
+from pathlib import Path
+
+from .errors import DefinitionError, cited, known_name
+
+ENGLISH = "en"
+
+_LANGUAGE = ContextVar("language", default=ENGLISH)
+_CATALOGUES: dict[str, Path] = {}
+
+
+def add_catalogue(domain: str, folder: str | Path) -> None:
+    """Let sentences be looked up in `folder/LANGUAGE/LC_MESSAGES/domain.mo` too; DefinitionError where there is none."""
+    where = Path(folder)
+    if not any(where.glob(f"*/LC_MESSAGES/{domain}.mo")):
+        raise DefinitionError(f"{where}: no */LC_MESSAGES/{domain}.mo is there; compile the catalogue, or mend the folder.")
+    _CATALOGUES[domain] = where
+    _catalogue.cache_clear()
+
+
+def languages() -> list[str]:
+    """Return the languages that can be spoken: English, and those that linkage has a catalogue of."""
+    return [ENGLISH, *sorted(path.parent.parent.name for path in _CATALOGUES["linkage"].glob("*/LC_MESSAGES/linkage.mo"))]
+
+
+def current_language() -> str:
+    """Return the language that is spoken: "en", "ru"."""
+    return _LANGUAGE.get()
+
+
+@contextmanager
+def language(name: str) -> Iterator[None]:
+    """Speak a language inside `with`, whatever is said there; DefinitionError, with those there are, for another one."""
+    known_name("Language", name, languages(), where="language(...)")
+    token = _LANGUAGE.set(name)
+    try:
+        yield
+    finally:
+        _LANGUAGE.reset(token)
+
+
+@lru_cache
+def _catalogue(name: str) -> gettext.NullTranslations:
+    """Return a language's catalogues as one: linkage's own, then those added."""
+    whole = gettext.NullTranslations()
+    for domain, folder in reversed(_CATALOGUES.items()):
+        each = gettext.translation(domain, folder, [name], fallback=True)
+        each.add_fallback(whole)
+        whole = each
+    return whole
+
+
+def translated(text: str) -> str:
+    """Return a text in the language that is spoken, as it is where no catalogue has it."""
+    name = _LANGUAGE.get()
+    return text if name == ENGLISH or not text else _catalogue(name).gettext(text)
+
+
+def said(template: str, /, **values: object) -> str:
+    """Return a template in the language that is spoken, filled in: `said("{pin} carries {force}", pin="O", force="3 kN")`.
+
+    A template is one literal, so that catalogues can be made of the source. DefinitionError for a value that it has and is not given.
+    """
+    return _filled(translated(template), values)
+
+
+def said_of(number: int, one: str, many: str, /, **values: object) -> str:
+    """Return the one of two templates, or in another language of as many as it has, that goes with a number; `{n}` is that number."""
+    name = _LANGUAGE.get()
+    template = (one if number == 1 else many) if name == ENGLISH else _catalogue(name).ngettext(one, many, number)
+    return _filled(template, {"n": number, **values})
+
+
+def _filled(template: str, values: dict[str, object]) -> str:
+    try:
+        return template.format(**values)
+    except (KeyError, IndexError) as error:
+        raise DefinitionError(f"said({cited(template)}): it has {{{error.args[0]}}}, which is not given.") from None
+
+
+def noted(text: str) -> str:
+    """Return a text as it is: one that is translated later, where it is said, and that belongs into a catalogue."""
+    return text
+
+
+def heading_of(name: str) -> str:
+    """Return the heading of a column, a result or a rule in the language that is spoken; names of members in it stay: "pressure lift"."""
+    found = translated(name)
+    if found != name or _LANGUAGE.get() == ENGLISH:
+        return found
+    for separator in (": ", " "):
+        first, parted, rest = name.rpartition(separator)
+        if parted and (known := heading_of(first)) != first:
+            return f"{known}{separator}{heading_of(rest) if separator == ': ' else rest}"
+    return name
+
+
+add_catalogue("linkage", Path(__file__).with_name("locale"))

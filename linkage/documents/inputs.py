@@ -55,7 +55,7 @@ def stroke_table(machine: Mechanism, listing: Equations, held: Mapping[str, floa
         used = said("held at {value}", value=amount(held[name], unit)) if name in held else said("moves")
         ends = (amount(stroke.start, unit), amount(stroke.end, unit))
         rows.append((name, Formula(listing.symbol_latex(name)), *ends, unit_sign(unit), used, notes.get(name, "")))
-    heads = (said("stroke"), said("symbol"), said("from"), said("to"), said("unit"), said("in this report"), said("source, note"))
+    heads = (said("stroke"), said("symbol"), said("start"), said("end"), said("unit"), said("in this report"), said("source, note"))
     return Grid(said("Strokes"), heads, tuple(rows), "llrrllm")
 
 
@@ -71,7 +71,7 @@ def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, 
         note = "; ".join(each for each in (changed, said_of) if each)
         sign = unit_sign(unit) if unit else ""
         rows.append((name, Formula(listing.symbol_latex(name)), amount(float(value), unit, 7), sign, where, note))
-    heads = (said("dimension"), said("symbol"), said("value"), said("unit"), said("of"), said("source, note"))
+    heads = (said("dimension"), said("symbol"), said("value"), said("unit"), said("stands in"), said("source, note"))
     return Grid(said("Dimensions"), heads, tuple(rows), "llrllm")
 
 

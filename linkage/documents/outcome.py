@@ -179,7 +179,7 @@ def members_section(looked: Looked) -> Section | None:
         rows += [(name, *extremes(looked, column)) for column in columns]
     if not members:
         return None
-    heads = (said("member"), said("quantity"), said("least"), said("at"), said("greatest"), said("at"))
+    heads = (said("member"), said("quantity"), said("least"), said("at stroke"), said("greatest"), said("at stroke"))
     table = [Grid(said("Cylinders over the stroke, without friction"), heads, tuple(rows), "llrlrl")] if rows else []
     return Section(said("Hydraulics"), (*table, *refused))
 
@@ -220,11 +220,11 @@ def forces_section(looked: Looked) -> Section | None:
     )
     unit = unit_sign("kN")
     heads = (
-        said("pin"), said("joint"), said("on body"), said("from"), said("Fx, {unit}", unit=unit), said("Fy, {unit}", unit=unit),
-        said("F, {unit}", unit=unit), said("x axis"), said("at"), said("load case"), said("motion"),
+        said("pin"), said("joint"), said("on body"), said("from body"), said("Fx, {unit}", unit=unit), said("Fy, {unit}", unit=unit),
+        said("F, {unit}", unit=unit), said("x axis"), said("at stroke"), said("load case"), said("motion"),
     )  # fmt: skip
     table = Grid(said("Largest pin forces, for FEM"), heads, tuple(pin_row(looked, row) for row in rows), "llllrrrllll")
-    drives = (said("load case"), said("motion"), said("of"), said("least"), said("greatest"), said("unit"))
+    drives = (said("load case"), said("motion"), said("drive or member"), said("least"), said("greatest"), said("unit"))
     ranges = Grid(said("Driving forces and thrusts at the poses of the table"), drives, tuple(drive_rows(looked, found)), "lllrrl")
     remarks = [Paragraph(each) for each in dict.fromkeys(remark for one in found for remark in one.remarks)]
     return Section(title, (ranges, looks, table, *remarks))
@@ -270,7 +270,7 @@ def limits_section(looked: Looked) -> Section:
             found = looked.machine.at(unreachable="nan", **looked.pose).limits()
     except LinkageError as error:
         return Section(title, (Paragraph(str(error)),))
-    heads = (said("stroke"), said("what"), said("where"))
+    heads = (said("stroke"), said("limit"), said("at stroke"))
     rows = [row for each in found.values() for row in limit_rows(looked, each)]
     held = said("Each stroke by itself, the others held at {pose}.", pose=looked.words(looked.pose))
     return Section(title, (*([Paragraph(held)] if len(found) > 1 else []), Grid(said("Reach, dead points, transmission"), heads, tuple(rows), "lmm")))

@@ -78,24 +78,44 @@ def draw(
 def plot(motion: Optimum) -> Figure: ...
 @overload
 def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Mapping[str, Sequence[Any]] | None = ...) -> Figure: ...
+@overload
 def plot(
-    motion: Motion | Optimum, columns: Sequence[Column | RequestLike] = (), *, limits: Mapping[str, Sequence[Any]] | None = None
+    motion: Mechanism,
+    columns: Sequence[Column | RequestLike] = ...,
+    *,
+    limits: Mapping[str, Sequence[Any]] | None = ...,
+    at: Mapping[str, Any] = ...,
+    count: int = ...,
+) -> Figure: ...
+def plot(
+    motion: Motion | Mechanism | Optimum,
+    columns: Sequence[Column | RequestLike] = (),
+    *,
+    limits: Mapping[str, Sequence[Any]] | None = None,
+    at: Mapping[str, Any] = NOTHING,
+    count: int = 101,
 ) -> Figure:
     """Return a figure of columns over the stroke, a panel each; a column that is the stroke itself is left out.
 
     A column may go by its name: a named output, or a point's coordinate such as "G_y"; a request, `drive_force()`, is one under its own
-    words. `limits` are, by the column's name, `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the side that
-    fails, above unless said, is shaded. Raises DefinitionError for a batch, a grid, or an unknown name.
+    words. Of a machine the columns of its table of results have names too, those it is about are drawn where none is named, with their
+    limits (`Mechanism.featured`); it runs as in `animate`, `at=dict(tilt=0.1)`, at `count` poses. `limits` are, by the column's name,
+    `(value [SI], text)` or `(value, text, "below")`: the line is drawn and the side that fails, above unless said, is shaded.
+    Raises DefinitionError for a batch, a grid, or an unknown name.
 
     Of the result of a search, the quantity of the objective and of each condition over the stroke, before and after, with its limit.
     """
-    from .pictures import plot, plot_optimum
+    from .pictures import plot, plot_machine, plot_optimum
     from .study import Optimum
 
     if isinstance(motion, Optimum):
-        if columns or limits is not None:
+        if columns or limits is not None or at:
             raise DefinitionError(f"{motion.problem.plan.title}: a search's result has its own curves and limits; write plot(optimum).")
         return plot_optimum(motion)
+    if isinstance(motion, Mechanism):
+        return plot_machine(motion, columns, limits, at, count)
+    if at or count != 101:
+        raise DefinitionError("plot(motion, ...): a motion has its poses; at= and count= go with a machine, plot(machine, at=...).")
     return plot(motion, columns, limits=limits)
 
 
@@ -105,7 +125,7 @@ def animate(
     *,
     count: int = 60,
     column: str | None = None,
-    trace: Sequence[str] = (),
+    trace: Sequence[str] | None = None,
     limit: Sequence[Any] | None = None,
     at: Mapping[str, Any] = NOTHING,
     progress: Progress | None = None,
@@ -113,9 +133,11 @@ def animate(
     """Return the path of the animation it wrote: a .gif, an .mp4 (extra `video`) or an .html page that works offline.
 
     The mechanism runs over its first stroke, there and back (a full turn goes round), at `count` poses; beside it the live
-    curve of a column of its results, the last unless named. `at=dict(tilt=0.1)` holds another stroke, `at=dict(S=(0.1, 0.2))`
-    says where one runs [m or rad]; strokes not named stand in their middle. `trace` names points whose paths are drawn; `limit` is
-    the column's limit, `(value [SI], text, "above" or "below")`. `progress(done, total)` is called as it goes. What stood at the
+    curve of a column of its results. `at=dict(tilt=0.1)` holds another stroke, `at=dict(S=(0.1, 0.2))` says where one runs [m or rad],
+    and `at=dict(lift=(0.0, 0.6, 0.6), tilt=(0.1, 0.1, 0.0))` how several run together, from value to value; strokes not named stand in
+    their middle. `trace` names points whose paths are drawn; `limit` is the column's limit, `(value [SI], text, "above" or "below")`.
+    What is not given is what the machine is about (`Mechanism.featured`), else the last column that changes, no path and no limit.
+    `progress(done, total)` is called as it goes. What stood at the
     path is replaced whole, or left as it was. Raises DefinitionError for another kind of file, a batch of designs or an unknown
     name, FileError for a path that cannot be written.
     """
@@ -130,7 +152,7 @@ def page(
     *,
     count: int = 60,
     column: str | None = None,
-    trace: Sequence[str] = (),
+    trace: Sequence[str] | None = None,
     limit: Sequence[Any] | None = None,
     at: Mapping[str, Any] = NOTHING,
 ) -> Path:

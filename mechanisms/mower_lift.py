@@ -22,6 +22,7 @@ from linkage import (
     DefinitionError,
     Dimension,
     Dyad,
+    Featured,
     ForceElement,
     Ground,
     Mechanism,
@@ -35,7 +36,7 @@ from linkage import (
 from linkage.loads.element import Formulas
 from linkage.motion import Span, lowest, reached
 from linkage.reports import reached_span
-from linkage.units import cm, deg, g0, kgf, kgf_cm2, litre, minute, mm
+from linkage.units import cm, deg, g0, kgf, kgf_cm2, litre, minute, mm, show
 
 G_FROM_O = (1.07, -0.37)  # centre of gravity from O at S = 0.55 m, as the input says, m
 BELOW = atan2(G_FROM_O[1], G_FROM_O[0])  # its direction from O, rad
@@ -125,6 +126,12 @@ class MowerLift(Mechanism):
         for name, element in self.plan.of_kind(ForceElement).items():
             if name not in ("lift", "circuit"):
                 element.formulas(written)
+
+    def featured(self) -> Featured:
+        """Return the reserve kz with the 1 that it needs, the supply's pressure with the pump's limit, and the path of G."""
+        most = float(self["p_max"])
+        limits = {"kz": (1.0, "kz = 1", "below"), "pd": (most, f"p_max = {show(most, 'kgf/cm2', 4)}", "above")}
+        return Featured("kz", ["G"], limits)
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return whether the section can be lifted, where not, the remedy, and the oil it takes; looked for between the poses too.

@@ -50,7 +50,7 @@ def machine_arguments(parser: ArgumentParser, default: str | None = None) -> Non
 
 def path_argument(parser: ArgumentParser) -> None:
     """Declare the argument that chooses whose paths are drawn."""
-    parser.add_argument("--path", metavar="G", action="append", help="draw this point's path (default: the last point built); repeatable")
+    parser.add_argument("--path", metavar="G", action="append", help="draw this point's path (default: what it is about); repeatable")
 
 
 def motion_arguments(parser: ArgumentParser, count: int) -> None:

@@ -41,9 +41,10 @@ def curves(machine: Mechanism, options: Namespace) -> Any:
     many = [name for name, values in given.items() if len(values) > 1]
     over = motion_at(machine, options.strokes, options.count) if many else motion_along(machine, options.count, given)
     columns = columns_picked(machine, over, options.columns, [])
+    limits = {column.name: machine.featured().limits.get(column.name) for column in columns}
     from ..pictures import plot
 
-    return plot(over, columns)
+    return plot(over, columns, limits={name: limit for name, limit in limits.items() if limit is not None})
 
 
 def poses(machine: Mechanism, options: Namespace) -> Any:
@@ -73,7 +74,7 @@ class AnimateCommand(Command):
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
         parser.add_argument("-o", "--output", metavar="FILE", required=True, help=f"{', '.join(SUFFIXES)}")
-        parser.add_argument("--column", metavar="I", help="the column of `table` whose curve runs along (default: the last)")
+        parser.add_argument("--column", metavar="I", help="the column of `table` whose curve runs along (default: what it is about)")
         path_argument(parser)
         parser.add_argument("--count", metavar="N", type=pose_count, default=60, help="poses over the stroke (default 60)")
         parser.add_argument(

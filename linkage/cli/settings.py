@@ -71,12 +71,11 @@ def motion_at(machine: Mechanism, texts: Sequence[str], count: int) -> Motion:
 
 
 def motion_along(machine: Mechanism, count: int, at: At = NOTHING) -> Motion:
-    """Return the motion along one stroke, the others held as `at` says, else in their middle: what a picture of the whole shows.
+    """Return the motion along one stroke or several together, the others held as `at` says, else in their middle.
 
     Raises AssemblyError where it cannot be assembled; a picture would leave those poses out.
     """
-    run = run_of(machine, at)
-    return machine.at(**run.over(np.linspace(run.start, run.end, count)))
+    return machine.at(**run_of(machine, at).over(np.linspace(0.0, 1.0, count)))
 
 
 def stroke_values(plan: Plan, text: str) -> tuple[str, Any]:
@@ -104,5 +103,5 @@ def columns_picked(machine: Mechanism, motion: Motion, names: Sequence[str], str
 
 
 def traced_points(machine: Mechanism, names: Sequence[str] | None) -> tuple[str, ...]:
-    """Return the points whose paths are drawn: those named, else the last one built."""
-    return machine.plan.moving[-1:] if names is None else tuple(names)
+    """Return the points whose paths are drawn: those named, else those the machine is about, else the last one built."""
+    return tuple(machine.featured().path) or machine.plan.moving[-1:] if names is None else tuple(names)

@@ -1,7 +1,7 @@
 """Pictures: a mechanism at a pose, at its end positions, in motion, and curves of results over the stroke."""
 
 from .browser import page_html
-from .curves import Limit, plot
+from .curves import Limit, plot, plot_machine
 from .drawing import Drawing, mechanism
 from .film import animate, page
 from .optimum import draw_optimum, plot_optimum

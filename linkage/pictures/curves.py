@@ -12,13 +12,15 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..errors import DefinitionError, cited, unknown
+from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of
 from ..program import FloatArray
 from ..quantities import Quantity, is_number
+from ..reports import NOTHING, At, results, run_of
 from ..units import factor
 from . import style
 from .sheet import panels, quiet
-from .strokes import StrokeAxis
+from .strokes import StrokeAxis, column_shown, frame_count
 
 PANEL = (4.6, 3.0)
 """The size of a panel with its share of the margins [inch]."""
@@ -42,6 +44,24 @@ def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Map
     for ax, column in zip(cells, shown, strict=True):
         panel(ax, motion, column, given.get(column.name))
     return figure
+
+
+def plot_machine(
+    machine: Mechanism,
+    columns: Sequence[Column | RequestLike] = (),
+    limits: Mapping[str, Sequence[Any]] | None = None,
+    at: At = NOTHING,
+    count: int = 101,
+) -> Figure:
+    """Return a figure of a machine's results over the run that `at` says, those it is about unless others are named."""
+    featured = machine.featured()
+    motion = machine.at(unreachable="nan", **run_of(machine, at).over(np.linspace(0.0, 1.0, frame_count(count))))
+    own = {column.name: column for column in results(machine, motion)}
+    shown = columns or [name for name in dict.fromkeys([column_shown(machine, motion, None).name, *featured.limits]) if name in own]
+    if isinstance(shown, (list, tuple)):
+        shown = [own.get(each, each) if isinstance(each, str) else each for each in shown]
+    names = [each.name if isinstance(each, Column) else str(each) for each in shown]
+    return plot(motion, shown, limits={name: limit for name, limit in featured.limits.items() if name in names} | dict(limits or {}))
 
 
 def columns_named(motion: Motion, columns: Sequence[Column | RequestLike]) -> list[Column]:

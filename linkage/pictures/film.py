@@ -12,8 +12,9 @@ from typing import Any, TypeAlias, cast, final
 import numpy as np
 import numpy.typing as npt
 from matplotlib.artist import Artist
-from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_agg import FigureCanvasAgg, RendererAgg
 from matplotlib.figure import Figure
+from matplotlib.text import Annotation
 from PIL import Image
 
 from ..disk import check_place, replacing, replacing_text, spoken
@@ -44,7 +45,7 @@ def animate(
     *,
     count: int = 60,
     column: str | None = None,
-    trace: Sequence[str] = (),
+    trace: Sequence[str] | None = None,
     limit: Sequence[Any] | None = None,
     at: At = NOTHING,
     progress: Progress | None = None,
@@ -59,12 +60,14 @@ def animate(
     kind = target.suffix.lower()
     if kind not in KINDS:
         raise DefinitionError(f"{target.name}: an animation is written as .gif, .mp4 or .html; give a name with one of these endings.")
-    trace = named_points(machine, trace, "trace")
+    trace = named_points(machine, machine.featured().path if trace is None else trace, "trace")
     if limit is not None:
         limit_of(limit)
     check_place(target)
     write, fineness = KINDS[kind]
     played = playback(machine, fineness * (poses - 1) + 1, column, at=at, eased=fineness == 1)
+    if limit is None:
+        limit = machine.featured().limits.get(played.column.name)
     write(played, target, trace, limit, progress or (lambda done, total: None))
     return target
 
@@ -132,6 +135,7 @@ class Stage:
         self.playback, self.scene, self.along = playback, Scene(playback.motion), StrokeAxis.of(playback.motion)
         self.figure = Figure(figsize=(WIDTH, HEIGHT), dpi=dpi, facecolor=style.PAPER)
         self.canvas = cast(Any, FigureCanvasAgg(self.figure))  # matplotlib declares no types for its methods
+        self.moving = [name for name, values in playback.motion.strokes.items() if np.ptp(values) > 0.0] or list(playback.motion.strokes)
         self.drawing = self._mechanism(paths)
         self.live = self._curve(bound)
         self.stroke = self.figure.text(SHEET[0] + SHEET[2], TITLE, "", fontsize=style.TITLE, color=style.INK, ha="right", va="center")
@@ -140,6 +144,8 @@ class Stage:
             artist.set_animated(True)
         self.canvas.draw()
         self.still: Any = self.canvas.copy_from_bbox(self.figure.bbox)
+        names = [artist for artist in self.drawing.artists if isinstance(artist, Annotation)]
+        self.stamps: dict[Artist, Stamp] = {name: Stamp(name, self.canvas) for name in names}
 
     def _mechanism(self, paths: Sequence[str]) -> Drawing:
         """Return the mechanism on its sheet, with paths of points and names that keep their place beside their points."""
@@ -183,13 +189,13 @@ class Stage:
         return [*self.drawing.artists, *self.live, self.stroke, self.value]
 
     def frame(self, pose: int) -> npt.NDArray[np.uint8]:
-        """Return the picture at a pose, shape (height, width, 3)."""
+        """Return the picture at a pose, shape (height, width, 4): red, green, blue, and a fourth that says nothing."""
         self.update(pose)
         self.canvas.restore_region(self.still)
         renderer = self.canvas.get_renderer()
         for artist in self._moving:
-            artist.draw(renderer)
-        return np.array(self.canvas.buffer_rgba())[..., :3]
+            (self.stamps.get(artist) or artist).draw(renderer)
+        return np.array(self.canvas.buffer_rgba())
 
     def update(self, pose: int) -> None:
         """Move everything to a pose."""
@@ -197,8 +203,39 @@ class Stage:
         self.drawing.update(pose)
         self.run.set_data(along.values[: pose + 1], values[: pose + 1])
         self.marker.set_data(along.values[pose : pose + 1], values[pose : pose + 1])
-        self.stroke.set_text(stroke_words(motion.plan, along.name, float(motion.strokes[along.name][pose]), fixed=True))
+        said = (stroke_words(motion.plan, name, float(motion.strokes[name][pose]), fixed=True) for name in self.moving)
+        self.stroke.set_text(", ".join(said))
         self.value.set_text(column_text(self.playback.column.drawn, pose))
+
+
+@final
+class Stamp:
+    """A name drawn once and then put down beside its point, to whole pixels: to set it anew in each frame takes most of the time."""
+
+    def __init__(self, text: Annotation, canvas: FigureCanvasAgg) -> None:
+        self.text = text
+        across, up = canvas.get_width_height()
+        alone = cast(Any, RendererAgg)(across, up, canvas.figure.dpi)  # matplotlib declares no types for its methods
+        text.draw(alone)
+        drawn = np.asarray(alone.buffer_rgba())
+        rows, columns = np.nonzero(drawn[..., 3])
+        self.is_empty = not rows.size
+        if self.is_empty:
+            return
+        last, first = rows.max() + 1, columns.min()
+        self.picture = np.ascontiguousarray(drawn[rows.min() : last, first : columns.max() + 1][::-1])
+        self.away = np.array([first, up - last]) - self._pin()
+
+    def _pin(self) -> npt.NDArray[np.float64]:
+        """Return the place of its point, to whole pixels from the lower left."""
+        shown: Any = self.text.axes
+        return np.round(np.asarray(shown.transData.transform(self.text.xy), float))
+
+    def draw(self, renderer: Any) -> None:
+        """Put it down beside its point."""
+        x, y = self._pin() + self.away if not self.is_empty else (np.nan, np.nan)
+        if np.isfinite(x + y) and self.text.get_visible():
+            renderer.draw_image(renderer.new_gc(), int(x), int(y), self.picture)
 
 
 def column_text(values: FloatArray, pose: int) -> str:
@@ -221,7 +258,8 @@ def write_gif(path: Path, frames: Iterable[npt.NDArray[np.uint8]], order: Sequen
     palette = palette_of(sample)
     pictures: dict[int, Image.Image] = {}
     for pose, frame in zip(dict.fromkeys(order), frames, strict=True):
-        pictures[pose] = Image.fromarray(frame).quantize(palette=palette, dither=Image.Dither.NONE)
+        picture = Image.frombuffer("RGBX", (frame.shape[1], frame.shape[0]), frame, "raw", "RGBX", 0, 1)
+        pictures[pose] = picture.convert("RGB").quantize(palette=palette, dither=Image.Dither.NONE)
     first, *others = [pictures[pose] for pose in order]
     with replacing(path) as stream:
         options: dict[str, Any] = {"duration": 1000 // RATE, "loop": 0, "disposal": 1, "optimize": True}
@@ -233,15 +271,13 @@ def palette_of(sample: npt.NDArray[np.uint8]) -> Image.Image:
 
     Pillow finds a pixel's colour in the palette to a few steps in 256, so two like colours would mix.
     """
-    packed, counts = np.unique(sample.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], np.uint32), return_counts=True)
+    packed, counts = np.unique(sample[..., :3].astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], np.uint32), return_counts=True)
     ranked = packed[np.argsort(-counts, kind="stable")]
+    colours = np.stack([ranked >> 16, ranked >> 8 & 255, ranked & 255], axis=1).astype(np.int64)
     kept: list[npt.NDArray[np.int64]] = []
-    for code in ranked.tolist():
-        colour = np.array([code >> 16, code >> 8 & 255, code & 255])
-        if all(np.abs(colour - other).max() >= APART for other in kept):
-            kept.append(colour)
-        if len(kept) == COLOURS:
-            break
+    while len(colours) and len(kept) < COLOURS:
+        kept.append(colours[0])
+        colours = colours[np.abs(colours - colours[0]).max(axis=1) >= APART]
     palette = Image.new("P", (1, 1))
     palette.putpalette(np.concatenate(kept).tolist())
     return palette
@@ -260,11 +296,12 @@ def write_mp4(path: Path, frames: Iterable[npt.NDArray[np.uint8]], size: tuple[i
         ) from None
     with replacing(path) as stream, TemporaryDirectory() as folder:
         film, written = Path(folder) / "film.mp4", 0
-        writer = imageio_ffmpeg.write_frames(str(film), size, fps=RATE, quality=8, macro_block_size=16)
+        options: dict[str, Any] = {"quality": 8, "macro_block_size": 16, "output_params": ["-preset", "veryfast"]}
+        writer = imageio_ffmpeg.write_frames(str(film), size, pix_fmt_in="rgb0", fps=RATE, **options)
         writer.send(None)
         try:
             for written, frame in enumerate(frames, 1):  # noqa: B007 - counted to the end
-                writer.send(np.ascontiguousarray(frame))
+                writer.send(frame)
         finally:
             writer.close()
         try:

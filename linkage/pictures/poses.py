@@ -93,7 +93,7 @@ def motions(machine: Mechanism, at: Any, count: int) -> tuple[str, Motion, Motio
     if moving not in machine.strokes:
         raise unknown("Stroke", moving, machine.strokes, where=machine.plan.title)
     start, end = machine.strokes[moving].start, machine.strokes[moving].end
-    usual = (0.5 * (start + end), start) if is_turn(machine, Run(moving, start, end, {})) else (start, end)
+    usual = (0.5 * (start + end), start) if is_turn(machine, Run({moving: (start, end)}, {})) else (start, end)
     given_values = {name: np.atleast_1d(chosen_values(machine, name, usual if value is None else value)) for name, value in given.items()}
     at_values: dict[str, Any] = stroke_middles(machine) | given_values
     shown = machine.at(unreachable="nan", **at_values)

@@ -21,7 +21,8 @@ from ..units import factor
 class StrokeAxis:
     """The stroke that a motion runs along, as a picture shows it: its name, its unit, and its values in that unit, shape (n,).
 
-    `held` are the values of the other strokes in words.
+    `held` are the other strokes in words, at their values or, where several run together, from one to another. Where each of these
+    turns back, the axis is the share of the `way`.
     """
 
     name: str
@@ -40,7 +41,13 @@ class StrokeAxis:
                 f"{plan.title}: curves over a stroke need one design and one row of poses, this motion has the shape {motion.shape}; "
                 f"sweep one stroke and give every other a value: {', '.join(plan.strokes)}."
             )
-        name = max(motion.strokes, key=lambda name: float(np.ptp(motion.strokes[name])))
+        moving = {name: values for name, values in motion.strokes.items() if np.ptp(values) > 0.0}
+        shares = {name: travel_share(plan, name, values) for name, values in moving.items()}
+        onward = [name for name, values in moving.items() if (np.diff(values) > 0.0).all() or (np.diff(values) < 0.0).all()]
+        if len(moving) > 1 and not onward:
+            steps = np.array([np.abs(np.diff(values)) * (shares[name] / np.ptp(values)) for name, values in moving.items()]).max(axis=0)
+            return cls("way", "%", 100.0 * np.append(0.0, np.cumsum(steps) / steps.sum()), others_in_words(motion, ""))
+        name = max(onward or moving or plan.strokes, key=lambda name: shares.get(name, 0.0))
         unit = stroke_display_unit(plan, name, "mm")
         return cls(name, unit, np.asarray(motion.strokes[name] / factor(unit)), others_in_words(motion, name))
 
@@ -50,36 +57,65 @@ class StrokeAxis:
         return self.unit == "deg" and float(np.ptp(self.values)) >= 90.0
 
 
+def travel_share(plan: Plan, name: str, values: FloatArray) -> float:
+    """Return how much of a stroke's declared range values go through."""
+    stroke = plan.strokes[name]
+    return float(np.ptp(values)) / (abs(stroke.end - stroke.start) or 1.0)
+
+
 def stroke_words(plan: Plan, name: str, value: float, *, fixed: bool = False) -> str:
     """Return a stroke's value [SI] as text: `S = 550 mm`, `phi = 90°`; fixed, with whole units."""
     unit = stroke_display_unit(plan, name, "mm")
-    text = f"{name} = {value / factor(unit):{'.0f' if fixed else '.4g'}}".replace("-", "\N{MINUS SIGN}")
+    shown = round(value / factor(unit), 9)  # 0 where a turn of the drawing ends near 0
+    text = f"{name} = {shown:{'z.0f' if fixed else '.4g'}}".replace("-", "\N{MINUS SIGN}")
     return text + ("°" if unit == "deg" else f" {unit}")
 
 
 def others_in_words(motion: Motion, moving: str) -> str:
-    """Return the values of the strokes beside the one that moves, as text; empty where there is one stroke."""
-    others = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items() if name != moving}
-    return ", ".join(stroke_words(motion.plan, name, value) for name, value in others.items())
+    """Return the strokes beside the one that moves, as text, those that move too from where to where; empty for none."""
+    return ", ".join(way_words(motion, name) for name in motion.strokes if name != moving)
+
+
+def way_words(motion: Motion, name: str) -> str:
+    """Return the value of a stroke in a motion as text, or its first, its last, and those where it turns back between."""
+    values = np.ravel(motion.strokes[name])
+    first, *others = (stroke_words(motion.plan, name, float(values[index])) for index in turning_points(values))
+    return " to ".join([first, *(text.removeprefix(f"{name} = ") for text in others)])
+
+
+def turning_points(values: FloatArray) -> list[int]:
+    """Return the indices of values, shape (n,), at which they begin, turn back, and end; the first alone where they stand still."""
+    steps = np.flatnonzero(np.diff(values))
+    if not steps.size:
+        return [0]
+    ways = np.sign(np.diff(values)[steps])
+    return [0, *(steps[:-1][ways[1:] != ways[:-1]] + 1).tolist(), len(values) - 1]
 
 
 def unreached_words(motion: Motion, moving: str) -> str:
     """Return which parts of a stroke a motion along it does not reach, in words; empty where it reaches all."""
-    values, reached = motion.strokes[moving].ravel(), motion.reached.ravel()
+    reached = motion.reached.ravel()
     if reached.all() or not reached.any():
         return ""
+    if moving not in motion.strokes:
+        return f"not reached over {100.0 * (1.0 - reached.mean()):.2g} % of the way"
     said = []
     for edge in np.flatnonzero(reached[1:] != reached[:-1]).tolist():
         inside, outside = (edge, edge + 1) if reached[edge] else (edge + 1, edge)
-        last = _last_reached(motion, moving, values[inside], values[outside])
+        last = _last_reached(motion, moving, inside, outside)
         said.append(f"{'beyond' if outside > inside else 'before'} {stroke_words(motion.plan, moving, last)}")
     return "not reached " + " and ".join(said)
 
 
-def _last_reached(motion: Motion, moving: str, inside: float, outside: float) -> float:
-    """Return the last value of a stroke in reach between one that is and one that is not [SI]."""
-    others = {name: float(np.ravel(value)[0]) for name, value in motion.strokes.items()}
-    return float(last_holding(lambda at: np.array(motion.moved(others | {moving: at}).reached), inside, outside)[0])
+def _last_reached(motion: Motion, moving: str, inside: int, outside: int) -> float:
+    """Return the last value of a stroke in reach between a pose that is and one that is not [SI], on the straight way between them."""
+    ends = {name: np.broadcast_to(np.ravel(values), motion.reached.size)[[inside, outside]] for name, values in motion.strokes.items()}
+
+    def over(share: FloatArray) -> dict[str, FloatArray]:
+        return {name: first + (last - first) * share for name, (first, last) in ends.items()}
+
+    share, _ = last_holding(lambda at: np.array(motion.moved(over(at)).reached), 0.0, 1.0)
+    return float(over(np.asarray(share))[moving])
 
 
 # What an animation plays: which poses of a stroke, in which order, smoothly there and back.
@@ -106,16 +142,16 @@ class Playback:
 
 
 def playback(machine: Mechanism, count: int, column: str | None = None, *, at: At = NOTHING, eased: bool = True) -> Playback:
-    """Return what is played over one stroke, the others held: `count` poses, there and back.
+    """Return what is played over one stroke or several together, the others held: `count` poses, there and back.
 
-    `at` holds strokes at a value, or says between which two values the one that moves runs [m or rad]; without it the
+    `at` holds strokes at a value, or says which values those that move pass [m or rad]; without it the
     first stroke runs over its range and the others stand in their middle. A full turn that ends where it began goes
     round. Eased, the poses stand closer at the ends, so that even frames start and stop softly. Poses out of reach are
     left out; raises AssemblyError where none is in reach.
     """
     run = run_of(machine, at)
     turn = is_turn(machine, run)
-    values = run.over(eased_values(run, frame_count(count), eased and not turn))
+    values = run.over(eased_shares(frame_count(count), eased and not turn))
     motion = machine.at(unreachable="nan", **values)
     if not motion.reached.any():
         machine.at(**values)
@@ -126,8 +162,11 @@ def playback(machine: Mechanism, count: int, column: str | None = None, *, at: A
 
 def is_turn(machine: Mechanism, run: Run) -> bool:
     """Return whether a run goes full turns, so that a crank ends where it began."""
-    turns = abs(run.end - run.start) / (2 * np.pi)
-    return stroke_display_unit(machine.plan, run.stroke, "mm") == "deg" and round(turns) >= 1 and abs(turns - round(turns)) < 1e-9
+    way = run.ways[run.stroke]
+    turns = abs(way[-1] - way[0]) / (2 * np.pi)
+    straight = len(run.ways) == 1 and len(way) == 2
+    is_angle = stroke_display_unit(machine.plan, run.stroke, "mm") == "deg"
+    return straight and is_angle and round(turns) >= 1 and abs(turns - round(turns)) < 1e-9
 
 
 def frame_count(count: Any) -> int:
@@ -137,11 +176,10 @@ def frame_count(count: Any) -> int:
     return int(count)
 
 
-def eased_values(run: Run, count: int, eased: bool) -> FloatArray:
-    """Return the values of a stroke from end to end [m or rad]."""
+def eased_shares(count: int, eased: bool) -> FloatArray:
+    """Return the shares of a way from end to end, 0 to 1."""
     share = np.linspace(0.0, 1.0, count)
-    share = 0.5 - 0.5 * np.cos(np.pi * share) if eased else share
-    return np.asarray(run.start + (run.end - run.start) * share)
+    return 0.5 - 0.5 * np.cos(np.pi * share) if eased else share
 
 
 def ends_where_begun(motion: Motion) -> bool:
@@ -157,11 +195,10 @@ def is_changing(values: FloatArray) -> bool:
 
 
 def column_shown(machine: Mechanism, motion: Motion, name: str | None) -> Column:
-    """Return a column of results by name; without one, what the machine is about, else the last that is no stroke and changes."""
+    """Return a column of results by name; without one, what the machine is about if it changes, else the last that does."""
     columns = {column.name: column for column in results(machine, motion) if column.name not in motion.strokes}
-    if name is None:
-        name = machine.featured().column or None
     if name is None and columns:
         moving = [each for each, column in columns.items() if is_changing(column.drawn)]
-        return columns[(moving or list(columns))[-1]]
+        about = machine.featured().column
+        return columns[about if about in moving else (moving or list(columns))[-1]]
     return columns[known_name("Column", name, columns, where=machine.plan.title)]

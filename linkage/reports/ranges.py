@@ -61,7 +61,7 @@ def spans_in_words(spans: Sequence[Range], stroke: str, unit: str = "m") -> str:
     )
 
 
-# What a picture of the whole runs over: one stroke from end to end, the others held.
+# What a picture of the whole runs over: one stroke from end to end or several together, the others held.
 
 At: TypeAlias = Mapping[str, Any]
 NOTHING: At = MappingProxyType({})
@@ -70,42 +70,56 @@ NOTHING: At = MappingProxyType({})
 @final
 @dataclass(frozen=True)
 class Run:
-    """The stroke that moves, its two ends, and the values of the others [m or rad]."""
+    """The values that each moving stroke passes, as many each, and the values of those held [m or rad]."""
 
-    stroke: str
-    start: float
-    end: float
+    ways: Mapping[str, tuple[float, ...]]
     held: Mapping[str, float]
 
-    def over(self, values: Any) -> dict[str, Any]:
-        """Return all strokes, the moving one at some values: what `at` takes."""
-        return {**self.held, self.stroke: values}
+    @property
+    def stroke(self) -> str:
+        """The stroke that moves; of several the first."""
+        return next(iter(self.ways))
+
+    @property
+    def marks(self) -> FloatArray:
+        """The share of the way at which each value is passed, 0 to 1; of several strokes the one that moves most of its travel counts."""
+        steps = np.array([np.abs(np.diff(way)) / (np.ptp(way) or 1.0) for way in self.ways.values()]).max(axis=0)
+        return np.concatenate([[0.0], np.cumsum(steps) / steps.sum()])
+
+    def over(self, shares: Any) -> dict[str, Any]:
+        """Return all strokes at shares of the way, 0 to 1: what `at` takes."""
+        return {**self.held, **{name: np.interp(shares, self.marks, way) for name, way in self.ways.items()}}
 
 
 def run_of(machine: Mechanism, at: At = NOTHING) -> Run:
-    """Return what moves: the stroke that `at` gives two values, else the first that it does not hold, over its range.
+    """Return what moves: the strokes that `at` gives two values or more, else the first that it does not hold, over its range.
 
-    Strokes that are not given stand in their middle. DefinitionError where nothing is left to move.
+    Several strokes run together, in straight lines from value to value. Strokes that are not given stand in their middle.
+    DefinitionError where nothing is left to move, or where strokes that run together do not pass as many values each.
     """
     one = first_stroke(machine)
     title = machine.plan.title
     if not isinstance(at, Mapping):
         raise DefinitionError(f"{title}: at={cited(at)}: values of strokes by name are expected, such as at=dict({one}=0.1).")
-    given = {name: stroke_ends(machine, name, value) for name, value in at.items()}
-    runs = [name for name in machine.strokes if len(given.get(name, ())) == 2]
+    given = {name: stroke_way(machine, name, value) for name, value in at.items()}
+    ways = {name: given[name] for name in machine.strokes if len(given.get(name, ())) > 1}
     free = [name for name in machine.strokes if name not in given]
-    if len(runs) > 1:
-        raise DefinitionError(f"{title}: {' and '.join(runs)} have two values each; one stroke runs, hold the others at one value.")
-    if not (runs or free):
+    if len({len(way) for way in ways.values()}) > 1:
+        said = " and ".join(f"{name} passes {len(way)} values" for name, way in ways.items())
+        raise DefinitionError(f"{title}: {said}; strokes that run together pass as many values each.")
+    if not (ways or free):
         raise DefinitionError(f"{title}: every stroke is held, so that nothing moves; give {one} two values, its run.")
-    moving = (runs or free)[0]
-    start, end = given.get(moving, (machine.strokes[moving].start, machine.strokes[moving].end))
+    moving = ways or {free[0]: (machine.strokes[free[0]].start, machine.strokes[free[0]].end)}
+    for leg in range(len(next(iter(moving.values()))) - 1):
+        if all(way[leg] == way[leg + 1] for way in moving.values()):
+            name, way = next(iter(moving.items()))
+            raise DefinitionError(f"{title}: nothing moves from {name} = {way[leg]:.6g} to {way[leg + 1]:.6g}; leave the second out.")
     held = stroke_middles(machine) | {name: values[0] for name, values in given.items()}
-    return Run(moving, start, end, {name: value for name, value in held.items() if name != moving})
+    return Run(moving, {name: value for name, value in held.items() if name not in moving})
 
 
-def stroke_ends(machine: Mechanism, name: str, value: Any) -> tuple[float, ...]:
-    """Return what a stroke is given: one value, or the two ends of its run; DefinitionError for anything else."""
+def stroke_way(machine: Mechanism, name: str, value: Any) -> tuple[float, ...]:
+    """Return what a stroke is given: one value, or those that it passes; DefinitionError for anything else."""
     title = machine.plan.title
     if name not in machine.strokes:
         raise unknown("Stroke", name, machine.strokes, where=title)
@@ -113,8 +127,9 @@ def stroke_ends(machine: Mechanism, name: str, value: Any) -> tuple[float, ...]:
         values = tuple(np.ravel(real(value)).tolist())
     except ValueError:
         values = ()
-    if len(values) not in (1, 2) or len(set(values)) < len(values) or not np.all(np.isfinite(values)):
-        raise DefinitionError(f"{title}: {name}={value!r}: one number holds a stroke, two different ones are the ends of its run.")
+    if not values or (len(values) > 1 and len(set(values)) == 1) or not np.all(np.isfinite(values)):
+        said = "one number holds a stroke, two different ones are the ends of its run, more are passed one after the other"
+        raise DefinitionError(f"{title}: {name}={value!r}: {said}.")
     return values
 
 

@@ -6,7 +6,7 @@ Source: Chebyshev (1850s); the proportions frame 4, rockers 5, coupler 2 are the
 
 from __future__ import annotations
 
-from linkage import RIGHT, Crank, Dyad, Ground, Mechanism, OnLink, Stroke, deg
+from linkage import RIGHT, Crank, Dyad, Featured, Ground, Mechanism, OnLink, Stroke, deg
 
 
 class Chebyshev(Mechanism):
@@ -24,3 +24,7 @@ class Chebyshev(Mechanism):
     A = Crank(O, OA=0.500, angle=phi)
     B = Dyad(A, C, AB=0.200, CB=0.500, side=RIGHT)
     P = OnLink(A, B, AP=0.100)
+
+    def featured(self) -> Featured:
+        """Return P_y and the path of P."""
+        return Featured("P_y", ["P"])

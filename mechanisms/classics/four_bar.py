@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from math import pi
 
-from linkage import LEFT, Crank, Dyad, Ground, Mechanism, OnLink, Stroke, angle, deg
+from linkage import LEFT, Crank, Dyad, Featured, Ground, Mechanism, OnLink, Stroke, angle, deg
 
 
 class FourBar(Mechanism):
@@ -29,6 +29,10 @@ class FourBar(Mechanism):
     P = OnLink(A, B, AP=0.070, BAP=30 * deg)  # a point of the coupler
     psi = angle(C, B)  # rocker
     theta = angle(A, B)  # coupler
+
+    def featured(self) -> Featured:
+        """Return psi and the path of P."""
+        return Featured("psi", ["P"])
 
 
 class DragLink(FourBar):

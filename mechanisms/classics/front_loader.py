@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkage import LEFT, RIGHT, Dimension, Dyad, Ground, Link, Mechanism, OnLink, Pin, Stroke, angle, deg, drawn
+from linkage import LEFT, RIGHT, Dimension, Dyad, Featured, Ground, Link, Mechanism, OnLink, Pin, Stroke, angle, deg, drawn
 
 
 class FrontLoader(Mechanism):
@@ -40,3 +40,7 @@ class FrontLoader(Mechanism):
     N = Pin(near=(3.3, 0.6))
     boom = angle(O, B)
     attitude = angle(B, N)
+
+    def featured(self) -> Featured:
+        """Return boom and the paths of B and N."""
+        return Featured("boom", ["B", "N"])

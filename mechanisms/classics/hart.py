@@ -6,7 +6,7 @@ illustrative.
 
 from __future__ import annotations
 
-from linkage import LEFT, Crank, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, deg
+from linkage import LEFT, Crank, Dimension, Dyad, Featured, Ground, Mechanism, OnLink, Stroke, deg
 
 
 class Hart(Mechanism):
@@ -30,3 +30,7 @@ class Hart(Mechanism):
     D = OnLink(A, P, AD=long)
     C = Dyad(B, D, CB=long, CD=short, side=LEFT)  # crossed, not the parallelogram
     Q = OnLink(C, B, CQ=m * long)
+
+    def featured(self) -> Featured:
+        """Return Q_y and the paths of P and Q."""
+        return Featured("Q_y", ["P", "Q"])

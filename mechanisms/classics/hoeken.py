@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from math import pi
 
-from linkage import LEFT, Crank, Dyad, Ground, Mechanism, OnLink, Stroke
+from linkage import LEFT, Crank, Dyad, Featured, Ground, Mechanism, OnLink, Stroke
 
 
 class Hoeken(Mechanism):
@@ -25,3 +25,7 @@ class Hoeken(Mechanism):
     A = Crank(O, OA=0.100, angle=phi)
     B = Dyad(A, C, AB=0.250, CB=0.250, side=LEFT)
     P = OnLink(A, B, AP=0.500)
+
+    def featured(self) -> Featured:
+        """Return P_y and the path of P."""
+        return Featured("P_y", ["P"])

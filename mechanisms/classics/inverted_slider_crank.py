@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import pi
 
-from linkage import LEFT, Crank, Ground, Guide, Mechanism, PinSlotDyad, SliderDyad, Stroke, angle, x
+from linkage import LEFT, Crank, Featured, Ground, Guide, Mechanism, PinSlotDyad, SliderDyad, Stroke, angle, x
 
 
 class InvertedSliderCrank(Mechanism):
@@ -29,3 +29,7 @@ class InvertedSliderCrank(Mechanism):
     E = SliderDyad(R, rail, RE=0.180, side=LEFT)  # the ram
     psi = angle(C, R)  # lever
     ram = x(E)  # m
+
+    def featured(self) -> Featured:
+        """Return ram and the paths of A and R."""
+        return Featured("ram", ["A", "R"])

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import pi
 
-from linkage import LEFT, RIGHT, Crank, Dyad, Ground, Mechanism, Stroke
+from linkage import LEFT, RIGHT, Crank, Dyad, Featured, Ground, Mechanism, Stroke
 
 
 class Jansen(Mechanism):
@@ -28,3 +28,7 @@ class Jansen(Mechanism):
     E = Dyad(X, B, XE=0.619, BE=0.393, side=LEFT)  # k, c
     G = Dyad(D, E, DG=0.394, EG=0.367, side=RIGHT)  # f, g
     F = Dyad(G, E, GF=0.657, EF=0.490, side=RIGHT)  # h, i
+
+    def featured(self) -> Featured:
+        """Return F_y and the path of F."""
+        return Featured("F_y", ["F"])

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import pi
 
-from linkage import Crank, Ground, Link, Mechanism, Pin, Stroke, drawn
+from linkage import Crank, Featured, Ground, Link, Mechanism, Pin, Stroke, drawn
 
 
 class Klann(Mechanism):
@@ -34,3 +34,7 @@ class Klann(Mechanism):
     lower = Link("M B")
     upper = Link("N H")
     leg = Link("K H F")
+
+    def featured(self) -> Featured:
+        """Return F_y and the path of F."""
+        return Featured("F_y", ["F"])

@@ -5,7 +5,7 @@ Source: Scheiner (1603); the dimensions are illustrative.
 
 from __future__ import annotations
 
-from linkage import LEFT, Dimension, Dyad, Ground, Guide, Mechanism, OnGuide, OnLink, Stroke, deg
+from linkage import LEFT, Dimension, Dyad, Featured, Ground, Guide, Mechanism, OnGuide, OnLink, Stroke, deg
 
 
 class Pantograph(Mechanism):
@@ -31,3 +31,7 @@ class Pantograph(Mechanism):
     C = OnLink(O, A, OC=k * arm)
     D = Dyad(C, Q, CD=bar, QD=(k - 1.0) * arm, side=LEFT)
     R = OnLink(C, D, CR=k * bar)  # pen
+
+    def featured(self) -> Featured:
+        """Return R_x and the paths of Q and R."""
+        return Featured("R_x", ["Q", "R"])

@@ -5,7 +5,7 @@ Source: Peaucellier (1864), Lipkin (1871); Kempe, "How to Draw a Straight Line" 
 
 from __future__ import annotations
 
-from linkage import LEFT, RIGHT, Crank, Dimension, Dyad, Ground, Mechanism, Stroke, deg
+from linkage import LEFT, RIGHT, Crank, Dimension, Dyad, Featured, Ground, Mechanism, Stroke, deg
 
 
 class Peaucellier(Mechanism):
@@ -26,3 +26,7 @@ class Peaucellier(Mechanism):
     B = Dyad(O, A, OB=arm, AB=side, side=LEFT)
     D = Dyad(O, A, OD=arm, AD=side, side=RIGHT)
     P = Dyad(B, D, BP=side, DP=side, side=LEFT)  # the rhombus's other corner
+
+    def featured(self) -> Featured:
+        """Return P_y and the paths of A and P."""
+        return Featured("P_y", ["A", "P"])

@@ -6,7 +6,7 @@ illustrative, the proportions are Roberts's: coupler half the frame, four equal 
 
 from __future__ import annotations
 
-from linkage import LEFT, RIGHT, Crank, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, deg
+from linkage import LEFT, RIGHT, Crank, Dimension, Dyad, Featured, Ground, Mechanism, OnLink, Stroke, deg
 
 
 class Roberts(Mechanism):
@@ -24,3 +24,7 @@ class Roberts(Mechanism):
     C = Crank(A, AC=arm, angle=phi)
     D = Dyad(C, B, CD=0.500, BD=arm, side=LEFT)
     P = OnLink(C, D, CP=arm, DP=arm, side=RIGHT)
+
+    def featured(self) -> Featured:
+        """Return P_y and the path of P."""
+        return Featured("P_y", ["P"])

@@ -10,7 +10,7 @@ from math import pi
 
 import numpy as np
 
-from linkage import LEFT, RIGHT, Crank, Dimension, Dyad, Ground, Mechanism, OnLink, Stroke, angle, deg
+from linkage import LEFT, RIGHT, Crank, Dimension, Dyad, Featured, Ground, Mechanism, OnLink, Stroke, angle, deg
 
 
 class RobertsCognates(Mechanism):
@@ -47,3 +47,7 @@ class RobertsCognates(Mechanism):
     E = Crank(W, WE=h * crank, angle=phi - epsilon)  # third: on W and V
     F = Dyad(E, V, EF=h * rocker, VF=h * coupler, side=RIGHT)
     R = OnLink(E, F, ER=k * rocker, FER=delta + epsilon - pi)
+
+    def featured(self) -> Featured:
+        """Return P_y and the path of P."""
+        return Featured("P_y", ["P"])

@@ -6,7 +6,7 @@ dimensions are illustrative.
 
 from __future__ import annotations
 
-from linkage import LEFT, RIGHT, Dimension, Dyad, Ground, Guide, Mechanism, OnLink, SliderDyad, Stroke, angle, y
+from linkage import LEFT, RIGHT, Dimension, Dyad, Featured, Ground, Guide, Mechanism, OnLink, SliderDyad, Stroke, angle, y
 
 
 class ScissorLift(Mechanism):
@@ -35,3 +35,7 @@ class ScissorLift(Mechanism):
     E = OnLink(C, N, CE=2.0 * half)
     h = y(D)  # platform, m
     level = angle(D, E)
+
+    def featured(self) -> Featured:
+        """Return h and the paths of A and D."""
+        return Featured("h", ["A", "D"])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import pi
 
-from linkage import Crank, Ground, Guide, Mechanism, Stroke, YokeDyad, x
+from linkage import Crank, Featured, Ground, Guide, Mechanism, Stroke, YokeDyad, x
 
 
 class ScotchYoke(Mechanism):
@@ -21,3 +21,7 @@ class ScotchYoke(Mechanism):
     A = Crank(O, OA=0.050, angle=phi)
     X = YokeDyad(A, rail)
     travel = x(X)  # m
+
+    def featured(self) -> Featured:
+        """Return travel and the path of A."""
+        return Featured("travel", ["A"])

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from math import pi
 
-from linkage import RIGHT, Crank, Ground, Guide, Mechanism, SliderDyad, Stroke, x
+from linkage import RIGHT, Crank, Featured, Ground, Guide, Mechanism, SliderDyad, Stroke, x
 
 
 class SliderCrank(Mechanism):
@@ -25,3 +25,7 @@ class SliderCrank(Mechanism):
     A = Crank(O, OA=0.040, angle=phi)
     B = SliderDyad(A, rail, AB=0.120, side=RIGHT)
     d = x(B)  # slider, m
+
+    def featured(self) -> Featured:
+        """Return d and the path of A."""
+        return Featured("d", ["A"])

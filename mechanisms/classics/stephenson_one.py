@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import pi
 
-from linkage import LEFT, RIGHT, Crank, Dyad, Ground, Mechanism, OnLink, Stroke, angle, deg
+from linkage import LEFT, RIGHT, Crank, Dyad, Featured, Ground, Mechanism, OnLink, Stroke, angle, deg
 
 
 class StephensonOne(Mechanism):
@@ -25,3 +25,7 @@ class StephensonOne(Mechanism):
     E = OnLink(C, B, CE=0.060, BE=0.050, side=RIGHT)
     F = Dyad(D, E, DF=0.140, EF=0.090, side=RIGHT)
     reach = angle(O, F)
+
+    def featured(self) -> Featured:
+        """Return reach and the path of F."""
+        return Featured("reach", ["F"])

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from math import pi
 
-from linkage import LEFT, Crank, Dyad, Ground, Link, Mechanism, OnLink, Pin, Stroke, angle, deg, drawn
+from linkage import LEFT, Crank, Dyad, Featured, Ground, Link, Mechanism, OnLink, Pin, Stroke, angle, deg, drawn
 
 
 class StephensonThree(Mechanism):
@@ -29,6 +29,10 @@ class StephensonThree(Mechanism):
     D = OnLink(A, B, AD=0.090, BAD=121.3 * deg)
     F = Dyad(D, E, DF=0.1006, EF=0.160, near=(-0.038, 0.010))
     psi = angle(E, F)
+
+    def featured(self) -> Featured:
+        """Return psi and the path of D."""
+        return Featured("psi", ["D"])
 
 
 class StephensonThreeFar(Mechanism):
@@ -53,3 +57,7 @@ class StephensonThreeFar(Mechanism):
     B = Pin(near=(0.221, 0.103))
     D = Pin(near=(-0.038, 0.096))
     phi = angle(O, A)
+
+    def featured(self) -> Featured:
+        """Return phi and the path of D."""
+        return Featured("phi", ["D"])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkage import Crank, Ground, Link, Mechanism, OnLink, Pin, Stroke, angle, deg, drawn
+from linkage import Crank, Featured, Ground, Link, Mechanism, OnLink, Pin, Stroke, angle, deg, drawn
 
 
 class StephensonTwo(Mechanism):
@@ -28,6 +28,10 @@ class StephensonTwo(Mechanism):
     G = Pin(near=(0.207, 0.110))
     psi = angle(E, G)
 
+    def featured(self) -> Featured:
+        """Return psi and the paths of B and F."""
+        return Featured("psi", ["B", "F"])
+
 
 class StephensonTwoFar(Mechanism):
     """The same chain driven by EG: two ternary links AOD and BFG with two rods between them.
@@ -51,3 +55,7 @@ class StephensonTwoFar(Mechanism):
     B = Pin(near=(0.124, 0.053))
     F = Pin(near=(0.078, 0.091))
     phi = angle(O, A)
+
+    def featured(self) -> Featured:
+        """Return phi and the paths of B and F."""
+        return Featured("phi", ["B", "F"])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkage import Dimension, Ground, Guide, Link, Mechanism, Pin, Slide, Stroke, deg, y
+from linkage import Dimension, Featured, Ground, Guide, Link, Mechanism, Pin, Slide, Stroke, deg, y
 
 
 class TogglePress(Mechanism):
@@ -26,3 +26,7 @@ class TogglePress(Mechanism):
     A = Pin(near=(-0.12, 0.52))
     B = Pin(near=(0.0, 0.25))
     travel = 0.200 - y(B)  # m below the straight toggle's end, negative above
+
+    def featured(self) -> Featured:
+        """Return travel and the path of A."""
+        return Featured("travel", ["A"])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkage import RIGHT, Guide, Mechanism, OnGuide, OnLink, SliderDyad, Stroke, deg
+from linkage import RIGHT, Featured, Guide, Mechanism, OnGuide, OnLink, SliderDyad, Stroke, deg
 
 
 class Trammel(Mechanism):
@@ -19,3 +19,7 @@ class Trammel(Mechanism):
     X = OnGuide(rail, at=S)
     Y = SliderDyad(X, post, XY=0.100, side=RIGHT)  # above the rail
     P = OnLink(X, Y, XP=0.160)
+
+    def featured(self) -> Featured:
+        """Return P_y and the path of P."""
+        return Featured("P_y", ["P"])

@@ -6,7 +6,7 @@ proportion CF = OM^2 / (OE - OM) that the design asks for.
 
 from __future__ import annotations
 
-from linkage import LEFT, RIGHT, Crank, Dyad, Ground, Mechanism, OnLink, Stroke, deg
+from linkage import LEFT, RIGHT, Crank, Dyad, Featured, Ground, Mechanism, OnLink, Stroke, deg
 
 
 class WattOne(Mechanism):
@@ -27,3 +27,7 @@ class WattOne(Mechanism):
     F = Dyad(M, C, MF=0.200, CF=0.500, side=RIGHT)  # link and radius rod
     P = OnLink(M, F, MP=0.200 * 0.400 / 0.720)  # the air pump's rod
     G = Dyad(E, F, EG=0.200, FG=0.320, side=LEFT)  # the piston's rod
+
+    def featured(self) -> Featured:
+        """Return G_x and the paths of P and G."""
+        return Featured("G_x", ["P", "G"])

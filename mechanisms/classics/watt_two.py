@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import pi
 
-from linkage import LEFT, Crank, Dyad, Ground, Mechanism, OnLink, Stroke, angle, deg
+from linkage import LEFT, Crank, Dyad, Featured, Ground, Mechanism, OnLink, Stroke, angle, deg
 
 
 class WattTwo(Mechanism):
@@ -25,3 +25,7 @@ class WattTwo(Mechanism):
     F = Dyad(D, E, DF=0.180, EF=0.100, side=LEFT)  # second four-bar
     middle = angle(C, B)
     psi = angle(E, F)
+
+    def featured(self) -> Featured:
+        """Return psi and the path of D."""
+        return Featured("psi", ["D"])

@@ -16,6 +16,7 @@ from linkage import (
     Crank,
     Dimension,
     Dyad,
+    Featured,
     Ground,
     LoadCase,
     Mechanism,
@@ -34,7 +35,7 @@ from linkage.quantities import Function, Quantity
 from linkage.steps import Point
 
 from .drive_duty import clipped
-from .drive_report import drive_columns, drive_verdicts
+from .drive_report import drive_columns, drive_verdicts, featured_drive
 
 
 class DrivenArm(Mechanism):
@@ -132,6 +133,10 @@ class ArmDrive(DrivenArm):
         """Return angle, length, lever, and the moments asked for and given: folding by the piston side, opening by the rod side."""
         return drive_columns(motion)
 
+    def featured(self) -> Featured:
+        """Return what the drive has over the moment asked for, which may not fall below zero, folding, and opening."""
+        return featured_drive("folding", "opening")
+
     def verdicts(self, motion: Motion) -> list[str]:
         """Return whether the drive carries the arm over a motion, and whether the cylinder is as long as that takes."""
         return drive_verdicts(motion)
@@ -212,6 +217,10 @@ class DirectArmDrive(DrivenArm):
     def columns(self, motion: Motion) -> list[Column]:
         """Return angle, length, lever, and the moments asked for and given: opening by the piston side, folding by the rod side."""
         return drive_columns(motion)
+
+    def featured(self) -> Featured:
+        """Return what the drive has over the moment asked for, which may not fall below zero, folding, and opening."""
+        return featured_drive("folding", "opening")
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return whether the drive carries the arm over a motion, and whether the cylinder is as long as that takes."""

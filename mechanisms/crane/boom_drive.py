@@ -8,10 +8,10 @@ from __future__ import annotations
 import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import Column, Crank, Dimension, Ground, Mechanism, Moment, Motion, MPa, OnLink, Stroke, deg, distance, mm
+from linkage import Column, Crank, Dimension, Featured, Ground, Mechanism, Moment, Motion, MPa, OnLink, Stroke, deg, distance, mm
 
 from .drive_duty import clipped
-from .drive_report import drive_columns, drive_verdicts
+from .drive_report import drive_columns, drive_verdicts, featured_drive
 
 
 class BoomDrive(Mechanism):
@@ -67,6 +67,10 @@ class BoomDrive(Mechanism):
     def columns(self, motion: Motion) -> list[Column]:
         """Return angle, length, lever, and the moments asked for and given."""
         return drive_columns(motion)
+
+    def featured(self) -> Featured:
+        """Return what the drive has over the moment asked for, which may not fall below zero."""
+        return featured_drive("lifting")
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return whether the drive carries the boom over a motion, and whether the cylinder is as long as that takes."""

@@ -11,7 +11,8 @@ from typing import final
 
 import numpy as np
 
-from linkage import Column, DefinitionError, Motion
+from linkage import Column, DefinitionError, Featured, Motion
+from linkage.language import said
 from linkage.motion import Extremum, greatest, lowest
 from linkage.program import FloatArray
 from linkage.units import kN, mm
@@ -69,8 +70,14 @@ def drive_columns(motion: Motion) -> list[Column]:
     found.append(Column("lever", np.abs(motion.ratio("length")), "mm", 1))
     for each in movements_of(motion):
         asked, given = each.asked(motion), each.given(motion)
-        found += [Column(f"{each.name}: asked", asked, "kNm", 2), Column("given", given, "kNm", 2), Column("over", given - asked, "kNm", 2)]
+        moments = {"asked": asked, "given": given, "over": given - asked}
+        found += [Column(f"{each.name}: {what}", values, "kNm", 2) for what, values in moments.items()]
     return found
+
+
+def featured_drive(*movements: str) -> Featured:
+    """Return what a drive is about: how much moment it has over the one asked for in each movement, which may not fall below zero."""
+    return Featured(f"{movements[0]}: over", (), {f"{name}: over": (0.0, said("too weak"), "below") for name in movements})
 
 
 @final

@@ -8,7 +8,24 @@ import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
 from hydraulics.inputs import positive
-from linkage import Column, Crank, DefinitionError, Dimension, Force, Ground, Mechanism, Motion, OnLink, Stroke, distance, ref, x, y
+from linkage import (
+    Column,
+    Crank,
+    DefinitionError,
+    Dimension,
+    Featured,
+    Force,
+    Ground,
+    Mechanism,
+    Motion,
+    OnLink,
+    Stroke,
+    distance,
+    ref,
+    x,
+    y,
+)
+from linkage.language import said
 from linkage.units import MPa, deg, mm
 
 from .report import grapple_columns, grapple_verdicts
@@ -114,6 +131,10 @@ class Grapple(Mechanism):
     def columns(self, motion: Motion) -> list[Column]:
         """Return theta, the stem's diameter, the cylinder's length, H, M_g, M_1 and their ratio; no stem beyond D_0: NaN."""
         return grapple_columns(motion)
+
+    def featured(self) -> Featured:
+        """Return the moment given over the one that the stem takes, which holds it from 1 on, and the path of the lever's end A."""
+        return Featured("M_g/M_1", ["A"], {"M_g/M_1": (1.0, said("holds the stem"), "below")})
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return what an engineer should know: moment over the stems, way past the hinge, opening, stroke, E, the cylinder's size."""

@@ -8,7 +8,24 @@ import numpy as np
 
 from hydraulics import Accumulator, AccumulatorBlock, Cylinder, FloatCircuit, isothermal
 from hydraulics.inputs import in_pascals, positive
-from linkage import LEFT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, Motion, OnLink, Stroke, Vector, angle, distance, y
+from linkage import (
+    LEFT,
+    Column,
+    DefinitionError,
+    Dimension,
+    Dyad,
+    Featured,
+    Ground,
+    Mechanism,
+    Motion,
+    OnLink,
+    Stroke,
+    Vector,
+    angle,
+    distance,
+    y,
+)
+from linkage.language import said
 from linkage.loads import PinFriction, Support, Weight
 from linkage.loads.element import Formulas
 from linkage.units import deg, kg, kgf_cm2, litre, mm
@@ -98,6 +115,11 @@ class HeaderBalancer(Mechanism):
         """Write, after what its elements say, (34), (36), (38) and (39), and the pressure at which the shoe carries nothing."""
         super().formulas(written)
         write_reaction(written)
+
+    def featured(self) -> Featured:
+        """Return the shoe's reaction, which may not fall below zero, the pressure with the relief valve's, and the path of the shoe R."""
+        valve = (float(self["valve"]), said("the relief valve opens"), "above")
+        return Featured("F_R free", ["R"], {"F_R free": (0.0, said("the shoe lifts off"), "below"), "P": valve})
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return the paper's five criteria in words, over the following range of one design."""

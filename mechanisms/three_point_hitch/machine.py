@@ -11,9 +11,25 @@ import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
 from hydraulics.inputs import positive
-from linkage import LEFT, RIGHT, Column, DefinitionError, Dimension, Dyad, Ground, Mechanism, Motion, OnLink, Stroke, Weight, angle
+from linkage import (
+    LEFT,
+    RIGHT,
+    Column,
+    DefinitionError,
+    Dimension,
+    Dyad,
+    Featured,
+    Ground,
+    Mechanism,
+    Motion,
+    OnLink,
+    Stroke,
+    Weight,
+    angle,
+)
+from linkage.language import said
 from linkage.loads.element import Formulas
-from linkage.units import MPa, deg, kg, litre, minute, mm
+from linkage.units import MPa, deg, g0, kg, litre, minute, mm
 
 from .capacity import capacity, write_capacity
 from .report import verdicts
@@ -82,6 +98,12 @@ class ThreePointHitch(Mechanism):
         """Write, after what its elements say, F_cyl = p_max area (29) and the lifting capacity G_g = F_cyl eta / I_G (28)."""
         super().formulas(written)
         write_capacity(written)
+
+    def featured(self) -> Featured:
+        """Return the lifting capacity with the implement's weight, which it may not fall below, and the path of G."""
+        weight = float(self["load.mass"]) * g0
+        limits = {"capacity": (weight, said("weight of the implement"), "below")} if weight > 0.0 else {}
+        return Featured("capacity", ["G"], limits)
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return what an engineer should know: capacity and its weakest point, pressure, oil, upper link, mast, front axle."""

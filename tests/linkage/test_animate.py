@@ -97,7 +97,7 @@ def test_a_count_is_a_whole_number_from_two(count):
 def test_a_frame_is_the_same_however_it_is_reached():
     stage = Stage(playback(ThreePointHitch(), 7), ["G"], None, 50)
     first = stage.frame(0)
-    assert first.shape == (240, 480, 3)
+    assert first.shape == (240, 480, 4)
     assert (stage.frame(3) != first).any()
     assert (stage.frame(0) == first).all()
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import LEFT, RIGHT, Column, Crank, DefinitionError, Dyad, Ground, Mechanism, OnLink, Stroke, Weight
+from linkage import LEFT, RIGHT, Column, Crank, DefinitionError, Dyad, Ground, Guide, Mechanism, OnGuide, OnLink, Stroke, Weight
 from linkage.pictures import animate, plot
 from linkage.pictures.browser import chart
 from linkage.pictures.film import Stage
-from linkage.pictures.strokes import playback
+from linkage.pictures.strokes import StrokeAxis, playback, unreached_words
 from linkage.reports import results, run_of
 from linkage.statics import driving_force
 from mechanisms.classics.front_loader import FrontLoader
@@ -56,21 +56,69 @@ class TwoCranks(Crankshaft):
         (dict(lift=0.1), "tilt", (0.0, 0.35), {"lift": 0.1}),
         (dict(lift=[0.3, 0.1]), "lift", (0.3, 0.1), {"tilt": 0.175}),
         (dict(lift=0.2, tilt=(0.0, 0.1)), "tilt", (0.0, 0.1), {"lift": 0.2}),
+        (dict(lift=(0.1, 0.2, 0.3)), "lift", (0.1, 0.2, 0.3), {"tilt": 0.175}),
     ],
 )
 def test_a_run_is_of_the_stroke_that_is_left_free(at, stroke, ends, held):
     run = run_of(FrontLoader(), at)
-    assert (run.stroke, (run.start, run.end), run.held) == (stroke, ends, held)
+    assert (run.stroke, run.ways, run.held) == (stroke, {stroke: ends}, held)
+
+
+def test_several_strokes_run_together_from_value_to_value():
+    run = run_of(FrontLoader(), dict(lift=(0.0, 0.3, 0.3), tilt=(0.1, 0.1, 0.2)))
+    assert (run.stroke, run.held) == ("lift", {})
+    assert_allclose(run.marks, [0.0, 0.5, 1.0])
+    over = run.over(np.array([0.0, 0.25, 0.5, 0.75, 1.0]))
+    assert_allclose(over["lift"], [0.0, 0.15, 0.3, 0.3, 0.3])
+    assert_allclose(over["tilt"], [0.1, 0.1, 0.1, 0.15, 0.2])
+
+
+@pytest.mark.parametrize(
+    ("at", "axis", "held"),
+    [
+        (dict(lift=(0.1, 0.3), tilt=(0.2, 0.1)), "lift", "tilt = 200 to 100 mm"),
+        (dict(lift=(0.1, 0.3, 0.1), tilt=(0.0, 0.1, 0.3)), "tilt", "lift = 100 mm to 300 mm to 100 mm"),
+        (dict(lift=(0.1, 0.3, 0.1), tilt=(0.3, 0.1, 0.3)), "way", "lift = 100 mm to 300 mm to 100 mm, tilt = 300 mm to 100 mm to 300 mm"),
+    ],
+)
+def test_the_axis_of_strokes_that_run_together_is_one_that_goes_on_else_the_way(at, axis, held):
+    along = StrokeAxis.of(playback(FrontLoader(), 21, at=at, eased=False).motion)
+    assert along.name == axis
+    assert (np.diff(along.values) > 0.0).all()
+    assert along.held.replace(" mm", "") == held.replace(" mm", "")
+
+
+def test_a_film_of_strokes_that_run_together_says_where_each_is():
+    stage = Stage(playback(FrontLoader(), 3, at=dict(lift=(0.1, 0.3), tilt=(0.2, 0.1))), [], None, 50)
+    stage.update(2)
+    assert stage.stroke.get_text() == "lift = 300 mm, tilt = 100 mm"
+
+
+def test_what_is_not_reached_on_the_way_of_several_strokes_is_told_at_its_edge():
+    """Along a straight way of two strokes the edge is found between the poses, both strokes moving."""
+
+    class Arm(Mechanism):
+        """A dyad on a slide that moves away."""
+
+        S, T = Stroke(0.5, 0.8), Stroke(0.0, 0.6)
+        rail = Guide((0.0, 0.0), angle=0)
+        O, A = Ground(0.0, 0.0), OnGuide(rail, at=T)
+        B = Dyad(O, A, OB=S, AB=0.4, side=LEFT)
+
+    way = np.linspace(0.0, 1.0, 8)
+    motion = Arm().at(S=0.5 + 0.3 * way, T=0.6 - 0.6 * way, unreachable="nan")
+    edge = 0.5 / 0.9  # 0.5 + 0.3 w - 0.4 = 0.6 - 0.6 w
+    assert unreached_words(motion, "S") == f"not reached beyond S = {1e3 * (0.5 + 0.3 * edge):.4g} mm"
 
 
 @pytest.mark.parametrize(
     ("at", "words"),
     [
         (dict(lift=0.1, tilt=0.1), "every stroke is held.*give lift two values"),
-        (dict(lift=(0.1, 0.2), tilt=(0.1, 0.2)), "lift and tilt have two values each"),
+        (dict(lift=(0.1, 0.2, 0.3), tilt=(0.1, 0.2)), "lift passes 3 values and tilt passes 2 values; strokes that run together"),
+        (dict(lift=(0.1, 0.2, 0.2)), "nothing moves from lift = 0.2 to 0.2"),
         (dict(boom=0.1), "Stroke 'boom' is unknown"),
         (dict(lift=(0.1, 0.1)), "two different ones"),
-        (dict(lift=(0.1, 0.2, 0.3)), "one number holds a stroke"),
         (dict(lift="far"), "one number holds a stroke"),
         (dict(lift=float("nan")), "one number holds a stroke"),
     ],

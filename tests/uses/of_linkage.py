@@ -966,7 +966,7 @@ USES = [
     ("reports.run_of(@)", "3; Lift", ("is no mechanism; give a design such as Boom(), and its strokes by at=.",)),
     ("reports.run_of(@)", "lifting, 3", ("Lift: at=3: values of strokes by name are expected, such as at=dict(S=0.1).",)),
     ("reports.run_of(@)", 'lifting, {"Q": 1}', ("Stroke 'Q' is unknown in Lift. Known: S.",)),
-    ("reports.run_of(@)", 'lifting, {"S": "a"}', ("Lift: S='a': one number holds a stroke, two different ones are the ends of its run.",)),
+    ("reports.run_of(@)", 'lifting, {"S": "a"}', ("Lift: S='a': one number holds a stroke",)),
     ("reports.run_of(@)", 'lifting, {"S": 0.1}', ("Lift: every stroke is held, so that nothing moves; give S two values, its run.",)),
     ('reports.ranges_below_zero(@, len)', "3; None; lifting", ("is no motion; give machine.sweep(...) or machine.at(...).",)),
     ("reports.reached_span(@)", "3; None; lifting", ("is no motion; give machine.sweep(...) or machine.at(...).",)),

@@ -44,7 +44,10 @@ def checks_section(looked: Looked, listing: Equations) -> Section:
     found = checks(looked, listing)
     rows: list[tuple[Cell, ...]] = [(each.name, each.what, figure(each.measured), figure(each.bound), kept(each.ok)) for each in found]
     heads = (said("check"), said("what is compared"), said("measured"), said("bound"), said("result"))
-    return Section(said("Checks of the calculation"), (Grid(said("Largest relative differences over the poses of the table"), heads, tuple(rows), "lmrrl"),))
+    return Section(
+        said("Checks of the calculation"),
+        (Grid(said("Largest relative differences over the poses of the table"), heads, tuple(rows), "lmrrl"),),
+    )
 
 
 def figure(value: float) -> str:
@@ -65,6 +68,7 @@ def checks(looked: Looked, listing: Equations) -> list[Check]:
 
 
 # -- positions ---------------------------------------------------------------------------------------------
+
 
 def lengths_kept(motion: Motion) -> Check:
     """Return how well the distances of the placed pins are the lengths that were given."""
@@ -138,18 +142,23 @@ def equations_against(looked: Looked, listing: Equations) -> Iterator[Check]:
 
 # -- derivatives and forces --------------------------------------------------------------------------------
 
+
 def derivatives(looked: Looked) -> Check:
     """Return how far exact transfer ratios are from central differences, over their greatest value."""
-    motion, stroke, worst, targets = looked.table, looked.run.stroke, 0.0, 0
+    motion, stroke = looked.table, looked.stroke
     outputs = [name for name, each in motion.plan.of_kind(Quantity).items() if not isinstance(each, (Stroke, Dimension))]
+    found: list[tuple[float, float]] = []
     for name in (*motion.plan.moving, *outputs):
         try:
             exact, central = (motion.ratio(name, wrt=stroke, method=way) for way in ("exact", "central"))
         except LinkageError:
             continue
-        targets += 1
-        worst = max(worst, greatest_of(np.abs(exact - central)) / (greatest_of(np.abs(exact)) or 1.0))
-    what = said("exact transfer ratios of points and outputs by {stroke}, against central differences: {n} of them", stroke=stroke, n=targets)
+        found.append((greatest_of(np.abs(exact - central)), greatest_of(np.abs(exact))))
+    least = 1e-6 * max((size for _, size in found), default=0.0) or 1.0  # what does not move at all is compared with what does
+    worst, targets = max((miss / max(size, least) for miss, size in found), default=0.0), len(found)
+    what = said(
+        "exact transfer ratios of points and outputs by {stroke}, against central differences: {n} of them", stroke=stroke, n=targets
+    )
     return Check(said("transfer ratios"), what, worst if targets else np.nan, NUMERIC)
 
 

@@ -67,7 +67,9 @@ def head(document: Document) -> Iterator[str]:
     yield f"<h1>{escape(document.title)}</h1>"
     yield f'<p class="sub">{escape(said("Calculation report"))}. {escape(document.subtitle)}</p>'
     mark = document.verdict
-    rows = (f"<dt>{escape(name)}</dt><dd{coloured(mark) if value == mark.word else ''}>{escape(value)}</dd>" for name, value in document.facts)
+    rows = (
+        f"<dt>{escape(name)}</dt><dd{coloured(mark) if value == mark.word else ''}>{escape(value)}</dd>" for name, value in document.facts
+    )
     yield f'<dl class="block">{"".join(rows)}</dl>'
     entries = (f'<li><a href="#s{number}">{escape(each.title)}</a></li>' for number, each in enumerate(document.sections, 1))
     yield f"<nav><ol>{''.join(entries)}</ol></nav>"

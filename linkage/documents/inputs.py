@@ -16,7 +16,7 @@ from ..mechanism import Mechanism
 from ..motion import stroke_display_unit
 from ..plan import plan_measure, printed
 from ..quantities import Dimension, Stroke
-from ..units import amount, display_unit, shown_in, unit_sign
+from ..units import display_unit, shown_in, shown_number, unit_sign
 from .content import Block, Cell, Formula, Grid, Paragraph, Section
 
 
@@ -52,8 +52,8 @@ def stroke_table(machine: Mechanism, listing: Equations, held: Mapping[str, floa
     rows: list[tuple[Cell, ...]] = []
     for name, stroke in machine.strokes.items():
         unit = stroke_display_unit(machine.plan, name, "mm")
-        used = said("held at {value}", value=amount(held[name], unit)) if name in held else said("moves")
-        ends = (amount(stroke.start, unit), amount(stroke.end, unit))
+        used = said("held at {value}", value=shown_number(held[name], unit)) if name in held else said("moves")
+        ends = (shown_number(stroke.start, unit), shown_number(stroke.end, unit))
         rows.append((name, Formula(listing.symbol_latex(name)), *ends, unit_sign(unit), used, notes.get(name, "")))
     heads = (said("stroke"), said("symbol"), said("start"), said("end"), said("unit"), said("in this report"), said("source, note"))
     return Grid(said("Strokes"), heads, tuple(rows), "llrrllm")
@@ -67,10 +67,10 @@ def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, 
         unit = entry.unit or display_unit(plan_measure(machine.plan, name), "mm")
         where = entry.where.partition(" = ")[0] if entry.kind != "number" else ""
         said_of = notes.get(name) or notes.get(where) or notes.get(name.partition(".")[0], "")
-        changed = said("was {value}", value=amount(entry.default, unit)) if float(value) != entry.default else ""
+        changed = said("was {value}", value=shown_number(entry.default, unit)) if float(value) != entry.default else ""
         note = "; ".join(each for each in (changed, said_of) if each)
         sign = unit_sign(unit) if unit else ""
-        rows.append((name, Formula(listing.symbol_latex(name)), amount(float(value), unit, 7), sign, where, note))
+        rows.append((name, Formula(listing.symbol_latex(name)), shown_number(float(value), unit, 7), sign, where, note))
     heads = (said("dimension"), said("symbol"), said("value"), said("unit"), said("stands in"), said("source, note"))
     return Grid(said("Dimensions"), heads, tuple(rows), "llrllm")
 
@@ -88,7 +88,9 @@ def definition_section(machine: Mechanism) -> Section:
     heads = (said("name"), said("declared as"))
     rows = tuple(row[:2] for row in member_rows(machine, names, {}))
     bodies = tuple((str(place), str(body)) for place, body in enumerate(machine.links))
-    bodies += tuple((str(len(bodies) + place), said("cylinder {P} {Q}", P=bar.P, Q=bar.Q)) for place, bar in enumerate(machine.plan.cylinders))
+    bodies += tuple(
+        (str(len(bodies) + place), said("cylinder {P} {Q}", P=bar.P, Q=bar.Q)) for place, bar in enumerate(machine.plan.cylinders)
+    )
     count = said(
         "Mobility {rank} by the rank of the constraints, strokes {strokes}; count of Gruebler {count}, a cylinder being two bodies on a slide.",
         rank=machine.mobility, strokes=len(machine.strokes), count=machine.gruebler,
@@ -111,6 +113,7 @@ def length_unit() -> str:
 
 # Where a number comes from: the comment beside it in the class's source.
 
+
 def notes_of(machine: type[Mechanism]) -> dict[str, str]:
     """Return the comments that stand beside the members in the source of a class and its bases, by name."""
     found: dict[str, str] = {}
@@ -131,7 +134,11 @@ def comments_in(cls: type) -> dict[str, str]:
     comments = {token.start[0]: token.string.lstrip("#: ").strip() for token in tokens if token.type == tokenize.COMMENT}
     found: dict[str, str] = {}
     for line in getattr(body, "body", []):
-        if isinstance(line, ast.Assign) and (text := comments.get(line.end_lineno or line.lineno)) and not text.startswith(("fmt:", "type:", "noqa")):
+        if (
+            isinstance(line, ast.Assign)
+            and (text := comments.get(line.end_lineno or line.lineno))
+            and not text.startswith(("fmt:", "type:", "noqa"))
+        ):
             for target in line.targets:
                 names = target.elts if isinstance(target, ast.Tuple) else [target]
                 found |= {name.id: text for name in names if isinstance(name, ast.Name)}

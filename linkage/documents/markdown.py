@@ -60,7 +60,14 @@ def replace_folder(folder: Path, contents: dict[str, str]) -> None:
 def markdown(document: Document, names: dict[int, str]) -> str:
     """Return a document as Markdown; `names` are the pictures' places by their identity."""
     captions = captions_of(document.sections)
-    lines = [f"# {plain(document.title)}", "", f"{plain(said('Calculation report'))}. {plain(document.subtitle)}", "", "| | |", "| --- | --- |"]
+    lines = [
+        f"# {plain(document.title)}",
+        "",
+        f"{plain(said('Calculation report'))}. {plain(document.subtitle)}",
+        "",
+        "| | |",
+        "| --- | --- |",
+    ]
     lines += [f"| {plain(name)} | {plain(value)} |" for name, value in document.facts]
     for number, section in enumerate(document.sections, 1):
         lines += section_text(number, section, captions, names)

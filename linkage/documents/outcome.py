@@ -25,7 +25,7 @@ from ..reports import results
 from ..reports.table import cells as text_cells
 from ..reports.table import column_blocks, flat
 from ..statics import PinForces, max_table
-from ..units import amount, show, unit_sign
+from ..units import show, shown_number, unit_sign
 from .calculation import has_loads
 from .content import Block, Cell, Grid, Illustration, Paragraph, Section
 from .inputs import length_unit
@@ -44,6 +44,7 @@ DIRECTIONS = (noted("frictionless"), noted("extending"), noted("retracting"), no
 
 # -- drawings ----------------------------------------------------------------------------------------------
 
+
 def drawing_section(looked: Looked, path: Sequence[str]) -> Section:
     """Return the section of the drawings: with dimensions, and at both ends of the stroke with the paths of points."""
     pose = looked.machine.at(unreachable="nan", **{name: [value] for name, value in looked.pose.items()})
@@ -53,7 +54,7 @@ def drawing_section(looked: Looked, path: Sequence[str]) -> Section:
         (WIDE, height_of(Scene(pose), 0.16)), ROOM, lambda ax: dimensioned(ax, pose),
     )  # fmt: skip
     reached = np.flatnonzero(looked.curve.reached)
-    ends = [looked.words({looked.run.stroke: float(looked.curve.strokes[looked.run.stroke][place])}) for place in (reached[0], reached[-1])]
+    ends = [looked.moving_words(looked.strokes_at(looked.curve, int(place))) for place in (reached[0], reached[-1])]
     paths = said(" Broken line: path of {points}.", points=", ".join(path)) if path else ""
     second = Illustration(
         "positions",
@@ -85,6 +86,7 @@ def positions(ax: Axes, motion: Motion, path: Sequence[str]) -> None:
 
 # -- tables and curves -------------------------------------------------------------------------------------
 
+
 def chosen_columns(looked: Looked, names: Sequence[str] | None) -> list[Column]:
     """Return the columns of results at the poses of the tables: those named, else all; DefinitionError for an unknown name."""
     with unwarned():
@@ -95,7 +97,7 @@ def chosen_columns(looked: Looked, names: Sequence[str] | None) -> list[Column]:
     for name in names:
         if name not in known:
             raise unknown("Column", name, known, where=f"the table of {looked.machine.plan.title}")
-    return [known[name] for name in dict.fromkeys([*(each for each in looked.run.over(0.0) if each in known), *names])]
+    return [known[name] for name in dict.fromkeys([*(each for each in looked.machine.strokes if each in known), *names])]
 
 
 def results_section(looked: Looked, names: Sequence[str] | None, first: str, limits: Mapping[str, Sequence[Any]]) -> Section:
@@ -105,10 +107,12 @@ def results_section(looked: Looked, names: Sequence[str] | None, first: str, lim
     shown = [column for column in columns if column.name not in looked.run.held]
     held = looked.words(dict(looked.run.held))
     if held:
-        blocks.append(Paragraph(said("Along {stroke}, with {held} held.", stroke=looked.run.stroke, held=held)))
+        blocks.append(Paragraph(said("Along {stroke}, with {held} held.", stroke=", ".join(looked.run.ways), held=held)))
     missing = int(np.count_nonzero(~looked.table.reached))
     if missing:
-        blocks.append(Paragraph(said("{n} of {count} poses of the table cannot be assembled; they have no values.", n=missing, count=looked.count)))
+        blocks.append(
+            Paragraph(said("{n} of {count} poses of the table cannot be assembled; they have no values.", n=missing, count=looked.count))
+        )
     blocks += column_grids(said("Results over the stroke"), shown)
     whole = curves(looked)
     coordinates = {f"{point}_{axis}" for point in looked.machine.plan.points for axis in "xy"}
@@ -130,7 +134,7 @@ def curves(looked: Looked) -> dict[str, Column]:
         found = {column.name: column for column in results(looked.machine, looked.curve)}
         for member in member_curves(looked):
             found.setdefault(member.name, member)
-    return {name: column for name, column in found.items() if name not in looked.run.over(0.0)}
+    return {name: column for name, column in found.items() if name not in looked.machine.strokes}
 
 
 def member_curves(looked: Looked) -> Iterator[Column]:
@@ -164,6 +168,7 @@ def column_grids(caption: str, columns: Sequence[Column]) -> Iterator[Grid]:
 
 # -- cylinders and springs ---------------------------------------------------------------------------------
 
+
 def members_section(looked: Looked) -> Section | None:
     """Return the section of what members show of themselves, such as cylinders their thrust and pressure; None where none does."""
     members = looked.machine.plan.of_kind(Tabled)
@@ -192,11 +197,12 @@ def extremes(looked: Looked, column: Column) -> tuple[str, ...]:
     cells = text_cells(column, flat([Column(column.name, values, column.unit, column.digits)])[0])
     found: list[str] = []
     for place in (int(np.nanargmin(values)), int(np.nanargmax(values))):
-        found += [cells[place], looked.words({looked.run.stroke: float(looked.curve.strokes[looked.run.stroke][place])})]
+        found += [cells[place], looked.moving_words(looked.strokes_at(looked.curve, place))]
     return (column.heading, *found)
 
 
 # -- forces of joints --------------------------------------------------------------------------------------
+
 
 def forces_section(looked: Looked) -> Section | None:
     """Return the section of driving forces and of the largest force of every joint, over cases and directions; None without loads."""
@@ -214,7 +220,7 @@ def forces_section(looked: Looked) -> Section | None:
             "The largest force of each joint over the whole run of {stroke}, between the poses of the tables too, over load cases and "
             "directions of motion. Fx and Fy act on the body, in its own axes: x from the first of the named points to the second, y to "
             "its left; on the frame in the axes of the drawing.",
-            stroke=looked.run.stroke,
+            stroke=", ".join(looked.run.ways),
         )
         + (said(" Held: {held}.", held=held) if held else "")
     )
@@ -232,10 +238,10 @@ def forces_section(looked: Looked) -> Section | None:
 
 def pin_row(looked: Looked, row: Any) -> tuple[str, ...]:
     """Return a joint's largest force as cells."""
-    parts = [amount(row.force * way(row.angle), "kN", "z.3f") if np.isfinite(row.force) else "∞" for way in (cos, sin)]
-    size = amount(row.force, "kN", ".3f") if np.isfinite(row.force) else "∞"
+    parts = [shown_number(row.force * way(row.angle), "kN", "z.3f") if np.isfinite(row.force) else "∞" for way in (cos, sin)]
+    size = shown_number(row.force, "kN", ".3f") if np.isfinite(row.force) else "∞"
     case = translated(row.case)
-    where = looked.words({name: row.strokes[name] for name in row.strokes if name == looked.run.stroke})
+    where = looked.moving_words(row.strokes)
     return (row.point, translated(row.kind), frame(row.on), frame(row.by), *parts, size, row.axis, where, case, translated(row.direction))
 
 
@@ -251,7 +257,7 @@ def drive_rows(looked: Looked, found: Sequence[PinForces]) -> Iterator[tuple[str
         forces += [(said("thrust of {name}", name=name), values, "kN") for name, values in one.thrusts.items()]
         for name, values, unit in forces:
             if np.isfinite(values).any():
-                low, high = (amount(float(each(values)), unit, "z.3f") for each in (np.nanmin, np.nanmax))
+                low, high = (shown_number(float(each(values)), unit, "z.3f") for each in (np.nanmin, np.nanmax))
                 yield (translated(one.case), translated(one.direction), name, low, high, unit_sign(unit))
 
 
@@ -261,6 +267,7 @@ def drive_unit(plan: Plan, stroke: str) -> str:
 
 
 # -- limits ------------------------------------------------------------------------------------------------
+
 
 def limits_section(looked: Looked) -> Section:
     """Return the section of how far every stroke reaches, what stops it, and the least transmission angles."""
@@ -273,7 +280,9 @@ def limits_section(looked: Looked) -> Section:
     heads = (said("stroke"), said("limit"), said("at stroke"))
     rows = [row for each in found.values() for row in limit_rows(looked, each)]
     held = said("Each stroke by itself, the others held at {pose}.", pose=looked.words(looked.pose))
-    return Section(title, (*([Paragraph(held)] if len(found) > 1 else []), Grid(said("Reach, dead points, transmission"), heads, tuple(rows), "lmm")))
+    return Section(
+        title, (*([Paragraph(held)] if len(found) > 1 else []), Grid(said("Reach, dead points, transmission"), heads, tuple(rows), "lmm"))
+    )
 
 
 def limit_rows(looked: Looked, limits: StrokeLimits) -> Iterator[tuple[Cell, ...]]:
@@ -292,7 +301,19 @@ def limit_rows(looked: Looked, limits: StrokeLimits) -> Iterator[tuple[Cell, ...
     for value, cylinder in limits.cylinder_dead_points:
         yield name, said("dead point of the cylinder {cylinder}: its length stands still", cylinder=cylinder), place(value)
     for least in limits.transmission:
-        yield name, said("least transmission angle at {joint}: {angle}", joint=least.joint, angle=show(least.angle, "deg", 4)), place(least.stroke)
+        yield (
+            name,
+            said("least transmission angle at {joint}: {angle}", joint=least.joint, angle=show(least.angle, "deg", 4)),
+            place(least.stroke),
+        )
     if limits.open_turn is not None:
         pins, turns = " ".join(limits.open_turn.pins), limits.open_turn.turns
-        yield name, said("after one turn {pins} do not stand where they began; turns until they do (0: not after six): {turns}", pins=pins, turns=turns), ""
+        yield (
+            name,
+            said(
+                "after one turn {pins} do not stand where they began; turns until they do (0: not after six): {turns}",
+                pins=pins,
+                turns=turns,
+            ),
+            "",
+        )

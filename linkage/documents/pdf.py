@@ -32,7 +32,7 @@ ROOM = WIDE - LEFT - RIGHT
 TEXT, SMALL, CELL, MATH = 8.8, 7.4, 7.2, 8.8
 INK, MUTED, RULE, HEAD, GOOD, BAD = "#1c2733", "#5d6975", "#b9c2ca", "#eef2f5", "#1d6b35", "#b3261e"
 INCH = 72.0
-SETTINGS = {"pdf.fonttype": 42, "pdf.compression": 6, "font.family": ["DejaVu Sans"], "pdf.use14corefonts": False}
+SETTINGS: Any = {"pdf.fonttype": 42, "pdf.compression": 6, "font.family": ["DejaVu Sans"], "pdf.use14corefonts": False}
 
 
 def write_pdf(document: Document, path: Path) -> None:
@@ -46,7 +46,13 @@ def pdf(document: Document) -> bytes:
     """Return a document as PDF."""
     pages = Flow(document).pages
     stream = BytesIO()
-    data = {"Title": document.title, "Subject": document.subtitle, "Creator": "hydrolinkage", "Producer": "hydrolinkage", "CreationDate": None}
+    data = {
+        "Title": document.title,
+        "Subject": document.subtitle,
+        "Creator": "hydrolinkage",
+        "Producer": "hydrolinkage",
+        "CreationDate": None,
+    }
     with rc_context(SETTINGS), PdfPages(stream, metadata=data) as book:
         for number, page in enumerate(pages, 1):
             book.savefig(page.figure(document, number, len(pages)))
@@ -106,6 +112,7 @@ class InkArtist(Artist):
 
 
 # The flow of blocks down the pages.
+
 
 @final
 class Flow:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from io import BytesIO
+from typing import Any
 
 from matplotlib import rc_context
 from matplotlib.axes import Axes
@@ -11,7 +12,7 @@ from matplotlib.figure import Figure
 
 from .content import Illustration
 
-REPRODUCIBLE = {"svg.hashsalt": "hydrolinkage", "svg.fonttype": "none", "font.family": ["DejaVu Sans"]}
+REPRODUCIBLE: Any = {"svg.hashsalt": "hydrolinkage", "svg.fonttype": "none", "font.family": ["DejaVu Sans"]}
 """Identifiers that do not change from run to run; letters stay letters."""
 FONT = "'DejaVu Sans', Verdana, sans-serif"
 """Where the first font is missing, one with the same widths."""

@@ -19,8 +19,8 @@ from ..motion import stroke_display_unit
 from ..pictures.curves import limit_of
 from ..pictures.poses import named_points
 from ..pictures.strokes import column_shown
-from ..reports import NOTHING, At, results
-from ..units import amount, show, unit_system
+from ..reports import NOTHING, At
+from ..units import show, shown_number, unit_system
 from ..verdict import Verdict
 from .calculation import calculated, calculation_section, has_loads
 from .checks import checks_section, kept
@@ -29,7 +29,7 @@ from .fingerprint import DIGITS, fingerprint, own_version
 from .html import write_html
 from .inputs import definition_section, inputs_section
 from .markdown import write_markdown
-from .outcome import drawing_section, forces_section, limits_section, members_section, results_section
+from .outcome import curves, drawing_section, forces_section, limits_section, members_section, results_section
 from .pdf import write_pdf
 from .run import Looked
 
@@ -108,8 +108,9 @@ def written(
     machine, featured = looked.machine, looked.machine.featured()
     with unwarned():
         first = column_shown(machine, looked.curve, None).name
-        names = [column.name for column in results(machine, looked.curve)]
-    bounds = checked_limits(dict(featured.limits if limits is None else limits), names, machine.plan.title)
+    names = list(curves(looked))
+    own = {name: given for name, given in featured.limits.items() if name in names}
+    bounds = checked_limits(own if limits is None else limits, names, machine.plan.title)
     path = named_points(machine, trace, "trace") if trace is not None else tuple(featured.path) or machine.plan.moving[-1:]
     found = calculated(machine, looked.pose, start)
     verdicts, mark = verdicts_of(machine)
@@ -126,14 +127,14 @@ def written(
         definition_section(machine),
     )
     whole = tuple(each for each in sections if each is not None)
-    own = inspect.cleandoc(type(machine).__doc__ or "").partition("\n")[0]
-    return Document(machine.plan.heading, own, facts(looked, title_block, mark), mark, whole, current_language())
+    words = inspect.cleandoc(type(machine).__doc__ or "").partition("\n")[0]
+    return Document(machine.plan.heading, words, facts(looked, title_block, mark), mark, whole, current_language())
 
 
 def facts(looked: Looked, title_block: Mapping[str, str], mark: Mark) -> tuple[tuple[str, str], ...]:
     """Return the rows of the title block: what was calculated, of what inputs, by which version; nothing that another run would change."""
     machine, run, cls = looked.machine, looked.run, type(looked.machine)
-    seen = {run.stroke: (run.start, run.end)} | {name: (value,) for name, value in run.held.items()}
+    seen = {**run.ways, **{name: (value,) for name, value in run.held.items()}}
     moves = said("{stroke}, {poses} poses in tables", stroke=span_words(looked), poses=looked.count)
     held = looked.words(dict(run.held))
     return (
@@ -148,9 +149,13 @@ def facts(looked: Looked, title_block: Mapping[str, str], mark: Mark) -> tuple[t
 
 
 def span_words(looked: Looked) -> str:
-    """Return the range of the run as text: `S = 0 to 250 mm`."""
-    unit = stroke_display_unit(looked.machine.plan, looked.run.stroke, "mm")
-    return said("{name} = {low} to {high}", name=looked.run.stroke, low=amount(looked.run.start, unit), high=show(looked.run.end, unit))
+    """Return the run of the strokes that move as text: `S = 0 to 250 mm`."""
+    words = []
+    for name, way in looked.run.ways.items():
+        unit = stroke_display_unit(looked.machine.plan, name, "mm")
+        low = ", ".join(shown_number(value, unit) for value in way[:-1])
+        words.append(said("{name} = {low} to {high}", name=name, low=low, high=show(way[-1], unit)))
+    return ", ".join(words)
 
 
 def checked_limits(limits: Mapping[str, Sequence[Any]], columns: Sequence[str], title: str) -> Mapping[str, Sequence[Any]]:
@@ -164,12 +169,13 @@ def checked_limits(limits: Mapping[str, Sequence[Any]], columns: Sequence[str], 
 
 # What the machine itself judges.
 
+
 def verdicts_of(machine: Mechanism) -> tuple[Section, Mark]:
     """Return the section of a machine's own verdicts over its whole strokes, and how many are kept."""
     title = said("Verdicts")
     poses = POSES.get(len(machine.strokes), MANY_STROKES)
     axes = [np.linspace(stroke.start, stroke.end, poses) for stroke in machine.strokes.values()]
-    grid = dict(zip(machine.strokes, np.meshgrid(*axes, indexing="ij"), strict=True))
+    grid: dict[str, Any] = dict(zip(machine.strokes, np.meshgrid(*axes, indexing="ij"), strict=True))
     try:
         with unwarned():
             found = machine.verdicts(machine.at(**grid))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import final
@@ -41,7 +42,9 @@ class Looked:
         title = machine.plan.title
         batch = [name for name, value in machine.dimensions.items() if np.ndim(value)]
         if batch:
-            raise DefinitionError(f"{title}: a report is of one design, and {batch[0]} has {np.size(machine[batch[0]])} values; choose one of them.")
+            raise DefinitionError(
+                f"{title}: a report is of one design, and {batch[0]} has {np.size(machine[batch[0]])} values; choose one of them."
+            )
         if not is_whole(count) or not 2 <= count <= MANY:
             raise DefinitionError(f"count={cited(count)}: the rows of the report's tables, 2 to {MANY}; give a whole number such as 11.")
         found = cls(machine, run_of(machine, at), count, case_name(machine, case))
@@ -61,17 +64,28 @@ class Looked:
 
     def _over(self, count: int) -> Motion:
         with unwarned():
-            return self.machine.at(unreachable="nan", **self.run.over(np.linspace(self.run.start, self.run.end, count)))
+            return self.machine.at(unreachable="nan", **self.run.over(np.linspace(0.0, 1.0, count)))
+
+    @property
+    def stroke(self) -> str:
+        """The stroke that moves, the first of several that run together: the one that derivatives are by."""
+        return next(iter(self.run.ways))
 
     @cached_property
     def pose(self) -> dict[str, float]:
         """The strokes of the pose whose numbers are filled in: the middle of the run, else the reached one nearest to it."""
-        values = self.curve.strokes[self.run.stroke]
-        middle = 0.5 * (self.run.start + self.run.end)
-        reached = values[self.curve.reached]
-        return {**self.run.held, self.run.stroke: float(reached[np.argmin(np.abs(reached - middle))])}
+        reached = np.flatnonzero(self.curve.reached)
+        return self.strokes_at(self.curve, int(reached[np.argmin(np.abs(reached - CURVE // 2))]))
 
-    def words(self, strokes: dict[str, float]) -> str:
+    def strokes_at(self, motion: Motion, place: int) -> dict[str, float]:
+        """Return the values of all strokes at one of the poses of a motion."""
+        return {name: float(np.broadcast_to(values, motion.shape)[place]) for name, values in motion.strokes.items()}
+
+    def moving_words(self, strokes: Mapping[str, float]) -> str:
+        """Return the values of the strokes that move, as text."""
+        return self.words({name: value for name, value in strokes.items() if name in self.run.ways})
+
+    def words(self, strokes: Mapping[str, float]) -> str:
         """Return values of strokes as text: `S = 125 mm`."""
         units = {name: stroke_display_unit(self.machine.plan, name, "mm") for name in strokes}
         return ", ".join(f"{name} = {show(value, units[name], 6)}" for name, value in strokes.items())
@@ -84,10 +98,17 @@ class Looked:
     @cached_property
     def forces(self) -> list[PinForces]:
         """The joint forces in every case and, where friction makes a difference, in both directions; raises LinkageError."""
+        if len(self.machine.links) < 2:
+            raise DefinitionError(f"{self.machine.plan.title}: its points form no bodies, so that no joint carries anything.")
         return [
-            pin_forces(self.table, case=case or None, direction=direction, drive=self.run.stroke if direction != "frictionless" else None)
+            pin_forces(self.table, case=case or None, direction=direction, drive=self.drive if direction != "frictionless" else None)
             for case in self.cases for direction in self.directions
         ]  # fmt: skip
+
+    @property
+    def drive(self) -> str | None:
+        """The drive that friction works against, where one stroke moves; along several at once they move as the run goes."""
+        return self.stroke if len(self.run.ways) == 1 else None
 
     @property
     def directions(self) -> list[str]:

@@ -9,6 +9,8 @@ from typing import TypeAlias, final
 
 import numpy as np
 from matplotlib.font_manager import FontProperties, fontManager, get_font
+from matplotlib.ft2font import LoadFlags
+from matplotlib.ft2font import LoadFlags
 
 from ..formulas.typeset import Arrowed, Box, Fenced, Fraction, Lines, Rooted, Row, Script, Sign
 
@@ -20,7 +22,7 @@ EM = 1000
 def face(name: str) -> FontProperties:
     """Return a face of the font: regular, italic or bold."""
     slope, weight = FACES[name]
-    return FontProperties(family="DejaVu Sans", style="oblique" if slope == "italic" else slope, weight=weight)
+    return FontProperties(family="DejaVu Sans", style="oblique" if slope == "italic" else "normal", weight=weight)
 
 
 @lru_cache(maxsize=8192)
@@ -28,7 +30,7 @@ def advance(letter: str, name: str) -> float:
     """Return the width of a letter in a face at the size 1."""
     font = get_font(fontManager.findfont(face(name)))
     font.set_size(EM, 72)
-    return float(font.load_char(ord(letter), flags=1 << 1 | 1).linearHoriAdvance) / 65536.0 / EM
+    return float(font.load_char(ord(letter), flags=LoadFlags.NO_HINTING).linearHoriAdvance) / 65536.0 / EM
 
 
 def width(text: str, size: float, name: str = "regular") -> float:
@@ -55,6 +57,7 @@ def wrapped(text: str, room: float, size: float, name: str = "regular") -> list[
 
 
 # What is drawn, from a corner: texts and lines.
+
 
 @final
 @dataclass(frozen=True)
@@ -107,7 +110,8 @@ class Laid:
 
 
 ITALIC = {"variable", "word"}
-SPACED = "+−·×=<>≤≥≠∧∨"
+SPACED = "+−·×=<>≤≥≠∧\u2228"
+DEGREE = Sign("name", "°")
 AXIS = 0.3
 """How high fractions have their line, in sizes."""
 
@@ -139,7 +143,8 @@ def sign(box: Sign, size: float) -> Laid:
 
 def row(parts: Sequence[Box], size: float) -> Laid:
     """Return boxes beside each other, with space about the signs of operations and behind names of functions."""
-    x, ink, height, depth = 0.0, [], 0.6 * size, 0.15 * size
+    ink: list[Ink] = []
+    x, height, depth = 0.0, 0.6 * size, 0.15 * size
     parts = [inner for each in parts for inner in (each.parts or (each,) if isinstance(each, Row) else (each,))]
     for place, part in enumerate(parts):
         each = laid(part, size)
@@ -161,22 +166,23 @@ def joined(ink: list[Ink]) -> list[Ink]:
     if len(ink) < 2:
         return ink
     first, last = ink[-2:]
-    if not (isinstance(first, Letters) and isinstance(last, Letters)) or (first.size, first.face, first.y) != (last.size, last.face, last.y):
+    if not (isinstance(first, Letters) and isinstance(last, Letters)):
         return ink
-    if abs(first.x + width(first.text, first.size, first.face) - last.x) > 1e-6 * first.size:
+    is_like = first.size == last.size and first.face == last.face and first.y == last.y
+    if not is_like or abs(first.x + width(first.text, first.size, first.face) - last.x) > 1e-6 * first.size:
         return ink
     return [*ink[:-2], Letters(first.x, first.y, first.text + last.text, first.size, first.face, first.colour)]
 
 
 def beside(part: Box, following: Sequence[Box]) -> bool:
     """Return whether a little space stands between a box and the next: between factors, not between letters of one name."""
-    if not following or isinstance(following[0], Sign) and following[0].kind in ("operator", "space") or isinstance(part, Sign) and part.kind != "name":
-        return isinstance(part, Sign) and part.kind == "number" and bool(following) and not isinstance(following[0], Sign)
+    if not following or (isinstance(following[0], Sign) and following[0].kind in ("operator", "space")) or following[0] == DEGREE:
+        return False
     if isinstance(part, Sign):
-        return part.text != "°" and not isinstance(following[0], Fenced) and following[0] != Sign("name", "°")
-    if isinstance(part, Script) and isinstance(part.base, Sign) and part.base.kind in ("name", "word") and isinstance(following[0], Fenced):
-        return part.base.kind == "word"
-    return following[0] != Sign("name", "°")
+        after_name = part.kind == "name" and part != DEGREE and not isinstance(following[0], Fenced)
+        return after_name or (part.kind == "number" and not isinstance(following[0], Sign))
+    is_call = isinstance(part, Script) and isinstance(part.base, Sign) and part.base.kind == "name" and isinstance(following[0], Fenced)
+    return not is_call
 
 
 def fraction(over: Laid, under: Laid, size: float) -> Laid:
@@ -256,7 +262,7 @@ def lines(box: Lines, size: float) -> Laid:
     wide = [max((each[k].width for each in rows if k < len(each)), default=0.0) + 0.8 * size for k in range(columns)]
     heights = [(max(each.height for each in cells), max(each.depth for each in cells)) for cells in rows]
     total = sum(up + down for up, down in heights) + 0.3 * size * (len(rows) - 1)
-    y, ink = AXIS * size + 0.5 * total, []
+    y, ink = AXIS * size + 0.5 * total, list[Ink]()
     for cells, (up, down) in zip(rows, heights, strict=True):
         y -= up
         for k, each in enumerate(cells):

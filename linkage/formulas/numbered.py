@@ -136,7 +136,9 @@ class Equation:
         own = shown.get(self.name, "") if unit.si_factor != unit.factor else ""
         results = [f"{result}{'' if unit.text == 'deg' or not unit.si else f' {unit_latex(unit.si)}'}"]
         results += [shown_latex(own)] if own else []
-        return SheetLine(self.number, latex.doprint(self.lhs) + arguments, formula, "" if numbers in (formula, result) else numbers, tuple(results))
+        return SheetLine(
+            self.number, latex.doprint(self.lhs) + arguments, formula, "" if numbers in (formula, result) else numbers, tuple(results)
+        )
 
     def __repr__(self) -> str:
         return f"({self.number}) {self}"
@@ -343,7 +345,7 @@ class Equations(Sequence[Equation]):
     def symbol_latex(self, name: str) -> str:
         """Return the LaTeX of a stroke or a design variable."""
         symbol = self._listing.names.quantity(name)
-        return self._listing.names.latex.get(symbol.name, symbol.name)
+        return str(self._listing.names.latex.get(symbol.name, symbol.name))
 
     @property
     def definitions(self) -> list[str]:
@@ -444,6 +446,7 @@ def latex_legend(equations: Any) -> list[str]:
 
 
 # Numbers for the equations: each line evaluated from those before it, on arrays or to any number of digits.
+
 
 def evaluated(lines: Sequence[Written], inputs: Mapping[Any, Any], digits: int | None = None) -> dict[Any, Any]:
     """Return every line's value [SI]: a scalar or a pair, by its symbol.

@@ -12,14 +12,38 @@ from typing import TypeAlias, final
 
 GREEK = dict(
     zip(
-        "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau upsilon varphi chi psi omega".split(),
+        [
+            "alpha",
+            "beta",
+            "gamma",
+            "delta",
+            "epsilon",
+            "zeta",
+            "eta",
+            "theta",
+            "iota",
+            "kappa",
+            "lambda",
+            "mu",
+            "nu",
+            "xi",
+            "pi",
+            "rho",
+            "sigma",
+            "tau",
+            "upsilon",
+            "varphi",
+            "chi",
+            "psi",
+            "omega",
+        ],
         "αβγδεζηθικλμνξπρστυφχψω",
         strict=True,
     )
 ) | {"phi": "φ", "varepsilon": "ε", "vartheta": "ϑ", "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π"}
 GREEK |= {"Sigma": "Σ", "Upsilon": "Υ", "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω", "imath": "ı", "infty": "∞", "circ": "°", "angle": "∠"}
 OPERATORS = {
-    "cdot": "·", "times": "×", "leq": "≤", "le": "≤", "geq": "≥", "ge": "≥", "neq": "≠", "ne": "≠", "wedge": "∧", "vee": "∨",
+    "cdot": "·", "times": "×", "leq": "≤", "le": "≤", "geq": "≥", "ge": "≥", "neq": "≠", "ne": "≠", "wedge": "∧", "vee": "\u2228",
     "neg": "¬", "pm": "±", "|": "‖",
 }  # fmt: skip
 FUNCTIONS = {"sin", "cos", "tan", "cot", "exp", "log", "ln", "min", "max", "arg", "arccos", "arcsin", "arctan", "sinh", "cosh", "tanh"}
@@ -101,7 +125,7 @@ class Lines:
 
 Box: TypeAlias = Sign | Row | Fraction | Script | Arrowed | Rooted | Fenced | Lines
 
-TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[{}^_&]|\d+(?:\.\d+)?|[A-Za-zА-Яа-яЁё]|\S", re.DOTALL)
+TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[{}^_&]|\d+(?:\.\d+)?|[^\W\d_]|\S", re.DOTALL)
 
 
 def boxes(latex: str) -> Box:

@@ -15,7 +15,7 @@ from matplotlib.patheffects import withStroke
 from ..motion import Motion
 from ..program import FloatArray
 from ..quantities import Quantity, Stroke, spelled
-from ..units import amount
+from ..units import shown_number
 from . import style
 from .drawing import Drawing
 from .free_space import cloud
@@ -81,7 +81,8 @@ class LengthLine:
         start, end = self.ends
         middle, along = 0.5 * (start + end), (end - start) / (np.hypot(*(end - start)) or 1.0)
         half = 0.32 * self.letter * len(self.text)
-        return np.concatenate([segment(start, end, 0.8 * self.letter), *2 * [segment(middle - half * along, middle + half * along, 0.3 * self.letter)]])
+        text = segment(middle - half * along, middle + half * along, 0.3 * self.letter)
+        return np.concatenate([segment(start, end, 0.8 * self.letter), text, text])
 
     def draw(self, ax: Axes) -> None:
         """Draw it on axes."""
@@ -120,7 +121,8 @@ class AngleArc:
         ways = np.linspace(self.start, self.end, 15)
         arc = self.corner + self.radius * np.array([np.cos(ways), np.sin(ways)]).T
         half = np.array([0.32 * self.letter * len(self.text), 0.0])
-        return np.concatenate([arc, *2 * [segment(self.middle - half, self.middle + half, 0.3 * self.letter)]])
+        text = segment(self.middle - half, self.middle + half, 0.3 * self.letter)
+        return np.concatenate([arc, text, text])
 
     def draw(self, ax: Axes) -> None:
         """Draw it on axes."""
@@ -132,13 +134,15 @@ class AngleArc:
 
 def number(ax: Axes, text: str, place: FloatArray, way: float) -> None:
     """Write a dimension over its line, turned by an angle [deg]."""
+    x, y = place.tolist()
     ax.text(
-        *place, text, rotation=way, rotation_mode="anchor", ha="center", va="center", fontsize=LETTERS, color=style.INK, zorder=21.0,
+        x, y, text, rotation=way, rotation_mode="anchor", ha="center", va="center", fontsize=LETTERS, color=style.INK, zorder=21.0,
         path_effects=[withStroke(linewidth=3.0, foreground=style.PAPER)],
     )  # fmt: skip
 
 
 # Which dimensions there are, and where each stands.
+
 
 def placed_dimensions(scene: Scene, at: Places, pose: int, scale: float, box: Bounds) -> Iterator[LengthLine | AngleArc]:
     """Yield the dimensions of a pose within a box [m], each clear of the mechanism and of those before it as far as there is room.
@@ -148,8 +152,8 @@ def placed_dimensions(scene: Scene, at: Places, pose: int, scale: float, box: Bo
     letter = LETTERS / scale
     taken = [cloud(scene, at)]
     for ends, corner, text in dimensions_of(scene.motion, at, pose):
-        choices = list(line_choices(text, *ends, letter)) if corner is None else list(arc_choices(text, corner, *ends, letter))
-        choices = [each for each in choices if is_within(each.covered, box)]
+        places = line_choices(text, *ends, letter) if corner is None else arc_choices(text, corner, *ends, letter)
+        choices: list[LengthLine | AngleArc] = [each for each in places if is_within(each.covered, box)]
         points = np.concatenate(taken)
         costs = [crowding(each, points) + 1.2 * (rank // 2) for rank, each in enumerate(choices)]
         if costs and min(costs) < MOST:
@@ -182,8 +186,8 @@ def dimension_text(motion: Motion, quantity: Quantity, unit: str, pose: int) -> 
         return spelled(quantity)
     value = float(np.broadcast_to(motion.value(quantity), motion.shape).ravel()[pose])
     if unit == "deg":
-        return f"{amount(abs(value), unit, 5)}°"
-    return amount(value, unit, 5)
+        return f"{shown_number(abs(value), unit, 5)}°"
+    return shown_number(value, unit, 5)
 
 
 def line_choices(text: str, P: FloatArray, Q: FloatArray, letter: float) -> Iterator[LengthLine]:

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import refuses_changes
-from linkage.loads import AT_REST, ForceElement, Load, Parameter, Poses, Push, Rate, Rates, require_poses
+from linkage.loads import AT_REST, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
 from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
 from linkage.motion import Motion
@@ -87,6 +87,10 @@ class FloatCircuit(Circuit):
     def __str__(self) -> str:
         block = str(self.block) if isinstance(self.block, AccumulatorBlock) else getattr(self.block, "__name__", "block")
         return f"FloatCircuit({', '.join([label(self.cylinder), block, *self.words()])})"
+
+    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+        count = len(self.block.accumulators) if isinstance(self.block, AccumulatorBlock) else 1
+        return tuple(Glyph("accumulator", cylinder.ends, count) for cylinder in self.members(members))
 
     def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         return self.members(members)

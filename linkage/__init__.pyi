@@ -77,6 +77,7 @@ from .study import least as least
 from .study import most as most
 from .study import reachable as reachable
 from .study import worst as worst
+from .surroundings import Outline as Outline
 from .units import MPa as MPa
 from .units import bar as bar
 from .units import cm as cm

@@ -6,6 +6,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
+import numpy as np
+
+from .assembly import Assembly
 from .errors import DefinitionError
 from .mechanism import Mechanism
 from .motion import Column, Motion, RequestLike
@@ -21,6 +24,7 @@ if TYPE_CHECKING:
     from .pictures import Drawing
     from .pictures.film import Progress
     from .quantities import Quantity
+    from .statics.acting import Case, Loads
     from .study import Front, Optimum
     from .study.measures import Measure
 
@@ -29,6 +33,10 @@ if TYPE_CHECKING:
 def draw(machine: Motion, *, ax: Axes, pose: int | tuple[int, ...] = ..., faint: bool = ...) -> Drawing: ...
 @overload
 def draw(machine: Optimum, *, count: int = ...) -> Figure: ...
+@overload
+def draw(machine: Sequence[Assembly]) -> Figure: ...
+@overload
+def draw(machine: Sequence[Mechanism], at: Any = ..., path: Sequence[str] = ..., count: int = ...) -> Figure: ...
 @overload
 def draw(
     machine: Mechanism | Motion,
@@ -39,9 +47,16 @@ def draw(
     ax: None = ...,
     pose: int | tuple[int, ...] = ...,
     faint: bool = ...,
+    forces: bool | str = ...,
+    loads: Loads = ...,
+    case: Case = ...,
+    direction: str = ...,
+    drive: str | None = ...,
+    velocities: Mapping[str, Any] | None = ...,
+    pole: bool | str | tuple[str, str] = ...,
 ) -> Figure: ...
 def draw(
-    machine: Mechanism | Motion | Optimum,
+    machine: Mechanism | Motion | Optimum | Sequence[Assembly] | Sequence[Mechanism],
     at: Any = None,
     path: Sequence[str] = (),
     count: int = 101,
@@ -49,6 +64,13 @@ def draw(
     ax: Axes | None = None,
     pose: int | tuple[int, ...] = 0,
     faint: bool = False,
+    forces: bool | str = False,
+    loads: Loads = None,
+    case: Case = None,
+    direction: str = "frictionless",
+    drive: str | None = None,
+    velocities: Mapping[str, Any] | None = None,
+    pole: bool | str | tuple[str, str] = False,
 ) -> Figure | Drawing:
     """Return a figure of a mechanism at chosen strokes, the last one bold and the others faint; or a motion at one of its poses.
 
@@ -61,17 +83,41 @@ def draw(
     `update(pose)` moves it. Empty axes become a sheet with equal scales that has room for the whole motion. A faint mechanism has
     no names. Raises DefinitionError for a batch of designs, an unknown name or a pose that is not there.
 
+    Over the pose, the bold one of several, are laid: with `forces=True` the pin forces and loads as arrows to one scale, with the name of
+    a body, `forces="OBC"`, that body alone with all forces on it and their polygon; `loads`, `case`, `direction`, `drive` as `pin_forces`
+    takes them. `velocities=dict(S=0.05)` gives the points' velocities at these stroke rates [1/s], which dampers get too. `pole="EDF"` is
+    the body's instant centre, `pole=("EDF", "FKG")` that of two bodies, `pole=True` that of each body no fixed pin holds. Where a pose is
+    refused the picture says why, for a motion without `unreachable="nan"` this raises SingularError.
+
+    Of several designs, `draw([hitch, hitch.replaced(OB=0.32)])`, or a batch, all at the same strokes, in their middle unless `at` says
+    others; of two the first one is faint, of more each has its own colour; up to 12. Of `machine.assemblies()`, a small picture of each
+    mode with the line of code that chooses it.
+
     Of the result of a search, the machine before, faint, and after, bold, at both ends of its stroke, with how far each pin moved.
     """
-    from .pictures import draw, draw_optimum
+    from .pictures import draw, draw_designs, draw_modes, draw_optimum
     from .study import Optimum
 
+    is_laid = bool(ax is not None or pose or faint or forces or velocities is not None or pole)
+    if isinstance(machine, Sequence):
+        modes = [each for each in machine if isinstance(each, Assembly)]
+        designs = [each for each in machine if not isinstance(each, Assembly)]
+        if is_laid or bool(modes) == bool(designs):
+            raise DefinitionError(
+                "draw([...]): one or more designs, with at=, path= and count= if wanted, or machine.assemblies() are expected."
+            )
+        return draw_designs(designs, at, path, count) if designs else draw_modes(modes)
+    if isinstance(machine, Mechanism) and not is_laid and any(map(np.ndim, machine.dimensions.values())):
+        return draw_designs([machine], at, path, count)
     if isinstance(machine, Optimum):
-        if at is not None or path or ax is not None or pose or faint:
+        if at is not None or path or is_laid:
             title = machine.problem.plan.title
             raise DefinitionError(f"{title}: a search's result is drawn at the ends of its stroke; it takes count= alone.")
         return draw_optimum(machine, count)
-    return draw(machine, at, path, count, ax=ax, pose=pose, faint=faint)
+    return draw(
+        machine, at, path, count, ax=ax, pose=pose, faint=faint, forces=forces, loads=loads, case=case, direction=direction, drive=drive,
+        velocities=velocities, pole=pole,
+    )  # fmt: skip
 
 
 @overload

@@ -308,14 +308,15 @@ class Mechanism(metaclass=MechanismType):
 
     @of_a_design
     def assemblies(self, **strokes: float) -> list[Assembly]:
-        """Return all assembly modes of the dyads that exist at a stroke, `assemblies(S=0.1)`; default the start of each.
+        """Return all assembly modes that exist at a stroke, `assemblies(S=0.1)`; default the start of each. `draw` shows them.
 
-        One design at a time. Raises DefinitionError for more than 16 dyads.
+        Each holds the sides of its dyads, its places and the `code` that chooses it, the lines of the class that are different. One
+        design at a time. Groups are solved from many places at random, which may miss a mode. DefinitionError for more than 16 dyads.
         """
         pose = self.at(unreachable="nan", **{name: stroke.start for name, stroke in self.strokes.items()} | strokes)
         if pose.shape:
             raise DefinitionError(f"{self.plan.title}: assembly modes are listed for one design at one pose.")
-        return assemblies(self.plan, pose.inputs)
+        return assemblies(self.plan, pose.inputs, declared(type(self)))
 
     @property
     def four_bars(self) -> list[FourBar]:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from hydraulics import Cylinder, CylinderSize, LiftCircuit, next_bore
+from hydraulics import Cylinder, CylinderSize, LiftCircuit, next_bore, pressure, reserve, thrust
 from hydraulics.inputs import in_pascals, positive
 from hydraulics.judged import Lifting, LiftingCylinder
 from linkage import (
@@ -28,13 +28,17 @@ from linkage import (
     Mechanism,
     Motion,
     OnLink,
+    Outline,
     Stroke,
     Weight,
     angle,
     distance,
+    ratio,
+    y,
 )
 from linkage.loads.element import Formulas
 from linkage.motion import Span, lowest, reached
+from linkage.quantities import Coordinate
 from linkage.reports import reached_span
 from linkage.units import cm, deg, g0, kgf, kgf_cm2, litre, minute, mm, show
 
@@ -70,6 +74,8 @@ class MowerLift(Mechanism):
     B = Dyad(A, O, AB=S, OB=0.175, side=RIGHT)  # cylinder and turning lever
     G = OnLink(O, B, OG=hypot(*G_FROM_O), BOG=DELFI + BELOW)  # centre of gravity; BOG is the worksheet's FIS3
 
+    ground = Outline.line((-1.5, -0.35), (3.5, -0.35))  # drawn only, illustrative
+
     FI0 = angle(A, O)
     FIS = CosineAngle(distance(A, O), distance(O, B), S)
     FI3 = pi + FI0 + FIS
@@ -102,16 +108,16 @@ class MowerLift(Mechanism):
         circuit, size = self.circuit, self.lift.sized(motion)
         supplied = circuit.pressure_for(motion)
         return [
-            Column("S", motion.strokes["S"], "m"),
-            *(Column(name, motion[name], "deg", 3) for name in ("FIS", "FI3", "FI", "FIS1")),
-            *(Column(f"{point}_{axis}", getattr(motion, axis)(point), "m", 3) for point in "BG" for axis in "xy"),
-            Column("DFI3", motion.ratio("FI3"), "rad/m", 3),
-            Column("I", motion.ratio("G")[1], "", 3),
-            Column("PI", self.lift.thrust(motion), "kgf", 0),
+            Column("S", motion.strokes["S"], "m", request="S"),
+            *(Column(name, motion[name], "deg", 3, name) for name in ("FIS", "FI3", "FI", "FIS1")),
+            *(Column(f"{point}_{axis}", getattr(motion, axis)(point), "m", 3, Coordinate(point, axis)) for point in "BG" for axis in "xy"),
+            Column("DFI3", motion.ratio("FI3"), "rad/m", 3, ratio("FI3")),
+            Column("I", motion.ratio("G")[1], "", 3, ratio(y("G"))),
+            Column("PI", self.lift.thrust(motion), "kgf", 0, thrust("lift")),
             Column("PI/k_m", circuit.rod_force(motion), "kgf", 0),
             Column("F", supplied * size.area, "kgf", 0),
-            Column("pd", supplied, "kgf/cm2", 3),
-            Column("kz", circuit.reserve(motion), "", 3),
+            Column("pd", supplied, "kgf/cm2", 3, pressure("lift")),
+            Column("kz", circuit.reserve(motion), "", 3, reserve("lift")),
         ]
 
     def formulas(self, written: Formulas) -> None:

@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS = (
     ("errors", "units", "vectors", "disk", "frozen", "language", "verdict"),
     ("quantities",),
-    ("steps", "loads"),
+    ("steps", "loads", "surroundings"),
     ("program",),
     ("plan",),
     ("assembly", "mobility"),

@@ -30,7 +30,7 @@ WIDE = 7.0
 SIZE = 0.085
 """Radius of a bar's round end, the measure of every symbol."""
 
-BLUE, SAND, GREEN, MAUVE, VIOLET, GREY = style.BODIES
+BLUE, _, GREEN, SAND, VIOLET, _, _, MAUVE, GREY, _ = style.BODIES
 DOWN, UP, LEFT, RIGHT = -pi / 2, pi / 2, pi, 0.0
 
 

@@ -3,6 +3,7 @@
 from .assemble import assembled
 from .following import NONE_SOLVED, ambiguous_angle, with_angles
 from .groups import GroupSolution, solve_groups
+from .live import angles_text, constants_text, groups_text, json_of
 from .modes import Assembly, assemblies
 from .newton import Newton
 from .sketch import places_at

@@ -1,48 +1,86 @@
-"""All assembly modes of a mechanism at a pose: every choice of sides that can be assembled."""
+"""All assembly modes of a mechanism at a pose: every choice of sides, and of a group's pins, that can be assembled, with its code."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError
-from ..plan import ArrayReading, Plan
+from ..errors import AssemblyError, DefinitionError
+from ..plan import ArrayReading, Plan, as_written
+from ..program import FloatArray
 from ..quantities import Member
-from ..steps import Step
+from ..steps import Pin, Step
 from ..vectors import Side
+from .groups import solve_groups
+from .newton import Newton, at_sketch
+from .sketch import places_at
 
 MOST = 16
+STARTS, ROUNDS = 500, 5
+"""From how many places at random the pins of a group are looked for, the same ones each time, and how often Newton's method goes on."""
+SAME = 1e-6
+"""Solutions nearer to each other than this part of the mechanism's size are one."""
 
 
 @final
 @dataclass(frozen=True)
 class Assembly:
-    """One way to put the dyads together: the side of each, and where the points are then [m]."""
+    """One way to put a mechanism together: the side of each dyad, and where the points are then [m].
+
+    `lines` are the lines of the class that are different for it, by member; none for the mode that is declared. `pins` are the rough
+    places of the pins of groups that choose it [m].
+    """
 
     sides: Mapping[str, Side]
     places: Mapping[str, tuple[float, float]]
+    lines: Mapping[str, str] = field(default_factory=dict)
+    pins: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    plan: Plan | None = field(default=None, repr=False, compare=False)
+    inputs: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
+
+    @property
+    def is_declared(self) -> bool:
+        """Whether it is the mode that the class declares."""
+        return not self.lines
+
+    @property
+    def code(self) -> str:
+        """The lines that choose it, in place of those of the class; empty for the mode that is declared."""
+        return "\n".join(f"{name} = {text}" for name, text in self.lines.items())
 
     def __str__(self) -> str:
-        return ", ".join(f"{name} {side}" for name, side in self.sides.items())
+        said = [f"{name} {side}" for name, side in self.sides.items()]
+        return ", ".join([*said, *(f"{name} near ({x:.4g}, {y:.4g})" for name, (x, y) in self.pins.items())])
 
 
-def assemblies(plan: Plan, inputs: Mapping[str, Any]) -> list[Assembly]:
-    """Return the assembly modes of the dyads that exist for given inputs [SI], the declared one first where it exists.
+def assemblies(plan: Plan, inputs: Mapping[str, Any], declared: Mapping[str, Member]) -> list[Assembly]:
+    """Return the assembly modes that exist for given inputs [SI], the declared one first where it exists.
 
-    Raises DefinitionError beyond 16 dyads, which have more than 65,536 modes.
+    `declared` are the members as the class writes them. Where there are groups, the pins of these are found from places at random, and
+    the dyads that they stand on keep their sides. Raises DefinitionError beyond 16 dyads, which have more than 65,536 modes.
     """
-    dyads = {name: step for name, step in plan.of_kind(Step).items() if step.closes and step.modes()}
+    before = plan.reaches(*(pin for group in plan.groups.values() for pin in group.pins)) if plan.groups else frozenset()
+    dyads = {name: step for name, step in plan.of_kind(Step).items() if step.closes and step.modes() and name not in before}
     if len(dyads) > MOST:
         raise DefinitionError(f"{plan.title} has {len(dyads)} dyads: assembly modes are listed for up to {MOST}.")
-    return list(_modes(plan, inputs, dict(plan.members), list(dyads)))
+    found = []
+    for pins, members, solved in group_modes(plan, inputs):
+        for sides, places in _modes(plan, {**inputs, **solved}, dict(members), list(dyads)):
+            changed = {name for name in dyads if sides[name] is not dyads[name].side} | set(pins)
+            chosen = members | {name: sided_as(dyads[name], sides[name]) for name in dyads}
+            lines = written_lines(plan, declared, chosen, changed, pins)
+            found.append(Assembly(sides, places, lines, pins, Plan(chosen, plan.title) if changed else plan, inputs))
+    return sorted(found, key=lambda each: bool(each.lines))
 
 
-def _modes(plan: Plan, inputs: Mapping[str, Any], members: dict[str, Member], left: list[str]) -> Iterator[Assembly]:
-    """Yield the assemblies with the sides of the remaining dyads chosen, the declared side first; a mode out of reach is cut off."""
+def _modes(
+    plan: Plan, inputs: Mapping[str, Any], members: dict[str, Member], left: list[str]
+) -> Iterator[tuple[dict[str, Side], dict[str, tuple[float, float]]]]:
+    """Yield sides and places with the sides of the remaining dyads chosen, the declared side first; a mode out of reach is cut off."""
     reading = ArrayReading(members, plan.table.lengths, inputs)
     done = [name for name in plan.points if not plan.reaches(name) & set(left)]
     with np.errstate(all="ignore"):
@@ -50,14 +88,21 @@ def _modes(plan: Plan, inputs: Mapping[str, Any], members: dict[str, Member], le
     if not np.isfinite(list(places.values())).all():
         return
     if not left:
-        yield Assembly({name: _side(members[name]) for name in plan.points if _has_modes(members[name])}, places)
+        yield {name: _side(members[name]) for name in plan.points if _has_modes(members[name])}, places
         return
     declared = members[left[0]]
     assert isinstance(declared, Step)
     for side in sorted(declared.modes(), key=lambda each: each is not declared.side):
-        chosen = copy(declared)
-        chosen.side = side
-        yield from _modes(plan, inputs, {**members, left[0]: chosen}, left[1:])
+        yield from _modes(plan, inputs, {**members, left[0]: sided_as(declared, side)}, left[1:])
+
+
+def sided_as(step: Step, side: Side) -> Step:
+    """Return a step on a side, without a sketch position."""
+    if step.side is side:
+        return step
+    chosen = copy(step)
+    chosen.side, chosen.near = side, None
+    return chosen
 
 
 def _has_modes(member: Member) -> bool:
@@ -67,3 +112,125 @@ def _has_modes(member: Member) -> bool:
 def _side(member: Member) -> Side:
     assert isinstance(member, Step)
     return member.settled_side
+
+
+# The lines of code that choose a mode.
+
+
+def written_lines(
+    plan: Plan, declared: Mapping[str, Member], chosen: Mapping[str, Member], changed: set[str], pins: Mapping[str, tuple[float, float]]
+) -> dict[str, str]:
+    """Return the lines that are different where some members are: their own, and those of sketch positions that go with them.
+
+    A pin of a parts list has a new rough place; where it is drawn, so that lengths are measured from it, its step is written instead.
+    """
+    if not changed:
+        return {}
+    try:
+        sketch: Mapping[str, tuple[float, float]] = places_at(Plan(chosen, plan.title), plan.sketch_strokes)[0]
+    except AssemblyError:
+        sketch = {}
+    lines = {}
+    for name in plan.points:
+        raw, follows = declared.get(name), bool(plan.reaches(name) & changed)
+        if name not in changed and not (follows and is_sketched(raw)):
+            continue
+        place = pins.get(name, sketch.get(name))
+        if isinstance(raw, Pin) and raw.near is not None and place is not None:
+            lines[name] = as_written(Pin(near=(rounded_to(place[0]), rounded_to(place[1]))), plan.turning)
+        elif isinstance(step := chosen[name], Step):
+            lines[name] = as_written(sided_as(step, step.settled_side) if step.modes() else step, plan.turning).partition(", near=")[0]
+            lines[name] += ")" * (lines[name].count("(") - lines[name].count(")"))
+    return lines
+
+
+def is_sketched(member: Member | None) -> bool:
+    """Return whether a sketch position says on which side a member is."""
+    return isinstance(member, (Step, Pin)) and getattr(member, "side", None) is None and (member.near or member.drawn_at) is not None
+
+
+def rounded_to(value: float, digits: int = 4) -> float:
+    """Return a number with so many digits."""
+    return float(f"{value:.{digits}g}")
+
+
+# Groups: their pins' solutions at the sketch, found from many places.
+
+
+def group_modes(plan: Plan, inputs: Mapping[str, Any]) -> Iterator[tuple[dict[str, tuple[float, float]], dict[str, Member], Mapping[str, Any]]]:
+    """Yield the modes of a plan's groups, the declared one first: pins' places at the sketch, the members, the pins at the inputs."""
+    yield {}, with_own_groups(plan, {}), {}
+    if not plan.groups:
+        return
+    for pins in group_solutions(plan):
+        members = with_own_groups(plan, pins)
+        solved = solved_from(Plan(members, plan.title), inputs)
+        if solved is not None:
+            yield pins, members, solved
+
+
+def with_own_groups(plan: Plan, pins: Mapping[str, tuple[float, float]]) -> dict[str, Member]:
+    """Return a plan's members with copies of its groups and their pins, which another plan may settle; some pins at other rough places."""
+    members: dict[str, Member] = dict(plan.members)
+    for name, group in plan.groups.items():
+        own = members[name] = copy(group)
+        for pin in group.pins:
+            moved = members[pin] = copy(plan.of_kind(Pin)[pin])
+            moved.group = own
+            if pin in pins:
+                moved.near, moved.drawn_at = (rounded_to(pins[pin][0], 6), rounded_to(pins[pin][1], 6)), None
+    return members
+
+
+def solved_from(plan: Plan, inputs: Mapping[str, Any]) -> Mapping[str, Any] | None:
+    """Return the pins of a plan's groups at some inputs; None where the way from the sketch does not reach them."""
+    designs = {name: inputs[name] for name in plan.defaults}
+    strokes = {name: np.atleast_1d(np.asarray(inputs[name], float)) for name in plan.strokes}
+    try:
+        found = solve_groups(plan, designs, strokes).inputs
+    except AssemblyError:
+        return None
+    flat = {name: float(np.ravel(value)[0]) for name, value in found.items()}
+    return flat if np.isfinite(list(flat.values())).all() else None
+
+
+def group_solutions(plan: Plan) -> Iterator[dict[str, tuple[float, float]]]:
+    """Yield other solutions of a plan's groups at the sketch, default dimensions: the pins of one group elsewhere, then of the next."""
+    known = at_sketch(plan)
+    inputs: dict[str, Any] = plan.defaults | plan.sketch_strokes
+    for name, group in plan.groups.items():
+        newton = Newton(plan, group)
+        for u in other_solutions(newton, inputs, known[name]):
+            yield {pin: (float(u[2 * place, 0]), float(u[2 * place + 1, 0])) for place, pin in enumerate(group.pins)}
+        inputs |= dict(zip(newton.names, known[name], strict=True))
+
+
+def other_solutions(newton: Newton, inputs: Mapping[str, Any], known: FloatArray) -> list[FloatArray]:
+    """Return the solutions of a group beside the known one, shape (coordinates, 1) each, from many places."""
+    x, y = known[0::2], known[1::2]
+    plan = newton.plan
+    with np.errstate(all="ignore"):
+        reading = plan.read({**inputs, **dict(zip(newton.names, known, strict=True)), newton.group.inputs[-1]: 1.0})
+    others = [reading.at(name) for name in plan.points if not plan.reaches(name) & set(newton.group.pins)]
+    xs, ys = [*x.ravel(), *(float(np.ravel(each.x)[0]) for each in others)], [*y.ravel(), *(float(np.ravel(each.y)[0]) for each in others)]
+    size = max(np.ptp(xs), np.ptp(ys)) or 1.0
+    middle = np.tile([0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys))], len(known) // 2)[:, None]
+    guess = middle + size * np.random.default_rng(0).uniform(-1.0, 1.0, (len(known), STARTS))
+    held, found = newton.held(inputs), [known]
+    for _ in range(ROUNDS):
+        guess, done = newton.correct(held, guess, np.full(guess.shape[1], size))
+        for u in guess[:, done].T[:, :, None]:
+            if all(np.abs(u - each).max() > SAME * size for each in found) and is_solution(newton, inputs, u, size):
+                found.append(u)
+        left = ~done & np.isfinite(guess).all(axis=0)
+        if not left.any():
+            break
+        guess = guess[:, left]
+    return found[1:]
+
+
+def is_solution(newton: Newton, inputs: Mapping[str, Any], u: FloatArray, size: float) -> bool:
+    """Return whether pins fulfil their group's equations and are held there: where they could give way the modes meet."""
+    residual, rows, _ = newton.system(inputs, u)
+    held = np.linalg.svd(rows[:, :, 0], compute_uv=False)[-1] > SAME if np.isfinite(rows).all() else False
+    return bool(held and np.abs(residual).max() <= SAME * size)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from abc import ABC, abstractmethod
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentParser, ArgumentTypeError, Namespace, _ActionsContainer
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -86,7 +86,7 @@ def lined_up(rows: Sequence[Sequence[str]]) -> Iterator[str]:
 PICTURES = (".png", ".svg", ".pdf")
 
 
-def picture_argument(parser: ArgumentParser, what: str) -> None:
+def picture_argument(parser: _ActionsContainer, what: str) -> None:
     """Declare the argument that names a picture's file."""
     parser.add_argument("-o", "--output", metavar="FILE", help=f"{', '.join(PICTURES)} ({what})")
 

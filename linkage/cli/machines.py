@@ -13,6 +13,7 @@ from ..errors import DefinitionError, unknown
 from ..loads import ForceElement
 from ..mechanism import Mechanism, declared
 from ..quantities import Member
+from ..surroundings import Outline
 from .listing import OWN, guarded, registered
 
 Kind = TypeVar("Kind", bound=Mechanism)
@@ -60,7 +61,7 @@ def find_like(text: str, base: type[Kind], what: str, **instead: Any) -> type[Ki
 def lacking(found: type[Mechanism], base: type[Mechanism]) -> list[str]:
     """Return the members and the dimensions of a class that another one does not have.
 
-    A member stands for another of its kind, a force element for one of its class.
+    A member stands for another of its kind, a force element for one of its class; what is only drawn may be missing.
     """
     other = declared(found)
 
@@ -68,7 +69,7 @@ def lacking(found: type[Mechanism], base: type[Mechanism]) -> list[str]:
         own = other.get(name)
         return own is not None and own.kind == member.kind and (type(own) is type(member) or not isinstance(member, ForceElement))
 
-    members = [name for name, member in declared(base).items() if not is_there(name, member)]
+    members = [name for name, member in declared(base).items() if member.kind != Outline.kind and not is_there(name, member)]
     return members + [name for name in base.plan.defaults if name not in found.plan.defaults and name not in members]
 
 

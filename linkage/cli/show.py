@@ -5,14 +5,15 @@ from __future__ import annotations
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Iterator
 from inspect import cleandoc
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, final
 
 from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
-from ..plan import printed
+from ..plan import printed, strokes_text
 from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
-from .command import Command, lined_up, machine_arguments
+from .command import Command, lined_up, machine_arguments, picture, picture_argument
 from .machines import find
 from .settings import design, motion_at, stroke_values
 
@@ -41,10 +42,16 @@ class ShowCommand(Command):
         group.add_argument("--numbers", action="store_true", help="with the numbers filled in, at the start of each stroke")
         group.add_argument("--at", dest="strokes", metavar="S=0.6", action="append", default=[], help="numbers at this stroke; repeatable")
         group.add_argument("--latex", action="store_true", help="as LaTeX, and nothing else")
+        modes = parser.add_argument_group("assembly modes")
+        modes.add_argument("--modes", action="store_true", help="all assembly modes with the lines that choose them, and nothing else")
+        picture_argument(modes, "the modes, drawn; with --modes")
 
     def run(self, options: Namespace) -> int:
         check_asked(options)
         machine = design(find(options.machine), options.settings)
+        if options.modes:
+            path = None if options.output is None else picture(options.output, type(machine), options.machine)
+            return show_modes(machine, dict(value_at(machine, text) for text in options.strokes), path)
         if options.latex:
             print(listed(machine, options).latex())
             return 0
@@ -61,11 +68,33 @@ def check_asked(options: Namespace) -> None:
     """Raise DefinitionError for options of equations without these, and for numbers in LaTeX."""
     given = {"--start": options.start, "--ratio": options.ratio, "--wrt": options.wrt, "--forces": options.forces}
     given |= {"--numbers": options.numbers, "--at": options.strokes, "--latex": options.latex}
+    if options.output is not None and not options.modes:
+        raise DefinitionError(f"-o {options.output}: the picture is of the assembly modes; say --modes too, or use `draw`.")
+    if options.modes:
+        given.pop("--at")
     named = [name for name, value in given.items() if value not in (None, False, [])]
     if named and not options.equations:
         raise DefinitionError(f"{named[0]} says how equations are printed; say --equations too.")
     if options.latex and (options.numbers or options.strokes):
         raise DefinitionError("--latex prints symbols, not numbers; leave out --numbers and --at, or --latex.")
+
+
+def show_modes(machine: Mechanism, at: dict[str, float], path: Path | None) -> int:
+    """Print the assembly modes with the code that chooses each, draw them where a file is named, and return the exit code."""
+    modes = machine.assemblies(**at)
+    if not modes:
+        strokes = {name: stroke.start for name, stroke in machine.strokes.items()} | at
+        said = strokes_text(machine.plan, strokes)
+        raise DefinitionError(f"{machine.plan.title} cannot be assembled in any mode at {said}; say --at with another stroke.")
+    for number, mode in enumerate(modes, 1):
+        said = ", ".join([*([str(mode)] * bool(str(mode))), *(["as declared"] * mode.is_declared)])
+        print_section(f"{number}. {said}", mode.code.splitlines() or ["(no line changes)"])
+    if path is not None:
+        from ..pictures import draw_modes
+
+        draw_modes(modes).savefig(path)
+        print(f"{path}: {len(modes)} assembly mode{'s' if len(modes) != 1 else ''}.")
+    return 0
 
 
 def listed(machine: Mechanism, options: Namespace) -> Equations:
@@ -127,6 +156,7 @@ def print_section(title: str, lines: Iterable[str]) -> None:
 
 
 # `hydrolinkage save NAME FILE`: a machine as a mechanism file, and what such a file does not hold.
+
 
 @final
 class SaveCommand(Command):

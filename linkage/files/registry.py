@@ -16,7 +16,7 @@ from math import isfinite
 from types import ModuleType
 from typing import Any, TypeAlias, final
 
-from .. import loads, steps
+from .. import loads, steps, surroundings
 from ..errors import DefinitionError, unknown
 from ..motion import stroke_unit
 from ..quantities import Dimension, Member, Quantity, Stroke, ref
@@ -138,6 +138,10 @@ LOADS = (
     loads.Weight, loads.Force, loads.Moment, loads.LinkMass, loads.Spring, loads.Damper, loads.Actuator, loads.Support,
     loads.PinFriction, loads.GuideFriction,
 )  # fmt: skip
+OUTLINES = (
+    (surroundings.Outline, "points"), (surroundings.CircleOutline, "circle"), (surroundings.LineOutline, "line"),
+    (surroundings.DxfOutline, "dxf"), (surroundings.ImageOutline, "image"),
+)  # fmt: skip
 OWN: tuple[AnEntry, ...] = (
     Bare(Stroke, "strokes", lambda given, names: Stroke(*stroke_ends(given, names)), stroke_written),
     Bare(Dimension, "dimensions", dimension_of, dimension_written),
@@ -153,6 +157,7 @@ OWN: tuple[AnEntry, ...] = (
     Bare(Quantity, "outputs", output_of, output_written, family=True),
     *(FileEntry(load, "loads", load.__name__) for load in LOADS),
     FileEntry(loads.LoadCase, "cases"),
+    *(FileEntry(outline, "surroundings", word) for outline, word in OUTLINES),
 )
 
 

@@ -22,6 +22,8 @@ from .source import Mistakes
 Read: TypeAlias = Callable[[Any, Names], Any]
 Write: TypeAlias = Callable[[Any, Design, str], Any]
 
+CORNERS = 2000
+"""Corners of an outline."""
 DEEPEST = 3
 """How deep lists may stand in each other."""
 
@@ -118,6 +120,25 @@ def several(what: str, one: Read) -> Read:
     return read
 
 
+def corners_of(given: Any, names: Names) -> Any:
+    """Return a list of places, each by two coordinates."""
+    if not isinstance(given, (list, tuple)) or len(given) > CORNERS:
+        raise DefinitionError(f"{shortened(given)} is no list of up to {CORNERS} places in m, such as [[0, 0], [0.4, 0]].")
+    return tuple(each_of(enumerate(given), lambda place, each: coordinates_of(each, names)))
+
+
+def centre_of(given: Any, names: Names) -> Any:
+    """Return the name of a point, or a place by two coordinates."""
+    return names.checked(given, "point") if isinstance(given, str) else coordinates_of(given, names)
+
+
+def word_list_of(given: Any, names: Names) -> tuple[str, ...]:
+    """Return words from a list."""
+    if not isinstance(given, (list, tuple)):
+        raise DefinitionError(f"{shortened(given)} is no list of words.")
+    return tuple(each_of(enumerate(given), lambda place, each: word_of(each)))
+
+
 def lists_of(given: Any, names: Names, depth: int = 0) -> Any:
     """Return a number or a word, or a list of them, or lists of lists as tuples."""
     if not isinstance(given, (list, tuple)):
@@ -133,7 +154,7 @@ def lists_of(given: Any, names: Names, depth: int = 0) -> Any:
 def arrow_of(given: Any, names: Names) -> Arrow | str:
     """Return a vector, or the name of one."""
     if not isinstance(given, str):
-        raise DefinitionError(f"{shortened(given)} is not a vector, such as \"Vector(A, O)\".")
+        raise DefinitionError(f'{shortened(given)} is not a vector, such as "Vector(A, O)".')
     return arrow(given, names)
 
 
@@ -146,7 +167,7 @@ def points_of(given: Any, names: Names) -> tuple[str, ...]:
     """Return the names of points, from a text such as `O B C` or a list."""
     words = given.split() if isinstance(given, str) else given
     if not isinstance(words, Sequence) or not words:
-        raise DefinitionError(f"{shortened(given)} is not a list of points, such as \"O B C\".")
+        raise DefinitionError(f'{shortened(given)} is not a list of points, such as "O B C".')
     return tuple(names.checked(word, "point") for word in words)
 
 
@@ -212,7 +233,7 @@ def side_named(given: Any, names: Names) -> Side:
     """Return the side that a word says."""
     found = Side.said(given) if isinstance(given, str) else None
     if found is None:
-        raise DefinitionError(f"{shortened(given)} is not a side; write \"LEFT\" or \"RIGHT\".")
+        raise DefinitionError(f'{shortened(given)} is not a side; write "LEFT" or "RIGHT".')
     return found
 
 
@@ -256,6 +277,16 @@ def written_names(value: Any, design: Design, name: str) -> str | list[str]:
 def written_body(value: Any, design: Design, name: str) -> str:
     """Return the names of a link or of points of a body in one text."""
     return " ".join(map(name_of, value.split() if isinstance(value, str) else value if isinstance(value, tuple) else (value,)))
+
+
+def written_carrier(value: Any, design: Design, name: str) -> str | None:
+    """Return the names of the points that carry something in one text; None where nothing does."""
+    return " ".join(map(name_of, value)) if value else None
+
+
+def written_centre(value: Any, design: Design, name: str) -> Any:
+    """Return a point's name, or two coordinates."""
+    return file_value(value, design) if isinstance(value, tuple) else name_of(value)
 
 
 def written_pair(value: Any, design: Design, name: str) -> Any:
@@ -310,6 +341,12 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         "pair": Kind(pair_of, written_pair),
         "gravity": Kind(gravity_of, written_pair),
         "force vector": Kind(force_of, written_force),
+        "corner": Kind(lambda given, names: coordinates_of(given, names)),
+        "corners": Kind(corners_of, refers=True),
+        "centre": Kind(centre_of, written_centre, refers=True),
+        "carrier": Kind(points_of, written_carrier),
+        "path": Kind(word_of, refers=True),
+        "words": Kind(word_list_of),
         "side": Kind(side_named),
         "word": Kind(word_of),
         "switch": Kind(switch_of),

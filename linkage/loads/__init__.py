@@ -6,7 +6,22 @@
 """
 
 from .case import LoadCase
-from .element import AT_REST, Declared, ForceElement, Friction, Load, Parameter, Poses, Push, Rate, Rates, TwoPinned, couple, require_poses
+from .element import (
+    AT_REST,
+    Declared,
+    ForceElement,
+    Friction,
+    Glyph,
+    Load,
+    Parameter,
+    Poses,
+    Push,
+    Rate,
+    Rates,
+    TwoPinned,
+    couple,
+    require_poses,
+)  # fmt: skip
 from .friction import GuideFriction, PinFriction
 from .point import Force, LinkMass, Moment, Support, Weight
 from .two_point import Actuator, Between, Damper, DrawnAs, Spring, TwoPoint

@@ -39,6 +39,21 @@ class Load:
     on: tuple[str, ...] = ()
 
 
+@final
+@dataclass(frozen=True)
+class Glyph:
+    """What pictures show of an element: a word for the form, the points it hangs on, how many there are of it, a direction [rad].
+
+    Between two points: `strut`, `spring`, `damper`, `cylinder`, `accumulator` (`count` of them, on the cylinder there). At one point:
+    `weight`, `force`, `support`.
+    """
+
+    drawn_as: str
+    points: tuple[str, ...]
+    count: int = 1
+    way: float = 0.0
+
+
 class TwoPinned(Protocol):
     """A straight member between two pins."""
 
@@ -235,6 +250,10 @@ class ForceElement(Jointed):
     @abstractmethod
     def loads(self, motion: Poses) -> list[Load]:
         """Return the forces over the motion's poses [N]."""
+
+    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+        """Return what pictures show of it, among the members of its class; nothing unless it says so."""
+        return ()
 
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
         """Return the forces while strokes move at rates [1/s], as far as they are known: other ones where the element rubs or damps."""

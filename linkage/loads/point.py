@@ -16,7 +16,7 @@ from ..quantities import Member, Reference, is_number, label, name_of, real
 from ..quantities.quantity import plain
 from ..steps import Link, Point
 from ..units import g0
-from .element import Array, Declared, ForceElement, Load, Parameter, Poses, couple, value_text
+from .element import Array, Declared, ForceElement, Glyph, Load, Parameter, Poses, couple, value_text
 
 DOWN = (0.0, -g0)  # gravity, m/s2
 
@@ -43,6 +43,9 @@ class Weight(ForceElement):
 
     def loads(self, motion: Poses) -> list[Load]:
         return [Load(name_of(self.point), vector(self.number(motion, "mass"), self.gravity))]
+
+    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+        return (Glyph("weight", (name_of(self.point),)),)
 
     def in_gravity(self, gravity: tuple[float, float] | None, slope: float) -> Weight:
         return self.renewed(gravity=on_slope(self.gravity if gravity is None else gravity, slope))
@@ -95,6 +98,9 @@ class Force(ForceElement):
     def having(self, values: Mapping[str, float]) -> Force:
         return self.renewed(vector=(values.get(f"{self.name}.x", self.x), values.get(f"{self.name}.y", self.y)))
 
+    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+        return (Glyph("force", (name_of(self.point),)),)
+
     def loads(self, motion: Poses) -> list[Load]:
         return [Load(name_of(self.point), vector(1.0, (self.number(motion, "x"), self.number(motion, "y"))))]
 
@@ -128,6 +134,9 @@ class Support(ForceElement):
         if not (np.all(np.isfinite(size)) and np.all(size > 0.0)):
             said = f"the direction {cited(self.direction)} has no finite length above zero"
             raise DefinitionError(f"Support: {said}; write one such as (0, 1).")
+
+    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+        return (Glyph("support", (name_of(self.point),), way=float(np.arctan2(self.unit[1], self.unit[0]))),)
 
     @property
     def unit(self) -> Array:

@@ -16,8 +16,8 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, told
 from ..frozen import refuses_changes
-from ..quantities import Distance, Joint, Reference, name_of, pinned
-from .element import AT_REST, Array, ForceElement, Formulas, Load, Parameter, Poses, Push, Rate, Rates, TwoPinned
+from ..quantities import Distance, Joint, Member, Reference, name_of, pinned
+from .element import AT_REST, Array, ForceElement, Formulas, Glyph, Load, Parameter, Poses, Push, Rate, Rates, TwoPinned
 
 DrawnAs: TypeAlias = Literal["strut", "spring", "damper", "cylinder"]
 
@@ -44,6 +44,9 @@ class TwoPoint(ForceElement):
 
     def joints(self) -> tuple[Joint, ...]:
         return tuple(pinned(point) for point in self.ends)
+
+    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+        return (Glyph(self.drawn_as, self.ends),)
 
     @property
     def ends(self) -> tuple[str, str]:

@@ -6,8 +6,10 @@ from .featured import Featured
 from .gaps import gap
 from .grid import Grid
 from .limits import stroke_display_unit, stroke_unit
+from .live import LiveText, live_text
 from .motion import Motion, Target, each_at_its_stroke, out_of_reach, require_motion
 from .peaks import highest, last_holding
+from .poles import whole_body
 from .pose_requests import condition, transmission
 from .requests import BoundRequest, Ratio, Request, RequestLike, Value, ratio
 from .strokes import at_values, check_any, float_array, rates_of, sweep_values

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
@@ -18,6 +17,7 @@ from ..quantities import real
 from . import conditions
 from .conditions import Judged
 from .grid import Angles, Grid, angles_of, to_rounding, varies
+from .live import live_source, true_nodes
 from .motion import Motion
 from .requests import BoundRequest, RequestLike, all_bound, examined, identities_of, other_law_error
 from .strokes import at_values, float_array, known_strokes
@@ -53,9 +53,7 @@ def evaluate_grid(grid: Grid, requests: Sequence[RequestLike], out: FloatArray |
     return Evaluation(grid, found, way, unreachable).run(out)
 
 
-def evaluate_apart(
-    grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: Way, unreachable: str
-) -> list[FloatArray]:
+def evaluate_apart(grid: Grid, requests: Sequence[RequestLike], out: FloatArray | None, way: Way, unreachable: str) -> list[FloatArray]:
     """Return the same of requests some of which have no program: these as a motion of the same poses gives them."""
     motion = Motion(grid.plan, grid.designs, grid.strokes, unreachable, per_design=grid.per_design)
     found = []
@@ -214,9 +212,7 @@ class Evaluation:
         for k, found in worst.items():
             conditions.warn_near(found, f"{plan.title}: {self.requests[k]}", "comes")
 
-    def _put_right(
-        self, block: FloatArray, bad: Mask, inputs: dict[str, Any], worst: dict[int, Judged], broken: Any, near: Any
-    ) -> None:
+    def _put_right(self, block: FloatArray, bad: Mask, inputs: dict[str, Any], worst: dict[int, Judged], broken: Any, near: Any) -> None:
         """Fill the poses of a block that a mask names, from their paired inputs.
 
         `broken`: where an assumption does not hold; `near`: for each request, where it has to be looked at closely.
@@ -466,18 +462,19 @@ def source_of(plan: Plan, designs: Mapping[str, Any], requests: Sequence[Request
     if any(np.ndim(value) for value in designs.values()):
         raise DefinitionError(f"{plan.title}: source() states one design; its dimensions are arguments of the text, which serves all.")
     bound = all_bound(plan, requests)
-    key = ("source", tuple(each.key for each in bound))
-    nodes = plan.made(key, lambda twin: [node for each in bound for node in true_nodes(twin, each)])
+    design = {name: float(value) for name, value in designs.items()}
+    nodes = plan.made(
+        ("source", tuple(each.key for each in bound)), lambda twin: [node for each in bound for node in true_nodes(twin, each)]
+    )
+    if language == "javascript" and is_solved(plan, nodes):
+        return live_source(plan, bound, name, design)
     closed_form(plan, nodes)
-    return WRITERS[language](nodes, name, {name: float(value) for name, value in designs.items()})
+    return WRITERS[language](nodes, name, design)
 
 
-def true_nodes(plan: Plan, what: BoundRequest) -> list[Node]:
-    """Return a request's nodes, NaN where what they are true under does not hold: the text can look nothing up."""
-    nodes = list(what.nodes(plan))
-    for truth in (*what.notes(plan).assumed, *what.gaps(plan)):
-        nodes = [node.graph.pick(0.0, truth, node, math.nan) for node in nodes]
-    return nodes
+def is_solved(plan: Plan, nodes: Sequence[Node]) -> bool:
+    """Return whether nodes hang on pins that are found by iteration, or on an angle that is followed."""
+    return not {node.value for node in Kernel(nodes).plan.pose_inputs}.isdisjoint(plan.solved)
 
 
 def closed_form(plan: Plan, nodes: Sequence[Node]) -> None:

@@ -20,6 +20,7 @@ from .conditions import Judged
 from .course import Interruption
 from .grid import Grid, JoinedTo, Joining, angles_of, joined_in_order, not_joined, to_rounding
 from .limits import Limits, assembly_error, no_joint, span_text, stroke_unit, where_words
+from .poles import body_points, body_rates, pole_of, whole_body
 from .requests import (
     BoundRequest,
     Places,
@@ -255,6 +256,26 @@ class Motion:
             for second, v in given.items():
                 total = total + self._evaluated(member, tuple(sorted((first, second)))) * u * v
         return np.where(refused, np.nan, total)
+
+    def pole(
+        self, body: Target, other: Target = "frame", *, wrt: str | None = None, rates: Mapping[str, Any] | None = None
+    ) -> FloatArray:
+        """Return the pole of a body, its instant centre, against the frame or another body, shape (2, ...) [m]; over a sweep, its path.
+
+        A body goes by its name ("EDF"), its link's, or two of its points ("E D"). Several strokes go as one, `wrt=`, or at `rates` as
+        in `velocity`. Both coordinates are infinite where the body only translates, NaN where it stands still against the other one and
+        out of reach. Raises SingularError at a dead point, where the ratios are refused, unless the motion has `unreachable="nan"`.
+        """
+        given = dict.fromkeys([stroke_of(self.plan, wrt)], 1.0) if rates is None else rates
+        if rates is not None and wrt is not None:
+            raise DefinitionError(f"{self.plan.title}: pole(wrt=..., rates=...): rates say already which strokes move; leave out wrt=.")
+        of_body, of_other = body_points(self.plan, body), body_points(self.plan, other)
+        if whole_body(self.plan, body) == whole_body(self.plan, other):
+            raise DefinitionError(f"{self.plan.title}: pole({cited(body)}, {cited(other)}): these are one body; name two.")
+        moving = {name: self.velocity(name, given) for name in self.plan.points}
+        speeds = [np.hypot(rate[0], rate[1]) for rate in moving.values()]
+        first, second = (body_rates(points, self.__getitem__, moving.__getitem__, self.shape) for points in (of_body, of_other))
+        return pole_of(first, second, np.max(np.broadcast_arrays(*speeds), axis=0))
 
     def gradient(self, of: RequestLike, wrt: Sequence[str]) -> FloatArray:
         """Return the exact derivatives of a position, an output, a ratio or a force by dimensions, all in one reverse pass.

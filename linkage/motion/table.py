@@ -12,7 +12,7 @@ from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
 from ..language import heading_of
 from ..program import FloatArray
-from ..quantities import Dimension, Member, Quantity, Stroke
+from ..quantities import Coordinate, Dimension, Member, Quantity, Stroke
 from ..units import decimals, display_unit, factor, shown_in, unit_or_none, unit_sign
 from .limits import stroke_display_unit
 from .motion import Motion, require_motion
@@ -30,6 +30,8 @@ LEAST = 1e-9
 class Column:
     """Values in SI, shape (...), and the unit they are read in; a unit of "" is a plain number.
 
+    `request` is what a machine is asked for to have them, where that is known: a page in a browser works them out again by it.
+
     In a chosen system of units, `linkage.units.unit_system`, they are shown in the unit of that.
     """
 
@@ -37,6 +39,7 @@ class Column:
     values: FloatArray
     unit: str = ""
     digits: int = 4
+    request: RequestLike | None = None
 
     def __post_init__(self) -> None:
         if not isinstance(self.name, str) or not self.name:
@@ -59,7 +62,7 @@ class Column:
         kind = motion.plan.members.get(request) if isinstance(request, str) else request
         measures = kind.measures if isinstance(kind, (Quantity, Request)) else ""
         title = name or (kind.name if isinstance(kind, Member) else "") or str(request)
-        return cls(title, values, display_unit(measures) if unit is None else unit, digits)
+        return cls(title, values, display_unit(measures) if unit is None else unit, digits, request)
 
     @property
     def shown_unit(self) -> str:
@@ -102,10 +105,14 @@ def columns_of(motion: Motion) -> list[Column]:
     """Return the strokes, the coordinates of the points that move, and the named outputs of a motion, a column each."""
     require_motion(motion)
     plan = motion.plan
-    table = [Column(name, value, stroke_display_unit(plan, name)) for name, value in motion.strokes.items()]
-    table += [Column(f"{point}_{axis}", getattr(motion, axis)(point), "m") for point in plan.moving for axis in "xy"]
+    table = [Column(name, value, stroke_display_unit(plan, name), request=name) for name, value in motion.strokes.items()]
+    table += [
+        Column(f"{point}_{axis}", getattr(motion, axis)(point), "m", request=Coordinate(point, axis))
+        for point in plan.moving
+        for axis in "xy"
+    ]
     outputs = {name: member for name, member in plan.of_kind(Quantity).items() if not isinstance(member, (Stroke, Dimension))}
-    return table + [Column(name, motion[name], display_unit(member.measures)) for name, member in outputs.items()]
+    return table + [Column(name, motion[name], display_unit(member.measures), request=name) for name, member in outputs.items()]
 
 
 # Members that have columns of their own in a machine's table of results.

@@ -2,8 +2,10 @@
 
 from .browser import page_html
 from .curves import Limit, plot, plot_machine
+from .designs import draw_designs
 from .drawing import Drawing, mechanism
 from .film import animate, page
+from .mode_page import draw_modes
 from .optimum import draw_optimum, plot_optimum
 from .poses import draw
 from .tolerances import plot_bands, plot_tornado

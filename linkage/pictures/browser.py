@@ -18,8 +18,8 @@ from . import style
 from .curves import axis_range, limit_of, locator, typeset
 from .free_space import label_free, props
 from .labels import offsets
-from .scene import Places, Scene
-from .shapes import Outline
+from .scene import Piece, Places, Scene
+from .shapes import DrawnLine
 from .strokes import StrokeAxis, others_in_words, unreached_words
 from .symbols import LONG, SLOT, THICK, WIDTH, half_width, hatched, support
 
@@ -105,6 +105,12 @@ class Pixels:
         self.x0 = 0.5 * ACROSS - 0.5 * (left + right) * self.scale
         self.y0 = 0.5 * self.height + 0.5 * (bottom + top) * self.scale
 
+    @property
+    def sides(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """The least and greatest x, and y, that are seen [m]."""
+        x, y = -self.x0 / self.scale, (self.y0 - self.height) / self.scale
+        return (x, x + ACROSS / self.scale), (y, y + self.height / self.scale)
+
     def of(self, points: FloatArray) -> list[Any]:
         """Return points, shape (n, 2) [m], as pairs of pixels; None for one that is not reached."""
         flat = np.round(np.column_stack([self.x0 + self.scale * points[:, 0], self.y0 - self.scale * points[:, 1]]), 1)
@@ -127,16 +133,21 @@ def scenery(scene: Scene, paths: Sequence[str]) -> dict[str, Any]:
         "names": names,
         "poses": [pixels.of(np.array([place[:, pose] for place in placed.values()])) for pose in range(scene.motion.reached.size)],
         "bodies": [
-            {"points": [index[name] for name in points], "fill": fill, "edge": style.mixed(fill, style.INK, 0.65)}
-            for points, fill in zip(scene.hulls, cycle(style.BODIES), strict=False)
+            {
+                "points": [index[name] for name in plate.points],
+                "shares": np.round(plate.shares, 5).tolist(),
+                "fill": fill,
+                "edge": style.mixed(fill, style.INK, 0.65),
+            }
+            for plate, fill in zip(scene.plates, cycle(style.BODIES), strict=False)
         ],
-        "rams": [
-            {"P": index[ram.P], "Q": index[ram.Q]} | {name: pixels.length(getattr(ram, name)) for name in RAM} for ram in scene.rams
-        ],
+        "rams": [{"P": index[ram.P], "Q": index[ram.Q]} | {name: pixels.length(getattr(ram, name)) for name in RAM} for ram in scene.rams],
         **{
             kind: [{"P": index[each.P], "Q": index[each.Q], "lines": [stretched(line, pixels) for line in each.lines]} for each in found]
-            for kind, found in (("contours", scene.contours), ("straights", scene.straights))
+            for kind, found in (("contours", (*scene.contours, *scene.sections)), ("straights", scene.straights))
         },
+        "pieces": [piece_data(piece, pixels, index) for piece in scene.surroundings],
+        "marks": [piece_data(piece, pixels, index) for piece in scene.marks],
         **sliding_data(scene, pixels, index),
         "widths": WIDTH,
         "thick": THICK,
@@ -149,10 +160,31 @@ def scenery(scene: Scene, paths: Sequence[str]) -> dict[str, Any]:
     }
 
 
-def stretched(line: Outline, pixels: Pixels) -> dict[str, Any]:
+def stretched(line: DrawnLine, pixels: Pixels) -> dict[str, Any]:
     """Return a line of a straight element: its rows with the ways along and across in pixels, these to the right as y points down."""
     rows = [[round(share, 4), pixels.length(along), -pixels.length(across)] for share, along, across in line.rows.tolist()]
     return {"rows": rows, "fill": line.fill.lower(), "closed": line.closed, "bold": line.bold}
+
+
+def piece_data(piece: Piece, pixels: Pixels, index: Mapping[str, int]) -> dict[str, Any]:
+    """Return what some points carry, or nothing does: its lines and hatches in its own axes, x to the second point, y downwards.
+
+    On one point the axes keep the frame's directions; on none they begin where the frame's origin is drawn.
+    """
+
+    def turned(points: FloatArray) -> list[Any]:
+        flat = [[pixels.length(x), -pixels.length(y)] for x, y in points.reshape(-1, 2).tolist()]
+        return flat if points.ndim == 2 else [flat[row : row + 2] for row in range(0, len(flat), 2)]
+
+    lines = [
+        {"rows": turned(line.rows[:, 1:]), "fill": line.fill.lower(), "closed": line.closed, "bold": line.bold} for line in piece.lines
+    ]
+    seen = piece.hatched
+    if not piece.on and len(seen):  # a line of the ground may go on far beyond the sheet
+        (x0, x1), (y0, y1) = pixels.sides
+        seen = seen[np.any(np.all((seen >= (x0, y0)) & (seen <= (x1, y1)), axis=2), axis=1)]
+    on = {"name": piece.name, "on": [index[name] for name in piece.on], "origin": [round(pixels.x0, 1), round(pixels.y0, 1)]}
+    return on | {"lines": lines, "hatches": turned(seen)}
 
 
 def sliding_data(scene: Scene, pixels: Pixels, index: Mapping[str, int]) -> dict[str, Any]:
@@ -184,6 +216,7 @@ def label_offsets(scene: Scene, pixels: Pixels) -> list[Any]:
 
 
 # A curve as plain data for the browser: values, range, ticks and limit.
+
 
 def chart(motion: Motion, column: Column, bound: Sequence[Any] | None) -> dict[str, Any]:
     """Return a column over the stroke that a motion runs along; None where it has no value."""

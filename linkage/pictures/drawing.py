@@ -4,20 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import cycle
+from pathlib import Path
 from typing import final
 
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.image import AxesImage, imread
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Polygon
+from matplotlib.transforms import Affine2D
 
+from ..errors import FileError
 from ..motion import Motion
 from ..program import FloatArray
 from . import style
 from .free_space import label_free, props
 from .labels import LabelPart, offsets
-from .scene import Places, Scene, Straight
+from .scene import Piece, Places, Plate, Scene, Straight
 from .shapes import rounded
 from .sheet import points_a_metre, sheet
 from .style import FAINT, STRONG, Look
@@ -49,14 +54,16 @@ class Drawing:
 
     def __init__(self, ax: Axes, scene: Scene, look: Look = STRONG) -> None:
         self.ax, self.scene, self.look = ax, scene, look
-        hulls = zip(scene.hulls, cycle(style.BODIES), strict=False)
+        plates = zip(scene.plates, cycle(style.BODIES), strict=False)
         self.parts: list[MovingPart] = [
-            *(StraightPart(ax, each, look, -0.1) for each in scene.contours),
-            *(BodyPart(ax, points, scene.size, colour, look) for points, colour in hulls),
+            *(PiecePart(ax, each, look, -2.0) for each in scene.surroundings if each.on),
+            *(StraightPart(ax, each, look, -0.1) for each in (*scene.contours, *scene.sections)),
+            *(BodyPart(ax, plate, scene.size, colour, look) for plate, colour in plates),
             *sliders(ax, scene, look),
             *(CylinderPart(ax, ram, scene.size, look) for ram in scene.rams),
             *(StraightPart(ax, each, look) for each in scene.straights),
             *(StayPart(ax, ends, look) for ends in scene.stays),
+            *(PiecePart(ax, each, look, 0.7 if each.on[0] in scene.pins else 0.9) for each in scene.marks),
             *(pin(ax, name, scene.size, look) for name in scene.pins),
             *(dot(ax, name, scene.size, look) for name in scene.dots),
         ]
@@ -65,6 +72,9 @@ class Drawing:
         """Draw what never moves: the frame under its pins."""
         rails(self.ax, self.scene, self.look)
         at = self.scene.at(0)
+        for piece in self.scene.surroundings:
+            if not piece.on:
+                PiecePart(self.ax, piece, self.look, FIXED - self.look.level).update(at)
         for name, way in props(self.scene).items():
             ground(self.ax, at[name], way, self.scene.size, self.look)
 
@@ -72,8 +82,9 @@ class Drawing:
         """Name the points; the names keep clear of the mechanism at all `poses` and of further points [m]."""
         size, scale = self.scene.size, points_a_metre(self.ax)
         clouds = [np.concatenate([points, *keep_clear]) for points in label_free(self.scene, poses)]
-        spots = offsets(list(self.scene.places), poses, clouds, scale, 1.15 * size * scale + 1.5)
-        self.parts += [LabelPart(self.ax, name, spot, self.look) for name, spot in spots.items()]
+        gap = 1.15 * size * scale + 1.5
+        spots = offsets(list(self.scene.places), poses, clouds, scale, gap)
+        self.parts += [LabelPart(self.ax, name, spot, gap, self.look) for name, spot in spots.items()]
 
     def update(self, pose: int) -> None:
         """Move to a pose, a flat index."""
@@ -89,28 +100,30 @@ class Drawing:
 
 # Rigid bodies: bars with round ends, plates with round corners.
 
+
 @final
 class BodyPart(MovingPart):
     """A body as the line around its outermost points, filled."""
 
     artists: tuple[Polygon, ...]
 
-    def __init__(self, ax: Axes, points: tuple[str, ...], radius: float, colour: str, look: Look) -> None:
-        plate = len(points) > 2
-        self.points, self.radius = points, radius
+    def __init__(self, ax: Axes, form: Plate, radius: float, colour: str, look: Look) -> None:
+        plate = len(form.shares) > 2
+        self.form, self.points, self.radius = form, form.points, radius
         fill, edge = look.colour(colour), look.colour(style.mixed(colour, style.INK, 0.65))
         level = look.level + (0.0 if plate else 0.2)
-        self.face = polygon(ax, level, facecolor=fill, edgecolor="none", alpha=0.55 if plate else 1.0)
+        self.face = polygon(ax, level, facecolor=fill, edgecolor="none", alpha=0.72 if plate else 1.0)
         self.edge = polygon(ax, level + 0.1, fill=False, edgecolor=edge, linewidth=style.OUTLINE)
         self.artists = (self.face, self.edge)
 
     def move(self, at: Places) -> None:
-        outline = rounded(np.array([at[name] for name in self.points]), self.radius)
+        outline = rounded(self.form.at(at), self.radius)
         for artist in self.artists:
             artist.set_xy(outline)
 
 
 # Springs, dampers and struts between two points, and the yokes of what stands beside its pins.
+
 
 @final
 class StraightPart(MovingPart):
@@ -137,7 +150,70 @@ class StraightPart(MovingPart):
             artist.set_xy(P + line.at(length) @ turned)
 
 
+# What some points carry, or nothing does: marks of loads, surroundings.
+
+FIXED = 1.6
+"""The layer of what stands still around a mechanism, below all of it."""
+
+
+@final
+class PiecePart(MovingPart):
+    """Some lines that keep their form, their hatches, and a picture under them."""
+
+    def __init__(self, ax: Axes, piece: Piece, look: Look, above: float) -> None:
+        self.piece, self.points = piece, piece.on
+        level, ink = look.level + above, look.colour(style.MUTED if above < 0.0 else style.INK)
+        self.lines = tuple(
+            polygon(
+                ax, level + 0.001 * layer, closed=each.closed, fill=bool(each.fill), edgecolor=ink, joinstyle="round", capstyle="round",
+                facecolor=look.colour(getattr(style, each.fill or "PAPER")), linewidth=style.OUTLINE * (1.5 if each.bold else 0.9),
+            )
+            for layer, each in enumerate(piece.lines)
+        )  # fmt: skip
+        self.hatches = LineCollection([], colors=ink, linewidths=0.7 * style.THIN, zorder=level + 0.005)
+        ax.add_collection(self.hatches, autolim=False)
+        self.under = [] if piece.under is None else [Underlay(ax, *piece.under, level - 0.1, look)]
+        self.artists = (*self.lines, self.hatches, *(each.image for each in self.under))
+
+    def move(self, at: Places) -> None:
+        for line, artist in zip(self.piece.lines, self.lines, strict=True):
+            artist.set_xy(self.piece.placed(line.rows[:, 1:], at))
+        self.hatches.set_segments(list(self.piece.placed(self.piece.hatched, at)))
+        for each in self.under:
+            each.place(self.piece.placed(each.corners, at))
+
+
+@final
+class Underlay:
+    """A picture from a file that lies under a mechanism, as wide as its corners say [m]; its height is its own."""
+
+    def __init__(self, ax: Axes, path: str, corners: FloatArray, opacity: float, level: float, look: Look) -> None:
+        pixels = read_picture(path)
+        high = corners[0] + (corners[3] - corners[0]) * len(pixels) / pixels.shape[1]
+        self.ax, self.corners = ax, np.array([corners[0], corners[1], high + corners[1] - corners[0], high])
+        self.image = AxesImage(ax, extent=(0.0, 1.0, 0.0, 1.0), alpha=opacity * (1.0 - look.fade), zorder=level, interpolation="bilinear")
+        self.image.set_data(pixels)
+        self.image.set_clip_path(ax.patch)
+        ax.add_artist(self.image)
+
+    def place(self, corners: FloatArray) -> None:
+        """Move its unit square to three of its corners."""
+        (x, y), across, up = corners[0], corners[1] - corners[0], corners[3] - corners[0]
+        self.image.set_transform(Affine2D(np.array([[across[0], up[0], x], [across[1], up[1], y], [0.0, 0.0, 1.0]])) + self.ax.transData)
+
+
+def read_picture(path: str) -> FloatArray:
+    """Return a picture's pixels, shape (rows, columns, ...); FileError where it cannot be read."""
+    if not Path(path).is_file():
+        raise FileError(f"{path}: there is no such picture; give the path from where the program runs, or a whole one.")
+    try:
+        return np.asarray(imread(path))
+    except (OSError, ValueError, SyntaxError) as error:
+        raise FileError(f"{path} is no picture that can be read: {error}") from error
+
+
 # Points: pins as circles, others as small dots, and the thin lines of a bare construction.
+
 
 @final
 class CirclePart(MovingPart):

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..program import FloatArray
-from .scene import Places, Scene
+from .scene import Piece, Places, Scene
 from .shapes import segment
 from .symbols import hatched
 
@@ -22,12 +22,18 @@ SYMBOL = [(u, v) for u in (1.2, 1.8, 2.4, 3.0, 3.6, 4.2) for v in ACROSS if u > 
 
 def cloud(scene: Scene, at: Places) -> FloatArray:
     """Return points that cover what is drawn at a pose, shape (m, 2) [m]: where no label should stand."""
-    pairs = [(P, Q, 1.0) for points in scene.hulls for P, Q in zip(points, (*points[1:], points[0]), strict=True)]
-    pairs += [*((each.P, each.Q, each.half) for each in scene.hung), *((P, X, 0.0) for P, X in scene.stays)]
+    pairs = [*((each.P, each.Q, each.half) for each in scene.hung), *((P, X, 0.0) for P, X in scene.stays)]
     pairs += [(*track.ends, 1.2) for track in scene.tracks]
-    lines = [(segment(at[P], at[Q], 0.8 * scene.size), half) for P, Q, half in pairs if np.isfinite([at[P], at[Q]]).all()]
+    corners = [plate.at(at) for plate in scene.plates]
+    edges = [(P, Q) for each in corners if np.isfinite(each).all() for P, Q in zip(each, np.roll(each, -1, axis=0), strict=True)]
+    lines = [(segment(P, Q, 0.8 * scene.size), 1.0) for P, Q in edges]
+    lines += [(segment(at[P], at[Q], 0.8 * scene.size), half) for P, Q, half in pairs if np.isfinite([at[P], at[Q]]).all()]
     wide = [line + offset * half * scene.size * _normal(line) for line, half in lines for offset in (-1.0, 0.0, 1.0)]
-    return np.concatenate([np.empty((0, 2)), *wide, *(place[None] for place in at.values() if np.isfinite(place).all())])
+    fed = [Piece("", (each.P, each.Q), each.lines) for each in scene.fed if np.isfinite([at[each.P], at[each.Q]]).all()]
+    marks = [each for each in scene.marks if np.isfinite(at[each.on[0]]).all()]
+    beside = [each.placed(each.corners, at) for each in (*fed, *marks)]
+    points = [place[None] for place in at.values() if np.isfinite(place).all()]
+    return np.concatenate([np.empty((0, 2)), *wide, *beside, *points])
 
 
 def _normal(line: FloatArray) -> FloatArray:

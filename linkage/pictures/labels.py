@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import final
 
 import numpy as np
@@ -15,21 +15,32 @@ from .scene import Places
 from .style import Look
 from .symbols import MovingPart
 
-REACH = (1.0, 1.4, 2.0, 2.8, 4.0)
-WAYS = np.radians(np.arange(60.0, 420.0, 22.5))
+REACH = (1.0, 1.4, 2.0, 2.8, 4.0, 5.5, 7.5)
+WAYS = np.radians(np.arange(60.0, 420.0, 15.0))
 """The places a label tries: distances, as multiples of the nearest, and directions [rad], the preferred one first."""
+
+LED = 1.9
+"""A label that begins farther from its point than so many times the nearest distance is joined to it by a thin line."""
+TOGETHER = 0.7
+"""Points nearer to each other than so many times the nearest distance of a label stand on one pin."""
+OVERLAP, STRAY = 400.0, 150.0
+"""What it costs to cover another label, and to stand nearer to another point than to the own one, in covered points."""
+ROUNDS = 4
 
 
 @final
 class LabelPart(MovingPart):
-    """A point's name at an offset [points]."""
+    """A point's name at an offset [points], joined to the point by a thin line where it stands away from it."""
 
-    def __init__(self, ax: Axes, name: str, offset: FloatArray, look: Look) -> None:
+    def __init__(self, ax: Axes, name: str, offset: FloatArray, gap: float, look: Look) -> None:
         self.points = (name,)
+        leader = {"arrowstyle": "-", "color": look.colour(style.MUTED), "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.6 * gap}
+        self.is_led = bool(distance_to_box(offset, half_of(name, style.LABEL)) > LED * gap)
         self.text = ax.annotate(
             name, (0, 0), xytext=(float(offset[0]), float(offset[1])), textcoords="offset points", ha="center", va="center_baseline",
             fontsize=style.LABEL, fontstyle="italic", color=look.colour(style.INK), zorder=look.level + 1.0, annotation_clip=False,
-            path_effects=[withStroke(linewidth=2.5, foreground=style.PAPER)],
+            path_effects=[withStroke(linewidth=2.5, foreground=style.PAPER)], arrowprops=leader if self.is_led else None,
+            bbox={"boxstyle": "square,pad=0.05", "facecolor": "none", "edgecolor": "none"},
         )  # fmt: skip
         self.artists = (self.text,)
 
@@ -44,25 +55,34 @@ def offsets(
     """Return where each name stands, from its point, shape (2,) each, in the unit of `font`.
 
     One offset serves all `poses`; where there are several it stays short, so that each name keeps to its pin.
-    `clouds` are the points to keep clear at each [m]; `scale` is that unit per
-    metre and `gap` the distance from the point's centre at which a label may begin. Greedy, crowded points first.
+    `clouds` are the points to keep clear at each [m]; `scale` is that unit per metre and `gap` the distance from the point's centre at
+    which a label may begin. Crowded points choose first; then each chooses again, some rounds long, as the others stand.
     """
-    taken = [cloud * scale for cloud in clouds]
-    if len(poses) > 1:
-        pins = [np.array([at[name] for name in names]).reshape(-1, 2) * scale for at in poses]
-        taken = [np.concatenate([points, np.repeat(each, 4, axis=0)]) for points, each in zip(taken, pins, strict=True)]
     far = max(gap, 0.9 * font) if len(poses) > 1 else np.inf
-    spots_of: dict[str, FloatArray] = {}
-    around = np.array([3 * font, 3 * font])
-    crowds = {name: sum(_count(points, at[name] * scale, around) for at, points in zip(poses, taken, strict=True)) for name in names}
-    for name in sorted(names, key=lambda each: -crowds[each]):
-        half = 0.5 * font * np.array([0.68 * len(name) + 0.15, 0.95])
-        anchors = [at[name] * scale for at in poses]
-        spots = candidates(half, gap, far)
-        costs = [_cost(spot, rank, half, anchors, taken) for rank, spot in enumerate(spots)]
-        spots_of[name] = spots[int(np.argmin(costs))]
-        taken = [np.concatenate([points, _covered(anchor + spots_of[name], half)]) for points, anchor in zip(taken, anchors, strict=True)]
-    return spots_of
+    taken = [cloud * scale for cloud in clouds]
+    anchors = {name: np.array([at[name] for at in poses]).reshape(-1, 2) * scale for name in names}
+    halves = {name: half_of(name, font) for name in names}
+    tried = {name: np.array(candidates(halves[name], gap, far)) for name in names}
+    alone = {name: own_costs(name, tried[name], halves[name], anchors, taken, gap) for name in names}
+    spots: dict[str, FloatArray] = {}
+    order = sorted(names, key=lambda each: -float(np.median(alone[each])))
+    for _ in range(ROUNDS):
+        before = dict(spots)
+        for name in order:
+            others = [other for other in spots if other != name]
+            costs = alone[name]
+            for other in others:
+                over = overlaps(tried[name], halves[name], spots[other], halves[other], anchors[name], anchors[other])
+                costs = costs + OVERLAP * over
+            spots[name] = tried[name][int(np.argmin(costs))]
+        if before and all(np.array_equal(before[name], spots[name]) for name in names):
+            break
+    return spots
+
+
+def half_of(name: str, font: float) -> FloatArray:
+    """Return half the width and height of a label, in the unit of its font."""
+    return 0.5 * font * np.array([0.68 * len(name) + 0.15, 0.95])
 
 
 def candidates(half: FloatArray, gap: float, far: float = np.inf) -> list[FloatArray]:
@@ -71,18 +91,35 @@ def candidates(half: FloatArray, gap: float, far: float = np.inf) -> list[FloatA
     return [reach * gap * way + half * np.clip(np.sqrt(2.0) * way, -1.0, 1.0) for reach in REACH if reach * gap <= far for way in ways]
 
 
-def _cost(spot: FloatArray, rank: int, half: FloatArray, anchors: Sequence[FloatArray], taken: Sequence[FloatArray]) -> float:
-    """Return how many taken points a label would cover, a pose, and a little for each place further down the list."""
-    covered = [_count(points, anchor + spot, half + 1.0) for points, anchor in zip(taken, anchors, strict=True)]
-    return sum(covered) / max(len(anchors), 1) + 0.02 * rank
+def own_costs(
+    name: str, spots: FloatArray, half: FloatArray, anchors: Mapping[str, FloatArray], taken: Sequence[FloatArray], gap: float
+) -> FloatArray:
+    """Return what each place of a label costs by itself, shape (c,): what it covers, a pose, and the other pins that it is nearer to."""
+    poses = max(len(taken), 1)
+    costs = 0.02 * np.arange(len(spots)) + 1.2 * np.maximum(distance_to_box(spots, half) / gap - LED, 0.0)
+    for pose, points in enumerate(taken):
+        own = anchors[name][pose]
+        if not np.isfinite(own).all():
+            continue
+        near = points[(np.abs(points - own) < np.abs(spots).max() + half.max() + 2.0).all(axis=1)] - own
+        costs = costs + (np.abs(near[None] - spots[:, None]) < half + 1.0).all(axis=2).sum(axis=1) / poses
+        away = distance_to_box(spots, half)
+        for other, places in anchors.items():
+            place = places[pose] - own
+            if other != name and np.isfinite(place).all() and np.hypot(*place) > TOGETHER * gap:
+                beside = distance_to_box(place - spots, half)
+                costs = costs + STRAY / poses * (beside < 1.05 * away) + 4.0 / poses * (beside < 0.8 * gap)
+    return costs
 
 
-def _count(points: FloatArray, centre: FloatArray, half: FloatArray) -> int:
-    """Return how many points lie in a box."""
-    return int(np.count_nonzero((np.abs(points - centre) < half).all(axis=1)))
+def distance_to_box(away: FloatArray, half: FloatArray) -> FloatArray:
+    """Return how far boxes, whose centres stand at some ways from a point, shape (..., 2), lie from it."""
+    return np.asarray(np.hypot(*np.moveaxis(np.maximum(np.abs(away) - half, 0.0), -1, 0)))
 
 
-def _covered(centre: FloatArray, half: FloatArray) -> FloatArray:
-    """Return points that cover a label, weighted to keep others off, shape (n, 2)."""
-    steps = np.linspace(-1.0, 1.0, 5)
-    return np.array([centre + half * (u, v) for u in steps for v in steps for _ in range(3)])
+def overlaps(
+    spots: FloatArray, half: FloatArray, other: FloatArray, other_half: FloatArray, anchors: FloatArray, others: FloatArray
+) -> FloatArray:
+    """Return at which share of the poses a label at each of its places covers another one, shape (c,)."""
+    between = (anchors - others)[:, None] + spots - other
+    return np.asarray((np.abs(between) < half + other_half + 0.5).all(axis=2).mean(axis=0))

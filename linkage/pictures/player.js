@@ -23,12 +23,13 @@ set(sheet, { viewBox: `0 0 ${scene.width} ${scene.height}` });
 const size = scene.size;
 const EDGE = 1.4;
 
-function body({ points, fill, edge }) {
-  const plate = points.length > 2;
+function body({ points, shares, fill, edge }) {
+  const plate = shares.length > 2;
   const group = draw(sheet, "g", { opacity: plate ? 0.72 : 1 });
   const outer = draw(group, "polygon", { fill: edge, stroke: edge, "stroke-width": 2 * size + 2 * EDGE, "stroke-linejoin": "round" });
   const inner = draw(group, "polygon", { fill, stroke: fill, "stroke-width": 2 * size, "stroke-linejoin": "round" });
-  return (at) => { const text = pairs(points.map((i) => at[i])); set(outer, { points: text }); set(inner, { points: text }); };
+  const corner = (at, row) => [0, 1].map((axis) => row.reduce((sum, share, k) => sum + share * at[points[k]][axis], 0));
+  return (at) => { const text = pairs(shares.map((row) => corner(at, row))); set(outer, { points: text }); set(inner, { points: text }); };
 }
 
 function ram({ P, Q, aside, bottom, mouth, rod, least, most }) {
@@ -60,6 +61,20 @@ function straight({ P, Q, lines }) {
     const dx = at[Q][0] - at[P][0], dy = at[Q][1] - at[P][1], length = Math.hypot(dx, dy);
     for (const line of drawn) line(length);
     set(group, { transform: `translate(${at[P][0]} ${at[P][1]}) rotate(${(Math.atan2(dy, dx) * 180) / Math.PI})` });
+  };
+}
+
+/* What some points carry, or nothing does: lines that keep their form. */
+function piece({ on: [P, Q], origin, lines, hatches }, ink) {
+  const group = draw(sheet, "g", { stroke: css(ink), "stroke-linejoin": "round", "stroke-linecap": "round" });
+  for (const { rows, fill, closed, bold } of lines) {
+    draw(group, closed ? "polygon" : "polyline", { points: pairs(rows), fill: fill ? css(fill) : "none", "stroke-width": (bold ? 1.5 : 0.9) * EDGE });
+  }
+  for (const [from, to] of hatches) draw(group, "line", { x1: from[0], y1: from[1], x2: to[0], y2: to[1], "stroke-width": 0.7 });
+  return (at) => {
+    const [x, y] = P === undefined ? origin : at[P];
+    const turn = Q === undefined ? 0 : (Math.atan2(at[Q][1] - at[P][1], at[Q][0] - at[P][0]) * 180) / Math.PI;
+    set(group, { transform: `translate(${x} ${y}) rotate(${turn})` });
   };
 }
 
@@ -101,6 +116,7 @@ function broken(points) {
   return points.map((p) => { if (!p) { pen = "M"; return ""; } const step = `${pen}${p[0].toFixed(1)} ${p[1].toFixed(1)}`; pen = "L"; return step; }).join("");
 }
 
+const around = scene.pieces.map((each) => piece(each, "muted"));
 for (const path of scene.paths) {
   draw(sheet, "path", { class: "line", d: broken(path), stroke: css("accent"), "stroke-width": 2.2, "stroke-dasharray": "0.1 4.6" });
 }
@@ -111,12 +127,15 @@ for (const { triangle, lines } of scene.grounds) {
 for (const lines of scene.rails) {
   lines.forEach(([from, to], i) => draw(sheet, "line", { x1: from[0], y1: from[1], x2: to[0], y2: to[1], stroke: css("ink"), "stroke-width": i ? 1 : 1.8 }));
 }
-const plates = scene.bodies.filter((each) => each.points.length > 2), bars = scene.bodies.filter((each) => each.points.length <= 2);
+const plates = scene.bodies.filter((each) => each.shares.length > 2), bars = scene.bodies.filter((each) => each.shares.length <= 2);
+const [onPins, beside] = [true, false].map((pinned) => scene.marks.filter((each) => scene.pins.includes(each.on[0]) === pinned));
 const parts = [
-  ...scene.contours.map(straight), ...plates.map(body), ...scene.blocks.filter((each) => !each.inside).map(block), ...bars.map(body),
+  ...around, ...scene.contours.map(straight), ...plates.map(body), ...scene.blocks.filter((each) => !each.inside).map(block), ...bars.map(body),
   ...scene.slots.map(slot), ...scene.blocks.filter((each) => each.inside).map(block), ...scene.stays.map(stay), ...scene.rams.map(ram), ...scene.straights.map(straight),
+  ...onPins.map((each) => piece(each, "ink")),
   ...scene.pins.map((i) => circle(i, 0.5 * size, css("paper"), css("ink"), 1.3 * EDGE)),
   ...scene.dots.map((i) => circle(i, 0.48 * size, css("ink"), css("paper"), 1)),
+  ...beside.map((each) => piece(each, "ink")),
   ...scene.names.map((_, i) => name(i)),
 ];
 

@@ -7,11 +7,10 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from ..errors import DefinitionError, cited, known_name, unknown
+from ..errors import DefinitionError, cited, known_name
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion
 from ..program import FloatArray
@@ -19,16 +18,14 @@ from ..quantities import is_whole, real
 from ..reports import Run, first_stroke, stroke_middles
 from . import style
 from .drawing import Drawing, mechanism
+from .force_arrows import force_question
+from .free_body import draw_free_body
 from .free_space import cloud
-from .scene import Bounds, Scene
-from .sheet import Picture, sheet
-from .strokes import is_turn, others_in_words, stroke_words, unreached_words
+from .overlays import NO_OVERLAYS, Overlays
+from .paper import empty_page, legend_row, remark, title
+from .scene import Scene
+from .strokes import is_turn, stroke_words, unreached_words
 from .style import FAINT, STRONG
-
-WIDTH = 9.0
-LEAST, MOST = 4.2, 10.0
-LEFT, RIGHT, BOTTOM, TOP = 0.75, 0.2, 0.6, 0.7
-"""The figure's width, the range of its height, and the room around the sheet [inch]."""
 
 MANY = 1_000_000
 """Poses of a path: more do not fit into a picture."""
@@ -43,55 +40,97 @@ def draw(
     ax: Axes | None = None,
     pose: int | tuple[int, ...] = 0,
     faint: bool = False,
+    forces: bool | str = False,
+    loads: Any = None,
+    case: Any = None,
+    direction: str = "frictionless",
+    drive: str | None = None,
+    velocities: Mapping[str, Any] | None = None,
+    pole: Any = None,
 ) -> Figure | Drawing:
     """Return a mechanism's figure at chosen strokes, or a motion at one of its poses, on axes if they are given; see `linkage.draw`."""
+    overlays = Overlays(force_question(forces, loads, case, direction, drive, velocities), velocities, pole)
+    if ax is not None and overlays:
+        raise DefinitionError("draw(ax=...): forces, velocities and poles have a figure of their own; leave out ax=.")
     if isinstance(machine, Motion):
         if at is not None or path or count != 101:
             raise DefinitionError(
                 f"{machine.plan.title}: a motion is drawn at one of its poses, pose=; at=, path= and count= go with a machine."
             )
-        return draw_pose(machine, pose, ax=ax, faint=faint)
+        return draw_pose(machine, pose, overlays, ax=ax, faint=faint)
     require_mechanism(machine)
     if ax is not None:
         raise DefinitionError(f"{machine.plan.title}: ax= takes a motion, which has poses; write draw(machine.at(...), ax=ax).")
-    return draw_strokes(machine, at, path, count)
+    return draw_strokes(machine, at, path, count, overlays)
 
 
-def draw_pose(motion: Motion, pose: int | tuple[int, ...] = 0, *, ax: Axes | None = None, faint: bool = False) -> Figure | Drawing:
+def draw_pose(
+    motion: Motion, pose: int | tuple[int, ...] = 0, overlays: Overlays = NO_OVERLAYS, *, ax: Axes | None = None, faint: bool = False
+) -> Figure | Drawing:
     """Return a motion drawn at a pose: as a figure of its own, or as what can be updated on the axes `ax`."""
     if ax is not None:
         return mechanism(ax, motion, pose, faint=faint)
     scene = Scene(motion)
-    figure, own = empty_page(scene.box())
-    mechanism(own, motion, pose, faint=faint)
     index = scene.index(pose)
+    if overlays.forces is not None and overlays.forces.body:
+        return draw_free_body(motion, index, overlays.forces)
+    if overlays:
+        figure = draw_laid_over(motion, motion, index, overlays)
+    else:
+        figure, own = empty_page(scene.box())
+        mechanism(own, motion, pose, faint=faint)
     where = [stroke_words(motion.plan, name, float(values.ravel()[index])) for name, values in motion.strokes.items()]
     title(figure, motion.plan.heading, ", ".join(where))
     return figure
 
 
-def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int) -> Figure:
-    """Return a figure of a mechanism at chosen strokes: the last one bold, the others faint."""
+def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int, overlays: Overlays = NO_OVERLAYS) -> Figure:
+    """Return a figure of a mechanism at chosen strokes: the last one bold, the others faint, what is laid over it at that one."""
     path = named_points(machine, path, "path")
     if not is_whole(count) or not 2 <= count <= MANY:
         raise DefinitionError(f"count={cited(count)}: a path is drawn through 2 poses or more; give a whole number such as 101.")
     moving, shown, swept = motions(machine, at, count)
-    whole = Scene(swept)
-    figure, ax = empty_page(whole.box())
+    whole, last = Scene(swept), Scene(shown).reached[-1]
+    if overlays.forces is not None and overlays.forces.body:
+        return draw_free_body(shown, last, overlays.forces)
+    laid = overlays.over(shown, last, whole.box()) if overlays else None
+    figure, ax = empty_page(laid.box(whole.size) if laid else whole.box())
     for name in path:
         trace(ax, whole.places[name], f"path{'s' if len(path) > 1 else ''} of {', '.join(path)}" if name == path[0] else "")
-    draw_poses(ax, shown, swept, [whole.places[name].T for name in path])
+    clear = [whole.places[name].T for name in path] + ([laid.covered()] if laid else [])
+    draw_poses(ax, shown, swept, clear)
+    if laid:
+        overlays.centrodes(ax, swept)
+        laid.draw(ax, whole.size, cloud(whole, Scene(shown).at(last)))
     heading(figure, ax, shown, moving)
-    remark(figure, ax, unreached_words(swept, moving))
+    remark(figure, ax, unreached_words(swept, moving[0]) if len(moving) == 1 else unreached_on_the_way(swept))
     return figure
 
 
-def motions(machine: Mechanism, at: Any, count: int) -> tuple[str, Motion, Motion]:
-    """Return the stroke that moves, the motion at the chosen values, and the one over the whole stroke."""
+def draw_laid_over(motion: Motion, swept: Motion, pose: int, overlays: Overlays) -> Figure:
+    """Return a figure of a motion at a pose, a flat index, with what is laid over it and what its colours mean."""
+    scene = Scene(motion)
+    laid = overlays.over(motion, pose, scene.box())
+    figure, ax = empty_page(laid.box(scene.size))
+    drawing = Drawing(ax, scene, STRONG)
+    drawing.ground()
+    drawing.label([scene.at(pose)] if pose in scene.reached else [], [laid.covered()])
+    drawing.update(pose)
+    overlays.centrodes(ax, swept)
+    laid.draw(ax, scene.size, cloud(scene, scene.at(pose)))
+    legend_row(ax, *ax.get_legend_handles_labels())
+    return figure
+
+
+def motions(machine: Mechanism, at: Any, count: int) -> tuple[tuple[str, ...], Motion, Motion]:
+    """Return the strokes that move, the motion at the chosen values, and the one over the whole stroke, or along several at once."""
     given: dict[str, Any] = dict(at) if isinstance(at, Mapping) else {first_stroke(machine): at}
+    for name in given:
+        known_name("Stroke", name, machine.strokes, where=machine.plan.title)
+    several = tuple(name for name, values in given.items() if np.size(values) > 1)
+    if len(several) > 1:
+        return joint_motions(machine, given, several, count)
     moving = max(given, key=lambda name: np.size(given[name])) if given else first_stroke(machine)
-    if moving not in machine.strokes:
-        raise unknown("Stroke", moving, machine.strokes, where=machine.plan.title)
     start, end = machine.strokes[moving].start, machine.strokes[moving].end
     usual = (0.5 * (start + end), start) if is_turn(machine, Run({moving: (start, end)}, {})) else (start, end)
     given_values = {name: np.atleast_1d(chosen_values(machine, name, usual if value is None else value)) for name, value in given.items()}
@@ -102,7 +141,23 @@ def motions(machine: Mechanism, at: Any, count: int) -> tuple[str, Motion, Motio
     reach = np.array([start, end, *np.ravel(at_values[moving])])
     still = {name: float(np.ravel(value)[-1]) for name, value in at_values.items()}
     swept = machine.at(unreachable="nan", **still | {moving: np.linspace(reach.min(), reach.max(), count)})
-    return moving, shown, swept
+    return (moving,), shown, swept
+
+
+def joint_motions(
+    machine: Mechanism, given: Mapping[str, Any], moving: tuple[str, ...], count: int
+) -> tuple[tuple[str, ...], Motion, Motion]:
+    """Return what `motions` does where several strokes move together, from each of their values on to the next."""
+    chosen = {name: chosen_values(machine, name, value).ravel() for name, value in given.items()}
+    values: dict[str, Any] = stroke_middles(machine) | chosen
+    shown = machine.at(unreachable="nan", **values)
+    if not shown.reached.any():
+        machine.at(**values)
+    knots = np.arange(chosen[moving[0]].size)
+    share = np.union1d(np.linspace(0.0, knots[-1], count), knots)
+    along = {name: np.interp(share, knots, chosen[name]) for name in moving}
+    still: dict[str, Any] = {name: float(np.ravel(value)[0]) for name, value in values.items() if name not in moving}
+    return moving, shown, machine.at(unreachable="nan", **still, **along)
 
 
 def chosen_values(machine: Mechanism, name: str, value: Any) -> FloatArray:
@@ -123,19 +178,6 @@ def named_points(machine: Mechanism, names: Any, what: str) -> tuple[str, ...]:
     return tuple(known_name("Point", name, machine.plan.points, where=machine.plan.title) for name in names)
 
 
-def empty_page(box: Bounds) -> tuple[Figure, Axes]:
-    """Return a figure with a sheet that fits a box [m]."""
-    left, right, bottom, top = box
-    wide = WIDTH - LEFT - RIGHT
-    high = float(np.clip(wide * (top - bottom) / (right - left), LEAST - BOTTOM - TOP, MOST - BOTTOM - TOP))
-    height = high + BOTTOM + TOP
-    figure = Picture(figsize=(WIDTH, height), dpi=style.DPI, facecolor=style.PAPER)
-    FigureCanvasAgg(figure)
-    ax = figure.add_axes((LEFT / WIDTH, BOTTOM / height, wide / WIDTH, high / height))
-    sheet(ax, box)
-    return figure, ax
-
-
 def draw_poses(ax: Axes, shown: Motion, swept: Motion, keep_clear: Sequence[FloatArray]) -> None:
     """Draw the poses of a motion, the last one in reach bold."""
     scene = Scene(shown, swept)
@@ -149,36 +191,24 @@ def draw_poses(ax: Axes, shown: Motion, swept: Motion, keep_clear: Sequence[Floa
     bold.update(last)
 
 
-def title(figure: Figure, text: str, beside: str = "") -> None:
-    """Write the title, and at its right end what stands beside it."""
-    top = 1.0 - 0.24 / float(figure.get_figheight())
-    figure.text(LEFT / WIDTH, top, text, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
-    if beside:
-        figure.text(1.0 - RIGHT / WIDTH, top, beside, fontsize=style.TEXT, color=style.MUTED, va="center", ha="right")
+def unreached_on_the_way(swept: Motion) -> str:
+    """Return how much of a way along several strokes is not reached, in words; empty where all of it is."""
+    lost = int(np.count_nonzero(~swept.reached))
+    return f"not reached at {lost} of {swept.reached.size} poses on the way" if lost else ""
 
 
-def remark(figure: Figure, ax: Axes, text: str) -> None:
-    """Write in a warning colour, above the sheet's right end, what the picture does not show."""
-    if text:
-        level = ax.get_position(original=True).y1 + 0.13 / float(figure.get_figheight())
-        figure.text(1.0 - RIGHT / WIDTH, level, text, fontsize=style.TEXT, color=style.ACCENT, va="center", ha="right")
-
-
-def heading(figure: Figure, ax: Axes, shown: Motion, moving: str) -> None:
+def heading(figure: Figure, ax: Axes, shown: Motion, moving: Sequence[str]) -> None:
     """Write the title, and which pose is which."""
     scene = Scene(shown)
-    held = others_in_words(shown, moving)
-    title(figure, shown.plan.heading, f"at {held}" if held else "")
-    values = [float(shown.strokes[moving].ravel()[pose]) for pose in scene.reached]
-    looks = [FAINT] * (len(values) - 1) + [STRONG]
+    held = {name: float(np.ravel(value)[0]) for name, value in shown.strokes.items() if name not in moving}
+    title(figure, shown.plan.heading, f"at {', '.join(stroke_words(shown.plan, name, value) for name, value in held.items())}" * bool(held))
+    looks = [FAINT] * (len(scene.reached) - 1) + [STRONG]
     keys = [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in looks]
-    texts = [stroke_words(shown.plan, moving, value) for value in values]
+    texts = [
+        ", ".join(stroke_words(shown.plan, name, float(shown.strokes[name].ravel()[pose])) for name in moving) for pose in scene.reached
+    ]
     lines, names = ax.get_legend_handles_labels()
-    ax.legend(
-        [*keys, *lines], [*texts, *names], loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=6, frameon=False,
-        borderaxespad=0.0, borderpad=0.25, fontsize=style.TEXT, labelcolor=style.INK,
-        handlelength=1.6, columnspacing=1.8, handletextpad=0.6,
-    )  # fmt: skip
+    legend_row(ax, [*keys, *lines], [*texts, *names])
 
 
 # Paths of points: a dotted curve, an arrow for the direction.
@@ -187,15 +217,15 @@ CLOSED = 1e-6
 """A path whose ends are so near to each other, compared with its length, is closed."""
 
 
-def trace(ax: Axes, path: FloatArray, label: str = "") -> None:
+def trace(ax: Axes, path: FloatArray, label: str = "", colour: str = style.ACCENT) -> None:
     """Draw the path of a point, shape (2, n) [m], from its first pose to its last; gaps where it is not reached."""
-    ax.plot(*path, color=style.ACCENT, linewidth=1.6, linestyle=(0, (0.1, 1.9)), dash_capstyle="round", zorder=7.0, label=label or None)
+    ax.plot(*path, color=colour, linewidth=1.6, linestyle=(0, (0.1, 1.9)), dash_capstyle="round", zorder=7.0, label=label or None)
     arrow = on_its_way(path)
     if arrow is not None:
         tail, head = arrow
         ax.annotate(
             "", tuple(head), xytext=tuple(tail), zorder=7.2,
-            arrowprops={"arrowstyle": "-|>", "color": style.ACCENT, "linewidth": 0, "mutation_scale": 16, "shrinkA": 0, "shrinkB": 0},
+            arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 0, "mutation_scale": 16, "shrinkA": 0, "shrinkB": 0},
         )  # fmt: skip
 
 

@@ -6,18 +6,34 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import product
+from itertools import combinations, pairwise, product
 from typing import TypeAlias, final
 
 import numpy as np
 
 from ..errors import DefinitionError
-from ..loads import TwoPoint
+from ..loads import ForceElement, Glyph
 from ..motion import Motion, require_motion
 from ..program import FloatArray
-from ..quantities import Joint
+from ..quantities import Joint, Quantity
 from ..steps import Guide
-from .shapes import APART, HALF, OUTLINES, Outline, hull, turning_with, yokes
+from ..surroundings import Outline
+from .shapes import (
+    APART,
+    HALF,
+    MARKS,
+    OUTLINES,
+    DrawnLine,
+    accumulators,
+    hatches,
+    hull,
+    nested_tubes,
+    plate_form,
+    stages,
+    telescope_sections,
+    turning_with,
+    yokes,
+)
 
 # What points slide along: fixed rails and slots on moving bodies, each as long as the travel asks.
 
@@ -119,7 +135,52 @@ class Straight:
 
     P: str
     Q: str
-    lines: tuple[Outline, ...]
+    lines: tuple[DrawnLine, ...]
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Plate:
+    """A body's form: in each corner the shares of its points, shape (k, n), counter-clockwise; two corners are a bar."""
+
+    points: tuple[str, ...]
+    shares: FloatArray
+
+    def at(self, places: Places) -> FloatArray:
+        """Return its corners, shape (k, 2) [m]."""
+        return np.asarray(self.shares @ np.array([places[name] for name in self.points]))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """What some points carry: lines in axes from the first towards the second [m]; of one point with the frame's directions, of none fixed.
+
+    `hatched` are short lines, shape (m, 2, 2); `under` is the path of a picture, its corners from the lower left one, and how opaque it is.
+    """
+
+    name: str
+    on: tuple[str, ...]
+    lines: tuple[DrawnLine, ...]
+    hatched: FloatArray = field(default_factory=lambda: np.empty((0, 2, 2)))
+    under: tuple[str, FloatArray, float] | None = None
+
+    def placed(self, points: FloatArray, at: Places) -> FloatArray:
+        """Return points of its own axes in the plane, the same shape (..., 2) [m]."""
+        if not self.on:
+            return points
+        origin = at[self.on[0]]
+        if len(self.on) == 1:
+            return np.asarray(origin + points)
+        along = at[self.on[1]] - origin
+        along = along / (np.hypot(*along) or 1.0)
+        return np.asarray(origin + points @ np.array([along, [-along[1], along[0]]]))
+
+    @property
+    def corners(self) -> FloatArray:
+        """All its points, shape (n, 2) [m]."""
+        lines = [line.rows[:, 1:] for line in self.lines]
+        return np.concatenate([np.empty((0, 2)), *lines, *([self.under[1]] if self.under else [])])
 
 
 @final
@@ -198,8 +259,20 @@ class Scene:
 
     @cached_property
     def bodies(self) -> tuple[tuple[str, ...], ...]:
-        """The points of each moving body."""
-        return tuple(body.points for body in self.motion.plan.links if not body.fixed and len(body.points) > 1)
+        """The points of each moving body; bars that close a triangle are one."""
+        return rigid_together([body.points for body in self.motion.plan.links if not body.fixed and len(body.points) > 1])
+
+    @cached_property
+    def plates(self) -> tuple[Plate, ...]:
+        """The form of each moving body."""
+        shown = self.some(1)
+        if not shown:
+            return tuple(Plate(points, np.eye(len(points))[:2]) for points in self.bodies)
+        pins = set(self.pins)
+        return tuple(
+            Plate(points, plate_form(np.array([shown[0][name] for name in points]), self.size, [name in pins for name in points]))
+            for points in self.bodies
+        )
 
     @cached_property
     def hulls(self) -> tuple[tuple[str, ...], ...]:
@@ -210,30 +283,68 @@ class Scene:
         return tuple(tuple(points[i] for i in hull(np.array([shown[0][name] for name in points]))) for points in self.bodies)
 
     @cached_property
+    def glyphs(self) -> tuple[tuple[ForceElement, Glyph], ...]:
+        """What the force elements say that is to be drawn of them."""
+        plan = self.motion.plan
+        return tuple((element, glyph) for element in plan.of_kind(ForceElement).values() for glyph in element.glyphs(plan.members))
+
+    @cached_property
     def hung(self) -> tuple[Hung, ...]:
-        """The driven lengths and the straight elements; those on the same two points stand side by side.
+        """The driven lengths and the straight elements; those on the same two points stand side by side, those along a bar beside it.
 
         The cylinder that is declared on a driven length is that length.
         """
-        plan = self.motion.plan
-        by_pair = {frozenset((bar.P, bar.Q)): [Hung(bar.P, bar.Q, "cylinder")] for bar in plan.cylinders}
+        by_pair = {frozenset((bar.P, bar.Q)): [Hung(bar.P, bar.Q, "cylinder")] for bar in self.motion.plan.cylinders}
         driven = set(by_pair)
-        for element in plan.of_kind(TwoPoint).values():
-            pair = frozenset(element.ends)
+        for element, glyph in self.glyphs:
+            pair = frozenset(glyph.points)
+            if glyph.drawn_as not in HALF or len(pair) != 2:
+                continue
             if element.holds and pair in driven:
                 driven.discard(pair)
             else:
-                by_pair.setdefault(pair, []).append(Hung(*element.ends, element.drawn_as))
-        return tuple(each for members in by_pair.values() for each in side_by_side(members))
+                P, Q = glyph.points
+                by_pair.setdefault(pair, []).append(Hung(P, Q, glyph.drawn_as))
+        placed = [each for members in by_pair.values() for each in side_by_side(members)]
+        return tuple(Hung(each.P, each.Q, each.drawn_as, BESIDE) if self._covers(each) else each for each in placed)
+
+    def _covers(self, hung: Hung) -> bool:
+        """Return whether a member on its points' line lies along a body, at all poses."""
+        if hung.aside or not self._whole.reached:
+            return False
+        return any(self._lies_along(hung, points) for points in self.bodies if not {hung.P, hung.Q} <= set(points))
+
+    @cached_property
+    def _whole(self) -> Scene:
+        """The scene of the motion that goes furthest: what holds at its poses holds whatever poses are shown."""
+        return self if self.over is None else Scene(self.over)
+
+    def _lies_along(self, hung: Hung, points: tuple[str, ...]) -> bool:
+        """Return whether two points of a body stand on a member's line, and a good part of it between them."""
+        for at in self._whole.some(5):
+            P, along = at[hung.P], at[hung.Q] - at[hung.P]
+            length = float(np.hypot(*along))
+            if not length > 0.0:
+                return False
+            rest = np.array([at[name] - P for name in points]) @ np.array([along, [-along[1], along[0]]]).T / length
+            on = rest[np.abs(rest[:, 1]) < self.size, 0]
+            if len(on) < 2 or min(float(on.max()), length) - max(float(on.min()), 0.0) < 0.3 * length:
+                return False
+        return True
 
     @cached_property
     def rams(self) -> tuple[Ram, ...]:
         """The cylinders."""
-        return tuple(self._ram(each) for each in self.hung if each.drawn_as == "cylinder")
+        return tuple(self._ram(each) for each in self.hung if each.drawn_as == "cylinder" and not self._is_telescope(each))
+
+    def _is_telescope(self, hung: Hung) -> bool:
+        """Return whether a cylinder comes out farther than one stage can."""
+        short, long = self._lengths(hung.P, hung.Q)
+        return hung.drawn_as == "cylinder" and bool(long) and stages(short, long) > 1
 
     def _ram(self, hung: Hung) -> Ram:
         """Return a cylinder whose piston stays in its barrel over the stroke, as far as its lengths allow."""
-        aside, (short, long) = hung.aside * self.size, self._lengths(hung)
+        aside, (short, long) = hung.aside * self.size, self._lengths(hung.P, hung.Q)
         if not long:
             return Ram(hung.P, hung.Q, aside)
         size = min(self.size, 0.12 * short)
@@ -243,17 +354,88 @@ class Scene:
 
     @cached_property
     def straights(self) -> tuple[Straight, ...]:
-        """Springs, dampers and struts as lines, and the yokes of all that stands beside its pins."""
+        """Springs, dampers, struts and telescopes as lines, the yokes of all that stands beside its pins, and accumulators."""
         found = []
         for hung in self.hung:
-            short, long = self._lengths(hung)
-            shape = OUTLINES.get(hung.drawn_as)
+            short, long = self._lengths(hung.P, hung.Q)
+            shape = nested_tubes if self._is_telescope(hung) else OUTLINES.get(hung.drawn_as)
             aside = hung.aside * self.size
             lines = [line.moved(aside) for line in shape(short, long, self.size)] if shape and long else []
             lines += yokes(aside, self.size) if aside else ()
             if lines:
                 found.append(Straight(hung.P, hung.Q, tuple(lines)))
+        return (*found, *self.fed)
+
+    @cached_property
+    def fed(self) -> tuple[Straight, ...]:
+        """The accumulators of gas-fed lines, each on its cylinder's barrel, on the side where there is room."""
+        found = []
+        for _, glyph in self.glyphs:
+            hung = next((each for each in self.hung if {each.P, each.Q} == set(glyph.points) and each.drawn_as == "cylinder"), None)
+            if glyph.drawn_as == "accumulator" and hung is not None:
+                start = min(2.6 * self.size, 0.3 * self._lengths(hung.P, hung.Q)[0])
+                side = self._free_side(hung)
+                across = (hung.aside + side * HALF["cylinder"] * 0.85) * self.size
+                found.append(Straight(hung.P, hung.Q, accumulators(min(max(glyph.count, 1), MOST_SHOWN), start, across, self.size)))
         return tuple(found)
+
+    def _free_side(self, hung: Hung) -> float:
+        """Return 1 where the left of P -> Q is freer than its right, else -1."""
+        left = right = 0
+        for at in self.some(5):
+            along = at[hung.Q] - at[hung.P]
+            others = [place for name, place in at.items() if name not in (hung.P, hung.Q) and np.isfinite(place).all()]
+            sides = [float(along[0] * (place - at[hung.P])[1] - along[1] * (place - at[hung.P])[0]) for place in others]
+            left += sum(each > 0.0 for each in sides)
+            right += sum(each < 0.0 for each in sides)
+        return 1.0 if left < right else -1.0
+
+    @cached_property
+    def marks(self) -> tuple[Piece, ...]:
+        """The signs of weights, forces and supports at their points, each kind once a point."""
+        kinds = dict.fromkeys((glyph.drawn_as, glyph.points, glyph.way) for _, glyph in self.glyphs if glyph.drawn_as in MARKS)
+        return tuple(Piece(points[0], points, MARKS[kind](self.size, way)) for kind, points, way in kinds)
+
+    @cached_property
+    def surroundings(self) -> tuple[Piece, ...]:
+        """The outlines that the machine declares of what stands around it."""
+        return tuple(self._surrounding(name, each) for name, each in self.motion.plan.of_kind(Outline).items())
+
+    def _surrounding(self, name: str, given: Outline) -> Piece:
+        """Return an outline with the design's dimensions."""
+
+        def value(quantity: Quantity) -> float:
+            return float(np.ravel(np.asarray(self.motion._reading.value(quantity), float))[0])
+
+        lines = given.lines(value)
+        fill = "GRID" if given.filled else ""
+        drawn = tuple(DrawnLine(np.column_stack([np.zeros(len(line)), line]), fill=fill, closed=given.closed) for line in lines)
+        ends = [np.concatenate([line, line[:1]]) if given.closed else line for line in lines] if given.hatched else []
+        lengthy = np.concatenate([np.empty((0, 2, 2)), *(hatches(line, 0.9 * self.size) for line in ends)])
+        return Piece(name, given.carriers, drawn, lengthy, given.under(value))
+
+    @cached_property
+    def sections(self) -> tuple[Straight, ...]:
+        """The sections of telescopes: what comes out of a body towards a point that a stroke moves along it."""
+        found = []
+        for point in self.motion.plan.telescopes:
+            member = self.motion.plan.points[point]
+            origin = member.hangs_from or next((joint.point for joint in member.joints() if joint.arm), "")
+            body = next((points for points in self.bodies if origin in points and self._reach(origin, point, points) > 0.0), ())
+            if origin and body:
+                short, long = self._lengths(origin, point)
+                found.append(Straight(origin, point, telescope_sections(short, long, self._reach(origin, point, body), self.size)))
+        return tuple(found)
+
+    def _reach(self, origin: str, point: str, points: tuple[str, ...]) -> float:
+        """Return how far a body goes from a point of its own towards one that moves along it [m]; 0 where it leads elsewhere."""
+        shown = self.some(1)
+        if not shown or point in points:
+            return 0.0
+        at = shown[0]
+        along = (at[point] - at[origin]) / (np.hypot(*(at[point] - at[origin])) or 1.0)
+        ways = np.array([at[name] - at[origin] for name in points])
+        return max((float(way @ along) for way in ways if abs(way[0] * along[1] - way[1] * along[0]) < self.size), default=0.0)
 
     @cached_property
     def contours(self) -> tuple[Straight, ...]:
@@ -261,10 +443,10 @@ class Scene:
         found = [each for step in self.motion.plan.points.values() for each in step.outline(self.motion._reading)]
         return tuple(Straight(each.P, each.Q, (turning_with(each),)) for each in found)
 
-    def _lengths(self, hung: Hung) -> tuple[float, float]:
+    def _lengths(self, P: str, Q: str) -> tuple[float, float]:
         """Return the least and the greatest distance of two points over the motions and the declared strokes' ends [m]; inf, 0 for none."""
         seen = [motion for motion in (self.motion, self.over, self._ends) if motion is not None]
-        lengths = np.concatenate([np.hypot(*(motion[hung.Q] - motion[hung.P])).ravel() for motion in seen])
+        lengths = np.concatenate([np.hypot(*(motion[Q] - motion[P])).ravel() for motion in seen])
         return float(np.nanmin(lengths, initial=np.inf)), float(np.nanmax(lengths, initial=0.0))
 
     @cached_property
@@ -355,13 +537,84 @@ class Scene:
         return min((gap for gap in gaps if gap > 0), default=np.inf)
 
     def box(self, margin: float = 5.0) -> Bounds:
-        """Return the extent with a margin around it, in sizes [m]."""
+        """Return the extent with a margin around it, in sizes [m], and as much of the surroundings as leaves the mechanism large."""
         left, right, bottom, top = self.extent
         pad, near = margin * self.size, 2.5 * self.size
         ends = np.concatenate([np.empty((2, 0)), *self.rims.values()], axis=1)
         ends = ends[:, np.isfinite(ends).all(axis=0)]
         (x0, y0), (x1, y1) = np.min(ends - near, axis=1, initial=np.inf), np.max(ends + near, axis=1, initial=-np.inf)
-        return min(left - pad, float(x0)), max(right + pad, float(x1)), min(bottom - pad, float(y0)), max(top + pad, float(y1))
+        own = min(left - pad, float(x0)), max(right + pad, float(x1)), min(bottom - pad, float(y0)), max(top + pad, float(y1))
+        return self._grown(self._grown(own, self.straights_reach, 1.0), self._around(), SHARE)
+
+    def _grown(self, box: Bounds, points: FloatArray, share: float) -> Bounds:
+        """Return a box that holds some points as well, each side moved by a share of the box's larger side at most."""
+        if not points.size:
+            return box
+        left, right, bottom, top = box
+        most, pad = share * max(right - left, top - bottom), 2.0 * self.size
+        (x0, y0), (x1, y1) = points.min(axis=0) - pad, points.max(axis=0) + pad
+        return (
+            max(min(left, float(x0)), left - most), min(max(right, float(x1)), right + most),
+            max(min(bottom, float(y0)), bottom - most), min(max(top, float(y1)), top + most),
+        )  # fmt: skip
+
+    @cached_property
+    def straights_reach(self) -> FloatArray:
+        """The corners of all accumulators, at some poses, shape (n, 2) [m]: they stand outside the points that carry them."""
+        found = [np.empty((0, 2))]
+        for at in self.some(5):
+            for each in self.fed:
+                piece = Piece("", (each.P, each.Q), tuple(line for line in each.lines))
+                found.append(piece.placed(piece.corners, at))
+        return np.concatenate(found)
+
+    def _around(self) -> FloatArray:
+        """Return the points of the surroundings that the sheet should show, shape (n, 2) [m]: of an open line the nearest ones alone."""
+        left, right, bottom, top = self.extent
+        found = [np.empty((0, 2))]
+        for piece in self.surroundings:
+            for at in self.some(5) if piece.on else self.some(1):
+                if not np.isfinite([at[name] for name in piece.on]).all():
+                    continue
+                closed = [line.rows[:, 1:] for line in piece.lines if line.closed or piece.on]
+                closed += [piece.under[1]] if piece.under else []
+                found += [piece.placed(line, at) for line in closed]
+                for line in (each.rows[:, 1:] for each in piece.lines if not each.closed and not piece.on):
+                    dense = np.concatenate([np.linspace(start, end, 60) for start, end in pairwise(line)])
+                    inside = dense[(dense[:, 0] >= left) & (dense[:, 0] <= right)]
+                    away = np.hypot(*(dense - np.clip(dense, (left, bottom), (right, top))).T)
+                    found.append(inside if len(inside) else dense[[int(np.argmin(away))]])
+        return np.concatenate(found)
+
+
+SHARE = 0.3
+"""How far each side of the sheet moves outwards for what stands around, as a share of the mechanism's own larger side."""
+BESIDE = 2.6
+"""How far beside a bar an element stands that would cover it, in sizes."""
+MOST_SHOWN = 4
+"""The accumulators of a line that are drawn."""
+
+
+def rigid_together(bodies: list[tuple[str, ...]]) -> tuple[tuple[str, ...], ...]:
+    """Return bodies with those united that hold each other: two that share two points, three that are pinned in a triangle."""
+    found = list(bodies)
+    while True:
+        one = next(united(found), None)
+        if one is None:
+            return tuple(found)
+        place = found.index(one[0])
+        together = tuple(dict.fromkeys(point for body in one for point in body))
+        found = [*found[:place], together, *(body for body in found[place:] if body not in one)]
+
+
+def united(bodies: list[tuple[str, ...]]) -> Iterator[tuple[tuple[str, ...], ...]]:
+    """Yield the groups of bodies that hold each other."""
+    yield from ((one, other) for one, other in combinations(bodies, 2) if len(set(one) & set(other)) > 1)
+    sharing = {(one, other): set(one) & set(other) for one, other in combinations(bodies, 2)}
+    for one, other, third in combinations(bodies, 3):
+        pins = sharing[one, other], sharing[one, third], sharing[other, third]
+        if all(pins) and len(set().union(*pins)) == 3:
+            yield one, other, third
 
 
 def side_by_side(members: list[Hung]) -> list[Hung]:

@@ -1,9 +1,10 @@
-"""Outlines of bodies: the convex hull of their points, and a line around it at a distance."""
+"""Forms of bodies, the line around their points at a distance, and the lines of springs, dampers, telescopes and symbols."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from types import MappingProxyType
 from typing import final
 
@@ -41,17 +42,80 @@ def _turn(a: FloatArray, b: FloatArray, c: FloatArray) -> float:
 
 
 def rounded(corners: FloatArray, radius: float) -> FloatArray:
-    """Return the line around a convex polygon at a distance, shape (m, 2).
+    """Return the line around a polygon at a distance, shape (m, 2).
 
-    `corners` has the shape (k, 2), counter-clockwise: one gives a circle, two a bar with round ends.
+    `corners` has the shape (k, 2), counter-clockwise: one gives a circle, two a bar with round ends. Where the polygon turns inwards
+    the line keeps a corner.
     """
     if len(corners) == 1:
         around = np.linspace(0.0, 2 * np.pi, 33)
         return np.asarray(corners[0] + radius * np.column_stack([np.cos(around), np.sin(around)]))
     along = np.roll(corners, -1, axis=0) - corners
     normal = np.arctan2(-along[:, 0], along[:, 1])
-    pieces = [corners[i] + radius * _arc(normal[i - 1], normal[i]) for i in range(len(corners))]
+    pieces = [corners[i] + radius * _corner(normal[i - 1], normal[i]) for i in range(len(corners))]
     return np.concatenate([*pieces, pieces[0][:1]])
+
+
+def _corner(start: float, end: float) -> FloatArray:
+    """Return the way around a corner between two normals' angles, shape (m, 2): an arc, or inwards the point where both sides meet."""
+    swing = (end - start) % (2 * np.pi)
+    if swing < 1.05 * np.pi:
+        return _arc(start, end)
+    middle, half = start + 0.5 * (swing - 2 * np.pi), 0.5 * (2 * np.pi - swing)
+    return np.asarray(np.array([[np.cos(middle), np.sin(middle)]]) / max(float(np.cos(half)), 0.2))
+
+
+OBTUSE = np.radians(100.0)
+WEB = 0.5
+
+
+def plate_form(points: FloatArray, size: float, joints: Sequence[bool]) -> FloatArray:
+    """Return a body's form as shares of its points in each corner, shape (k, n), counter-clockwise; it is drawn `size` [m] around these.
+
+    That is the convex hull of the points, shape (n, 2) [m]. Where that is a triangle with a wide angle at a joint it is two arms with a
+    web between them: a bell crank does not reach to the chord. `joints` tells which points are pins.
+    """
+    found = hull(points)
+    shares = np.eye(len(points))[found]
+    if len(found) != 3:
+        return shares
+    for place in range(3):
+        a, vertex, b = (found[(place + step) % 3] for step in (-1, 0, 1))
+        one, two = points[a] - points[vertex], points[b] - points[vertex]
+        lengths = float(np.hypot(*one)), float(np.hypot(*two))
+        turn = float(np.arccos(np.clip(one @ two / (lengths[0] * lengths[1]), -1.0, 1.0)))
+        if joints[vertex] and turn > OBTUSE and np.sin(turn) * min(lengths) > 0.8 * size:
+            arms = bell_crank(np.eye(len(points)), (a, vertex, b), lengths)
+            return arms if covers(arms @ points, points, size) else shares
+    return shares
+
+
+def bell_crank(eye: FloatArray, corners: tuple[int, int, int], lengths: tuple[float, float]) -> FloatArray:
+    """Return the shares of two arms with a web between them, shape (k, n): there along the outside, back along the web's hollow."""
+    (a, vertex, b), web = corners, WEB * min(lengths)
+    start = eye[vertex] + web / lengths[1] * (eye[b] - eye[vertex])
+    end = eye[vertex] + web / lengths[0] * (eye[a] - eye[vertex])
+    hollow = [(1 - t) ** 2 * start + 2 * t * (1 - t) * eye[vertex] + t**2 * end for t in np.linspace(0.0, 1.0, 6)]
+    return np.array([eye[a], eye[vertex], eye[b], *hollow])
+
+
+def covers(corners: FloatArray, points: FloatArray, size: float) -> bool:
+    """Return whether all points lie within a distance [m] of a polygon's line, or of the triangles of its hollow."""
+    ends = np.roll(corners, -1, axis=0) - corners
+    share = np.einsum("pkc,kc->pk", points[:, None] - corners, ends) / np.maximum(np.einsum("kc,kc->k", ends, ends), 1e-300)
+    nearest = corners + np.clip(share, 0.0, 1.0)[..., None] * ends
+    return bool((np.linalg.norm(points[:, None] - nearest, axis=-1).min(axis=1) < 0.6 * size).all())
+
+
+def hatches(line: FloatArray, size: float) -> FloatArray:
+    """Return the hatches on the right of a line, shape (n, 2) [m], as pairs of ends, shape (m, 2, 2): short ones of the size [m]."""
+    found = []
+    for start, end in pairwise(line):
+        long = float(np.hypot(*(end - start)))
+        along = (end - start) / (long or 1.0)
+        right = np.array([along[1], -along[0]])
+        found += [(start + (s + size) * along, start + s * along + size * right) for s in np.arange(0.0, long - size, 1.6 * size)]
+    return np.array(found).reshape(-1, 2, 2)
 
 
 def _arc(start: float, end: float) -> FloatArray:
@@ -79,7 +143,7 @@ YOKE = 0.38
 
 @final
 @dataclass(frozen=True, eq=False)
-class Outline:
+class DrawnLine:
     """One line of an element: rows of a share of its length, a way along it [m] and one across, to the left [m].
 
     `fill` is a colour of the style by its name, or none.
@@ -96,23 +160,23 @@ class Outline:
         share, along, across = self.rows.T
         return np.column_stack([share * length + along, across])
 
-    def moved(self, aside: float) -> Outline:
+    def moved(self, aside: float) -> DrawnLine:
         """Return it moved to the left [m]."""
-        return Outline(self.rows + np.array([0.0, 0.0, aside]), self.fill, self.closed, self.bold)
+        return DrawnLine(self.rows + np.array([0.0, 0.0, aside]), self.fill, self.closed, self.bold)
 
 
-def outline(*rows: tuple[float, float, float], fill: str = "", closed: bool = False, bold: bool = False) -> Outline:
+def outline(*rows: tuple[float, float, float], fill: str = "", closed: bool = False, bold: bool = False) -> DrawnLine:
     """Return a line through some rows."""
-    return Outline(np.array(rows), fill, closed, bold)
+    return DrawnLine(np.array(rows), fill, closed, bold)
 
 
-def turning_with(contour: Contour) -> Outline:
+def turning_with(contour: Contour) -> DrawnLine:
     """Return a step's contour as a line that moves with its two points."""
     along, across = contour.corners
-    return Outline(np.column_stack([np.zeros_like(along), along, across]), fill="ROD", closed=True)
+    return DrawnLine(np.column_stack([np.zeros_like(along), along, across]), fill="ROD", closed=True)
 
 
-def spring(short: float, long: float, size: float) -> tuple[Outline, ...]:
+def spring(short: float, long: float, size: float) -> tuple[DrawnLine, ...]:
     """Return a zigzag with straight ends."""
     end, half = min(1.8 * size, 0.15 * short), HALF["spring"] * size
     turns = int(np.clip(short / (2.2 * size), 4, 9))
@@ -120,10 +184,10 @@ def spring(short: float, long: float, size: float) -> tuple[Outline, ...]:
     sides = np.where(np.arange(2 * turns) % 2, -half, half)
     coils = np.column_stack([share, end * (1.0 - 2.0 * share), sides])
     ends = [[[0.0, 0.0, 0.0], [0.0, end, 0.0]], [[1.0, -end, 0.0], [1.0, 0.0, 0.0]]]
-    return (Outline(np.concatenate([ends[0], coils, ends[1]]), bold=True),)
+    return (DrawnLine(np.concatenate([ends[0], coils, ends[1]]), bold=True),)
 
 
-def damper(short: float, long: float, size: float) -> tuple[Outline, ...]:
+def damper(short: float, long: float, size: float) -> tuple[DrawnLine, ...]:
     """Return a pot that is open towards the second point, and the plate in it; its travel is drawn shorter where the pot is."""
     half, bottom, mouth = HALF["damper"] * size, min(2.2 * size, 0.2 * short), 0.66 * short
     pad = min(0.9 * size, 0.15 * (mouth - bottom))
@@ -135,20 +199,125 @@ def damper(short: float, long: float, size: float) -> tuple[Outline, ...]:
     return (pot, *rods, disc)
 
 
-def strut(short: float, long: float, size: float) -> tuple[Outline, ...]:
+def strut(short: float, long: float, size: float) -> tuple[DrawnLine, ...]:
     """Return a thin bar."""
     half = HALF["strut"] * size
     return (outline((0.0, 0.0, half), (1.0, 0.0, half), (1.0, 0.0, -half), (0.0, 0.0, -half), fill="ROD", closed=True),)
 
 
-def yokes(aside: float, size: float) -> tuple[Outline, ...]:
+# Telescopes, and the accumulators of a gas-fed line.
+
+SINGLE, FREE = 0.95, 0.8
+"""The share of its closed length that a rod alone comes out at most, and that each stage of a telescope does."""
+
+
+def stages(short: float, long: float, fixed: float | None = None) -> int:
+    """Return how many stages slide in each other so that a length grows from short to long [m]; `fixed` is how long the first stands."""
+    room, way = short if fixed is None else min(fixed, short), long - short
+    return 1 if way <= SINGLE * room or not room > 0.0 else max(2, int(np.ceil(way / (FREE * room) - 1e-9)))
+
+
+def nested_tubes(short: float, long: float, size: float) -> tuple[DrawnLine, ...]:
+    """Return a cylinder of several stages as nested tubes, the barrel and the widest ones over the thinner."""
+    count = stages(short, long)
+    step, widest = min(size, (1.0 - FREE) * 0.6 * short / (count + 3.0)), 1.5 * size  # so that each stage still stands in the one before
+    bottom = 1.4 * step
+    lines = [tube(0.0, 0.0, 0.0, bottom, 0.62 * size, "PISTON")]
+    for stage in range(count, -1, -1):
+        share, half = stage / count, widest - stage * (widest - 0.45 * size) / count
+        out, tip = -share * short, short - (count - stage) * step - 1.6 * step * (stage < count)
+        lines.append(tube(share, bottom + out, share, tip + out, half, "ROD" if stage == count else "BARREL"))
+        if stage < count:
+            lines.append(tube(share, tip + out - 0.4 * step, share, tip + out + 0.4 * step, half + 0.2 * size, "PISTON"))
+    return tuple(lines)
+
+
+def tube(share: float, start: float, other: float, end: float, half: float, fill: str) -> DrawnLine:
+    """Return a box from a place along the element to another, half its width to either side [m]."""
+    return outline((share, start, half), (other, end, half), (other, end, -half), (share, start, -half), fill=fill, closed=True)
+
+
+def telescope_sections(short: float, long: float, reach: float, size: float) -> tuple[DrawnLine, ...]:
+    """Return the sections that come out of a body of a reach [m], for a point at a distance from short to long [m] from its first point."""
+    count = stages(short, max(long, short), reach)
+    long_way = (long - short) / count
+    each = min(0.97 * min(short, reach), long_way + 0.15 * min(short, reach))
+    found = []
+    for stage in range(count, 0, -1):
+        share, half = stage / count, (0.86 - 0.16 * stage) * size if count < 4 else (0.8 - 0.5 * stage / count) * size
+        tip = short * (1.0 - share) - (count - stage) * size
+        found.append(tube(share, tip - each, share, tip, half, "ROD"))
+    return tuple(found)
+
+
+def accumulators(count: int, start: float, across: float, size: float) -> tuple[DrawnLine, ...]:
+    """Return so many accumulators beside an element with their line to its port, which is at a place along it and across [m]."""
+    side = float(np.sign(across)) or 1.0
+    run = across + side * 1.8 * size
+    half, tall, pitch = 1.25 * size, 4.2 * size, 3.3 * size
+    places = [start + index * pitch for index in range(count)]
+    found = [outline((0.0, start, across), (0.0, start, run)), outline((0.0, places[0], run), (0.0, places[-1], run))]
+    port = [(0.0, start + way * 0.3 * size, across + side * up * size) for way, up in ((-1, -0.15), (1, -0.15), (1, 0.35), (-1, 0.35))]
+    found.insert(0, outline(*port, fill="PISTON", closed=True))
+    for place in places:
+        foot, top = run + side * 0.7 * size, run + side * (0.7 * size + tall)
+        found.append(outline((0.0, place, run), (0.0, place, foot)))
+        shell = rounded(np.array([[place, foot + side * half], [place, top - side * half]]), half)
+        found.append(DrawnLine(np.column_stack([np.zeros(len(shell)), shell]), fill="ROD", closed=True))
+        middle = 0.5 * (foot + top)
+        found.append(outline((0.0, place - half, middle), (0.0, place + half, middle)))
+        tip = middle + side * 0.55 * half  # the gas's triangle points at the membrane's fluid, hollow
+        gas = ((0.0, place - 0.4 * half, tip + side * 0.7 * half), (0.0, place + 0.4 * half, tip + side * 0.7 * half), (0.0, place, tip))
+        found.append(outline(*gas, fill="PAPER", closed=True))
+    return tuple(found)
+
+
+# Marks at a point, which keep their direction: rows of a share of nothing, and x and y.
+
+
+def weight_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
+    """Return the sign of a centre of gravity: a circle of four quarters, two of them dark."""
+
+    def quarter(start: float) -> DrawnLine:
+        ways = start + np.linspace(0.0, 0.5 * np.pi, 9)
+        arc = 0.95 * size * np.column_stack([np.cos(ways), np.sin(ways)])
+        rows = np.concatenate([[[0.0, 0.0]], arc])
+        return DrawnLine(np.column_stack([np.zeros(len(rows)), rows]), fill="INK" if start in (0.0, np.pi) else "PAPER", closed=True)
+
+    return tuple(quarter(start) for start in (0.0, 0.5 * np.pi, np.pi, 1.5 * np.pi))
+
+
+def support_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
+    """Return a foot under a point that pushes it in a direction [rad]."""
+    cos, sin = np.cos(way), np.sin(way)
+
+    def place(along: float, across: float) -> tuple[float, float, float]:
+        return 0.0, float(along * cos - across * sin) * size, float(along * sin + across * cos) * size
+
+    foot = outline(place(0.0, 0.0), place(-2.2, 1.3), place(-2.2, -1.3), fill="ROD", closed=True)
+    return foot, outline(place(-2.7, 1.7), place(-2.7, -1.7), bold=True)
+
+
+def force_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
+    """Return a ring where a force acts."""
+    ring = rounded(np.zeros((1, 2)), 0.68 * size)
+    return (DrawnLine(np.column_stack([np.zeros(len(ring)), ring]), fill="ACCENT", closed=True),)
+
+
+MARKS: Mapping[str, Callable[[float, float], tuple[DrawnLine, ...]]] = MappingProxyType(
+    {"weight": weight_mark, "support": support_mark, "force": force_mark}
+)
+"""What is drawn at a point -> its lines, from the drawing's size [m] and a direction [rad]."""
+
+
+def yokes(aside: float, size: float) -> tuple[DrawnLine, ...]:
     """Return the pieces by which an element that stands aside [m] of its points hangs on their pins."""
     half, out = YOKE * size, aside + np.sign(aside) * YOKE * size
     corners = ((-half, 0.0), (half, 0.0), (half, out), (-half, out))
     return tuple(outline(*((end, along, across) for along, across in corners), fill="PISTON", closed=True) for end in (0.0, 1.0))
 
 
-OUTLINES: Mapping[str, Callable[[float, float, float], tuple[Outline, ...]]] = MappingProxyType(
+OUTLINES: Mapping[str, Callable[[float, float, float], tuple[DrawnLine, ...]]] = MappingProxyType(
     {"spring": spring, "damper": damper, "strut": strut}
 )
 """What an element is drawn as -> its lines, from its least and greatest length [m] and the drawing's size [m]."""

@@ -12,7 +12,12 @@ GRID = "#e9edf0"
 PAPER = "#ffffff"
 CURVE = "#0072b2"  # Okabe and Ito's blue
 ACCENT = "#d55e00"  # Okabe and Ito's vermilion: paths, limits, what falls short
-BODIES = ("#86accf", "#e8bd7c", "#94c4aa", "#c9a0bd", "#aea9d6", "#b9c0c6")
+BODIES = (
+    "#96c0fc", "#e47e60", "#9cb490", "#ead8b4", "#9090ea", "#c6d272", "#66a2b4", "#eab4c0", "#a29696", "#c6d8f0",
+)  # fmt: skip
+"""The colours of bodies. Any two differ by 10.4 or more in CIEDE2000, for normal sight and for protan, deutan and tritan sight (Machado,
+Oliveira and Fernandes 2009, severity 1); ink upon them has a contrast of 4.5 or more.
+"""
 BARREL = "#d5dce3"
 ROD = "#f4f6f8"
 PISTON = "#4a5a6a"
@@ -32,14 +37,15 @@ DPI = 150
 @final
 @dataclass(frozen=True)
 class Look:
-    """How strongly a mechanism is drawn: `fade` mixes every colour with the paper, 0 to 1; `level` is its layer."""
+    """How strongly a mechanism is drawn: `fade` mixes every colour with the paper, 0 to 1; `level` is its layer; `tint` colours it all."""
 
     fade: float = 0.0
     level: float = 10.0
+    tint: str = ""
 
     def colour(self, colour: str) -> str:
         """Return a colour faded towards the paper."""
-        return mixed(colour, PAPER, self.fade)
+        return mixed(mixed(colour, self.tint, 0.75) if self.tint else colour, PAPER, self.fade)
 
 
 STRONG = Look()

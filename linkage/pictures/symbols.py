@@ -14,7 +14,7 @@ from matplotlib.patches import Patch, Polygon
 
 from ..program import FloatArray
 from . import style
-from .scene import Places, Ram, Scene
+from .scene import Places, Ram, Scene, SlideTrack
 from .shapes import rounded
 from .style import Look
 
@@ -196,22 +196,47 @@ def rails(ax: Axes, scene: Scene, look: Look) -> None:
 
 
 def hatched(scene: Scene) -> list[FloatArray]:
-    """Return for each fixed rail its line and then its hatches, shape (n, 2, 2) [m]."""
+    """Return for each piece of a fixed rail its line and then its hatches, shape (n, 2, 2) [m]; it leaves room for pins on its way."""
     if not scene.reached:
         return []
     at = scene.at(scene.reached[0])
     pins = [at[name] for name in scene.grounds]
-    return [rail(at[track.ends[0]], at[track.ends[1]], pins, scene.size) for track in scene.tracks if track.fixed]
+    found = []
+    for track in scene.tracks:
+        if track.fixed:
+            start, end = at[track.ends[0]], at[track.ends[1]]
+            found += rail(start, end, side_of_rail(scene, track, end - start), pins, scene.size)
+    return found
 
 
-def rail(start: FloatArray, end: FloatArray, pins: list[FloatArray], size: float) -> FloatArray:
-    """Return a rail's line under its blocks and its hatches: below the track, above where a pin stands on the track."""
-    long, along = distance_and_direction(start, end)
-    below = np.array([along[1], -along[0]])
+def side_of_rail(scene: Scene, track: SlideTrack, along: FloatArray) -> FloatArray:
+    """Return the direction from a track to its rail: below, or to the right; on the other side where all that rides hangs down there."""
+    below = np.array([along[1], -along[0]]) / (np.hypot(*along) or 1.0)
     below = -below if below[1] > 1e-6 or (abs(below[1]) <= 1e-6 and below[0] < 0.0) else below
-    from_start = [pin - start for pin in pins]
-    if any(-2 * size < pin @ along < long + 2 * size and -size < pin @ below < 4 * size for pin in from_start):
-        below = -below
-    base, hatch = start + HALF * size * below, HATCH * size
-    places = np.arange(0.0, long - hatch, 1.1 * hatch)
-    return np.array([(base, base + (end - start)), *((base + (s + hatch) * along, base + s * along + hatch * below) for s in places)])
+    hanging = [
+        float((at[name] - at[rider]) @ below) > HALF * scene.size
+        for at in scene.some(5)
+        for rider in track.riders
+        for points in scene.bodies
+        if rider in points
+        for name in points
+        if name != rider
+    ]
+    return -below if hanging and all(hanging) else below
+
+
+def rail(start: FloatArray, end: FloatArray, below: FloatArray, pins: list[FloatArray], size: float) -> list[FloatArray]:
+    """Return the pieces of a rail on a side of its track, each a line and its hatches; none where a pin's support stands in its way."""
+    long, along = distance_and_direction(start, end)
+    base, hatch, room = start + HALF * size * below, HATCH * size, 1.6 * BASE * size
+    stops = sorted(float((pin - start) @ along) for pin in pins if -size < (pin - start) @ below < 4.0 * size)
+    stops = [stop for stop in stops if -room < stop < long + room]
+    starts = [0.0, *(stop + room for stop in stops)]
+    ends = [*(stop - room for stop in stops), long]
+    found = []
+    for first, last in zip(starts, ends, strict=True):
+        if last - first > 2.0 * hatch:
+            places = np.arange(first, last - hatch, 1.1 * hatch)
+            line = (base + first * along, base + last * along)
+            found.append(np.array([line, *((base + (s + hatch) * along, base + s * along + hatch * below) for s in places)]))
+    return found

@@ -80,6 +80,9 @@ class Node:
     def __pos__(self) -> Node:
         return self
 
+    def __abs__(self) -> Node:
+        return self.graph.apply("absolute", self)
+
     def _compared(self, other: object) -> NoReturn:
         """Raise DefinitionError: a rule is read once for all poses."""
         raise DefinitionError(

@@ -7,10 +7,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ..errors import DefinitionError, cited
+from ..files.callables import REQUESTS, brought, request_function
 from ..loads import ForceElement
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Motion, Tabled, require_motion, stroke_unit
-from ..statics import driving_force
+from ..statics import drive_force, driving_force
 
 
 def results(machine: Mechanism, motion: Motion) -> list[Column]:
@@ -43,12 +44,22 @@ def drive_columns(motion: Motion) -> Iterator[Column]:
     """Yield the generalised force of each stroke under the machine's own loads, without friction: of a length [N], of an angle [Nm]."""
     for name in motion.strokes:
         what, unit = ("torque", "Nm") if stroke_unit(motion.plan, name) == "rad" else ("drive force", "kN")
-        yield Column(what if len(motion.strokes) == 1 else f"{what} {name}", driving_force(motion, drive=name), unit)
+        yield Column(
+            what if len(motion.strokes) == 1 else f"{what} {name}", driving_force(motion, drive=name), unit, request=drive_force(name)
+        )
 
 
 def member_columns(motion: Motion) -> Iterator[Column]:
     """Yield the columns of the members that have some, with their names where several members have the same."""
-    found = [(name, column) for name, member in motion.plan.of_kind(Tabled).items() for column in member.columns(motion)]
+    members = motion.plan.of_kind(Tabled).items()
+    found = [(name, asked_by_name(name, column)) for name, member in members for column in member.columns(motion)]
     count = Counter(column.name for _, column in found)
     for name, column in found:
         yield column if count[column.name] == 1 else replace(column, name=f"{column.name} {name}")
+
+
+def asked_by_name(member: str, column: Column) -> Column:
+    """Return a member's column with what it is asked for by: the request of the column's name, of the member, where there is one."""
+    if column.request is not None or not (column.name in REQUESTS or column.name in brought()):
+        return column
+    return replace(column, request=request_function(column.name)(member))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from linkage import LEFT, RIGHT, Dimension, Dyad, Featured, Ground, Link, Mechanism, OnLink, Pin, Stroke, angle, deg, drawn
+from linkage import LEFT, RIGHT, Dimension, Dyad, Featured, Ground, Link, Mechanism, OnLink, Outline, Pin, Stroke, angle, deg, drawn
 
 
 class FrontLoader(Mechanism):
@@ -40,6 +40,10 @@ class FrontLoader(Mechanism):
     N = Pin(near=(3.3, 0.6))
     boom = angle(O, B)
     attitude = angle(B, N)
+
+    ground = Outline.line((-4.0, -0.05), (7.0, -0.05))  # what stands around is drawn only; its figures are illustrative
+    wheel = Outline.circle(at=(0.05, 0.45), radius=0.5)  # the front wheel
+    shell = Outline([(0.0, -0.06), (0.9, 0.0), (0.62, 0.16), (0.3, 0.5), (0.1, 0.55), (-0.06, 0.4), (-0.08, 0.1)], on=(B, N))
 
     def featured(self) -> Featured:
         """Return boom and the paths of B and N."""

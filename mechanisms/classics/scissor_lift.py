@@ -6,7 +6,7 @@ dimensions are illustrative.
 
 from __future__ import annotations
 
-from linkage import LEFT, RIGHT, Dimension, Dyad, Featured, Ground, Guide, Mechanism, OnLink, SliderDyad, Stroke, angle, y
+from linkage import LEFT, RIGHT, Dimension, Dyad, Featured, Ground, Guide, Mechanism, OnLink, Outline, SliderDyad, Stroke, angle, y
 
 
 class ScissorLift(Mechanism):
@@ -35,6 +35,9 @@ class ScissorLift(Mechanism):
     E = OnLink(C, N, CE=2.0 * half)
     h = y(D)  # platform, m
     level = angle(D, E)
+
+    ground = Outline.line((-3.0, -0.12), (5.0, -0.12))  # what stands around is drawn only; its figures are illustrative
+    platform = Outline([(-0.1, 0.04), (1.7, 0.04), (1.7, 0.12), (-0.1, 0.12)], on=(D, E))
 
     def featured(self) -> Featured:
         """Return h and the paths of A and D."""

@@ -11,7 +11,7 @@ from typing import final
 
 import numpy as np
 
-from linkage import Column, DefinitionError, Featured, Motion
+from linkage import Column, DefinitionError, Featured, Motion, ratio
 from linkage.language import said
 from linkage.motion import Extremum, greatest, lowest
 from linkage.program import FloatArray
@@ -66,8 +66,8 @@ def movements_of(motion: Motion) -> tuple[Movement, ...]:
 def drive_columns(motion: Motion) -> list[Column]:
     """Return the angle, the cylinder's length and lever, and for every movement the moments asked for and given, and what is over."""
     angle = angle_of(motion)
-    found = [Column(angle, motion.strokes[angle], "deg", 2), Column("length", motion["length"], "mm", 1)]
-    found.append(Column("lever", np.abs(motion.ratio("length")), "mm", 1))
+    found = [Column(angle, motion.strokes[angle], "deg", 2, angle), Column("length", motion["length"], "mm", 1, "length")]
+    found.append(Column("lever", np.abs(motion.ratio("length")), "mm", 1, np.abs(ratio("length"))))
     for each in movements_of(motion):
         asked, given = each.asked(motion), each.given(motion)
         moments = {"asked": asked, "given": given, "over": given - asked}

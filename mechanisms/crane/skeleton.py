@@ -24,6 +24,7 @@ from linkage import (
     Mechanism,
     Motion,
     OnLink,
+    Outline,
     Stroke,
     Weight,
     angle,
@@ -89,6 +90,12 @@ class CraneSkeleton(Mechanism):
     K = Crank(J, JK=l_p, angle=angle(J, O) + psi)         # the arm's end
     T = OnLink(J, K, JT=l_p + t)                          # the telescope's end, with load and tool
     arm = Link(J, K)
+
+    ground = Outline.line((-3.0, 0.0), (10.5, 0.0))       # what stands around is drawn only; its figures are illustrative
+    platform = Outline([(-2.6, H_p - 0.25), (0.45, H_p - 0.25), (0.45, H_p), (-2.6, H_p)])
+    wheel = Outline.circle(at=(-0.6, 0.5), radius=0.5)
+    column = Outline([(-0.16, H_p), (0.16, H_p), (0.1, H_p + h_0), (-0.1, H_p + h_0)])
+    stems = Outline([(-0.9, -0.95), (0.9, -0.95), (0.9, -0.6), (0.05, -0.6), (0, 0), (-0.05, -0.6), (-0.9, -0.6)], on=T)
 
     b_0 = 0.0352123 + 0.12889 * h_0                       # m (2.5)
     b_c = -0.236125 + 0.00257739 * L + 0.126493 * l_c + 0.295468e-6 * M       # (2.6)

@@ -19,6 +19,7 @@ from linkage import (
     Mechanism,
     Motion,
     OnLink,
+    Outline,
     Stroke,
     distance,
     ref,
@@ -116,6 +117,11 @@ class Grapple(Mechanism):
     stem = Force(A, (-push * x_in, -push * y_in))
     lift = Cylinder(E, C, bore=bore, rod=rod, closed=closed, stroke=S)
     circuit = LiftCircuit(lift, pressure=20 * MPa, mechanical_efficiency=0.95)
+
+    largest = Outline.circle(at=(0.0, 0.0), radius=D_0 / 2)     # the stems it holds and the housing above them, drawn only
+    smallest = Outline.circle(at=(0.0, D_0 / 2 - d_0 / 2), radius=d_0 / 2)
+    housing = Outline([(-0.05, D_0 / 2), (0.40, D_0 / 2), (0.40, D_0 / 2 + 0.03), (-0.05, D_0 / 2 + 0.03)])
+    claw = Outline([(0, 0.03), (-0.02, -0.035), (0.08, -0.07), (0.24, -0.075), (0.35, -0.03), (0.35, 0.03), (0.08, -0.02)], on=(A, O))
 
     def __init__(self, **dimensions: Any) -> None:
         """Set the design [SI]; DefinitionError also for what cannot be: no stem, a wrap of no angle, a side that is neither."""

@@ -116,7 +116,7 @@ def grapple_columns(motion: Motion) -> list[Column]:
     of_stems = [np.where(held, each, np.nan) for each in (state.D, state.needed, state.given / state.needed)]
     theta = np.broadcast_to(motion.strokes["theta"], motion.shape)
     return [
-        Column("theta", theta, "deg", 2), Column("D", of_stems[0], "mm", 1), Column("EC", motion["EC"], "mm", 1),
+        Column("theta", theta, "deg", 2, "theta"), Column("D", of_stems[0], "mm", 1), Column("EC", motion["EC"], "mm", 1, "EC"),
         Column("H", state.H, "mm", 2), Column("M_g", state.given, "Nm", 1), Column("M_1", of_stems[1], "Nm", 1),
         Column("M_g/M_1", of_stems[2], "", 4),
     ]  # fmt: skip

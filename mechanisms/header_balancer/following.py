@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from hydraulics import Cylinder, FloatCircuit
+from hydraulics import Cylinder, FloatCircuit, pressure
 from linkage import Column, DefinitionError, ForceElement, GuideFriction, Motion, ref
 from linkage.errors import cited
 from linkage.loads import PinFriction, Support
@@ -234,10 +234,10 @@ def reaction_columns(motion: Motion) -> list[Column]:
     balance, shoes = HeaderState(motion), motion.inputs["shoes"]
     force = {"up": balance.up, "down": balance.down}
     return [
-        Column("h", motion.strokes["h"], "mm", 1),
-        Column("R_y", balance.height, "mm", 1),
+        Column("h", motion.strokes["h"], "mm", 1, "h"),
+        Column("R_y", balance.height, "mm", 1, Coordinate("R", "y")),
         Column("H", balance.arm, "mm", 2),
-        Column("P", balance.pressure, "kgf/cm2", 2),
+        Column("P", balance.pressure, "kgf/cm2", 2, pressure("lift")),
         Column("P_req", balance.required, "kgf/cm2", 2),
         *(Column(f"F_R {way}", value, "kgf", 1) for way, value in force.items()),
         Column("F_R free", balance.free, "kgf", 1),

@@ -19,6 +19,7 @@ from linkage import (
     Mechanism,
     Motion,
     OnLink,
+    Outline,
     Stroke,
     Vector,
     angle,
@@ -87,6 +88,12 @@ class HeaderBalancer(Mechanism):
         AccumulatorBlock([Accumulator(V_I, P_I), Accumulator(V_II, P_II)], isothermal, atmosphere),
         charge_pressure=charge, at=h_horizon, seal_friction=seals, exponent=n,
     )  # fmt: skip
+
+    ground = Outline.line((-3.0, 0.0), (5.0, 0.0))  # what stands around is drawn only; its figures are illustrative
+    wheel = Outline.circle(at=(-0.75, 0.75), radius=0.75)  # the combine's front wheel
+    table = Outline(
+        [(-0.632, -0.403), (0.144, 0.052), (0.626, -0.557), (0.541, -0.608), (0.197, -0.231), (-0.195, -0.257)], on=(R, O)
+    )  # the header's section
 
     def __init__(self, **dimensions: Any) -> None:
         """Set the design [SI]; DefinitionError also for what cannot be: no mass, no pressure, a shoe out of the stroke's reach."""

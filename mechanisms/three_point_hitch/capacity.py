@@ -5,7 +5,9 @@ Pressures are gauge.
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from dataclasses import dataclass
+from typing import final
 
 import numpy as np
 
@@ -15,9 +17,11 @@ from linkage import DefinitionError, Force, ForceElement, Motion, angle
 from linkage.errors import cited, unwarned
 from linkage.loads.element import Formulas
 from linkage.motion import greatest, lowest, require_motion
+from linkage.plan import Plan
 from linkage.program import FloatArray
 from linkage.quantities import Distance, is_number
 from linkage.reports import closely
+from linkage.statics import AnyMotion, LawRequest
 from linkage.units import deg, g0, kN, mm
 
 BEHIND = 610 * mm
@@ -38,7 +42,7 @@ def circuit_of(motion: Motion) -> LiftCircuit:
     return found
 
 
-def own_loads(motion: Motion) -> list[str]:
+def own_loads(motion: AnyMotion) -> list[str]:
     """Return the loads of the hitch without its implement, by name: masses, friction and what else is added to it."""
     return [name for name in motion.plan.of_kind(ForceElement) if name not in NOT_OWN]
 
@@ -49,6 +53,27 @@ def capacity(motion: Motion, point: str = "G", share: float = 1.0) -> FloatArray
     F_cyl = p_max area (29), I = dy/dS of the point. NaN where I is not above zero: not limited by this cylinder.
     """
     return circuit_of(motion).capacity(motion, point, own_loads(motion), share=share)
+
+
+@final
+@dataclass(frozen=True)
+class Lifted(LawRequest):
+    """The lifting capacity (28) at the centre of gravity, as something to ask for."""
+
+    measures = "force"
+
+    def identity(self, plan: Plan) -> Hashable:
+        return ("lifted",)
+
+    def examine(self, plan: Plan) -> None:
+        if "circuit" not in plan.of_kind(LiftCircuit):
+            raise DefinitionError(f"{plan.title} has no lift circuit of the name circuit, whose pump lifts.")
+
+    def law(self, motion: AnyMotion) -> FloatArray:
+        return motion.plan.of_kind(LiftCircuit)["circuit"].capacity(motion, "G", own_loads(motion))
+
+    def __str__(self) -> str:
+        return "the lifting capacity"
 
 
 def write_capacity(written: Formulas) -> None:

@@ -23,15 +23,18 @@ from linkage import (
     Mechanism,
     Motion,
     OnLink,
+    Outline,
     Stroke,
     Weight,
     angle,
+    ratio,
+    y,
 )
 from linkage.language import said
 from linkage.loads.element import Formulas
 from linkage.units import MPa, deg, g0, kg, litre, minute, mm
 
-from .capacity import capacity, write_capacity
+from .capacity import Lifted, capacity, write_capacity
 from .report import verdicts
 
 
@@ -74,6 +77,10 @@ class ThreePointHitch(Mechanism):
     slope = Dimension(0 * deg, unit="deg")  # positive where the ground rises towards +x, behind the tractor
     least_front = Dimension(0.20)  # share of the tractor's weight that steering needs on the front axle
 
+    ground = Outline.line((-3.0, 0.0), (5.0, 0.0))  # what stands around is drawn only; its figures are illustrative
+    wheel = Outline.circle(at=(0.0, 0.85), radius=0.85)  # the rear wheel
+    axle = Outline.circle(at=(0.0, 0.85), radius=0.09)
+
     admissible: ClassVar[Mapping[str, Any]] = MappingProxyType(
         {"MK": (0.80, 0.96), "CD": (0.56, 0.68), "FK": (0.61, 0.685), "M": [(0.22, 1.05), (0.22, 0.95)]}
     )
@@ -91,8 +98,9 @@ class ThreePointHitch(Mechanism):
     def columns(self, motion: Motion) -> list[Column]:
         """Return the stroke, the moving points, the ratio I = dG_y/dS (27), the lifting capacity (28) and the upright's tilt."""
         points = [each for each in super().columns(motion) if each.name != "tilt"]
-        lifted = Column("capacity", capacity(motion), "kN", 3)
-        return [*points, Column("I", motion.ratio("G")[1], "", 4), lifted, Column("tilt", motion["tilt"], "deg", 3)]
+        lifted = Column("capacity", capacity(motion), "kN", 3, Lifted())
+        growth = Column("I", motion.ratio("G")[1], "", 4, ratio(y("G")))
+        return [*points, growth, lifted, Column("tilt", motion["tilt"], "deg", 3, "tilt")]
 
     def formulas(self, written: Formulas) -> None:
         """Write, after what its elements say, F_cyl = p_max area (29) and the lifting capacity G_g = F_cyl eta / I_G (28)."""

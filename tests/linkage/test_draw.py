@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 from numpy.testing import assert_allclose
 
 from linkage import (
@@ -278,7 +279,7 @@ def test_what_is_not_reached_is_said_on_the_picture():
 def boxes(figure):
     """Return the boxes of the points' names [pixels]."""
     figure.canvas.draw()
-    return {text.get_text(): text.get_window_extent() for text in figure.axes[0].texts if text.get_text()}
+    return {text.get_text(): Text.get_window_extent(text) for text in figure.axes[0].texts if text.get_text()}
 
 
 @pytest.mark.parametrize("cls", ALL)

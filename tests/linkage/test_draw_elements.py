@@ -48,7 +48,7 @@ class Jib(Mechanism):
     """A jib given by its angle."""
 
     phi = Stroke(-30 * deg, 60 * deg)
-    O, K, P = Ground(0.0, 1.0), Ground(0.5, 0.2), Ground(-0.4, 0.3)
+    O, K, P = Ground(0.0, 1.0), Ground(0.3, -0.6), Ground(-0.4, 0.3)
     B = Crank(O, OB=0.8, angle=phi)
     T = OnLink(O, B, OT=2.0)
     load = Weight(T, mass=200)
@@ -155,6 +155,8 @@ def test_every_element_reaches_from_pin_to_pin_at_every_pose(cls):
     for pose in range(5):
         drawing.update(pose)
         for part in parts(drawing, StraightPart):
+            if part.straight in scene.fed:
+                continue  # accumulators stand beside a barrel
             P, Q = (motion[name][:, pose] for name in part.points)
             places = local(np.concatenate([each.get_xy() for each in part.artists]), P, Q)
             length = np.hypot(*(Q - P))
@@ -229,7 +231,8 @@ def test_a_spring_beside_the_driven_cylinder_and_a_cylinder_of_its_own():
 def test_the_cylinder_declared_on_a_driven_length_is_drawn_once(cls):
     scene = Scene(cls().sweep(5))
     assert [(ram.P, ram.Q, ram.aside) for ram in scene.rams] == [("A", "B", 0.0)]
-    assert scene.straights == ()
+    assert scene.straights == scene.fed
+    assert len(scene.fed) == (cls is HeaderBalancer)
 
 
 def test_a_gas_fed_cylinder_beside_a_crank_is_a_cylinder():

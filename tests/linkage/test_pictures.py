@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from matplotlib.text import Text
 
 from linkage.pictures import draw
 from linkage.pictures.film import column_text
@@ -43,7 +44,7 @@ def test_names_keep_clear_of_the_hatches_of_rails(machine):
     lines = [line for rail in hatched(Scene(motion)) for line in rail]
     assert lines
     hatches = ax.transData.transform(np.concatenate([segment(*line, 0.1 * float(np.hypot(*(line[1] - line[0])))) for line in lines]))
-    names = {text.get_text(): text.get_window_extent() for text in ax.texts if text.get_text()}
+    names = {text.get_text(): Text.get_window_extent(text) for text in ax.texts if text.get_text()}
     assert [name for name, box in names.items() if any(box.contains(*point) for point in hatches)] == []
 
 

@@ -158,7 +158,7 @@ def test_save_says_what_is_left_out(run):
     code, out, err = run("save", "three_point_hitch", "own.toml", "--set", "OB=320mm", "--set", "load.mass=1t")
     assert (code, err) == (0, "")
     assert out == (
-        "own.toml: the linkage with 22 members.\n"
+        "own.toml: the linkage with 25 members.\n"
         "Not in it, since a file holds no functions of a class: __init__, admissible, columns, formulas, verdicts.\n"
     )
     assert load("own.toml")().dimensions == ThreePointHitch(**{"OB": 0.32, "load.mass": 1000.0}).dimensions

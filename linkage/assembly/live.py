@@ -1,0 +1,114 @@
+"""How groups are solved and angles followed, as JavaScript: the rules traced, the loops around them from files beside this one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from ..plan import Plan
+from ..program import Graph, Inputs, Level, Node, arrow, inside, number, short_names
+from ..steps import Group
+from . import following
+from .following import piece_length
+from .groups import LINE, StrokeRoute
+from .newton import ITERATIONS, Programs, at_sketch
+from .rules import FIRST, TOUCH, goes_on, interpolated, newton_ended, predicted, step_judged
+
+Rule = Callable[..., Any]
+
+
+def traced_rule(count: int, rule: Rule) -> str:
+    """Return a rule of so many numbers as a JavaScript function that gives an array."""
+    graph, names = Graph(), short_names(())
+    given = {graph.input(f"{place}", Level.POSE): next(names) for place in range(count)}
+    found = rule(*given, choose=graph.pick)
+    results = found if isinstance(found, tuple) else (found,)
+    return f"({','.join(given.values())})=>{inside(given, [graph.node(each) for each in results])}"
+
+
+def place_ahead(*given: Any, choose: Any) -> tuple[Any, ...]:
+    """Return the next place, and what is expected of one coordinate there: step, limit, three places and the coordinate's three values."""
+    place, (line,), (start,) = predicted(given[0], given[1], given[2:5], [[each] for each in given[5:]], choose)
+    return place, line, start
+
+
+def place_between(*given: Any, choose: Any) -> tuple[Any, ...]:
+    """Return what is expected of one coordinate at a place, and how far it may lie: three places, its values, clearances and sizes."""
+    (found,), bound = interpolated(given[0], given[1:4], [[each] for each in given[4:7]], given[7:9], given[9:], choose)
+    return found, bound
+
+
+def rules_text() -> str:
+    """Return the rules of `rules` by which ways go on, as JavaScript."""
+    rules: dict[str, tuple[int, Rule]] = {
+        "ended": (3, newton_ended),
+        "predicted": (8, place_ahead),
+        "judged": (7, step_judged),
+        "goes": (4, goes_on),
+        "between": (11, place_between),
+    }
+    return "".join(f"const {name}={traced_rule(count, rule)};" for name, (count, rule) in rules.items())
+
+
+def group_text(plan: Plan, group: Group, inputs: Inputs) -> str:
+    """Return the equations of a group: functions of its pins that give a step, the clearance, and the equations with their slopes."""
+    programs = Programs.of(plan, group)
+    graph, count = plan.trace.graph, len(group.inputs) - 1
+    given = {node: inputs.read(node) for node in graph.nodes if node.op == "input" and node.value in inputs}
+    known = {graph.input(f"@k{place}", Level.POSE): f"k[{place}]" for place in range(len(programs.known))}
+    pins = {graph.input(name, Level.POSE): f"u[{place}]" for place, name in enumerate(group.inputs[:-1])}
+    steps, clear = programs.nodes[: count + 2], [*programs.nodes[count + 2 :], programs.nodes[count + 1]]
+    functions = (f"u=>{inside(known | pins, each, 'ku')}" for each in (steps, clear, programs.raw.plan.outputs))
+    return f"(d,p)=>{{const k=(()=>{inside(given, programs.known, 'dp')})();return[{','.join(functions)}]}}"
+
+
+def groups_text(plan: Plan, inputs: Inputs, dimensions: Sequence[str]) -> str:
+    """Return what solves the groups of a plan in JavaScript; dimensions by their names in the order of a design."""
+    seeds = at_sketch(plan)
+    first = {
+        name: len(plan.strokes) + sum(len(each.inputs) for each in list(plan.groups.values())[:place])
+        for place, name in enumerate(plan.groups)
+    }
+    groups = ",".join(f"[{first[name]},{group_text(plan, group, inputs)}]" for name, group in plan.groups.items())
+    largest = [StrokeRoute(plan, {}, name, 1.0).largest for name in plan.strokes]
+    constants = {
+        "groups": f"[{groups}]",
+        "seeds": json_of([seeds[name][:, 0].tolist() for name in plan.groups]),
+        "d0": json_of([plan.defaults[name] for name in dimensions]),
+        "LARGEST": json_of(largest[0]),
+        "ITERATIONS": json_of(ITERATIONS),
+        "FIRST": json_of(FIRST),
+        "TOUCH": json_of(TOUCH),
+        "LINE": json_of(LINE),
+    }
+    return rules_text() + constants_text(constants)
+
+
+def angles_text(plan: Plan, clipped: Callable[[Plan, Sequence[Node]], Sequence[Node]], inputs: Inputs) -> str:
+    """Return what follows the angles of a plan in JavaScript; `clipped` gives nodes that stand at a dead point to rounding."""
+    vectors = []
+    for name in plan.followed:
+        vector = plan.trace.directions[name]
+        nodes = (plan.trace.graph.node(vector.x), plan.trace.graph.node(vector.y))
+        vectors.append(
+            arrow(clipped(plan, [*nodes, *(each for stroke in plan.strokes for each in plan.derived(nodes, (stroke,)))]), inputs)
+        )
+    constants = {
+        "followed": f"[{','.join(vectors)}]",
+        "FOLLOWED": json_of(len(plan.strokes) + len(plan.grouped)),
+        "units": json_of([piece_length(plan, name) for name in plan.strokes]),
+        "SHORT": json_of(following.SHORT),
+        "LEAST": json_of(following.LEAST),
+        "STRAIGHT": json_of(following.STRAIGHT),
+    }
+    return constants_text(constants)
+
+
+def constants_text(constants: Mapping[str, str]) -> str:
+    """Return the text that declares some constants."""
+    return f"const {','.join(f'{name}={text}' for name, text in constants.items())};"
+
+
+def json_of(value: Any) -> str:
+    """Return numbers, also in lists, as JavaScript."""
+    return f"[{','.join(map(json_of, value))}]" if isinstance(value, (list, tuple)) else number(float(value))

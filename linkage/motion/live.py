@@ -1,0 +1,249 @@
+"""A machine as JavaScript for a page that computes: positions, outputs and forces over strokes, of any design, with what cannot be reached.
+
+The text is one program: what is asked for, what tells that a member cannot be placed, and how near every loop is to a dead point, from
+shared subexpressions, as `compact` writes them. Pins that are found by iteration and angles that are followed come by the rules that are
+used here on arrays.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import reduce
+from importlib.resources import files
+from typing import final
+
+import numpy as np
+
+from ..assembly import angles_text, constants_text, groups_text, json_of
+from ..errors import DefinitionError, LawError, UntracedError
+from ..frozen import FrozenDict
+from ..plan import ArrayReading, Plan
+from ..program import Inputs, Level, Node, ancestors, arrow, replaced
+from ..steps import Point
+from .conditions import REFUSE
+from .requests import BoundRequest, RequestLike, bound
+
+REGULAR = (1.0 + math.sqrt(1.0 - 0.3**2)) / 0.3
+"""The condition up to which a loop does not count where several near dead points lose digits together."""
+
+
+@final
+@dataclass(frozen=True)
+class LiveText:
+    """JavaScript of a machine, and what stands in it.
+
+    `rows` says where each thing asked for stands among the values, (first row, how many); `left_out` why others do not; `dimensions` and
+    `strokes` name the arguments in their order.
+    """
+
+    text: str
+    rows: Mapping[str, tuple[int, int]]
+    left_out: Mapping[str, str]
+    dimensions: tuple[str, ...]
+    strokes: tuple[str, ...]
+
+
+def live_text(plan: Plan, requests: Mapping[str, RequestLike], name: str = "engine") -> LiveText:
+    """Return JavaScript `const engine=...;` that sweeps a machine in a page; what no program gives is left out, with the reason.
+
+    `engine.sweep(d, strokes)` takes a design and an array for each stroke, and gives `values`, an array for each row, `reason`, 0 where a
+    pose is reached, else the number from 1 on of the member in `engine.steps` that cannot be placed, and `missing`, by how much [m]. NaN
+    stands where there is no value, and for ratios and forces where a dead point is so near that Python refuses them.
+    """
+    found: dict[str, BoundRequest] = {}
+    left_out: dict[str, str] = {}
+    for each, request in requests.items():
+        try:
+            found[each] = bound(plan, request)
+        except (LawError, UntracedError) as error:
+            left_out[each] = str(error)
+    program = live_program(plan, tuple(found.values()))
+    ends = np.cumsum([0, *(each.rows for each in found.values())]).tolist()
+    rows = {each: (first, what.rows) for first, (each, what) in zip(ends, found.items(), strict=False)}
+    text = f"const {name}=(()=>{{{program.text}return {{{program.said},sweep}}}})();"
+    return LiveText(text, FrozenDict(rows), FrozenDict(left_out), program.dimensions, tuple(plan.strokes))
+
+
+def live_source(plan: Plan, requests: Sequence[BoundRequest], name: str, design: Mapping[str, float]) -> str:
+    """Return JavaScript that declares `poses(d, p)`, requests at one pose, found along the way from the sketch."""
+    program = live_program(plan, tuple(requests))
+    stated = ", ".join(f"{each} = {design[each]!r}" for each in program.dimensions)
+    count = sum(each.rows for each in requests)
+    head = f"/* d: {stated or 'none'}; p: {', '.join(plan.strokes)}; {count} outputs */"
+    return f"{head}\nconst {name}=(()=>{{{program.text}return (d,p)=>sweep(d,p.map(s=>[s])).values.map(v=>v[0])}})();\n"
+
+
+def live_program(plan: Plan, requests: tuple[BoundRequest, ...]) -> LiveProgram:
+    """Return the program of some requests, made once."""
+    return plan.made(("live", tuple(each.key for each in requests)), lambda twin: LiveProgram.of(twin, requests))
+
+
+@final
+@dataclass(frozen=True)
+class LiveProgram:
+    """The text that declares `sweep`, what else is told beside it, and the dimensions in their order."""
+
+    text: str
+    said: str
+    dimensions: tuple[str, ...]
+
+    @classmethod
+    def of(cls, plan: Plan, requests: Sequence[BoundRequest]) -> LiveProgram:
+        """Return the program of some requests."""
+        nodes = [true_nodes(plan, each) for each in requests]
+        rows = [node for each in nodes for node in each]
+        checks = list(checks_of(plan))
+        loops = loops_of(plan)
+        refused = refusals(plan, requests, list(loops))
+        ends = [*rows, *(node for _, node in checks), *(node for loop in loops.values() for node in loop)]
+        behind = set(ancestors(ends))
+        angles = [each for each in dict.fromkeys(plan.trace.angles) if each in behind and each.level is Level.POSE]
+        ends, angles = (found := clipped(plan, [*ends, *angles]))[: len(ends)], found[len(ends) :]
+        missing = gaps_of(plan, [name for name, _ in checks])
+        dimensions = tuple(plan.table.entries)
+        inputs = Inputs(
+            {each: place for place, each in enumerate(dimensions)},
+            {each: place for place, each in enumerate((*plan.strokes, *plan.solved))},
+        )
+        constants = {
+            "ROWS": json_of(len(rows)),
+            "CHECKS": json_of(len(checks)),
+            "REGULAR": json_of(REGULAR),
+            "REFUSE": json_of(REFUSE),
+            "fixed": f"new Set({json_of([k for k, node in enumerate(rows) if node.level is not Level.POSE])})",
+            "refused": json_of(refused),
+            "sketch": json_of([plan.sketch_strokes[each] for each in plan.strokes]),
+            "places": arrow(ends, inputs, angles),
+            "gaps": arrow(missing, inputs),
+        }
+        text = [part_text("live.js"), constants_text(constants)]
+        if plan.solved:
+            ends_of = plan.strokes[next(iter(plan.strokes))]
+            begin = plan.sketch_strokes[next(iter(plan.strokes))]
+            text.append(
+                constants_text({"reach": json_of([max(ends_of.start, ends_of.end) - begin, begin - min(ends_of.start, ends_of.end)])})
+            )
+        solve = []
+        if plan.groups:
+            text += [groups_text(plan, inputs, dimensions), part_text("live_groups.js")]
+            solve.append("groupsOf(d)")
+        if plan.followed:
+            text += [angles_text(plan, clipped, inputs), part_text("live_angles.js")]
+            solve.append(f"anglesOf(d,{'groupsOf(d)' if plan.groups else '()=>{}'})")
+        text.append(f"const solved=d=>{{const f=[{','.join(solve)}];return p=>f.forEach(g=>g(p))}};" + part_text("live_sweep.js"))
+        names = {
+            "d": list(dimensions), "p": list(plan.strokes), "steps": [name for name, _ in checks],
+        }  # fmt: skip
+        said = [f"{key}:{words_of(value)}" for key, value in names.items()]
+        said += [f"d0:{json_of([plan.defaults[each] for each in dimensions])}", "sketch", "rows:ROWS"]
+        return cls("".join(text), ",".join(said), dimensions)
+
+
+def words_of(words: Sequence[str]) -> str:
+    """Return words as a JavaScript array."""
+    return json.dumps(words, ensure_ascii=True, separators=(",", ":")).replace("<", "\\u003c")
+
+
+def part_text(name: str) -> str:
+    """Return a file of this room without what only its readers need: comments, the beginnings and the ends of lines."""
+    lines = (line.strip() for line in files(__package__).joinpath(name).read_text(encoding="utf-8").splitlines())
+    return "".join(line for line in lines if not line.startswith("//"))
+
+
+def true_nodes(plan: Plan, what: BoundRequest) -> list[Node]:
+    """Return a request's nodes, NaN where what they are true under does not hold: the text can look nothing up."""
+    nodes = what.nodes(plan)
+    truths = [*what.notes(plan).assumed, *what.gaps(plan)]
+    holds = reduce(lambda a, b: a.graph.apply("minimum", a, b), truths) if truths else None
+    return [node if holds is None else node.graph.pick(0.0, holds, node, math.nan) for node in nodes]
+
+
+# Where a pose is reached, and where a result is refused.
+
+
+def clipped(plan: Plan, nodes: Sequence[Node]) -> list[Node]:
+    """Return nodes like some, with every loop's root zero where its radicand is negative by no more than rounding: at a dead point."""
+    graph, roots = plan.trace.graph, dict[Node, Node]()
+    for loop in plan.trace.loops:
+        root = graph.known("sqrt", loop.terms[:1]) if loop.kind == "links" else None
+        if root is not None and root not in roots:
+            radicand, size = replaced((loop.terms[0], loop.terms[2]), roots)
+            inside = graph.pick(size * -ArrayReading.ROUNDING, radicand, graph.apply("maximum", radicand, 0.0), radicand)
+            roots[root] = graph.made("sqrt", (inside,))
+    return replaced(nodes, roots)
+
+
+def checks_of(plan: Plan) -> Iterator[tuple[str, Node]]:
+    """Yield what is finite where a member can be placed, in the order of construction, with its name."""
+    trace, graph = plan.trace, plan.trace.graph
+    for name, member in plan.members.items():
+        for owner, length in plan.following:
+            if owner == name:
+                yield name, graph.apply("sqrt", trace.value(length))
+        if isinstance(member, Point):
+            place = trace.at(member)
+            if name not in plan.ground:
+                yield name, graph.node(place.x + place.y)
+        elif name in trace.noted:
+            yield name, trace.noted[name]
+
+
+def gaps_of(plan: Plan, names: Sequence[str]) -> list[Node]:
+    """Return, for each check, how much is missing where it fails [m]; NaN where no length tells."""
+    found, seen = [], set[str]()
+    for name in names:
+        lengths = [length for owner, length in plan.following if owner == name]
+        negative = name not in seen and bool(lengths)
+        found.append(-plan.trace.graph.node(plan.trace.value(lengths[0])) if negative else missing_at(plan, name))
+        seen.add(name)
+    return found
+
+
+def missing_at(plan: Plan, name: str) -> Node:
+    """Return by how much the sides of a member's triangle are too short, or what else it tells [m]."""
+    member, trace = plan.members[name], plan.trace.view()
+    graph, sides = trace.graph, member.sides(trace)
+    if sides:
+        values = [graph.node(value) for _, value in sides]
+        most = graph.apply("maximum", graph.apply("maximum", values[0], values[1]), values[2])
+        return graph.node(2.0 * most - (values[0] + values[1] + values[2]))
+    if not isinstance(member, Point):
+        return graph.constant(math.nan)
+    try:
+        return graph.node(member.shortage(trace)[1])
+    except DefinitionError:
+        return graph.constant(math.nan)
+
+
+def loops_of(plan: Plan) -> dict[str, tuple[Node, Node]]:
+    """Return for every loop that moves the sine of its links' angle, and how much larger the numbers are whose difference closes it."""
+    found: dict[str, tuple[Node, Node]] = {}
+    graph = plan.trace.graph
+    for loop in plan.trace.loops:
+        member = plan.members.get(loop.step)
+        if member is None or loop.kind not in ("links", "guides") or (isinstance(member, Point) and not member.closes):
+            continue
+        if not plan.moves(member):
+            continue
+        if loop.kind == "guides":
+            found[loop.step] = loop.terms[0], graph.one
+        else:
+            radicand, scale, size = loop.terms
+            found[loop.step] = graph.node(np.sqrt(radicand) / scale), graph.node(size / (scale * scale))
+    return found
+
+
+def refusals(plan: Plan, requests: Sequence[BoundRequest], loops: Sequence[str]) -> list[list[list[int]]]:
+    """Return the rows that are refused near dead points, with the loops whose dead points these are, by their places."""
+    sets: dict[tuple[int, ...], list[int]] = {}
+    row = 0
+    for each in requests:
+        steep = each.differentiated(plan)
+        behind = tuple(place for place, name in enumerate(loops) if name in steep)
+        if behind:
+            sets.setdefault(behind, []).extend(range(row, row + each.rows))
+        row += each.rows
+    return [[rows, list(behind)] for behind, rows in sets.items()]

@@ -1,0 +1,94 @@
+"""Poles: the point of a body that stands still at an instant, against the frame or against another body."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from ..errors import DefinitionError, unknown
+from ..plan import Plan
+from ..program import FloatArray
+from ..steps import Link
+
+ENDLESS = 1e9
+"""A pole further away than so many lengths of its body is at infinity: its distance is rounding."""
+STILL = 1e-12
+"""A body whose points are slower than this part of the machine's fastest stands still."""
+
+OfPoint = Callable[[str], FloatArray]
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class BodyRates:
+    """How a body moves: a point of it and its velocity, shape (2, ...), its angular velocity and its length, shape (...)."""
+
+    P: FloatArray
+    p: FloatArray
+    spin: FloatArray
+    length: FloatArray
+
+    def at(self, X: FloatArray) -> FloatArray:
+        """Return the velocity of the body's point at X, shape (2, ...)."""
+        arm = X - self.P
+        return np.asarray(self.p + self.spin * np.stack([-arm[1], arm[0]]))
+
+
+def body_points(plan: Plan, body: object) -> tuple[str, ...]:
+    """Return the points of a body by its name, its link's, or two or more of its points (`E D`); none for the frame.
+
+    Raises DefinitionError, with the bodies there are, for any other; a driven length changes and is none.
+    """
+    name = getattr(body, "name", body)
+    fixed, *moving = plan.links or (None,)
+    if name == "frame":
+        return ()
+    links = {each: link.point_names for each, link in plan.of_kind(Link).items()}
+    given = links.get(name, tuple(name.split())) if isinstance(name, str) else ()
+    for each in moving:
+        if name == each.name or (len(set(given)) > 1 and set(given) <= set(each.points)):
+            return tuple(given) if len(given) > 1 else each.points
+    if len(set(given)) > 1 and fixed is not None and set(given) <= set(fixed.points):
+        return ()
+    known = ["frame", *(each.name for each in moving), *(each for each in links if len(links[each]) > 1)]
+    raise unknown("Body", name, dict.fromkeys(known), where=plan.title)
+
+
+def whole_body(plan: Plan, body: object) -> tuple[str, ...]:
+    """Return all points of the body that a name means."""
+    named = set(body_points(plan, body))
+    return next((each.points for each in plan.links if named and named <= set(each.points)), ())
+
+
+def body_rates(points: tuple[str, ...], place: OfPoint, rate: OfPoint, shape: tuple[int, ...]) -> BodyRates:
+    """Return how a body moves, by its two points that are furthest apart; the frame, without points, stands still."""
+    if not points:
+        return BodyRates(np.zeros((2, *shape)), np.zeros((2, *shape)), np.zeros(shape), np.zeros(shape))
+    pairs = [(P, Q) for place_of, P in enumerate(points) for Q in points[place_of + 1 :]]
+    P, Q = max(pairs, key=lambda pair: float(np.nanmax(np.hypot(*(place(pair[1]) - place(pair[0]))), initial=0.0)))
+    arm, turning = place(Q) - place(P), rate(Q) - rate(P)
+    square = arm[0] ** 2 + arm[1] ** 2
+    if not np.all((square > 0.0) | np.isnan(square)):
+        raise DefinitionError(f"the points {P} and {Q} of a body coincide and do not tell how it turns; name two others.")
+    return BodyRates(place(P), rate(P), (arm[0] * turning[1] - arm[1] * turning[0]) / square, np.sqrt(square))
+
+
+@np.errstate(all="ignore")
+def pole_of(body: BodyRates, other: BodyRates, fastest: FloatArray) -> FloatArray:
+    """Return the point at which two bodies have one velocity, shape (2, ...) [m].
+
+    Infinite where the one only translates against the other, NaN where it stands still against it: each of its points is a pole then.
+    Source: Artobolevsky, Theory of Mechanisms and Machines, instant centres of velocities.
+    """
+    P = body.P if np.any(body.length) else other.P
+    speed = body.at(P) - other.at(P)
+    spin, length = body.spin - other.spin, np.maximum(body.length, other.length)
+    away = np.stack([-speed[1], speed[0]])
+    found = P + away / spin
+    size = np.hypot(speed[0], speed[1])
+    found = np.where(np.abs(spin) * length * ENDLESS <= size, np.inf, found)
+    still = np.maximum(size, np.abs(spin) * length) <= STILL * fastest
+    return np.asarray(np.where(still, np.nan, found))

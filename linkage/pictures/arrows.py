@@ -1,0 +1,302 @@
+"""Vectors as arrows to one scale, moments as curved arrows, their values where there is room, and the bar that says the scale."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Any, final
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle, Polygon
+from matplotlib.patheffects import withStroke
+from matplotlib.text import Text
+
+from ..program import FloatArray
+from . import style
+from .scene import Bounds
+from .symbols import added
+
+SHARE = 0.17
+"""The largest arrow's length over the longer side of what is drawn."""
+TINY = 0.012
+"""An arrow shorter than this part of the largest is a dot."""
+NOTHING_THERE = 1e-9
+"""What is smaller than this part of the largest is rounding, and is zero."""
+
+SHAFT, BARB, HEAD = 0.16, 0.62, 1.7
+"""Half a shaft's width, half a head's width, and a head's length, in sizes."""
+TURN_ANGLES = np.radians(np.linspace(-150.0, 70.0, 49))
+"""The angles that a curved arrow goes through."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class VectorArrow:
+    """A vector at a point [m], shape (2,) each, in SI, with its colour; `text` stands after its value, `name` finds it in the figure."""
+
+    name: str
+    at: FloatArray
+    vector: FloatArray
+    colour: str
+    text: str = ""
+    shows_value: bool = True
+
+    @property
+    def length(self) -> float:
+        """The vector's length [SI]."""
+        return float(np.hypot(*self.vector))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class TurningArrow:
+    """A moment [Nm] at a point [m], positive counter-clockwise."""
+
+    name: str
+    at: FloatArray
+    moment: float
+    colour: str
+    text: str = ""
+    radius: float = 2.6
+    """The curve's radius in sizes: another one where several stand about one point."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class ArrowLayer:
+    """Arrows to one scale, in a unit whose factor is in SI; `keys` says what each colour means, `sense` which way they count."""
+
+    arrows: tuple[VectorArrow, ...]
+    unit: str
+    factor: float
+    keys: tuple[tuple[str, str], ...]
+    turning: tuple[TurningArrow, ...] = ()
+    notes: tuple[str, ...] = ()
+    sense: str = ""
+
+    @property
+    def largest(self) -> float:
+        """The longest vector [SI]."""
+        return max((each.length for each in self.arrows), default=0.0)
+
+    def scale(self, box: Bounds, share: float = SHARE) -> float:
+        """Return how long a unit of SI is on a sheet that shows a box [m/SI], the largest vector a share of it; 0 where there is none."""
+        left, right, bottom, top = box
+        return share * max(right - left, top - bottom) / self.largest if self.largest > 0.0 else 0.0
+
+    def value(self, size: float) -> str:
+        """Return the size of a vector in words, without its unit: three digits, and 0 for rounding."""
+        return significant(size / self.factor) if size > NOTHING_THERE * self.largest else "0"
+
+    def words(self, arrow: VectorArrow) -> str:
+        """Return what stands at an arrow."""
+        value = f"{self.value(arrow.length)} {self.unit}" if arrow.shows_value else ""
+        return " ".join(part for part in (value, arrow.text) if part)
+
+    def tips(self, scale: float) -> FloatArray:
+        """Return the tips of the arrows, shape (n, 2) [m]."""
+        return np.array([each.at + scale * each.vector for each in self.arrows]).reshape(-1, 2)
+
+
+def significant(value: float, digits: int = 3) -> str:
+    """Return a number with so many digits, without an exponent from a thousandth to a hundred thousand."""
+    if value == 0.0 or not 1e-3 <= abs(value) < 1e5:
+        return f"{value:.{digits}g}"
+    rounded = float(f"{value:.{digits}g}")
+    places = max(0, digits - 1 - int(np.floor(np.log10(abs(rounded)))))
+    return f"{rounded:.{places}f}"
+
+
+def grown(box: Bounds, points: FloatArray, margin: float) -> Bounds:
+    """Return a box that has room for points, shape (n, 2) [m], with a margin around them."""
+    if not points.size:
+        return box
+    (x0, y0), (x1, y1) = points.min(axis=0) - margin, points.max(axis=0) + margin
+    return min(box[0], float(x0)), max(box[1], float(x1)), min(box[2], float(y0)), max(box[3], float(y1))
+
+
+def draw_arrows(ax: Axes, layer: ArrowLayer, scale: float, size: float, level: float = 16.0) -> FloatArray:
+    """Draw the arrows of a layer and return points that cover them, shape (n, 2) [m]; `size` is that of the mechanism's pins [m]."""
+    covered = [np.empty((0, 2))]
+    for each in layer.arrows:
+        tip = each.at + scale * each.vector
+        edge = style.mixed(each.colour, style.INK, 0.35)
+        if each.length <= TINY * layer.largest:
+            patch: Circle | Polygon = Circle((each.at[0], each.at[1]), 0.3 * size, facecolor=each.colour, edgecolor=edge, zorder=level)
+            covered.append(each.at[None])
+        else:
+            outline = arrow_outline(each.at, tip, size)
+            patch = Polygon(outline, facecolor=each.colour, edgecolor=edge, linewidth=0.6, joinstyle="round", zorder=level)
+            covered.append(each.at + np.linspace(0.0, 1.0, 24)[:, None] * (tip - each.at))
+        patch.set_gid(each.name)
+        added(ax, patch)
+    for turn in layer.turning:
+        covered.append(draw_turning(ax, turn, size, level))
+    return np.concatenate(covered)
+
+
+def arrow_outline(tail: FloatArray, tip: FloatArray, size: float) -> FloatArray:
+    """Return the outline of an arrow, shape (7, 2) [m]: it begins at the tip and is symmetric about the way from its tail."""
+    length = float(np.hypot(*(tip - tail)))
+    along = (tip - tail) / length
+    across = np.array([-along[1], along[0]])
+    head = min(HEAD * size, 0.6 * length)
+    wide, thin = BARB * size * head / (HEAD * size), SHAFT * size
+    neck = tip - head * along
+    sides = [tip, neck + wide * across, neck + thin * across, tail + thin * across]
+    return np.array([*sides, tail - thin * across, neck - thin * across, neck - wide * across])
+
+
+def draw_turning(ax: Axes, turn: TurningArrow, size: float, level: float) -> FloatArray:
+    """Draw a moment as a curved arrow about its point, and return points that cover it [m]."""
+    radius = turn.radius * size
+    angles = TURN_ANGLES if turn.moment > 0.0 else np.pi - TURN_ANGLES
+    circle = turn.at + radius * np.column_stack([np.cos(angles), np.sin(angles)])
+    line = Line2D(*circle.T, color=turn.colour, linewidth=2.2, solid_capstyle="butt", zorder=level)
+    line.set_gid(turn.name)
+    ax.add_line(line)
+    end, out = circle[-1], (circle[-1] - turn.at) / radius
+    along = np.array([-out[1], out[0]]) * np.sign(turn.moment)
+    corners = np.array([end + HEAD * size * along, end + BARB * size * out, end - BARB * size * out])
+    added(ax, Polygon(corners, facecolor=turn.colour, edgecolor=turn.colour, joinstyle="round", zorder=level))
+    return np.concatenate([circle, corners])
+
+
+# Values at the arrows, where they cover nothing.
+
+FAR_OUT = (1.0, 1.8, 3.0, 4.5)
+AROUND = np.radians(np.arange(0.0, 360.0, 22.5))
+CLEAR = 1.5  # pixels kept free around a value
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Wording:
+    """A text that is to stand near a place [m]: preferably on along a way, shape (2,)."""
+
+    text: str
+    at: FloatArray
+    way: FloatArray
+    colour: str
+    name: str = ""
+
+
+def wordings(layer: ArrowLayer, scale: float, size: float) -> list[Wording]:
+    """Return what stands at the arrows of a layer: at their tips, those of moments beside their curves."""
+    found = []
+    for each in layer.arrows:
+        way = each.vector / each.length if each.length > TINY * layer.largest else np.array([0.0, 1.0])
+        if layer.words(each):
+            found.append(
+                Wording(layer.words(each), each.at + scale * each.vector, way, style.mixed(each.colour, style.INK, 0.4), each.name)
+            )
+    for turn in layer.turning:
+        text = f"{significant(abs(turn.moment) / layer.factor)} {layer.unit} m {turn.text}".strip()
+        at = turn.at + np.array([0.0, turn.radius * size])
+        found.append(Wording(text, at, np.array([0.0, 1.0]), style.mixed(turn.colour, style.INK, 0.4), turn.name))
+    return found
+
+
+def place_wordings(ax: Axes, texts: Sequence[Wording], covered: FloatArray, font: float = style.SMALL) -> list[Text]:
+    """Write texts near their places so that they cover neither each other, nor what is written already, nor `covered` points [m]."""
+    figure = ax.figure.figure
+    assert figure is not None
+    renderer = renderer_of(figure)
+    ax.apply_aspect()
+    inside = ax.get_window_extent(renderer)
+    taken = [text.get_window_extent(renderer) for text in ax.texts if text.get_visible() and text.get_text()]
+    boxes = [np.array([each.x0, each.y0, each.x1, each.y1]) for each in taken]
+    points = ax.transData.transform(covered) if covered.size else np.empty((0, 2))
+    written = []
+    for each in sorted(texts, key=lambda text: -crowding(points, ax.transData.transform(text.at))):
+        text = ax.text(
+            0.0, 0.0, each.text, fontsize=font, color=each.colour, ha="center", va="center", zorder=20.0, clip_on=False,
+            path_effects=[withStroke(linewidth=2.2, foreground=style.PAPER)],
+        )  # fmt: skip
+        text.set_gid(f"{each.name} value")
+        extent = text.get_window_extent(renderer)
+        half = 0.5 * np.array([extent.width, extent.height]) + CLEAR
+        anchor = np.asarray(ax.transData.transform(each.at))
+        spots = [anchor + spot for spot in spots_around(half, each.way, 0.5 * extent.height)]
+        costs = [spot_cost(spot, half, boxes, points, inside) + 0.04 * rank for rank, spot in enumerate(spots)]
+        best = spots[int(np.argmin(costs))]
+        x, y = ax.transData.inverted().transform(best).tolist()
+        text.set_position((x, y))
+        boxes.append(np.concatenate([best - half, best + half]))
+        written.append(text)
+    return written
+
+
+def renderer_of(figure: Figure) -> Any:
+    """Return what knows how large a text is in a figure."""
+    canvas: Any = FigureCanvasAgg(figure)
+    return canvas.get_renderer()
+
+
+def crowding(points: FloatArray, at: FloatArray) -> float:
+    """Return how many points lie within 40 pixels of a place."""
+    return float(np.count_nonzero(np.hypot(*(points - at).T) < 40.0)) if points.size else 0.0
+
+
+def spots_around(half: FloatArray, way: FloatArray, gap: float) -> list[FloatArray]:
+    """Return the offsets [pixels] at which a text of that half size may stand, those along the way and near first."""
+    start = float(np.arctan2(way[1], way[0]))
+    turned = sorted(AROUND, key=lambda angle: abs(np.angle(np.exp(1j * (angle - start)))))
+    ways = [np.array([np.cos(angle), np.sin(angle)]) for angle in turned]
+    return [far * gap * each + half * np.clip(np.sqrt(2.0) * each, -1.0, 1.0) for far, each in product(FAR_OUT, ways)]
+
+
+def spot_cost(spot: FloatArray, half: FloatArray, boxes: Sequence[FloatArray], points: FloatArray, inside: object) -> float:
+    """Return how much a text at a spot would cover: other texts above all, then points; and what hangs over the sheet's edge."""
+    low, high = spot - half, spot + half
+    over = sum(1 for box in boxes if (low < box[2:]).all() and (box[:2] < high).all())
+    covered = np.count_nonzero(((points > low) & (points < high)).all(axis=1)) if points.size else 0
+    x0, y0, x1, y1 = (getattr(inside, name) for name in ("x0", "y0", "x1", "y1"))
+    outside = low[0] < x0 or high[0] > x1 or low[1] < y0 or high[1] > y1
+    return float(40.0 * over + 1.0 * covered + 90.0 * outside)
+
+
+# The bar that says the scale, and what colours mean.
+
+
+def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray, place: int = 0) -> None:
+    """Draw a bar of a round value in the emptiest corner of the sheet; `place` says how many stand there already."""
+    if not scale > 0.0:
+        return
+    value = round_value(0.8 * layer.largest / layer.factor)
+    length = value * layer.factor * scale
+    (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
+    pad, high = 0.02 * (x1 - x0), 0.05 * (y1 - y0)
+    spots = [(x, y) for y in (y0 + 1.2 * pad, y1 - 1.6 * pad - high) for x in (x1 - pad - length, x0 + pad)]
+
+    def crowd(spot: tuple[float, float]) -> int:
+        low, high_end = np.array(spot) - pad, np.array([spot[0] + length + pad, spot[1] + 2.0 * high])
+        return int(np.count_nonzero(((covered > low) & (covered < high_end)).all(axis=1)))
+
+    x, y = min(spots, key=crowd)
+    y += place * high
+    half, colour = 0.2 * pad, layer.keys[0][0] if len(layer.keys) == 1 else style.INK
+    across, up = [x, x, x, x + length, x + length, x + length], [y + half, y - half, y, y, y - half, y + half]
+    bar = ax.plot(across, up, color=colour, linewidth=1.6, zorder=19.0, solid_joinstyle="miter")
+    bar[0].set_gid(f"scale {layer.unit}")
+    text = ax.text(
+        x + 0.5 * length, y + 0.25 * pad, f"{value:g} {layer.unit}", fontsize=style.SMALL, color=style.INK, ha="center", va="bottom",
+        zorder=20.0, path_effects=[withStroke(linewidth=2.2, foreground=style.PAPER)],
+    )  # fmt: skip
+    text.set_gid(f"scale {layer.unit} value")
+
+
+def round_value(value: float) -> float:
+    """Return the largest 1, 2 or 5 times a power of ten that is not above a value."""
+    power = 10.0 ** np.floor(np.log10(value))
+    return float(max(each * power for each in (1.0, 2.0, 5.0) if each * power <= value * (1.0 + 1e-12)))
+
+
+def colour_keys(layer: ArrowLayer) -> list[Line2D]:
+    """Return a key for each colour of a layer, for the legend."""
+    return [Line2D([], [], color=colour, linewidth=2.4, label=text) for colour, text in layer.keys]

@@ -1,0 +1,157 @@
+"""Several designs of a mechanism over one another, with what they differ in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Polygon
+
+from ..errors import DefinitionError
+from ..mechanism import Mechanism, require_mechanism
+from ..motion import Motion
+from ..plan import plan_measure
+from ..reports import stroke_middles
+from ..units import display_unit, show
+from . import style
+from .drawing import Drawing
+from .free_space import cloud
+from .overlays import sheet_note
+from .paper import empty_page, legend_row, title
+from .poses import motions, named_points, trace
+from .scene import Scene
+from .strokes import stroke_words
+from .style import FAINT, STRONG, Look
+
+MOST_DESIGNS = 12
+MOST_NAMED = 3
+"""The designs in one picture, and the dimensions that its legend names."""
+
+TEXT_WIDTH, LETTER = 8.0, 0.082
+"""The room for the legend, and about the width of a letter [inch]."""
+
+TINTS = ("#0072b2", "#d55e00", "#007f5c", "#9a3a86", "#8a5a00", "#4a5a6a")
+"""The colours of designs: Okabe and Ito's, some darker; a seventh one and those after it are lighter."""
+
+
+def draw_designs(machines: Sequence[Mechanism], at: Any, path: Sequence[str], count: int) -> Figure:
+    """Return a figure of several designs at the same strokes: of two the first one faint, of more each in its own colour.
+
+    `at` and `path` are as for one design; without `at` every stroke stands in its middle.
+    """
+    designs = separated(machines)
+    first = designs[0]
+    values = stroke_middles(first) if at is None else at
+    path = named_points(first, path, "path")
+    moved = [motions(machine, values, count) for machine in designs]
+    shown, swept = [each for _, each, _ in moved], [each for _, _, each in moved]
+    scenes = [Scene(motion, over) for motion, over in zip(shown, swept, strict=True)]
+    boxes = np.array([(Scene(over) if path else scene).box() for over, scene in zip(swept, scenes, strict=True)])
+    low, high = boxes.min(axis=0), boxes.max(axis=0)
+    texts = what_differs(designs)
+    columns = max(1, min(len(texts), int(TEXT_WIDTH / (0.56 + LETTER * max(map(len, texts))))))
+    figure, ax = empty_page((float(low[0]), float(high[1]), float(low[2]), float(high[3])), -(-len(texts) // columns))
+    looks, covered = looks_of(len(designs)), [np.empty((0, 2))]
+    for design, (scene, over, look) in enumerate(zip(scenes, swept, looks, strict=True)):
+        for name in path:
+            trace(ax, over[name].reshape(2, -1), colour=look.colour(style.ACCENT))
+        for pose in scene.reached:
+            drawing = Drawing(ax, scene, look)
+            if design == len(looks) - 1 and pose == scene.reached[-1]:
+                drawing.label([scene.at(pose)], [each[np.isfinite(each).all(axis=1)] for each in covered])
+            drawing.update(pose)
+            if look.tint:
+                let_through(drawing)
+            if pose == scene.reached[-1] and (design == len(looks) - 1 or grounds_of(scene) != grounds_of(scenes[-1])):
+                drawing.look = FAINT if look is FAINT else STRONG
+                drawing.ground()
+            covered.append(cloud(scene, scene.at(pose))[::2])
+    keys = [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in looks]
+    legend_row(ax, keys, texts, columns)
+    title(figure, first.plan.heading, at_words(shown[0]))
+    lost = [text for text, scene in zip(texts, scenes, strict=True) if not scene.reached]
+    sheet_note(ax, [f"Cannot be assembled here: {'; '.join(lost)}."] if lost else [])
+    return figure
+
+
+def let_through(drawing: Drawing) -> None:
+    """Let a drawing's faces be seen through, so that others under it show."""
+    for artist in drawing.artists:
+        if isinstance(artist, Polygon) and artist.get_fill():
+            artist.set_alpha(None)
+            artist.set_facecolor((*to_rgb(artist.get_facecolor()), 0.12))
+
+
+def grounds_of(scene: Scene) -> list[list[float]]:
+    """Return where the pins of the frame are [m]."""
+    return [scene.at(0)[name].tolist() for name in scene.grounds]
+
+
+def separated(machines: Sequence[Mechanism]) -> list[Mechanism]:
+    """Return designs one by one, a batch as its designs; DefinitionError for none, too many, and for those of other strokes."""
+    found: list[Mechanism] = []
+    for machine in machines:
+        require_mechanism(machine)
+        shape = np.broadcast_shapes(*(np.shape(value) for value in machine.dimensions.values()))
+        number = int(np.prod(shape, dtype=int))
+        if number > MOST_DESIGNS:
+            raise DefinitionError(
+                f"{machine.plan.title}: {number} designs do not fit into one picture, {MOST_DESIGNS} do; choose some of them, "
+                "draw([machine.replaced(...), ...])."
+            )
+        changed = {name: np.broadcast_to(value, shape).ravel() for name, value in machine.dimensions.items() if np.ndim(value)}
+        one = [machine.replaced(**{name: float(values[index]) for name, values in changed.items()}) for index in range(number)]
+        found += one if changed else [machine]
+    if not 0 < len(found) <= MOST_DESIGNS:
+        raise DefinitionError(f"draw([...]): {len(found)} designs do not make one picture; give 1 to {MOST_DESIGNS} of them.")
+    for each in found[1:]:
+        if tuple(each.strokes) != tuple(found[0].strokes):
+            names = ", ".join(each.strokes), ", ".join(found[0].strokes)
+            raise DefinitionError(
+                f"draw([...]): {each.plan.title} has the strokes {names[0]} and {found[0].plan.title} {names[1]}; draw them apart."
+            )
+    return found
+
+
+def looks_of(count: int) -> list[Look]:
+    """Return how each design is drawn: of two the first one faint, of more each in a colour, the last one on top."""
+    if count == 1:
+        return [STRONG]
+    if count == 2:
+        return [FAINT, STRONG]
+    tints = [style.mixed(TINTS[i % len(TINTS)], style.PAPER, 0.45 * (i // len(TINTS))) for i in range(count)]
+    return [Look(level=3.0 + 10.0 * i / count, tint=tint) for i, tint in enumerate(tints)]
+
+
+def what_differs(designs: Sequence[Mechanism]) -> list[str]:
+    """Return for each design what makes it another than the others: its class where these differ, and the dimensions that do."""
+    titles = [machine.plan.title for machine in designs]
+    common = [name for name in designs[0].dimensions if all(name in machine.dimensions for machine in designs)]
+    names = [name for name in common if any(a.dimensions[name] != b.dimensions[name] for a, b in pairwise(designs))]
+    found = []
+    for machine, heading in zip(designs, titles, strict=True):
+        words = [heading] if len(set(titles)) > 1 else []
+        words += [f"{name} = {shown_value(machine, name)}" for name in names[:MOST_NAMED]]
+        words += [f"and {len(names) - MOST_NAMED} more"] if len(names) > MOST_NAMED else []
+        found.append(", ".join(words) or "the same design")
+    return found
+
+
+def shown_value(machine: Mechanism, name: str) -> str:
+    """Return a dimension with its unit."""
+    unit = machine.plan.table.entries[name].unit or display_unit(plan_measure(machine.plan, name), "mm")
+    return show(float(machine.dimensions[name]), unit, 5)
+
+
+def at_words(motion: Motion) -> str:
+    """Return the strokes of a motion in words; of several values that they are so many."""
+    values: Mapping[str, Any] = {name: np.unique(np.ravel(value)) for name, value in motion.strokes.items()}
+    return ", ".join(
+        stroke_words(motion.plan, name, float(each[0])) if each.size == 1 else f"{name}: {each.size} values"
+        for name, each in values.items()
+    )

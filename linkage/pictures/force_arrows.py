@@ -1,0 +1,207 @@
+"""The forces of a machine at one pose as arrows: at its pins and of its loads, or all of those on one body."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import AssemblyError, DefinitionError, SingularError, cited, unknown, unwarned
+from ..motion import Motion
+from ..program import FloatArray
+from ..statics import PinForces, pin_forces
+from ..units import kN
+from .arrows import NOTHING_THERE, ArrowLayer, TurningArrow, VectorArrow
+
+PIN, LOAD, MEMBER = "#0072b2", "#d55e00", "#007f5c"
+"""The colours of pin forces, loads, and the ends of cylinders and springs: Okabe and Ito's, the last one darker."""
+
+FRAME = "frame"
+
+SENSE = "A pin force is drawn as it acts on the body named; where none is named, from the frame on what it holds."
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class ForceQuestion:
+    """Which forces are drawn: all, or those on one body; and of which loads, as `pin_forces` takes them."""
+
+    body: str = ""
+    loads: Any = None
+    case: Any = None
+    direction: str = "frictionless"
+    drive: str | None = None
+    rates: Mapping[str, Any] | None = None
+
+    def asked(self, motion: Motion) -> PinForces:
+        """Return the forces of a motion."""
+        return pin_forces(motion, self.loads, case=self.case, direction=self.direction, drive=self.drive, rates=self.rates)
+
+
+def force_question(forces: object, loads: Any, case: Any, direction: str, drive: str | None, rates: Any) -> ForceQuestion | None:
+    """Return what `draw(forces=...)` asks for, None where it asks for nothing; DefinitionError for what is neither."""
+    if forces is False or forces is None:
+        given = {"loads": loads, "case": case, "drive": drive}
+        named = next((name for name, value in given.items() if value is not None), "direction" if direction != "frictionless" else "")
+        if named:
+            raise DefinitionError(f"draw({named}=...) says of which forces; say forces=True, or the name of a body, too.")
+        return None
+    if forces is not True and not isinstance(forces, str):
+        raise DefinitionError(f'draw(forces={cited(forces)}): say forces=True, or the body whose forces are drawn, forces="OBC".')
+    return ForceQuestion("" if forces is True else str(forces), loads, case, direction, drive, rates)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class ForcesAt:
+    """The forces of a machine at one pose, a flat index; `refusal` says in words why there are none."""
+
+    found: PinForces
+    pose: int
+    refusal: str = ""
+
+    def one(self, values: FloatArray) -> FloatArray:
+        """Return values (2, ...) or (...) at the pose."""
+        array = np.asarray(values, float)
+        shape, lead = self.found.motion.shape, array.ndim - len(self.found.motion.shape)
+        return np.broadcast_to(array, (*array.shape[:lead], *shape)).reshape(*array.shape[:lead], -1)[..., self.pose]
+
+    def place(self, point: str) -> FloatArray:
+        """Return where a point is [m]."""
+        return self.one(self.found.motion[point])
+
+
+def forces_at_pose(motion: Motion, pose: int, question: ForceQuestion) -> ForcesAt:
+    """Return the forces at a pose; where they are refused at that pose, SingularError, or with `unreachable="nan"` the words why."""
+    with unwarned():
+        try:
+            found = ForcesAt(question.asked(motion), pose)
+        except SingularError:
+            alone = motion.moved({name: values.ravel()[pose] for name, values in motion.strokes.items()})
+            found = ForcesAt(question.asked(alone), 0)
+    if all(np.isfinite(found.one(joint.force)).all() for joint in found.found.joints):
+        return found
+    words = refusal(motion, pose, question) or next(iter(found.found.remarks), "the forces are not known here")
+    if motion.unreachable != "nan":
+        raise SingularError(words, motion=motion)
+    return ForcesAt(found.found, found.pose, words)
+
+
+def refusal(motion: Motion, pose: int, question: ForceQuestion) -> str:
+    """Return why a pose has no forces, in words; empty where nothing refuses them."""
+    strokes = {name: np.array(values.ravel()[pose]) for name, values in motion.strokes.items()}
+    try:
+        question.asked(Motion(motion.plan, motion.designs, strokes))
+    except AssemblyError as error:
+        return str(error)
+    return ""
+
+
+def force_layer(forces: ForcesAt) -> ArrowLayer:
+    """Return the pin forces and the loads of a machine as arrows.
+
+    A force between the frame and a moving body is shown as it acts on that body; between a body and a cylinder or a spring as it acts on
+    the body; else on the body that the text names.
+    """
+    found, arrows, turning = forces.found, [], []
+    for place, joint in enumerate(found.joints):
+        on, by, sign = joint.on, joint.by, 1.0
+        if on == FRAME or (on in found.thrusts and by not in found.thrusts and by != FRAME):
+            on, by, sign = by, on, -1.0
+        members = [each for each in (on, by) if each in found.thrusts]
+        colour = MEMBER if members else PIN
+        text = " ".join([*members[:1], *([] if by == FRAME else [f"on {short_name(forces, on)}"])])
+        name = f"force {joint.point} {place} on {on} from {by}"
+        force, couple = sign * forces.one(joint.force), sign * float(forces.one(joint.couple))
+        if joint.has_force:
+            arrows.append(VectorArrow(name, forces.place(joint.point), force, colour, text))
+        turning.append(TurningArrow(f"couple {joint.point} {place} on {on} from {by}", forces.place(joint.point), couple, colour, text))
+    for element, bearer, at, force, moment in load_groups(forces):
+        arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, LOAD, element))
+        turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, LOAD, element))
+    has_members = any(arrow.colour == MEMBER for arrow in arrows)
+    keys = [(LOAD, "load"), (PIN, "pin force"), *([(MEMBER, "of a cylinder or spring")] * has_members)]
+    return layer_of(arrows, turning, keys, SENSE)
+
+
+def short_name(forces: ForcesAt, body: str) -> str:
+    """Return a body's name as it is written at an arrow: one of many points goes by its first two."""
+    points = next((each.points for each in forces.found._structure.bodies if each.name == body), ())
+    return body if len(body) <= 8 or len(points) < 3 else f"{points[0]}{points[1]}\N{HORIZONTAL ELLIPSIS}"
+
+
+def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
+    """Return all forces on one body as arrows, with what each comes from."""
+    found, arrows, turning = forces.found, [], []
+    for place, joint in enumerate(found.joints):
+        if body in (joint.on, joint.by):
+            other, sign = (joint.by, 1.0) if joint.on == body else (joint.on, -1.0)
+            colour, from_other = MEMBER if other in found.thrusts else PIN, f"from {short_name(forces, other)}"
+            force, couple = sign * forces.one(joint.force), sign * float(forces.one(joint.couple))
+            if joint.has_force:
+                arrows.append(
+                    VectorArrow(f"force {joint.point} {place} from {other}", forces.place(joint.point), force, colour, from_other)
+                )
+            turning.append(TurningArrow(f"couple {joint.point} {place}", forces.place(joint.point), couple, colour, from_other))
+    for element, bearer, at, force, moment in load_groups(forces):
+        if bearer == body:
+            arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, LOAD, element))
+            turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, LOAD, element))
+    used = {each.colour for each in arrows} | {each.colour for each in turning}
+    keys = [(LOAD, "load"), (PIN, "from a body or the frame"), (MEMBER, "from a cylinder or spring")]
+    return layer_of(arrows, turning, [key for key in keys if key[0] in used])
+
+
+def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], keys: list[tuple[str, str]], sense: str = "") -> ArrowLayer:
+    """Return forces and moments as a layer: in kN, or in N where the largest is less than 100 N; loads and moments of zero are left out."""
+    largest = max((each.length for each in arrows), default=0.0)
+    shown = tuple(each for each in arrows if each.length > NOTHING_THERE * largest or (each.colour != LOAD and largest > 0.0))
+    most = max((abs(each.moment) for each in turning), default=0.0)
+    turns: list[TurningArrow] = []
+    for each in turning:
+        if abs(each.moment) > NOTHING_THERE * most:
+            here = sum(1 for other in turns if np.allclose(other.at, each.at))
+            turns.append(replace(each, radius=each.radius + 1.4 * here))
+    unit = ("kN", kN) if largest >= 100.0 or most >= 100.0 else ("N", 1.0)
+    return ArrowLayer(shown, *unit, tuple(keys), tuple(turns), sense=sense)
+
+
+def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatArray, float]]:
+    """Yield each element's load on each body: element, body, place (2,) [m], force (2,) [N] and moment there [Nm].
+
+    Several forces of an element on a body go as their resultant, on its line of action; a couple as a moment amid its points.
+    """
+    groups: dict[tuple[str, str], list[tuple[FloatArray, FloatArray]]] = {}
+    for body, acting in forces.found._loads:
+        groups.setdefault((acting.element.partition("(")[0], body), []).append((forces.place(acting.load.point), forces.one(acting.force)))
+    for (element, body), parts in groups.items():
+        places, each_of = np.array([place for place, _ in parts]), np.array([force for _, force in parts])
+        force, middle = each_of.sum(axis=0), places.mean(axis=0)
+        arms = places - middle
+        moment = float((arms[:, 0] * each_of[:, 1] - arms[:, 1] * each_of[:, 0]).sum())
+        square = float(force @ force)
+        if square <= 1e-18 * float((each_of**2).sum()):
+            yield element, body, middle, np.zeros(2), moment
+        else:
+            yield element, body, middle + moment * np.array([-force[1], force[0]]) / -square, force, 0.0
+
+
+def drawn_body(found: PinForces, name: str) -> str:
+    """Return the full name of a body whose forces are drawn; DefinitionError, with the bodies there are, for any other."""
+    body = found.body_named(name)
+    if body not in found.on_bodies:
+        raise unknown("Body", name, found.on_bodies, where=found.motion.plan.title)
+    return body
+
+
+def imbalance(layer: ArrowLayer) -> tuple[FloatArray, float]:
+    """Return the sum of all forces of a layer, shape (2,) [N], and of their moments about the first one's point [Nm]."""
+    if not layer.arrows:
+        return np.zeros(2), sum(each.moment for each in layer.turning)
+    origin = layer.arrows[0].at
+    total = sum((each.vector for each in layer.arrows), np.zeros(2))
+    arms = [each.at - origin for each in layer.arrows]
+    moments = [arm[0] * each.vector[1] - arm[1] * each.vector[0] for arm, each in zip(arms, layer.arrows, strict=True)]
+    return total, float(sum(moments) + sum(each.moment for each in layer.turning))

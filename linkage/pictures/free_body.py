@@ -1,0 +1,198 @@
+"""A free body: one body of a mechanism alone with all forces on it, and these head to tail, where they close."""
+
+from __future__ import annotations
+
+from typing import final
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from ..motion import Motion
+from ..program import FloatArray
+from . import style
+from .arrows import (
+    ArrowLayer,
+    VectorArrow,
+    Wording,
+    arrow_outline,
+    colour_keys,
+    draw_arrows,
+    grown,
+    place_wordings,
+    scale_bar,
+    significant,
+    wordings,
+)
+from .drawing import BodyPart, StraightPart, pin
+from .force_arrows import FRAME, ForceQuestion, ForcesAt, body_layer, drawn_body, forces_at_pose, imbalance
+from .labels import LabelPart, offsets
+from .overlays import sheet_note
+from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, title
+from .scene import Bounds, Places, Scene
+from .shapes import hull, segment
+from .sheet import Picture, fitted_to, points_a_metre, sheet
+from .strokes import stroke_words
+from .style import STRONG
+from .symbols import CylinderPart, MovingPart, polygon
+
+FREE_WIDTH, FREE_HEIGHT = 11.0, 6.0
+"""The figure's size [inch]."""
+POLYGON = 3.4
+"""The width of the force polygon's panel [inch]."""
+FREE_SHARE = 0.3
+"""The largest force's arrow over the body."""
+
+
+def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure:
+    """Return a figure of one body alone at a pose, a flat index, with all forces on it, and beside it their polygon."""
+    scene = Scene(motion)
+    forces = forces_at_pose(motion, pose, question)
+    body = drawn_body(forces.found, question.body)
+    layer = body_layer(forces, body) if not forces.refusal else ArrowLayer((), "kN", 1e3, ())
+    at = scene.at(pose)
+    free = FreeBodyPicture(body, points_on(forces, body), scene, at, layer)
+    figure, ax, beside = free_page(free.box())
+    free.draw(ax)
+    draw_polygon(beside, layer)
+    sheet_note(ax, [f"No forces here: {forces.refusal}"] if forces.refusal else forces.found.remarks)
+    where = [stroke_words(motion.plan, name, float(values.ravel()[pose])) for name, values in motion.strokes.items()]
+    title(figure, f"{motion.plan.heading}: forces on {body}", ", ".join(where))
+    legend_row(ax, *ax.get_legend_handles_labels())
+    footnote(figure, closing_words(layer, body))
+    return figure
+
+
+def points_on(forces: ForcesAt, body: str) -> tuple[str, ...]:
+    """Return the points of a body: those it is made of, of the frame all at which something acts."""
+    structure = forces.found._structure
+    for each in structure.bodies:
+        if each.name == body:
+            return each.points
+    return tuple(forces.found.on_bodies[body])
+
+
+def closing_words(layer: ArrowLayer, body: str) -> str:
+    """Return how well the forces on a body balance, in words."""
+    if not layer.largest > 0.0:
+        return ""
+    total, moment = imbalance(layer)
+    force, arm = float(np.hypot(*total)), max(float(np.hypot(*(each.at - layer.arrows[0].at))) for each in layer.arrows)
+    if body == FRAME:
+        value = significant(force / layer.factor)
+        return f"The ground holds the frame: what is left over, {value} {layer.unit}, is the sum of all loads."
+    parts = force / layer.largest, abs(moment) / (layer.largest * (arm or 1.0))
+    return f"Sum of the forces 0 {layer.unit}, of their moments 0 {layer.unit} m (to {max(*parts, 1e-17):.0e} of the largest)"
+
+
+def free_page(box: Bounds) -> tuple[Figure, Axes, Axes]:
+    """Return a figure with a sheet that fits a box [m], and beside it empty axes with equal scales."""
+    figure = Picture(figsize=(FREE_WIDTH, FREE_HEIGHT), dpi=style.DPI, facecolor=style.PAPER)
+    FigureCanvasAgg(figure)
+    wide, high = FREE_WIDTH - POLYGON - LEFT - 2.0 * RIGHT, FREE_HEIGHT - BOTTOM - TOP
+    ax = figure.add_axes((LEFT / FREE_WIDTH, BOTTOM / FREE_HEIGHT, wide / FREE_WIDTH, high / FREE_HEIGHT))
+    sheet(ax, box)
+    beside = figure.add_axes((1.0 - (POLYGON + RIGHT) / FREE_WIDTH, BOTTOM / FREE_HEIGHT, POLYGON / FREE_WIDTH, high / FREE_HEIGHT))
+    beside.set_axis_off()
+    return figure, ax, beside
+
+
+@final
+class FreeBodyPicture:
+    """One body at a pose with the forces on it."""
+
+    def __init__(self, body: str, points: tuple[str, ...], scene: Scene, at: Places, layer: ArrowLayer) -> None:
+        self.body, self.points, self.scene, self.at, self.layer = body, points, scene, at, layer
+        places = np.array([at[name] for name in points] + [each.at for each in layer.arrows])
+        self.places = places[np.isfinite(places).all(axis=1)].reshape(-1, 2)
+        low, high = self.places.min(axis=0, initial=np.inf), self.places.max(axis=0, initial=-np.inf)
+        long = float(np.max(high - low, initial=0.0)) if self.places.size else 0.0
+        self.extent = long if long > 0.0 else 20.0 * scene.size
+        self.size = 0.02 * self.extent
+        middle = 0.5 * (low + high) if self.places.size else np.zeros(2)
+        half = 0.5 * np.maximum(high - low, 0.45 * self.extent) if self.places.size else np.full(2, 0.5 * self.extent)
+        self.bare: Bounds = (middle[0] - half[0], middle[0] + half[0], middle[1] - half[1], middle[1] + half[1])
+        self.scale = layer.scale((0.0, self.extent, 0.0, self.extent), FREE_SHARE)
+
+    def box(self) -> Bounds:
+        """Return the sheet's box with room for all arrows [m]."""
+        pad = 5.0 * self.size
+        left, right, bottom, top = self.bare
+        return grown((left - pad, right + pad, bottom - pad, top + pad), self.layer.tips(self.scale), pad)
+
+    def draw(self, ax: Axes) -> None:
+        """Draw it."""
+        for part in self.parts(ax):
+            part.update(self.at)
+        outline = self.outline()
+        covered = draw_arrows(ax, self.layer, self.scale, self.size)
+        self.name_points(ax, np.concatenate([outline, covered]))
+        everything = np.concatenate([outline, covered, covered])
+        scale_bar(ax, self.layer, self.scale, everything)
+        place_wordings(ax, wordings(self.layer, self.scale, self.size), everything)
+        for line in colour_keys(self.layer):
+            ax.add_line(line)
+
+    def parts(self, ax: Axes) -> list[MovingPart]:
+        """Return the body's own parts: a plate or a bar, a cylinder, a spring, a block, and its pins."""
+        own, parts = set(self.points), list[MovingPart]()
+        rams = [each for each in self.scene.rams if {each.P, each.Q} == own]
+        straights = [each for each in self.scene.straights if {each.P, each.Q} == own]
+        if rams:
+            parts += [CylinderPart(ax, each, self.size, STRONG) for each in rams]
+        elif straights:
+            parts += [StraightPart(ax, each, STRONG) for each in straights]
+        elif len(self.points) == 1:
+            x, y = self.at[self.points[0]]
+            half = 1.6 * self.size
+            block = polygon(ax, STRONG.level, facecolor=style.RULE, edgecolor=style.INK, linewidth=style.OUTLINE)
+            block.set_xy([(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)])
+        elif self.body != FRAME:
+            places = np.array([self.at[name] for name in self.points])
+            parts.append(BodyPart(ax, tuple(self.points[i] for i in hull(places)), self.size, style.BODIES[0], STRONG))
+        return [*parts, *(pin(ax, name, self.size, STRONG) for name in self.points)]
+
+    def outline(self) -> FloatArray:
+        """Return points that cover the body, shape (n, 2) [m]."""
+        places = [self.at[name] for name in self.points]
+        lines = [segment(P, Q, 0.8 * self.size) for P, Q in zip(places, [*places[1:], places[0]], strict=True) if not np.array_equal(P, Q)]
+        return np.concatenate([*lines, np.array(places)])
+
+    def name_points(self, ax: Axes, covered: FloatArray) -> None:
+        """Write the points' names where they cover nothing."""
+        scale = points_a_metre(ax)
+        own = {name: self.at[name] for name in self.points}
+        spots = offsets(list(own), [own], [covered], scale, 1.15 * self.size * scale + 1.5)
+        for name, spot in spots.items():
+            LabelPart(ax, name, spot, STRONG).update(self.at)
+
+
+def draw_polygon(ax: Axes, layer: ArrowLayer) -> None:
+    """Draw the forces head to tail, in the order of their directions; they close where the body is in equilibrium."""
+    chain = sorted((each for each in layer.arrows if each.length > 1e-9 * layer.largest), key=direction)
+    if not chain:
+        return
+    ends = np.cumsum([np.zeros(2), *(each.vector / layer.factor for each in chain)], axis=0)
+    low, high = ends.min(axis=0), ends.max(axis=0)
+    pad = 0.22 * float(np.max(high - low))
+    box = fitted_to(ax, (low[0] - pad, high[0] + pad, low[1] - pad, high[1] + pad))
+    ax.set(xlim=box[:2], ylim=box[2:])
+    ax.set_aspect("equal", adjustable="box")
+    size = 0.012 * max(box[1] - box[0], box[3] - box[2])
+    texts, covered = [], []
+    for each, tail, tip in zip(chain, ends, ends[1:], strict=False):
+        edge = style.mixed(each.colour, style.INK, 0.35)
+        patch = polygon(ax, 10.0, facecolor=each.colour, edgecolor=edge, linewidth=0.6, joinstyle="round")
+        patch.set_xy(arrow_outline(tail, tip, size))
+        patch.set_gid(f"polygon {each.name}")
+        covered.append(np.linspace(tail, tip, 24))
+        across = np.array([tip[1] - tail[1], tail[0] - tip[0]]) / float(np.hypot(*(tip - tail)))
+        texts.append(Wording(layer.words(each), 0.5 * (tail + tip), across, edge, f"polygon {each.name}"))
+    place_wordings(ax, texts, np.concatenate(covered))
+    ax.text(0.5, 1.0, "head to tail", transform=ax.transAxes, fontsize=style.TEXT, color=style.MUTED, ha="center", va="bottom")
+
+
+def direction(arrow: VectorArrow) -> float:
+    """Return the direction of an arrow [rad]."""
+    return float(np.arctan2(arrow.vector[1], arrow.vector[0]))

@@ -1,0 +1,310 @@
+"""What is laid over a mechanism at one pose: its forces, the velocities of its points, the poles of its bodies."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, final
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ..errors import DefinitionError, SingularError, cited, unwarned
+from ..motion import Motion, rates_of, whole_body
+from ..program import FloatArray
+from . import style
+from .arrows import (
+    ArrowLayer,
+    VectorArrow,
+    Wording,
+    colour_keys,
+    draw_arrows,
+    grown,
+    place_wordings,
+    scale_bar,
+    significant,
+    wordings,
+)
+from .force_arrows import ForceQuestion, force_layer, forces_at_pose, refusal
+from .paper import footnote
+from .scene import Bounds
+
+VELOCITY, POLE = "#9a3a86", "#8a5a00"
+"""The colours of velocities and of poles."""
+
+NOTE_WIDTH, NOTE_LINE = 130, 0.02
+"""About how many letters of a note stand in a line, and a line's height over the sheet's width."""
+
+BEYOND = 0.6
+"""A pole further outside what is drawn than this part of it is told in words."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Overlays:
+    """What to lay over a mechanism: forces, velocities at stroke rates, poles of bodies."""
+
+    forces: ForceQuestion | None = None
+    rates: Mapping[str, Any] | None = None
+    pole: Any = None
+
+    def __bool__(self) -> bool:
+        return self.forces is not None or self.rates is not None or self.pole not in (None, False)
+
+    def over(self, motion: Motion, pose: int, box: Bounds) -> Overlay:
+        """Return what is laid over a motion's pose, a flat index, on a sheet that shows a box [m]."""
+        layers, notes = [], []
+        if self.rates is not None:
+            rates_of("velocities", self.rates, motion.strokes, motion.shape, motion.plan.title)
+        if not motion.reached.ravel()[pose]:
+            return Overlay((), (), (refusal(motion, pose, ForceQuestion()),), box)
+        if self.forces is not None:
+            forces = forces_at_pose(motion, pose, self.forces)
+            if forces.refusal:
+                notes.append(f"No forces here: {forces.refusal}")
+            else:
+                layers.append(force_layer(forces))
+                notes += [remark.replace("rates=dict(", "velocities=dict(") for remark in forces.found.remarks]
+        if self.rates is not None:
+            layers.append(velocity_layer(motion, pose, self.rates))
+            notes += layers[-1].notes
+        marks = pole_marks(motion, pose, self.pole, self.rates) if self.pole not in (None, False) else []
+        return Overlay(tuple(layers), tuple(marks), tuple(notes), box)
+
+    def centrodes(self, ax: Axes, swept: Motion) -> None:
+        """Draw the paths of the poles that are asked for over a motion."""
+        if self.pole not in (None, False) and swept.reached.size > 2 and not any(map(np.ndim, (self.rates or {}).values())):
+            for body, other in asked_poles(swept, self.pole):
+                centrode(ax, swept, body, other, self.rates)
+
+
+NO_OVERLAYS = Overlays()
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class PoleMark:
+    """A pole: its name, its place (2,) [m], the points that thin lines go to; or, where there is none, the words why."""
+
+    name: str
+    at: FloatArray
+    ends: tuple[FloatArray, ...] = ()
+    words: str = ""
+
+    def is_near(self, box: Bounds) -> bool:
+        """Return whether a sheet can be made large enough for it."""
+        left, right, bottom, top = box
+        room = BEYOND * max(right - left, top - bottom)
+        x, y = self.at
+        return bool(np.isfinite(self.at).all() and left - room < x < right + room and bottom - room < y < top + room)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Overlay:
+    """What is laid over one pose on a sheet: arrows to their scales, poles, notes."""
+
+    layers: tuple[ArrowLayer, ...]
+    marks: tuple[PoleMark, ...]
+    notes: tuple[str, ...]
+    sheet: Bounds
+
+    def box(self, size: float) -> Bounds:
+        """Return the sheet made larger, so that all arrows and near poles are on it; `size` is that of a pin [m]."""
+        box = self.sheet
+        for layer in self.layers:
+            box = grown(box, layer.tips(layer.scale(self.sheet)), 3.0 * size)
+        near = [mark.at for mark in self.marks if mark.is_near(self.sheet)]
+        left, right, bottom, top = grown(box, np.array(near).reshape(-1, 2), 3.0 * size)
+        lines = sum(len(textwrap.wrap(sentence, NOTE_WIDTH)) for sentence in self.sentences)
+        return left, right, bottom, top + lines * NOTE_LINE * (right - left)
+
+    @property
+    def sentences(self) -> list[str]:
+        """What the picture says in words: what is not known here, and of poles that it does not show where they are."""
+        return [*self.notes, *(words for mark in self.marks for words in ([mark.words] if mark.words else far_words(mark, self.sheet)))]
+
+    def covered(self) -> FloatArray:
+        """Return points along the arrows, where no name should stand, shape (n, 2) [m]."""
+        lines = [np.empty((0, 2))]
+        for layer in self.layers:
+            share = np.linspace(0.0, 1.0, 24)[:, None]
+            lines += [each.at + share * layer.scale(self.sheet) * each.vector for each in layer.arrows]
+        return np.concatenate([*lines, *(mark.at[None] for mark in self.marks if mark.is_near(self.sheet))])
+
+    def draw(self, ax: Axes, size: float, keep_clear: FloatArray) -> None:
+        """Draw it on a sheet; `keep_clear` are the points of the mechanism that no value should cover [m]."""
+        covered, texts = [keep_clear], []
+        for layer in self.layers:
+            scale = layer.scale(self.sheet)
+            covered.append(np.repeat(draw_arrows(ax, layer, scale, size), 2, axis=0))
+            texts += wordings(layer, scale, size)
+        for mark in self.marks:
+            texts += draw_pole(ax, mark, self.sheet, size)
+            covered.append(np.repeat(mark.at[None], 12 * mark.is_near(self.sheet), axis=0))
+        everything = np.concatenate(covered)
+        for place, layer in enumerate(self.layers):
+            scale_bar(ax, layer, layer.scale(self.sheet), everything, place)
+        sheet_note(ax, self.sentences)
+        figure = ax.figure.figure
+        if figure is not None:
+            footnote(figure, " ".join(layer.sense for layer in self.layers if layer.sense))
+        place_wordings(ax, texts, everything)
+        for line in (key for layer in self.layers for key in colour_keys(layer)):
+            ax.add_line(line)
+
+
+def sheet_note(ax: Axes, sentences: Sequence[str]) -> None:
+    """Write sentences in a warning colour into the sheet's upper left corner."""
+    if sentences:
+        figure = ax.figure.figure
+        assert figure is not None
+        across = int(ax.get_position(original=True).width * figure.get_figwidth() * 72.0 / (0.5 * style.SMALL))
+        lines = [line for sentence in sentences for line in textwrap.wrap(sentence, across)]
+        text = ax.text(
+            0.012, 0.985, "\n".join(lines), transform=ax.transAxes, fontsize=style.SMALL, color=style.ACCENT, ha="left", va="top",
+            zorder=21.0,            bbox={"facecolor": style.PAPER, "edgecolor": "none", "alpha": 0.85, "pad": 1.5},
+        )  # fmt: skip
+        text.set_gid("note")
+
+
+# Velocities of the points, from rates of the strokes.
+
+
+def velocity_layer(motion: Motion, pose: int, rates: Mapping[str, Any]) -> ArrowLayer:
+    """Return the velocities of the moving points at a pose as arrows, in m/s; in mm/s where all are slower than 0.1 m/s."""
+    arrows = []
+    at = one_pose(motion, pose)
+    notes: tuple[str, ...] = ()
+    for name in motion.plan.moving:
+        if name not in motion.plan.points:
+            continue
+        try:
+            v = velocity_at(motion, at, pose, name, rates)
+        except SingularError as error:
+            if motion.unreachable != "nan":
+                raise
+            notes = (f"No velocities here: {error}",)
+            continue
+        if np.isfinite(v).all():
+            arrows.append(VectorArrow(f"velocity {name}", at[name], v, VELOCITY))
+    most = max((each.length for each in arrows), default=0.0)
+    shown = tuple(each for each in arrows if each.length > 1e-9 * most)
+    unit = ("m/s", 1.0) if most >= 0.1 else ("mm/s", 1e-3)
+    words = ", ".join(f"{name} {rate_words(motion, name, rate)}" for name, rate in rates.items())
+    return ArrowLayer(shown, *unit, ((VELOCITY, f"velocity at {words}"),), notes=notes)
+
+
+def velocity_at(motion: Motion, at: Motion, pose: int, name: str, rates: Mapping[str, Any]) -> FloatArray:
+    """Return a point's velocity at a pose, shape (2,) [m/s]; rates may be arrays over the poses."""
+    if any(np.ndim(rate) for rate in rates.values()):
+        return motion.velocity(name, rates).reshape(2, -1)[:, pose]
+    return at.velocity(name, rates)
+
+
+def rate_words(motion: Motion, stroke: str, rate: Any) -> str:
+    """Return a stroke's rate in words."""
+    if np.ndim(rate):
+        return "as given"
+    turns = motion.plan.strokes[stroke].name in motion.plan.turning
+    return f"{float(rate):.3g} {'rad' if turns else 'm'}/s"
+
+
+def one_pose(motion: Motion, pose: int) -> Motion:
+    """Return a motion at one of its poses alone: what is refused there raises."""
+    strokes = {name: np.array(values.ravel()[pose]) for name, values in motion.strokes.items()}
+    with unwarned():
+        return motion.moved(strokes) if not motion.reached.ravel()[pose] else Motion(motion.plan, motion.designs, strokes)
+
+
+# Poles of bodies.
+
+
+def pole_marks(motion: Motion, pose: int, asked: Any, rates: Mapping[str, Any] | None) -> list[PoleMark]:
+    """Return the poles that `draw(pole=...)` asks for at a pose."""
+    at = one_pose(motion, pose)
+    if rates is not None and any(np.ndim(rate) for rate in rates.values()):
+        rates = {name: float(np.broadcast_to(rate, motion.shape).ravel()[pose]) for name, rate in rates.items()}
+    pairs = list(asked_poles(motion, asked))
+    return [mark for body, other in pairs for mark in poles_of_pair(at, body, other, rates)]
+
+
+def asked_poles(motion: Motion, asked: Any) -> Iterator[tuple[str, str]]:
+    """Yield the pairs of bodies whose poles are asked for: True means every body that no fixed pin holds."""
+    title = motion.plan.title
+    if asked is True:
+        fixed, *moving = motion.plan.links
+        free = [body.name for body in moving if not set(body.points) & set(fixed.points)] or [body.name for body in moving]
+        yield from ((name, "frame") for name in free)
+    elif isinstance(asked, str):
+        yield asked, "frame"
+    elif isinstance(asked, (list, tuple)) and len(asked) == 2 and all(isinstance(each, str) for each in asked):
+        yield str(asked[0]), str(asked[1])
+    else:
+        raise DefinitionError(f'{title}: pole={cited(asked)}: a body, pole="EDF", two of them, pole=("EDF", "FKG"), or True is expected.')
+
+
+def poles_of_pair(at: Motion, body: str, other: str, rates: Mapping[str, Any] | None) -> Iterator[PoleMark]:
+    """Yield the pole of a body against the frame; of two bodies their pole and each one's own, which stand in one line."""
+    if other == "frame":
+        yield mark_of(at, body, other, rates, tuple(at[name] for name in whole_body(at.plan, body)))
+        return
+    own = [mark_of(at, each, "frame", rates, ()) for each in (body, other) if each != "frame"]
+    ends = tuple(mark.at for mark in own if np.isfinite(mark.at).all())
+    yield mark_of(at, body, other, rates, ends)
+    yield from own
+
+
+def mark_of(at: Motion, body: str, other: str, rates: Mapping[str, Any] | None, ends: tuple[FloatArray, ...]) -> PoleMark:
+    """Return one pole; where it is at infinity or everywhere, the words for that."""
+    if rates is None and len(at.strokes) > 1:
+        names = ", ".join(f"{name}=..." for name in at.strokes)
+        raise DefinitionError(f"{at.plan.title}: several strokes move its bodies; say how, velocities=dict({names}).")
+    place = at.pole(body, other, rates=rates)
+    against = "" if other == "frame" else f" against {other}"
+    name = f"pole of {body}{against}"
+    if np.isinf(place).any():
+        return PoleMark(name, place, (), f"{body} only translates{against} here: its pole is at infinity, square to its velocity.")
+    if np.isnan(place).any():
+        return PoleMark(name, place, (), f"{body} stands still{against} here: each of its points is a pole.")
+    return PoleMark(name, place, ends)
+
+
+def draw_pole(ax: Axes, mark: PoleMark, sheet: Bounds, size: float) -> list[Wording]:
+    """Draw a pole, with thin lines to its body's points, and return the name to write beside it."""
+    if mark.words:
+        return []
+    for end in mark.ends:
+        line = ax.plot(*np.array([mark.at, end]).T, color=POLE, linewidth=style.THIN, dashes=(7, 3, 1.5, 3), zorder=15.0)
+        line[0].set_gid(f"{mark.name} ray")
+    if not mark.is_near(sheet):
+        return []
+    point = ax.plot(
+        *mark.at[:, None], marker="o", markersize=8.5, markerfacecolor=style.PAPER, markeredgecolor=POLE, markeredgewidth=1.6, zorder=17.0
+    )
+    point[0].set_gid(mark.name)
+    ax.plot(*mark.at[:, None], marker="+", markersize=12.0, markeredgecolor=POLE, markeredgewidth=1.2, zorder=17.1)
+    return [Wording(mark.name, mark.at, np.array([0.7, 0.7]), POLE, mark.name)]
+
+
+def far_words(mark: PoleMark, sheet: Bounds) -> list[str]:
+    """Return where a pole is that the sheet does not show, in words."""
+    if mark.is_near(sheet):
+        return []
+    left, right, bottom, top = sheet
+    away = mark.at - np.array([0.5 * (left + right), 0.5 * (bottom + top)])
+    x, y = (significant(part, 4).replace("-", "\N{MINUS SIGN}") for part in mark.at.tolist())
+    degrees = f"{float(np.degrees(np.arctan2(away[1], away[0]))):.0f}".replace("-", "\N{MINUS SIGN}")
+    return [f"The {mark.name} is off the sheet, {significant(float(np.hypot(*away)))} m away towards {degrees}°: x = {x} m, y = {y} m."]
+
+
+def centrode(ax: Axes, swept: Motion, body: str, other: str, rates: Mapping[str, Any] | None) -> None:
+    """Draw the path of a body's pole over a motion as a thin line, where the sheet shows it."""
+    with unwarned():
+        path = swept.pole(body, other, rates=rates).reshape(2, -1)
+    path = np.where(np.isfinite(path), path, np.nan)
+    jumps = np.hypot(*np.diff(path)) > 3.0 * np.hypot(np.ptp(ax.get_xlim()), np.ptp(ax.get_ylim()))
+    path[:, 1:][:, jumps] = np.nan
+    line = ax.plot(*path, color=POLE, linewidth=1.1, linestyle=(0, (1.0, 1.6)), zorder=14.0)
+    line[0].set_gid(f"centrode of {body}")

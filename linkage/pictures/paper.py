@@ -1,0 +1,68 @@
+"""The paper of a picture: a sheet with room around it, its title, what lines mean, and what is not shown."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from . import style
+from .scene import Bounds
+from .sheet import Picture, sheet
+
+WIDTH = 9.0
+LEAST, MOST = 4.2, 10.0
+LEFT, RIGHT, BOTTOM, TOP = 0.75, 0.2, 0.6, 0.7
+"""The figure's width, the range of its height, and the room around the sheet [inch]."""
+
+ROW = 0.215
+"""The height of a further row of a legend [inch]."""
+
+
+def empty_page(box: Bounds, rows: int = 1) -> tuple[Figure, Axes]:
+    """Return a figure with a sheet that fits a box [m], with room above it for so many rows of a legend."""
+    left, right, bottom, top = box
+    wide = WIDTH - LEFT - RIGHT
+    high = float(np.clip(wide * (top - bottom) / (right - left), LEAST - BOTTOM - TOP, MOST - BOTTOM - TOP))
+    height = high + BOTTOM + TOP + ROW * (rows - 1)
+    figure = Picture(figsize=(WIDTH, height), dpi=style.DPI, facecolor=style.PAPER)
+    FigureCanvasAgg(figure)
+    ax = figure.add_axes((LEFT / WIDTH, BOTTOM / height, wide / WIDTH, high / height))
+    sheet(ax, box)
+    return figure, ax
+
+
+def title(figure: Figure, text: str, beside: str = "") -> None:
+    """Write the title, and at its right end what stands beside it."""
+    top = 1.0 - 0.24 / float(figure.get_figheight())
+    figure.text(LEFT / float(figure.get_figwidth()), top, text, fontsize=style.TITLE, fontweight="bold", color=style.INK, va="center")
+    if beside:
+        figure.text(
+            1.0 - RIGHT / float(figure.get_figwidth()), top, beside, fontsize=style.TEXT, color=style.MUTED, va="center", ha="right"
+        )
+
+
+def remark(figure: Figure, ax: Axes, text: str) -> None:
+    """Write in a warning colour, above the sheet's right end, what the picture does not show."""
+    if text:
+        level = ax.get_position(original=True).y1 + 0.13 / float(figure.get_figheight())
+        figure.text(1.0 - RIGHT / WIDTH, level, text, fontsize=style.TEXT, color=style.ACCENT, va="center", ha="right")
+
+
+def footnote(figure: Figure, text: str) -> None:
+    """Write in small letters, below the sheet's right end, how to read the picture."""
+    level = 0.11 / float(figure.get_figheight())
+    figure.text(1.0 - RIGHT / float(figure.get_figwidth()), level, text, fontsize=style.SMALL, color=style.MUTED, va="center", ha="right")
+
+
+def legend_row(ax: Axes, keys: Sequence[Any], texts: Sequence[str], columns: int = 6) -> None:
+    """Write what lines mean in a row above the sheet; what does not fit into so many columns stands in further rows."""
+    ax.legend(
+        keys, texts, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, frameon=False,
+        borderaxespad=0.0, borderpad=0.25, fontsize=style.TEXT, labelcolor=style.INK,
+        handlelength=1.6, columnspacing=1.8, handletextpad=0.6,
+    )  # fmt: skip

@@ -1,0 +1,188 @@
+"""A program as JavaScript in as few letters as it takes: for pages that carry it in one file.
+
+An operation that is read once stands where it is read; every other has a name of a letter or two. Nothing is worked out in another order or
+another way, so that the numbers are those of the program. Systems of equations are solved where the page runs, angles are continued there:
+`MATHS` and `PARTS` say by which functions.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from string import ascii_lowercase, ascii_uppercase
+from types import MappingProxyType
+from typing import final
+
+from .foreign import number_text
+from .node import Level, Node
+from .schedule import ancestors, lowered
+
+MATHS: Mapping[str, str] = MappingProxyType(
+    {"sqrt": "Q", "sin": "S", "cos": "C", "tan": "T", "exp": "E", "log": "L", "power": "P", "absolute": "A", "arctan2": "X"}
+)
+"""What Math's functions are called."""
+PARTS: Mapping[str, str] = MappingProxyType({"minimum": "I", "maximum": "M", "sign": "G", "solve": "J", "turns": "U"})
+"""What the functions are called that JavaScript has not: least, greatest and sign with NaN passed on, a system, a continued angle."""
+KEPT = frozenset({*MATHS.values(), *PARTS.values(), "V", "do", "if", "in", "of", "as", "is"})
+DEEP = 40
+"""An operation nested so deep has a name."""
+SUM, PRODUCT, UNARY, ATOM, CHOICE = 1, 2, 3, 4, 0
+SIGNS: Mapping[str, tuple[str, int]] = MappingProxyType(
+    {"add": ("+", SUM), "subtract": ("-", SUM), "multiply": ("*", PRODUCT), "divide": ("/", PRODUCT)}
+)
+
+
+def number(value: float) -> str:
+    """Return a number in few letters: `.5`, `2`, `1e-9`."""
+    text = number_text(value, "Infinity", "NaN")
+    if "e" in text:
+        digits, _, power = text.partition("e")
+        return f"{digits.removesuffix('.0')}e{int(power)}"
+    text = text.removesuffix(".0")
+    return text.replace("0.", ".", 1) if text.lstrip("-").startswith("0.") else text
+
+
+def short_names(taken: Collection[str]) -> Iterator[str]:
+    """Yield names of one letter, then of two, that are not taken."""
+    letters = ascii_lowercase + ascii_uppercase
+    for size in (1, 2, 3):
+        for each in map("".join, product(letters, repeat=size)):
+            if each not in KEPT and each not in taken:
+                yield each
+
+
+@final
+@dataclass
+class Expressions:
+    """Nodes as JavaScript: what has a name is `named`, all else is written where it is read, once; `turning` are angles to continue."""
+
+    named: dict[Node, str]
+    taken: set[str]
+    turning: Mapping[Node, int] = field(default_factory=dict)
+    uses: Counter[Node] = field(default_factory=Counter)
+    depth: dict[Node, int] = field(default_factory=dict)
+    """How deep the text of a node is nested."""
+
+    def statements(self, nodes: Sequence[Node]) -> str:
+        """Return the text that names those of some nodes, in order of dependence, which are read more than once; "" for none."""
+        names, found = short_names(self.taken), []
+        for node in nodes:
+            self.depth[node] = 1 + max([0 if arg.origin in self.named else self.depth.get(arg.origin, 0) for arg in node.args])
+            if self.has_name(node):
+                text = self.operation(node)[0]
+                self.named[node] = name = next(names)
+                self.taken.add(name)
+                found.append(f"{name}={text}")
+        return f"const {','.join(found)};" if found else ""
+
+    def has_name(self, node: Node) -> bool:
+        """Return whether an operation has to stand by itself: read several times, or done however the rest turns out."""
+        return self.uses[node] > 1 or node.op == "solve" or node in self.turning or self.depth[node] > DEEP
+
+    def read(self, node: Node, least: int = CHOICE) -> str:
+        """Return a node as an operand that binds at least so strongly."""
+        node = node.origin
+        if node.op == "constant":
+            text = number(node.value)
+            return f"({text})" if text.startswith("-") and least > SUM else text
+        if node in self.named:
+            return self.named[node]
+        text, binds = self.operation(node)
+        return f"({text})" if binds < least else text
+
+    def operation(self, node: Node) -> tuple[str, int]:
+        """Return a node's operation, and how strongly it binds."""
+        args = node.args
+        if node.op in SIGNS:
+            sign, binds = SIGNS[node.op]
+            return f"{self.read(args[0], binds)}{sign}{self.read(args[1], binds + 1)}", binds
+        if node.op == "negative":
+            return f"-{self.read(args[0], ATOM)}", SUM
+        if node.op == "reciprocal":
+            return f"1/{self.read(args[0], UNARY)}", PRODUCT
+        if node.op == "square":
+            return f"{self.read(args[0])}*{self.read(args[0])}", PRODUCT
+        if node.op == "pick":
+            a, b = (self.read(arg, SUM) for arg in args[:2])
+            x, y = map(self.read, args[2:])
+            return f"{a}<={b}?{x}:{y}", CHOICE
+        if node.op == "component":
+            return f"{self.read(args[0])}[{int(args[1].value)}]", ATOM
+        given = ",".join(map(self.read, args))
+        if node.op == "solve":
+            return f"{PARTS['solve']}([{given}])", ATOM
+        text = f"{MATHS[node.op] if node.op in MATHS else PARTS[node.op]}({given})"
+        return (f"{PARTS['turns']}({self.turning[node]},{text})" if node in self.turning else text), ATOM
+
+
+def counted(results: Sequence[Node], nodes: Sequence[Node]) -> Counter[Node]:
+    """Return how often each node is read by others and by the results; what a square reads counts twice."""
+    uses = Counter(each.origin for each in results)
+    for node in nodes:
+        uses.update(arg.origin for arg in node.args)
+        if node.op == "square":
+            uses[node.args[0].origin] += 1
+    return uses
+
+
+CONTINUED = f"const u=[],{PARTS['turns']}=(k,a)=>{{a-=V*Math.round((a-(u[k]??a))/V);if(a===a)u[k]=a;return a}};"
+"""Angles continued from pose to pose, NaN passed over; V is a turn."""
+
+
+@final
+@dataclass(frozen=True)
+class Inputs:
+    """How inputs are read: the dimensions `d[k]`, all else that is given `p[k]`, by their places there."""
+
+    design: Mapping[str, int]
+    pose: Mapping[str, int]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.design or name in self.pose
+
+    def read(self, node: Node) -> str:
+        """Return an input's text."""
+        name = str(node.value)
+        return f"d[{self.design[name]}]" if name in self.design else f"p[{self.pose[name]}]"
+
+
+def arrow(results: Sequence[Node], inputs: Inputs, turning: Sequence[Node] = ()) -> str:
+    """Return `d=>{...;return p=>{...;return[...]}}`: the design's part is worked out once, angles are continued from pose to pose."""
+    results, angles = (found := lowered([*results, *turning]))[: len(results)], found[len(results) :]
+    nodes = [node for node in ancestors(results) if node.op != "constant"]
+    given = [node for node in nodes if node.op == "input"]
+    order = {node: place for place, node in enumerate(angles)}
+    writer = Expressions({}, {"d", "p", "u"}, order, uses=counted(results, nodes))
+    own = [node for node in nodes if node.level is Level.DESIGN]
+    moving = [node for node in nodes if node.level is Level.POSE]
+    across = {arg.origin for node in moving for arg in node.args} | {each.origin for each in results}
+    writer.uses.update({node: 2 for node in own if node in across and node.op != "input"})  # once a design, not once a pose
+    texts = []
+    for part in (own, moving):
+        texts.append(named_inputs(writer, [node for node in part if node in given], inputs))
+        texts[-1] += writer.statements([node for node in part if node not in given])
+    ends = ",".join(map(writer.read, results))
+    return f"d=>{{{CONTINUED if order else ''}{texts[0]}return p=>{{{texts[1]}return[{ends}]}}}}"
+
+
+def named_inputs(writer: Expressions, given: Sequence[Node], inputs: Inputs) -> str:
+    """Return the text that names the inputs that are read more than once; the others are read in place."""
+    names, found = short_names(writer.taken), []
+    for node in given:
+        text = inputs.read(node)
+        writer.named[node] = text
+        if writer.uses[node] > 1:
+            writer.named[node] = name = next(names)
+            writer.taken.add(name)
+            found.append(f"{name}={text}")
+    return f"const {','.join(found)};" if found else ""
+
+
+def inside(given: Mapping[Node, str], results: Sequence[Node], outer: Collection[str] = ()) -> str:
+    """Return `{...;return[...]}`, a function's inside: results from nodes that are called so; `outer` are names that mean others there."""
+    results = lowered(results)
+    nodes = [node for node in ancestors(results, given) if node not in given and node.op != "constant"]
+    writer = Expressions(dict(given), {*given.values(), *outer}, {}, uses=counted(results, nodes))
+    return f"{{{writer.statements(nodes)}return[{','.join(map(writer.read, results))}]}}"

@@ -1,0 +1,73 @@
+"""The lines of a DXF drawing, read with ezdxf (extra `cad`)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import DefinitionError, FileError
+
+MOST = 20_000
+"""Corners that are drawn of a drawing; more do not fit into a picture."""
+
+
+def dxf_lines(path: str, layers: Sequence[str] = ()) -> list[npt.NDArray[np.float64]]:
+    """Return the lines of a drawing's model space, shape (n, 2) each, in the drawing's units, curves by short chords.
+
+    FileError where the file cannot be read; DefinitionError without ezdxf, or where no line is on the layers named.
+    """
+    try:
+        from ezdxf import filemanagement, lldxf
+        from ezdxf import path as curves
+    except ImportError:
+        raise DefinitionError(f"{path}: drawings are read with ezdxf; install it by pip install hydrolinkage[cad].") from None
+    if not Path(path).is_file():
+        raise FileError(f"{path}: there is no such file; give the path from where the program runs, or a whole one.")
+    try:
+        space = filemanagement.readfile(path).modelspace()
+    except (OSError, lldxf.const.DXFError) as error:
+        raise FileError(f"{path} is no DXF drawing that can be read: {error}") from error
+    entities = [each for each in unblocked(space) if not layers or each.dxf.layer in layers]
+    span = span_of(list(curves.make_path(each).control_vertices() for each in drawable(entities, curves)))
+    found = [polyline(curves.make_path(each), 1e-3 * span) for each in drawable(entities, curves)]
+    found = [each for each in found if len(each) > 1]
+    if not found:
+        on = f" on {', '.join(layers)}; its layers: {', '.join(sorted({each.dxf.layer for each in unblocked(space)}))}" if layers else ""
+        raise DefinitionError(f"{path}: there is no line{on}.")
+    if sum(map(len, found)) > MOST:
+        raise DefinitionError(f"{path}: {sum(map(len, found))} corners are more than a picture shows, {MOST}; name the layers to take.")
+    return found
+
+
+def unblocked(space: Any) -> Iterator[Any]:
+    """Yield the entities of a space, those of inserted blocks too."""
+    for each in space:
+        if each.dxftype() == "INSERT":
+            yield from unblocked(each.virtual_entities())
+        else:
+            yield each
+
+
+def drawable(entities: Sequence[Any], curves: Any) -> Iterator[Any]:
+    """Yield the entities that are lines or curves."""
+    for each in entities:
+        try:
+            curves.make_path(each)
+        except TypeError:
+            continue
+        yield each
+
+
+def span_of(outlines: Sequence[Any]) -> float:
+    """Return the larger side of the box around some corners; 1 where there is none."""
+    places = np.array([(each.x, each.y) for corners in outlines for each in corners] or [(0.0, 0.0), (1.0, 0.0)])
+    return float(np.ptp(places, axis=0).max()) or 1.0
+
+
+def polyline(path: Any, distance: float) -> npt.NDArray[np.float64]:
+    """Return a path's corners, shape (n, 2), no farther than a distance from its curves."""
+    return np.array([(each.x, each.y) for each in path.flattening(distance)], float).reshape(-1, 2)

@@ -1,0 +1,355 @@
+"""Outlines of what stands around a mechanism: drawn with it, fixed to the frame or carried by a body, and never computed with.
+
+An outline's coordinates are those of what carries it. On two points, `on=("B", "C")`, the first is the origin and x goes to the
+second; on one point, `on="T"`, the axes keep the frame's directions; on nothing they are the frame's own.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, ClassVar, TypeAlias, final
+
+import numpy as np
+import numpy.typing as npt
+
+from ..errors import DefinitionError, cited
+from ..quantities import Member, Number, Operand, Quantity, Reference, Stroke, is_number, label, name_of, needs, quantity, spelled
+from ..quantities.quantity import plain
+from ..steps import Link
+from .dxf import dxf_lines
+
+Array: TypeAlias = npt.NDArray[np.float64]
+Value: TypeAlias = Callable[[Quantity], float]
+"""What gives a quantity's number [SI] for the design that is drawn."""
+Corner: TypeAlias = "Sequence[Operand]"
+"""Two coordinates [m]: numbers, dimensions, expressions of them."""
+
+ROUND = 72  # the corners of a circle
+
+
+class Outline(Member):
+    """A line through corners [m], closed and filled unless it says otherwise: `bucket = Outline([(0, 0), (0.9, 0), (0.5, 0.6)], on="B N")`.
+
+    It is drawn and holds nothing: mobility, plan, forces and kernels do not know it. `on` names what carries it: two points of a body,
+    one point, a link, or nothing for the frame. `hatched` hatches the line on the right of its way, as the ground below one from left
+    to right. Coordinates may follow dimensions, but no stroke: what moves is carried.
+    `Outline.circle`, `.line`, `.dxf` and `.image` make the others.
+    """
+
+    kind = "outline"
+    file_section = "surroundings"
+    argument_kinds: ClassVar[Mapping[str, Any]] = MappingProxyType(
+        {"points": "corners", "at": "corner", "on": "carrier", "angle": "direction"}
+    )
+
+    def __init__(
+        self, points: Sequence[Corner], *, on: Reference | Sequence[Reference] | None = None,
+        closed: bool = True, filled: bool = True, hatched: bool = False,
+    ) -> None:  # fmt: skip
+        self.points = outline_corners(points, "Outline", least=2)
+        self.on = carrier(on, "Outline")
+        self.closed, self.filled, self.hatched = bool(closed), bool(filled) and bool(closed), bool(hatched)
+
+    # -- the other forms -------------------------------------------------------------------------------
+
+    @staticmethod
+    def circle(
+        at: Corner | Reference, radius: Operand, *, on: Reference | Sequence[Reference] | None = None, filled: bool = True
+    ) -> CircleOutline:
+        """Return a circle [m] about a place, or about a point by its name: `wheel = Outline.circle(at=(0, 0.8), radius=R)`."""
+        return CircleOutline(at, radius=radius, on=on, filled=filled)
+
+    @staticmethod
+    def line(*points: Corner, on: Reference | Sequence[Reference] | None = None, hatched: bool = True) -> LineOutline:
+        """Return an open line, hatched on the right of its way: `ground = Outline.line((-1, 0), (3, 0))`."""
+        return LineOutline(points, on=on, hatched=hatched)
+
+    @staticmethod
+    def dxf(
+        path: str | Path, *, on: Reference | Sequence[Reference] | None = None, at: Corner = (0.0, 0.0), angle: Operand = 0.0,
+        scale: float = 1e-3, layers: Sequence[str] = (), filled: bool = False,
+    ) -> DxfOutline:  # fmt: skip
+        """Return the lines of a DXF drawing (extra `cad`): its origin stands `at` [m], turned by `angle` [rad].
+
+        `scale` is metres per unit of the drawing, 1e-3 for millimetres; `layers` names those that are taken, none for all.
+        """
+        return DxfOutline(str(path), on=on, at=at, angle=angle, scale=scale, layers=layers, filled=filled)
+
+    @staticmethod
+    def image(
+        path: str | Path, *, width: Operand, on: Reference | Sequence[Reference] | None = None, at: Corner = (0.0, 0.0),
+        angle: Operand = 0.0, opacity: float = 0.5,
+    ) -> ImageOutline:  # fmt: skip
+        """Return a picture to lie under the mechanism: its lower left corner `at` [m], as wide as `width` [m], turned by `angle` [rad]."""
+        return ImageOutline(str(path), width=width, on=on, at=at, angle=angle, opacity=opacity)
+
+    # -- as a member -----------------------------------------------------------------------------------
+
+    @property
+    def _on(self) -> tuple[Reference, ...]:
+        return self.on
+
+    @property
+    def carriers(self) -> tuple[str, ...]:
+        """The names of the points that carry it: two, one, or none for the frame."""
+        return tuple(map(name_of, self._on))
+
+    def numbers(self) -> tuple[Quantity, ...]:
+        """Return all quantities that it is drawn by."""
+        return tuple(each for corner in self.points for each in corner)
+
+    def parts(self) -> tuple[Reference, ...]:
+        return (*self._on, *(each for each in self.numbers() if not each.is_constant))
+
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
+        """Raise DefinitionError where something else than points carries it, or where its form follows a stroke."""
+        what = f"{title}: {self.name} = {self}"
+        if len(set(self.carriers)) < len(self.carriers):
+            raise DefinitionError(f"{what}: {self.carriers[0]} carries it twice; name two points of the body.")
+        for name in self.carriers:
+            if members[name].kind != "point":
+                raise DefinitionError(f"{what}: {name} is not a point; name two points of the body that carries it.")
+        for each in self.numbers():
+            stroke = stroke_behind(each, members)
+            if stroke:
+                raise DefinitionError(f"{what}: {spelled(each)} follows the stroke {stroke}; give a fixed size, and carry it with on=.")
+
+    def lines(self, value: Value) -> tuple[Array, ...]:
+        """Return its lines in the axes of what carries it, shape (n, 2) each [m]; a closed one does not repeat its first corner."""
+        return (numbers_at(self.points, value),)
+
+    def under(self, value: Value) -> tuple[str, Array, float] | None:
+        """Return a picture's path, its corners from the lower left one, counter-clockwise [m], and how opaque it is; None for lines."""
+        return None
+
+    def options(self) -> dict[str, str]:
+        """Return what is written behind its corners, in so far as it is not the usual."""
+        words = {"closed": "False"} if not self.closed else {} if self.filled else {"filled": "False"}
+        return words | ({"hatched": "True"} if self.hatched else {})
+
+    def __str__(self) -> str:
+        return written("Outline", [f"[{', '.join(map(corner_text, self.points))}]"], self.on, self.options())
+
+
+@final
+class CircleOutline(Outline):
+    """A circle about a place or a point; `Outline.circle` makes it."""
+
+    argument_kinds = MappingProxyType({"at": "centre", "radius": "quantity"})
+
+    def __init__(
+        self, at: Corner | Reference, radius: Operand, *, on: Reference | Sequence[Reference] | None = None, filled: bool = True
+    ) -> None:
+        centre = at if isinstance(at, (str, Member)) else None
+        if centre is not None and on is not None:
+            raise DefinitionError(f"Outline.circle: it stands about {label(centre)} and on={cited(on)} as well; leave on= out.")
+        self.at: Any = centre if centre is not None else corner_of(at, "Outline.circle(at=...)")
+        self.radius = length_above_zero(radius, "Outline.circle(radius=...)")
+        self.on = carrier(on, "Outline.circle")
+        self.closed, self.filled, self.hatched = True, bool(filled), False
+
+    @property
+    def _on(self) -> tuple[Reference, ...]:
+        return self.on if isinstance(self.at, tuple) else (self.at,)
+
+    @property
+    def _centre(self) -> tuple[Quantity, ...]:
+        """The centre's coordinates; none where it is a point."""
+        return self.at if isinstance(self.at, tuple) else ()
+
+    def numbers(self) -> tuple[Quantity, ...]:
+        return (*self._centre, self.radius)
+
+    def lines(self, value: Value) -> tuple[Array, ...]:
+        ways = np.linspace(0.0, 2.0 * np.pi, ROUND, endpoint=False)
+        centre = np.array([value(each) for each in self._centre] or [0.0, 0.0])
+        return (centre + value(self.radius) * np.column_stack([np.cos(ways), np.sin(ways)]),)
+
+    def __str__(self) -> str:
+        place = corner_text(self.at) if isinstance(self.at, tuple) else repr(name_of(self.at))
+        options = {} if self.filled else {"filled": "False"}
+        return written("Outline.circle", [f"at={place}", f"radius={spelled(self.radius)}"], self.on, options)
+
+
+@final
+class LineOutline(Outline):
+    """An open line; `Outline.line` makes it."""
+
+    def __init__(self, points: Sequence[Corner], *, on: Reference | Sequence[Reference] | None = None, hatched: bool = True) -> None:
+        self.points, self.on = outline_corners(points, "Outline.line", least=2), carrier(on, "Outline.line")
+        self.closed, self.filled, self.hatched = False, False, bool(hatched)
+
+    def __str__(self) -> str:
+        return written("Outline.line", list(map(corner_text, self.points)), self.on, {} if self.hatched else {"hatched": "False"})
+
+
+class PlacedFile(Outline):
+    """The base of what is read from a file as it is drawn: where its origin stands, and how it is turned."""
+
+    path: str
+    at: tuple[Quantity, ...]
+    angle: Quantity
+    form: ClassVar[str] = ""
+
+    def _place(self, path: str, on: Any, at: Corner, angle: Operand) -> None:
+        if not path.strip():
+            raise DefinitionError(f"{self.form}: the path of the file is missing.")
+        self.path, self.on = path, carrier(on, self.form)
+        self.at, self.angle = corner_of(at, f"{self.form}(at=...)"), quantity(angle)
+
+    def numbers(self) -> tuple[Quantity, ...]:
+        return (*self.at, self.angle)
+
+    def in_radians(self) -> tuple[Quantity, ...]:
+        return (self.angle,)
+
+    def _placed(self, points: Array, value: Value) -> Array:
+        """Return points of the file [m] where they are drawn."""
+        cos, sin = np.cos(value(self.angle)), np.sin(value(self.angle))
+        return np.asarray(points @ np.array([[cos, sin], [-sin, cos]]) + [value(each) for each in self.at])
+
+    def _placing(self) -> list[str]:
+        """Return how it is placed, in so far as it is not the usual."""
+        at = [] if all(isinstance(each, Number) and each.number == 0.0 for each in self.at) else [f"at={corner_text(self.at)}"]
+        turned = not (isinstance(self.angle, Number) and self.angle.number == 0.0)
+        return at + ([f"angle={spelled(self.angle, measures='angle')}"] if turned else [])
+
+    @abstractmethod
+    def __str__(self) -> str: ...
+
+
+@final
+class DxfOutline(PlacedFile):
+    """The lines of a DXF drawing; `Outline.dxf` makes it."""
+
+    form = "Outline.dxf"
+    argument_kinds = MappingProxyType({"path": "path", "layers": "words"})
+
+    def __init__(
+        self, path: str, *, on: Reference | Sequence[Reference] | None = None, at: Corner = (0.0, 0.0), angle: Operand = 0.0,
+        scale: float = 1e-3, layers: Sequence[str] = (), filled: bool = False,
+    ) -> None:  # fmt: skip
+        self._place(path, on, at, angle)
+        if not is_number(scale) or not scale > 0.0:
+            raise DefinitionError(f"Outline.dxf: scale={cited(scale)} is no size; give metres per unit of the drawing, 1e-3 for mm.")
+        if isinstance(layers, str) or not all(isinstance(each, str) for each in layers):
+            raise DefinitionError(f'Outline.dxf: layers={cited(layers)} is no list of layers; write layers=["0"].')
+        self.scale, self.layers = float(scale), tuple(layers)
+        self.closed, self.filled, self.hatched = False, bool(filled), False
+
+    def lines(self, value: Value) -> tuple[Array, ...]:
+        """Return its lines; FileError where the file cannot be read, DefinitionError where there are no lines in it."""
+        return tuple(self._placed(self.scale * each, value) for each in dxf_lines(self.path, self.layers))
+
+    def __str__(self) -> str:
+        options = {"filled": "True"} if self.filled else {}
+        scale = [] if self.scale == 1e-3 else [f"scale={self.scale!r}"]
+        layers = [f"layers={list(self.layers)!r}"] if self.layers else []
+        return written("Outline.dxf", [repr(self.path), *self._placing(), *scale, *layers], self.on, options)
+
+
+@final
+class ImageOutline(PlacedFile):
+    """A picture under the mechanism; `Outline.image` makes it."""
+
+    form = "Outline.image"
+    argument_kinds = MappingProxyType({"path": "path", "width": "quantity"})
+
+    def __init__(
+        self, path: str, *, width: Operand, on: Reference | Sequence[Reference] | None = None, at: Corner = (0.0, 0.0),
+        angle: Operand = 0.0, opacity: float = 0.5,
+    ) -> None:  # fmt: skip
+        self._place(path, on, at, angle)
+        self.width = length_above_zero(width, "Outline.image(width=...)")
+        if not is_number(opacity) or not 0.0 < opacity <= 1.0:
+            raise DefinitionError(f"Outline.image: opacity={cited(opacity)} is not above 0 and at most 1.")
+        self.opacity = float(opacity)
+        self.closed, self.filled, self.hatched = True, False, False
+
+    def numbers(self) -> tuple[Quantity, ...]:
+        return (*super().numbers(), self.width)
+
+    def lines(self, value: Value) -> tuple[Array, ...]:
+        return ()
+
+    def under(self, value: Value) -> tuple[str, Array, float] | None:
+        """Return the same with corners of a square; the picture's height is its own."""
+        unit = value(self.width) * np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
+        return self.path, self._placed(unit, value), self.opacity
+
+    def __str__(self) -> str:
+        opacity = {} if self.opacity == 0.5 else {"opacity": repr(self.opacity)}
+        return written("Outline.image", [repr(self.path), f"width={spelled(self.width)}", *self._placing()], self.on, opacity)
+
+
+# What it is given, and how that is written.
+
+
+def outline_corners(given: Any, what: str, least: int) -> tuple[tuple[Quantity, ...], ...]:
+    """Return corners as pairs of quantities; DefinitionError for anything else, or for too few."""
+    if isinstance(given, (str, Mapping, Member)) or not isinstance(given, (Sequence, np.ndarray)):
+        raise DefinitionError(f"{what}: {cited(given)} is no list of corners; write [(0, 0), (0.4, 0), (0.4, 0.3)] in m.")
+    found = tuple(corner_of(each, what) for each in given)
+    if len(found) < least:
+        raise DefinitionError(f"{what}: a line has {least} corners at least, here are {len(found)}.")
+    return found
+
+
+def corner_of(given: Any, what: str) -> tuple[Quantity, ...]:
+    """Return two coordinates as quantities; DefinitionError for anything else."""
+    pair = tuple(given) if isinstance(given, (list, tuple)) or (isinstance(given, np.ndarray) and given.ndim == 1) else ()
+    if len(pair) != 2 or not all(isinstance(each, (str, Quantity)) or is_number(each) for each in pair):
+        raise DefinitionError(f"{what}: {cited(given)} is not a place; write (x, y) in m, numbers or dimensions.")
+    return tuple(quantity(plain(each)) for each in pair)
+
+
+def length_above_zero(given: Any, what: str) -> Quantity:
+    """Return a size as a quantity; DefinitionError for one that is not above zero."""
+    if not isinstance(given, (str, Quantity)) and not (is_number(given) and given > 0.0):
+        raise DefinitionError(f"{what}: {cited(given)} is no size; give a length above zero [m], or a dimension.")
+    return quantity(plain(given))
+
+
+def carrier(given: Any, what: str) -> tuple[Reference, ...]:
+    """Return the points that carry an outline; DefinitionError for more than two, or one of them twice."""
+    if given is None:
+        return ()
+    if isinstance(given, Link):
+        given = given.points[:2]
+    found = tuple(given.replace(",", " ").split()) if isinstance(given, str) else (given,) if isinstance(given, Member) else given
+    if not isinstance(found, (tuple, list)) or not 1 <= len(found) <= 2 or not all(isinstance(each, (str, Member)) for each in found):
+        raise DefinitionError(f'{what}: on={cited(given)} is no carrier; name two points of a body, on=("B", "C"), or one point.')
+    return tuple(found)
+
+
+def stroke_behind(given: Quantity, members: Mapping[str, Member]) -> str:
+    """Return the name of a stroke that a quantity follows, "" where it follows none."""
+    stack, seen = list(needs(given)) if not given.name else [given.name], set[str]()
+    while stack:
+        name = stack.pop()
+        if name not in seen and name in members:
+            if isinstance(members[name], Stroke):
+                return name
+            seen.add(name)
+            stack += needs(members[name])
+    return ""
+
+
+def numbers_at(corners: Sequence[Sequence[Quantity]], value: Value) -> Array:
+    """Return corners as numbers, shape (n, 2) [m]."""
+    return np.array([[value(each) for each in corner] for corner in corners])
+
+
+def corner_text(corner: Sequence[Quantity]) -> str:
+    """Return a corner as it is written."""
+    return f"({', '.join(map(spelled, corner))})"
+
+
+def written(what: str, words: Sequence[str], on: Sequence[Reference], options: Mapping[str, str]) -> str:
+    """Return an outline as it is written."""
+    names = [each if isinstance(each, str) else label(each) for each in on]
+    carried = [f"on={' '.join(names)!r}"] if names else []
+    return f"{what}({', '.join([*words, *carried, *(f'{name}={text}' for name, text in options.items())])})"

@@ -1,0 +1,390 @@
+"""Forces, velocities and poles over a mechanism: arrows as statics and kinematics say, in one scale, with values that can be read."""
+
+from importlib.metadata import entry_points
+from itertools import combinations
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from numpy.testing import assert_allclose
+
+from linkage import (
+    LEFT,
+    Crank,
+    DefinitionError,
+    Dyad,
+    Force,
+    Ground,
+    LinkMass,
+    Mechanism,
+    Moment,
+    OnLink,
+    SingularError,
+    Spring,
+    Stroke,
+    Weight,
+    deg,
+    draw,
+    pin_forces,
+)
+from mechanisms.classics.four_bar import FourBar
+from mechanisms.classics.roberts import Roberts
+from mechanisms.three_point_hitch import ThreePointHitch
+from tests.machines.test_tipper import Tipper
+
+SHIPPED = [point.load() for point in entry_points(group="hydrolinkage.machines")]
+LOADED = [each for each in SHIPPED if each.plan.of_kind(Weight) or each.plan.of_kind(Moment) or each.plan.of_kind(Force)]
+
+
+class Press(Mechanism):
+    """All kinds of loads on a rocker: a moment, a mass of its own, a spring, a force; a crank drives it."""
+
+    phi = Stroke(20 * deg, 100 * deg)
+    O = Ground(0.0, 0.0)
+    C = Ground(0.5, 0.0)
+    W = Ground(0.9, 0.2)
+    A = Crank(O, OA=0.12, angle=phi)
+    B = Dyad(A, C, AB=0.5, CB=0.3, side=LEFT)
+    P = OnLink(A, B, AP=0.6, BAP=10 * deg)
+    drag = Moment("C B", M=-250.0)
+    own = LinkMass("A B", mass=30.0, at=(0.2, 0.05))
+    pull = Force(P, (400.0, -300.0))
+    coil = Spring(B, W, stiffness=4000.0, free_length=0.3)
+
+
+def pose_of(machine, share=0.37):
+    """Return a machine's motion at one pose inside its strokes."""
+    return machine.at(**{name: each.start + share * (each.end - each.start) for name, each in machine.strokes.items()})
+
+
+def named(figure, begin):
+    """Return what in a figure goes by a name that begins so."""
+    return {each.get_gid(): each for each in figure.findobj(lambda artist: str(artist.get_gid() or "").startswith(begin))}
+
+
+def vector_of(patch):
+    """Return an arrow's tail and its vector from its outline; of a dot, nothing of a vector."""
+    if not hasattr(patch, "get_xy") or len(patch.get_xy()) < 7:
+        return np.array(patch.get_center()), np.zeros(2)
+    corners = patch.get_xy()
+    tail = 0.5 * (corners[3] + corners[4])
+    return tail, corners[0] - tail
+
+
+def arrows(figure, begin):
+    """Return the arrows whose names begin so: tail and vector [m]."""
+    return {name: vector_of(each) for name, each in named(figure, begin).items() if not name.endswith(" value")}
+
+
+def dots(figure, begin):
+    """Return how many arrows are so small that they are dots."""
+    return sum(hasattr(each, "get_center") for each in named(figure, begin).values())
+
+
+def scale_of(figure, unit):
+    """Return the length on the sheet of a unit, by the bar and its text [m]."""
+    bar, text = named(figure, f"scale {unit}")[f"scale {unit}"], named(figure, f"scale {unit}")[f"scale {unit} value"]
+    value, said = text.get_text().split()
+    assert said == unit
+    return float(np.ptp(bar.get_xdata())) / float(value)
+
+
+# -- forces ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("machine", [*LOADED, Press, Tipper], ids=lambda machine: machine.__name__)
+def test_arrows_are_the_pin_forces_and_loads_in_one_scale(machine):
+    motion = pose_of(machine())
+    found = pin_forces(motion)
+    figure = draw(motion, forces=True)
+    drawn, size = arrows(figure, "force "), max(float(joint.size) for joint in found.joints if joint.has_force)
+    unit, factor = ("kN", 1e3) if named(figure, "scale kN") else ("N", 1.0)
+    scale = scale_of(figure, unit) / factor
+    assert len(drawn) == sum(joint.has_force for joint in found.joints)
+    for name, (tail, vector) in drawn.items():
+        point, place, words = name.split(" ", 3)[1], int(name.split(" ", 3)[2]), name.split(" ", 3)[3]
+        joint = found.joints[place]
+        on, by = words.removeprefix("on ").split(" from ")
+        assert {on, by} == {joint.on, joint.by} and on != "frame"
+        sign = 1.0 if on == joint.on else -1.0
+        assert_allclose(tail, motion[point], atol=1e-12)
+        assert_allclose(vector, scale * sign * joint.force, atol=0.013 * scale * size)
+        value = named(figure, f"{name} value")[f"{name} value"].get_text()
+        assert_allclose(float(value.split()[0]) * factor, joint.size, rtol=5.1e-3, atol=1e-9 * size)
+    loads = arrows(figure, "load ")
+    total = sum((vector for _, vector in loads.values()), np.zeros(2))
+    assert_allclose(
+        total, scale * sum(acting.force for _, acting in found._loads), atol=(1e-9 + 0.012 * dots(figure, "load ")) * scale * size
+    )
+
+
+def test_force_of_the_hitch_by_hand():
+    """MK is a two-force bar: its pins' forces lie along it; about F the load and MK alone turn FKG."""
+    motion = pose_of(ThreePointHitch())
+    figure = draw(motion, forces=True)
+    found = arrows(figure, "force ")
+    (tail, pull) = next(value for name, value in found.items() if name.startswith("force M "))
+    bar = motion["K"] - motion["M"]
+    assert abs(pull[0] * bar[1] - pull[1] * bar[0]) < 1e-9 * np.hypot(*pull) * np.hypot(*bar)
+    scale = scale_of(figure, "kN") / 1e3
+    weight, arm = 2000.0 * 9.80665, motion["G"] - motion["F"]
+    lever = motion["K"] - motion["F"]
+    along = bar / np.hypot(*bar)
+    size = weight * arm[0] / abs(lever[0] * along[1] - lever[1] * along[0])
+    assert_allclose(np.hypot(*pull), scale * size, rtol=1e-9)
+    assert_allclose(tail, motion["M"], atol=1e-12)
+
+
+@pytest.mark.parametrize("machine", [ThreePointHitch, Press], ids=lambda machine: machine.__name__)
+def test_a_free_body_closes(machine):
+    """The arrows on each body are in balance, forces and moments about a place anywhere; the polygon ends where it began."""
+    motion = pose_of(machine())
+    found = pin_forces(motion)
+    for body in found.on_bodies:
+        figure = draw(motion, forces=body)
+        parts = {**arrows(figure, "force "), **arrows(figure, "load ")}
+        if not parts or body == "frame":
+            continue
+        unit, factor = ("kN", 1e3) if named(figure, "scale kN") else ("N", 1.0)
+        scale = scale_of(figure, unit) / factor
+        largest = max(np.hypot(*vector) for _, vector in parts.values())
+        loose = 1e-9 + 0.012 * (dots(figure, "force ") + dots(figure, "load "))
+        assert_allclose(sum(vector for _, vector in parts.values()), 0.0, atol=loose * largest)
+        couples = [
+            float(text.get_text().split()[0])
+            * factor
+            * np.sign(turning_of(named(figure, name.removesuffix(" value"))[name.removesuffix(" value")]))
+            for begin in ("couple ", "moment ")
+            for name, text in named(figure, begin).items()
+            if name.endswith(" value")
+        ]
+        moments = [(tail - 1.0) @ np.array([v[1], -v[0]]) / scale for tail, v in parts.values()]
+        reach = max(np.hypot(*(tail - 1.0)) for tail, _ in parts.values())
+        assert_allclose(sum(moments) + sum(couples), 0.0, atol=loose * largest / scale * reach + 5e-3 * sum(map(abs, couples)))
+        chain = [vector for _, vector in arrows(figure, "polygon ").values()]
+        assert_allclose(sum(chain), 0.0, atol=1e-9 * max(np.hypot(*vector) for vector in chain))
+
+
+def turning_of(line):
+    """Return which way a curved arrow goes: above zero counter-clockwise."""
+    x, y = np.array(line.get_xydata()).T
+    return float(np.sum((x - x.mean())[:-1] * np.diff(y) - (y - y.mean())[:-1] * np.diff(x)))
+
+
+def test_own_mass_is_drawn_at_its_centre_of_gravity_and_a_moment_as_a_curve():
+    motion = pose_of(Press())
+    figure = draw(motion, forces=True)
+    A, B = motion["A"], motion["B"]
+    along = (B - A) / np.hypot(*(B - A))
+    centre = A + 0.2 * along + 0.05 * np.array([-along[1], along[0]])
+    tail, vector = arrows(figure, "load own ")["load own on ABP"]
+    assert_allclose(tail[0], centre[0], atol=1e-9)
+    assert abs(vector[0]) < 1e-9 and vector[1] < 0.0
+    assert named(figure, "moment drag")["moment drag on CB value"].get_text() == "0.250 kN m drag"
+    curve = np.array(named(figure, "moment drag")["moment drag on CB"].get_xydata())
+    turn = curve - 0.5 * (motion["C"] + motion["B"])
+    assert (turn[:-1, 0] * turn[1:, 1] - turn[:-1, 1] * turn[1:, 0] < 0.0).all()  # clockwise
+
+
+def test_values_cover_neither_names_nor_each_other():
+    figure = draw(pose_of(ThreePointHitch()), forces=True)
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    boxes = {text.get_text(): text.get_window_extent(renderer) for text in figure.axes[0].texts if text.get_text()}
+    assert len(boxes) > 15
+    for (first, a), (second, b) in combinations(boxes.items(), 2):
+        assert not a.overlaps(b), f"{first} covers {second}"
+
+
+def test_forces_over_the_bold_pose_of_several():
+    machine = ThreePointHitch()
+    figure = draw(machine, at=[0.0, 0.1], forces=True, path=["G"])
+    tail, _ = arrows(figure, "load load")["load load on FKG"]
+    assert_allclose(tail, machine.at(S=0.1)["G"], atol=1e-12)
+
+
+def test_no_load_is_said():
+    note = named(draw(pose_of(FourBar()), forces=True), "note")["note"].get_text()
+    assert note.startswith("no load acts, so that all forces are zero; declare one in the class")
+
+
+class Dead(Mechanism):
+    """A rocker that stands still at the start of its stroke: A, B and O in line."""
+
+    S = Stroke(0.5, 0.7)
+    A = Ground(0.0, 0.0)
+    O = Ground(0.8, 0.0)
+    B = Dyad(A, O, AB=S, OB=0.3, side=LEFT)
+    load = Weight(B, mass=100.0)
+
+
+def test_a_refused_pose_says_why():
+    with pytest.raises(SingularError, match="stands at a dead point"):
+        draw(Dead().at(S=0.5), forces=True)
+    figure = draw(Dead().at(S=[0.6, 0.5], unreachable="nan"), pose=1, forces=True)
+    assert named(figure, "note")["note"].get_text().startswith("No forces here: ")
+    assert not arrows(figure, "force ")
+    assert arrows(draw(Dead().at(S=[0.6, 0.5], unreachable="nan"), pose=0, forces=True), "force ")
+    beyond = draw(Dead().at(S=[0.6, 0.4], unreachable="nan"), pose=1, forces=True, velocities=dict(S=0.1), pole="OB")
+    assert "100 mm short" in named(beyond, "note")["note"].get_text()
+
+
+def test_case_and_direction_are_those_of_pin_forces():
+    machine = next(each for each in LOADED if each.__name__ == "Grapple")()
+    motion = pose_of(machine)
+    given = Force("A", (0.0, -1000.0))
+    figure = draw(motion, forces=True, loads=given)
+    assert [name for name in arrows(figure, "load ")] == ["load Force on OAC"]
+    found = pin_forces(motion, given)
+    joint = next(joint for joint in found.joints if joint.point == "O")
+    (_, vector) = next(value for name, value in arrows(figure, "force O").items())
+    unit = "kN" if named(figure, "scale kN") else "N"
+    assert_allclose(vector / scale_of(figure, unit) * (1e3 if unit == "kN" else 1.0), joint.force, rtol=1e-9)
+
+
+WRONG = {
+    "an unknown body": (dict(forces="EDX"), "Body 'EDX' is unknown in ThreePointHitch"),
+    "no word": (dict(forces=3), "draw(forces=3): say forces=True, or the body"),
+    "loads without forces": (dict(loads=[]), "draw(loads=...) says of which forces; say forces=True"),
+    "a direction without forces": (dict(direction="extending"), "draw(direction=...) says of which forces"),
+    "no rates": (dict(velocities=0.05), "velocities=0.05: a value for each stroke is expected, such as velocities=dict(S=0.05)."),
+    "another stroke's rate": (dict(velocities=dict(T=0.05)), "Stroke 'T' is unknown in ThreePointHitch"),
+    "an unknown pole": (dict(pole="XY"), "Body 'XY' is unknown in ThreePointHitch"),
+    "three bodies": (dict(pole=("EDF", "FKG", "MK")), "pole=('EDF', 'FKG', 'MK'): a body, pole=\"EDF\""),
+    "one body twice": (dict(pole=("EDF", "E D")), "these are one body; name two."),
+}
+
+
+@pytest.mark.parametrize("given, words", WRONG.values(), ids=WRONG)
+def test_wrong_questions_are_refused_in_words(given, words):
+    with pytest.raises(DefinitionError) as caught:
+        draw(ThreePointHitch().sweep(3), **given)
+    assert words in str(caught.value)
+
+
+# -- velocities and poles ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("machine", SHIPPED, ids=lambda machine: machine.__name__)
+def test_velocities_stand_square_on_the_rays_of_the_pole(machine):
+    """For every body of every machine, each point's velocity is square to its ray; and as long as the turning says."""
+    motion = pose_of(machine())
+    rates = dict.fromkeys(motion.strokes, 0.3)
+    speed = {point: motion.velocity(point, rates) for point in motion.plan.points}
+    fastest = max(np.hypot(*v) for v in speed.values())
+    for body in motion.plan.links[1:]:
+        pole = motion.pole(body.name, rates=rates)
+        P, Q = body.points[:2]
+        spin = (
+            (speed[Q] - speed[P]) @ np.array([-1.0, 1.0] * np.array((motion[Q] - motion[P])[::-1])) / np.sum((motion[Q] - motion[P]) ** 2)
+        )
+        if np.isnan(pole).any():
+            assert all(np.hypot(*speed[point]) < 1e-9 * fastest for point in body.points)
+        elif np.isinf(pole).any():
+            assert all(np.hypot(*(speed[point] - speed[P])) < 1e-6 * fastest for point in body.points)
+        else:
+            for point in body.points:
+                ray = motion[point] - pole
+                assert_allclose(speed[point], spin * np.array([-ray[1], ray[0]]), atol=1e-9 * max(fastest, abs(spin) * np.hypot(*ray)))
+
+
+@pytest.mark.parametrize("machine", [ThreePointHitch, FourBar, Press], ids=lambda machine: machine.__name__)
+def test_velocity_arrows_are_in_one_scale(machine):
+    motion = pose_of(machine())
+    rates = dict.fromkeys(motion.strokes, 0.3)
+    figure = draw(motion, velocities=rates)
+    unit, factor = ("m/s", 1.0) if named(figure, "scale m/s") else ("mm/s", 1e-3)
+    scale = scale_of(figure, unit) / factor
+    drawn = arrows(figure, "velocity ")
+    moving = [point for point in motion.plan.points if np.hypot(*motion.velocity(point, rates)) > 0.0]
+    assert sorted(drawn) == sorted(f"velocity {point}" for point in moving)
+    for name, (tail, vector) in drawn.items():
+        point = name.split()[1]
+        assert_allclose(tail, motion[point], atol=1e-12)
+        assert_allclose(vector, scale * motion.velocity(point, rates), rtol=1e-9)
+
+
+def test_pole_of_a_coupler_is_where_crank_and_rocker_meet():
+    motion = pose_of(Roberts())
+    A, C, D, B = (motion[name] for name in "ACDB")
+    share = np.linalg.solve(np.column_stack([C - A, B - D]), B - A)
+    pole = motion.pole("CDP")
+    assert_allclose(pole, A + share[0] * (C - A), rtol=1e-10)
+    figure = draw(motion, pole="CDP")
+    mark = named(figure, "pole of CDP")["pole of CDP"]
+    assert_allclose(np.ravel(mark.get_data()), pole, rtol=1e-12)
+    rays = [np.array(line.get_xydata()) for line in figure.axes[0].lines if line.get_gid() == "pole of CDP ray"]
+    assert len(rays) == 3
+    assert all(np.allclose(ray[0], pole) for ray in rays)
+
+
+@pytest.mark.parametrize("name", ["watt_two", "jansen", "three_point_hitch", "klann"])
+def test_three_poles_stand_in_a_line(name):
+    """Kennedy and Aronhold: of any three bodies the three poles are in line."""
+    machine = next(point for point in entry_points(group="hydrolinkage.machines") if point.name == name).load()
+    motion = pose_of(machine())
+    bodies = [body.name for body in motion.plan.links]
+    checked = 0
+    for trio in combinations(bodies, 3):
+        poles = [motion.pole(body, other) for body, other in combinations(trio, 2)]
+        if np.isfinite(poles).all() and np.abs(poles).max() < 1e3:
+            first, second, third = poles
+            area = (second - first)[0] * (third - first)[1] - (second - first)[1] * (third - first)[0]
+            sides = sorted(float(np.hypot(*(a - b))) for a, b in combinations(poles, 2))
+            assert abs(area) < 1e-9 * (1.0 + sides[-1]) ** 2
+            checked += 1
+    assert checked > 5
+
+
+def test_pole_over_a_sweep_is_the_centrode():
+    machine = ThreePointHitch()
+    motion = machine.sweep(5)
+    path = motion.pole("FKG")
+    assert path.shape == (2, 5)
+    for place, stroke in enumerate(motion.strokes["S"]):
+        assert_allclose(path[:, place], machine.at(S=float(stroke)).pole("FKG"), rtol=1e-12)
+    line = named(draw(machine, pole="FKG"), "centrode of FKG")["centrode of FKG"]
+    assert_allclose(np.array(line.get_data())[:, 0], machine.at(S=0.0).pole("FKG"), rtol=1e-9)
+
+
+def test_a_body_that_only_translates_has_its_pole_at_infinity():
+    machine = next(each for each in SHIPPED if each.__name__ == "Parallelogram")
+    motion = pose_of(machine())
+    assert np.isinf(motion.pole("ABP")).all()
+    note = named(draw(motion, pole="ABP"), "note")["note"].get_text()
+    assert note == "ABP only translates here: its pole is at infinity, square to its velocity."
+
+
+def test_two_bodies_of_one_motion_have_no_single_pole():
+    loader = next(each for each in SHIPPED if each.__name__ == "FrontLoader")
+    motion = pose_of(loader())
+    stroke = next(iter(motion.strokes))
+    assert np.isnan(motion.pole("OTE", wrt=stroke)).all()  # moved by the other cylinder
+
+
+def test_batch_of_designs_has_a_pole_each():
+    motion = ThreePointHitch(OB=np.array([0.3, 0.32])).sweep(3)
+    assert motion.pole("FKG").shape == (2, 2, 3)
+    assert_allclose(motion.pole("FKG")[:, 1], ThreePointHitch(OB=0.32).sweep(3).pole("FKG"), rtol=1e-12)
+
+
+def test_a_pole_far_away_is_told():
+    figure = draw(ThreePointHitch().at(S=0.1), pole="FKG")
+    note = named(figure, "note")["note"].get_text()
+    x, y = ThreePointHitch().at(S=0.1).pole("FKG")
+    assert f"x = \N{MINUS SIGN}{abs(x):.3f} m, y = {y:.4f} m" in note
+
+
+# -- strokes that move together ----------------------------------------------------------------------------
+
+
+def test_header_and_path_are_of_the_same_strokes():
+    crane = next(each for each in SHIPPED if each.__name__ == "Crane")()
+    at = dict(phi=[30 * deg, 60 * deg, 50 * deg], psi=[40 * deg, 90 * deg, 120 * deg])
+    figure = draw(crane, at=at, path=["T"], count=21)
+    texts = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    assert texts == ["phi = 30°, psi = 40°", "phi = 60°, psi = 90°", "phi = 50°, psi = 120°", "path of T"]
+    path = next(np.array(line.get_data()) for line in figure.axes[0].lines if line.get_label() == "path of T")
+    shown = crane.at(**at, t=0.5 * (crane.strokes["t"].start + crane.strokes["t"].end))["T"]
+    for place in range(3):
+        assert np.hypot(*(path - shown[:, place, None])).min() < 1e-12
+    assert_allclose(path[:, [0, -1]], shown[:, [0, -1]], atol=1e-12)

@@ -79,8 +79,8 @@ def calculation_section(found: Calculation, pose_words: str) -> Section:
         body.append(
             Paragraph(
                 said(
-                    "Forces are without friction. P is a force downwards, F another one, Q the force of a drive by virtual work, positive the "
-                    "way its stroke grows, T what a member carries, positive where it pushes its ends apart."
+                    "Forces are without friction. P is a force downwards, F another one, Q the force of a drive by virtual work, positive "
+                    "the way its stroke grows, T what a member carries, positive where it pushes its ends apart."
                 )
             )
         )

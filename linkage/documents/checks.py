@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import final
 
 import numpy as np
@@ -94,7 +95,7 @@ def loops_closed(motion: Motion) -> Iterator[Check]:
     plan, graph = motion.plan, nx.Graph()
     given: dict[frozenset[str], Quantity] = dict(plan.table.lengths)
     ground = list(plan.ground)
-    given |= {frozenset(pair): distance(*pair) for pair in zip(ground, ground[1:], strict=False) if frozenset(pair) not in given}
+    given |= {frozenset(pair): distance(*pair) for pair in pairwise(ground) if frozenset(pair) not in given}
     graph.add_edges_from(tuple(sorted(pair)) for pair in given if len(pair) == 2)
     loops = nx.minimum_cycle_basis(graph) if graph.number_of_edges() < 40 else nx.cycle_basis(graph)
     worst, longest = 0.0, 0.0

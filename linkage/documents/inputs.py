@@ -92,7 +92,8 @@ def definition_section(machine: Mechanism) -> Section:
         (str(len(bodies) + place), said("cylinder {P} {Q}", P=bar.P, Q=bar.Q)) for place, bar in enumerate(machine.plan.cylinders)
     )
     count = said(
-        "Mobility {rank} by the rank of the constraints, strokes {strokes}; count of Gruebler {count}, a cylinder being two bodies on a slide.",
+        "Mobility {rank} by the rank of the constraints, strokes {strokes}; count of Gruebler {count}, a cylinder being two bodies on a "
+        "slide.",
         rank=machine.mobility, strokes=len(machine.strokes), count=machine.gruebler,
     )  # fmt: skip
     return Section(

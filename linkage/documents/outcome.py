@@ -50,7 +50,10 @@ def drawing_section(looked: Looked, path: Sequence[str]) -> Section:
     pose = looked.machine.at(unreachable="nan", **{name: [value] for name, value in looked.pose.items()})
     first = Illustration(
         "dimensions",
-        said("Dimensions in {unit} at {pose}; what has no room stands in the table of dimensions.", unit=length_unit(), pose=looked.words(looked.pose)),
+        said(
+            "Dimensions in {unit} at {pose}; what has no room stands in the table of dimensions.",
+            unit=length_unit(), pose=looked.words(looked.pose),
+        ),
         (WIDE, height_of(Scene(pose), 0.16)), ROOM, lambda ax: dimensioned(ax, pose),
     )  # fmt: skip
     reached = np.flatnonzero(looked.curve.reached)

@@ -300,7 +300,7 @@ def equality_pieces(block: Equality) -> Iterator[Laid]:
 def column_widths(grid: Grid) -> list[float]:
     """Return the widths of a table's columns: as its texts ask, long ones in what is left."""
     natural = []
-    for place, kind in enumerate(grid.columns):
+    for place in range(len(grid.columns)):
         whole, words = grid.headings[place], [width(word, CELL, "bold") for word in grid.headings[place].split()] or [0.0]
         body = max((cell_width(row[place]) for row in grid.rows), default=0.0)
         in_one_line = width(whole, CELL, "bold")

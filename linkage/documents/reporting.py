@@ -20,7 +20,7 @@ from ..pictures.curves import limit_of
 from ..pictures.poses import named_points
 from ..pictures.strokes import column_shown
 from ..reports import NOTHING, At
-from ..units import show, shown_number, unit_system
+from ..units import current_system, show, shown_number, unit_system
 from ..verdict import Verdict
 from .calculation import calculated, calculation_section, has_loads
 from .checks import checks_section, kept
@@ -42,7 +42,7 @@ def report(
     machine: Mechanism,
     path: str | Path,
     *,
-    language: str = "en",
+    language: str | None = None,
     units: str | None = None,
     case: Any = None,
     at: At = NOTHING,
@@ -70,7 +70,7 @@ def report(
 def report_document(
     machine: Mechanism,
     *,
-    language: str = "en",
+    language: str | None = None,
     units: str | None = None,
     case: Any = None,
     at: At = NOTHING,
@@ -90,9 +90,9 @@ def report_document(
 
 
 @contextmanager
-def in_words(name: str, units: str | None) -> Iterator[None]:
-    """Speak a language and show a system of units."""
-    with spoken(name), unit_system(units):
+def in_words(name: str | None, units: str | None) -> Iterator[None]:
+    """Speak a language and show a system of units; those that hold already where none is named."""
+    with spoken(name or current_language()), unit_system(units or current_system() or None):
         yield
 
 

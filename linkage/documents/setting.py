@@ -10,7 +10,6 @@ from typing import TypeAlias, final
 import numpy as np
 from matplotlib.font_manager import FontProperties, fontManager, get_font
 from matplotlib.ft2font import LoadFlags
-from matplotlib.ft2font import LoadFlags
 
 from ..formulas.typeset import Arrowed, Box, Fenced, Fraction, Lines, Rooted, Row, Script, Sign
 

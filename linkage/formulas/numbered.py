@@ -468,6 +468,11 @@ def _rounded(value: Any, digits: int) -> Any:
     return tuple(_rounded(part, digits) for part in value) if isinstance(value, tuple) else sympy.Float(value, digits)
 
 
+def in_reals(value: Any) -> Any:
+    """Return a value; NaN in the place of what is no real number, such as a power of a negative one."""
+    return np.where(np.imag(value) == 0.0, np.real(value), np.nan)[()] if np.iscomplexobj(value) else value
+
+
 def _evaluated(lines: Sequence[Written], known: dict[Any, Any], arithmetic: str) -> dict[Any, Any]:
     known |= dict(zip(explicit(X_AXIS), (1.0, 0.0), strict=True))
     found: dict[Any, Any] = {}
@@ -475,7 +480,7 @@ def _evaluated(lines: Sequence[Written], known: dict[Any, Any], arithmetic: str)
         expressions = explicit(line.rhs)
         needed = sorted(set().union(*(each.free_symbols for each in expressions)), key=str)
         function = sympy.lambdify(needed, expressions, arithmetic, dummify=True)
-        values = function(*(known[symbol] for symbol in needed))
+        values = [in_reals(value) for value in function(*(known[symbol] for symbol in needed))]
         known |= dict(zip(explicit(line.lhs), values, strict=True))
         found[line.lhs] = values[0] if len(values) == 1 else tuple(values)
     return found

@@ -41,7 +41,17 @@ GREEK = dict(
         strict=True,
     )
 ) | {"phi": "φ", "varepsilon": "ε", "vartheta": "ϑ", "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π"}
-GREEK |= {"Sigma": "Σ", "Upsilon": "Υ", "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω", "imath": "ı", "infty": "∞", "circ": "°", "angle": "∠"}
+GREEK |= {
+    "Sigma": "Σ",
+    "Upsilon": "\u03a5",
+    "Phi": "Φ",
+    "Psi": "Ψ",
+    "Omega": "Ω",
+    "imath": "\u0131",
+    "infty": "∞",
+    "circ": "°",
+    "angle": "∠",
+}
 OPERATORS = {
     "cdot": "·", "times": "×", "leq": "≤", "le": "≤", "geq": "≥", "ge": "≥", "neq": "≠", "ne": "≠", "wedge": "∧", "vee": "\u2228",
     "neg": "¬", "pm": "±", "|": "‖",

@@ -19,7 +19,7 @@ from ..pictures import mechanism
 from ..pictures.curves import panel
 from ..pictures.dimensioned import dimensioned
 from ..pictures.scene import Scene
-from ..pictures.style import ACCENT, THIN
+from ..pictures.style import ACCENT, INK, THIN, TITLE
 from ..plan import Plan
 from ..reports import results
 from ..reports.table import cells as text_cells
@@ -127,7 +127,7 @@ def results_section(looked: Looked, names: Sequence[str] | None, first: str, lim
             caption += said(" Shaded: what its limit excludes.")
         size = (WIDE, 2.6) if name == first else (HALF, 2.15)
         paint = partial(curve, motion=looked.curve, column=whole[name], bound=bound)
-        blocks.append(Illustration(f"curve_{safe(name)}", caption, size, (0.62, 0.12, 0.46, 0.32), paint))
+        blocks.append(Illustration(f"curve_{safe(name)}", caption, size, (0.62, 0.12, 0.46, 0.32 if bound is None else 0.48), paint))
     return Section(said("Results"), tuple(blocks))
 
 
@@ -153,6 +153,8 @@ def member_curves(looked: Looked) -> Iterator[Column]:
 def curve(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None) -> None:
     """Draw a column over the stroke with its limit."""
     panel(ax, motion, column, bound)
+    if bound is not None:  # its words stand above the curve, under the heading
+        ax.set_title(ax.get_title(loc="left"), loc="left", fontsize=TITLE, fontweight="bold", color=INK, pad=19)
 
 
 def safe(name: str) -> str:

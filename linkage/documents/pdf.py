@@ -166,8 +166,10 @@ class Flow:
     def section(self, number: int, section: Section) -> None:
         """Draw a section; small pictures stand in pairs."""
         self.y += 10.0
-        self.take(70.0)
-        self.y -= 70.0
+        first = section.blocks[0] if section.blocks else None
+        room = 30.0 + first.size[1] * INCH if isinstance(first, Illustration) else 70.0  # a title goes with what it is the title of
+        self.take(room)
+        self.y -= room
         y = self.take(22.0)
         self.put(Letters(LEFT, y + 12.0, f"{number}. {section.title}", 11.5, "bold", INK))
         self.put(Stroke(((LEFT, y + 16.5), (WIDE - RIGHT, y + 16.5)), 0.9, INK))
@@ -307,15 +309,25 @@ def column_widths(grid: Grid) -> list[float]:
         natural.append(6.0 + (in_one_line if in_one_line < 1.5 * body + 8.0 else max(body, *words)))
         natural[-1] = max(natural[-1], 6.0 + body)
     over = sum(natural) - ROOM
-    for kinds in ("m", "l", "lrm"):
-        soft = [place for place, kind in enumerate(grid.columns) if kind in kinds and natural[place] > 46.0]
-        total = sum(natural[place] - 46.0 for place in soft)
+    words = [6.0 + max([30.0, *(longest_word(row[place]) for row in grid.rows)]) for place in range(len(grid.columns))]
+    for kinds, least in (("m", 0.42 * ROOM), ("l", 0.0), ("m", 0.0), ("lrm", 0.0)):
+        floors = [max(least, word) if kinds != "lrm" else 30.0 for word in words]
+        soft = [place for place, kind in enumerate(grid.columns) if kind in kinds and natural[place] > floors[place]]
+        total = sum(natural[place] - floors[place] for place in soft)
         if over > 0.0 and total > 0.0:
             share = min(1.0, over / total)
-            cut = {place: share * (natural[place] - 46.0) for place in soft}
+            cut = {place: share * (natural[place] - floors[place]) for place in soft}
             natural = [wide - cut.get(place, 0.0) for place, wide in enumerate(natural)]
             over -= sum(cut.values())
     return natural
+
+
+def longest_word(value: Cell) -> float:
+    """Return the width of a cell's longest word, of a formula its own."""
+    if isinstance(value, Formula):
+        return cell_width(value)
+    text = value.word if isinstance(value, Mark) else value
+    return max((width(word, CELL, "bold" if isinstance(value, Mark) else "regular") for word in text.split()), default=0.0)
 
 
 def cell_width(value: Cell) -> float:

@@ -14,6 +14,7 @@ import numpy as np
 import sympy
 
 from ..errors import DefinitionError, cited, unknown
+from ..language import translated
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..motion.requests import stroke_of
 from ..quantities import is_whole
@@ -167,8 +168,8 @@ class SheetLine:
 
 
 def unit_latex(unit: str) -> str:
-    r"""Return a unit as LaTeX: `\,\mathrm{N}`, `\,\mathrm{m}^{2}`."""
-    text = re.sub(r"([a-z])\*?(\d)", r"\1}^{\2}\\mathrm{", unit.replace("kgf_cm2", "kgf/cm2"))
+    r"""Return a unit as LaTeX, in the language that is spoken: `\,\mathrm{N}`, `\,\mathrm{m}^{2}`."""
+    text = re.sub(r"([^\W\d_])(\d)", r"\1}^{\2}\\mathrm{", translated(unit.replace("kgf_cm2", "kgf/cm2")))
     return rf"\,\mathrm{{{text}}}".replace(r"\mathrm{}", "")
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ..plan import Plan
-from ..program import Graph, Inputs, Level, Node, arrow, inside, number, short_names
+from ..program import Graph, Inputs, Level, Node, arrow_function, inside, number, short_names
 from ..steps import Group
 from . import following
 from .following import piece_length
@@ -91,7 +91,7 @@ def angles_text(plan: Plan, clipped: Callable[[Plan, Sequence[Node]], Sequence[N
         vector = plan.trace.directions[name]
         nodes = (plan.trace.graph.node(vector.x), plan.trace.graph.node(vector.y))
         vectors.append(
-            arrow(clipped(plan, [*nodes, *(each for stroke in plan.strokes for each in plan.derived(nodes, (stroke,)))]), inputs)
+            arrow_function(clipped(plan, [*nodes, *(each for stroke in plan.strokes for each in plan.derived(nodes, (stroke,)))]), inputs)
         )
     constants = {
         "followed": f"[{','.join(vectors)}]",

@@ -23,6 +23,7 @@ HOMES = {
     "plot": "plot:PlotCommand",
     "animate": "plot:AnimateCommand",
     "report": "report:ReportCommand",
+    "export": "export:ExportCommand",
     "save": "show:SaveCommand",
     "optimise": "optimise:OptimiseCommand",
     "study": "study:StudyCommand",

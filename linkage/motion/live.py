@@ -21,7 +21,7 @@ from ..assembly import angles_text, constants_text, groups_text, json_of
 from ..errors import DefinitionError, LawError, UntracedError
 from ..frozen import FrozenDict
 from ..plan import ArrayReading, Plan
-from ..program import Inputs, Level, Node, ancestors, arrow, replaced
+from ..program import Inputs, Level, Node, ancestors, arrow_function, replaced
 from ..steps import Point
 from .conditions import REFUSE
 from .requests import BoundRequest, RequestLike, bound
@@ -116,8 +116,8 @@ class LiveProgram:
             "fixed": f"new Set({json_of([k for k, node in enumerate(rows) if node.level is not Level.POSE])})",
             "refused": json_of(refused),
             "sketch": json_of([plan.sketch_strokes[each] for each in plan.strokes]),
-            "places": arrow(ends, inputs, angles),
-            "gaps": arrow(missing, inputs),
+            "places": arrow_function(ends, inputs, angles),
+            "gaps": arrow_function(missing, inputs),
         }
         text = [part_text("live.js"), constants_text(constants)]
         if plan.solved:
@@ -137,12 +137,12 @@ class LiveProgram:
         names = {
             "d": list(dimensions), "p": list(plan.strokes), "steps": [name for name, _ in checks],
         }  # fmt: skip
-        said = [f"{key}:{words_of(value)}" for key, value in names.items()]
+        said = [f"{key}:{json_words(value)}" for key, value in names.items()]
         said += [f"d0:{json_of([plan.defaults[each] for each in dimensions])}", "sketch", "rows:ROWS"]
         return cls("".join(text), ",".join(said), dimensions)
 
 
-def words_of(words: Sequence[str]) -> str:
+def json_words(words: Sequence[str]) -> str:
     """Return words as a JavaScript array."""
     return json.dumps(words, ensure_ascii=True, separators=(",", ":")).replace("<", "\\u003c")
 

@@ -2,7 +2,7 @@
 
 from ..vectors import FloatArray, pick
 from .cache import compiled
-from .compact import Inputs, arrow, inside, number, short_names
+from .compact import Inputs, arrow_function, inside, number, short_names
 from .derivatives import Tangent, gradient, jacobian
 from .elimination import eliminated, expanded, is_zero
 from .foreign import c_text, javascript_text

@@ -148,7 +148,7 @@ class Inputs:
         return f"d[{self.design[name]}]" if name in self.design else f"p[{self.pose[name]}]"
 
 
-def arrow(results: Sequence[Node], inputs: Inputs, turning: Sequence[Node] = ()) -> str:
+def arrow_function(results: Sequence[Node], inputs: Inputs, turning: Sequence[Node] = ()) -> str:
     """Return `d=>{...;return p=>{...;return[...]}}`: the design's part is worked out once, angles are continued from pose to pose."""
     results, angles = (found := lowered([*results, *turning]))[: len(results)], found[len(results) :]
     nodes = [node for node in ancestors(results) if node.op != "constant"]

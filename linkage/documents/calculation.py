@@ -17,7 +17,7 @@ from .content import Block, Equality, Paragraph, Section
 
 @final
 @dataclass(frozen=True)
-class Calculation:
+class FilledEquations:
     """The equations of a design at a pose, and why those of its forces are missing, if they are."""
 
     listing: Equations
@@ -25,16 +25,16 @@ class Calculation:
     why_no_forces: str = ""
 
 
-def calculated(machine: Mechanism, pose: Mapping[str, float], start: int) -> Calculation:
+def calculated(machine: Mechanism, pose: Mapping[str, float], start: int) -> FilledEquations:
     """Return the equations of a design; without those of its forces where these have none."""
     try:
         found = equations(machine, start=start, forces=has_loads(machine))
-        return Calculation(found, found.sheet(pose))
+        return FilledEquations(found, found.sheet(pose))
     except LinkageError as error:
         if not has_loads(machine):
             raise
         plain = equations(machine, start=start)
-        return Calculation(plain, plain.sheet(pose), str(error))
+        return FilledEquations(plain, plain.sheet(pose), str(error))
 
 
 def has_loads(machine: Mechanism) -> bool:
@@ -42,7 +42,7 @@ def has_loads(machine: Mechanism) -> bool:
     return bool(machine.plan.of_kind(ForceElement))
 
 
-def calculation_section(found: Calculation, pose_words: str) -> Section:
+def calculation_section(found: FilledEquations, pose_words: str) -> Section:
     """Return the section of the numbered equations with their numbers."""
     listing, blocks = found.listing, []
     blocks += [

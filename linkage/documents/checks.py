@@ -15,7 +15,7 @@ from ..language import said
 from ..motion import Motion
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke, distance
-from .content import Cell, Grid, Mark, Section
+from .content import Cell, Mark, Section, TableBlock
 from .run import Looked
 
 EXACT = 1e-9
@@ -43,20 +43,22 @@ class Check:
 def checks_section(looked: Looked, listing: Equations) -> Section:
     """Return the section of checks."""
     found = checks(looked, listing)
-    rows: list[tuple[Cell, ...]] = [(each.name, each.what, figure(each.measured), figure(each.bound), kept(each.ok)) for each in found]
+    rows: list[tuple[Cell, ...]] = [
+        (each.name, each.what, figure_text(each.measured), figure_text(each.bound), kept_mark(each.ok)) for each in found
+    ]
     heads = (said("check"), said("what is compared"), said("measured"), said("bound"), said("result"))
     return Section(
         said("Checks of the calculation"),
-        (Grid(said("Largest relative differences over the poses of the table"), heads, tuple(rows), "lmrrl"),),
+        (TableBlock(said("Largest relative differences over the poses of the table"), heads, tuple(rows), "lmrrl"),),
     )
 
 
-def figure(value: float) -> str:
+def figure_text(value: float) -> str:
     """Return a relative difference as text."""
     return "–" if np.isnan(value) else f"{value:.1e}" if value else "0"
 
 
-def kept(ok: bool | None) -> Mark:
+def kept_mark(ok: bool | None) -> Mark:
     """Return the mark of a rule."""
     return Mark(ok, said("not made") if ok is None else said("kept") if ok else said("not kept"))
 
@@ -100,8 +102,8 @@ def loops_closed(motion: Motion) -> Iterator[Check]:
     loops = nx.minimum_cycle_basis(graph) if graph.number_of_edges() < 40 else nx.cycle_basis(graph)
     worst, longest = 0.0, 0.0
     for loop in loops:
-        sides = sides_of(graph.subgraph(loop), loop)
-        vectors = [vector(motion, given[frozenset(side)], *side) for side in sides]
+        sides = loop_sides(graph.subgraph(loop), loop)
+        vectors = [link_vector(motion, given[frozenset(side)], *side) for side in sides]
         worst = max(worst, greatest_of(np.hypot(*np.sum(vectors, axis=0))))
         longest = max(longest, *(greatest_of(np.hypot(*each)) for each in vectors))
     if loops:
@@ -109,14 +111,14 @@ def loops_closed(motion: Motion) -> Iterator[Check]:
         yield Check(said("loops closed"), what, worst / (longest or 1.0), EXACT)
 
 
-def sides_of(graph: object, loop: list[str]) -> list[tuple[str, str]]:
+def loop_sides(graph: object, loop: list[str]) -> list[tuple[str, str]]:
     """Return the sides of a loop in order round it."""
     import networkx as nx
 
     return [(P, Q) for P, Q, *_ in nx.find_cycle(graph, source=loop[0])]
 
 
-def vector(motion: Motion, length: Quantity, P: str, Q: str) -> FloatArray:
+def link_vector(motion: Motion, length: Quantity, P: str, Q: str) -> FloatArray:
     """Return a link as its given length in its direction, shape (2, ...)."""
     angle = motion.angle(P, Q)
     return np.asarray(motion.value(length) * np.array([np.cos(angle), np.sin(angle)]))

@@ -40,7 +40,7 @@ class Paragraph:
 
 @final
 @dataclass(frozen=True)
-class Term:
+class TermBlock:
     """A table of two columns without headings: names and what they are."""
 
     rows: tuple[tuple[str, str], ...]
@@ -48,7 +48,7 @@ class Term:
 
 @final
 @dataclass(frozen=True)
-class Grid:
+class TableBlock:
     """A table: headings, rows, and how each column stands, "l" to the left, "r" as numbers do, "m" for long text."""
 
     caption: str
@@ -78,7 +78,7 @@ class Illustration:
     paint: Callable[[Axes], None]
 
 
-Block: TypeAlias = Paragraph | Term | Grid | Equality | Illustration
+Block: TypeAlias = Paragraph | TermBlock | TableBlock | Equality | Illustration
 
 
 @final
@@ -114,7 +114,7 @@ def numbered_captions(sections: Sequence[Section], table: Callable[[int, str], s
     tables = figures = 0
     for section in sections:
         for block in section.blocks:
-            if isinstance(block, Grid) and block.caption:
+            if isinstance(block, TableBlock) and block.caption:
                 tables += 1
                 found[id(block)] = table(tables, block.caption)
             elif isinstance(block, Illustration):

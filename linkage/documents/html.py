@@ -11,19 +11,32 @@ from pathlib import Path
 
 from ..disk import replacing_text
 from ..formulas.mathml import mathml
-from ..formulas.typeset import boxes, pieces
+from ..formulas.typeset import boxes, breakable
 from ..language import said
-from .content import Block, Cell, Document, Equality, Formula, Grid, Illustration, Mark, Paragraph, Section, Term, numbered_captions
-from .pictures import svg
+from .content import (
+    Block,
+    Cell,
+    Document,
+    Equality,
+    Formula,
+    Illustration,
+    Mark,
+    Paragraph,
+    Section,
+    TableBlock,
+    TermBlock,
+    numbered_captions,
+)
+from .pictures import picture_svg
 
 
 def write_html(document: Document, path: Path) -> None:
     """Write a document as HTML; what stood at the path is replaced whole."""
     with replacing_text(path) as stream:
-        stream.write(html(document))
+        stream.write(html_text(document))
 
 
-def html(document: Document) -> str:
+def html_text(document: Document) -> str:
     """Return a document as HTML, well-formed as XML too."""
     css = files(__package__).joinpath("style.css").read_text(encoding="utf-8").strip()
     allowed = b64encode(hashlib.sha256(css.encode()).digest()).decode()
@@ -86,7 +99,7 @@ def section_lines(number: int, section: Section, captions: dict[int, str]) -> It
     small: list[str] = []
     for block in section.blocks:
         if isinstance(block, Illustration) and block.size[0] < 4.0:
-            small.append(figure(block, captions))
+            small.append(figure_html(block, captions))
             continue
         yield from paired(small)
         small = []
@@ -105,14 +118,14 @@ def block_html(block: Block, captions: dict[int, str]) -> str:
     """Return a block."""
     if isinstance(block, Paragraph):
         return f"<p>{escape(block.text)}</p>"
-    if isinstance(block, Term):
+    if isinstance(block, TermBlock):
         return f'<dl class="block">{"".join(f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>" for name, value in block.rows)}</dl>'
-    if isinstance(block, Grid):
+    if isinstance(block, TableBlock):
         return table(block, captions.get(id(block), ""))
-    return equality(block) if isinstance(block, Equality) else figure(block, captions)
+    return equality(block) if isinstance(block, Equality) else figure_html(block, captions)
 
 
-def table(grid: Grid, caption: str) -> str:
+def table(grid: TableBlock, caption: str) -> str:
     """Return a table; it scrolls by itself where it is wider than a screen."""
     heads = "".join(f'<th scope="col" class="{kind}">{escape(text)}</th>' for text, kind in zip(grid.headings, grid.columns, strict=True))
     rows = "\n".join(f"<tr>{''.join(map(cell, row, grid.columns))}</tr>" for row in grid.rows)
@@ -138,7 +151,7 @@ def equality(block: Equality) -> str:
     """Return an equation with its number: pieces between which a line may break."""
     parts: list[str] = []
     for place, step in enumerate(block.steps):
-        for first, piece in enumerate(pieces(boxes(step))):
+        for first, piece in enumerate(breakable(boxes(step))):
             sign = '<mo form="infix">=</mo>' if place and not first else ""
             set_in = mathml(piece).replace("<mo>", '<mo form="infix" lspace="0.22em" rspace="0.22em">', 1) if first else mathml(piece)
             parts.append(f'<math xmlns="http://www.w3.org/1998/Math/MathML" displaystyle="true">{sign}{set_in}</math>')
@@ -146,8 +159,8 @@ def equality(block: Equality) -> str:
     return f'<div class="eq"><span>{number}</span><div>{" ".join(parts)}</div></div>'
 
 
-def figure(picture: Illustration, captions: dict[int, str]) -> str:
+def figure_html(picture: Illustration, captions: dict[int, str]) -> str:
     """Return a picture inside the file."""
     caption = escape(captions.get(id(picture), picture.caption))
-    data = b64encode(svg(picture).encode()).decode()
+    data = b64encode(picture_svg(picture).encode()).decode()
     return f'<figure><img alt="{caption}" src="data:image/svg+xml;base64,{data}"/><figcaption>{caption}</figcaption></figure>'

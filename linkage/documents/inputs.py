@@ -17,37 +17,37 @@ from ..motion import stroke_display_unit
 from ..plan import plan_measure, printed
 from ..quantities import Dimension, Stroke
 from ..units import display_unit, shown_in, shown_number, unit_sign
-from .content import Block, Cell, Formula, Grid, Paragraph, Section
+from .content import Block, Cell, Formula, Paragraph, Section, TableBlock
 
 
 def inputs_section(machine: Mechanism, listing: Equations, held: Mapping[str, float]) -> Section:
     """Return the section of what is given."""
     notes = notes_of(type(machine))
-    blocks: list[Block] = [*about(machine), stroke_table(machine, listing, held, notes)]
+    blocks: list[Block] = [*own_words(machine), stroke_table(machine, listing, held, notes)]
     if machine.dimensions:
         blocks.append(dimension_table(machine, listing, notes))
     elements = machine.plan.of_kind(ForceElement)
     if elements:
         rows = member_rows(machine, tuple(elements), notes)
         heads = (said("name"), said("declared as"), said("source, note"))
-        blocks.append(Grid(said("Loads, force elements and hydraulics"), heads, rows, "lmm"))
+        blocks.append(TableBlock(said("Loads, force elements and hydraulics"), heads, rows, "lmm"))
     else:
         blocks.append(Paragraph(said("No load is declared: forces are not calculated.")))
     cases = machine.plan.of_kind(LoadCase)
     if cases:
         heads = (said("name"), said("declared as"), said("source, note"))
-        blocks.append(Grid(said("Load cases"), heads, member_rows(machine, tuple(cases), notes), "lmm"))
+        blocks.append(TableBlock(said("Load cases"), heads, member_rows(machine, tuple(cases), notes), "lmm"))
     return Section(said("Inputs"), tuple(blocks))
 
 
-def about(machine: Mechanism) -> Iterator[Paragraph]:
+def own_words(machine: Mechanism) -> Iterator[Paragraph]:
     """Yield the paragraphs of the machine's own words, after the first line, which is the subtitle."""
     text = inspect.cleandoc(type(machine).__doc__ or "")
     for paragraph in text.split("\n\n")[1:]:
         yield Paragraph(" ".join(paragraph.split()))
 
 
-def stroke_table(machine: Mechanism, listing: Equations, held: Mapping[str, float], notes: Mapping[str, str]) -> Grid:
+def stroke_table(machine: Mechanism, listing: Equations, held: Mapping[str, float], notes: Mapping[str, str]) -> TableBlock:
     """Return the strokes with their ranges, and where those stand that are held."""
     rows: list[tuple[Cell, ...]] = []
     for name, stroke in machine.strokes.items():
@@ -56,10 +56,10 @@ def stroke_table(machine: Mechanism, listing: Equations, held: Mapping[str, floa
         ends = (shown_number(stroke.start, unit), shown_number(stroke.end, unit))
         rows.append((name, Formula(listing.symbol_latex(name)), *ends, unit_sign(unit), used, notes.get(name, "")))
     heads = (said("stroke"), said("symbol"), said("start"), said("end"), said("unit"), said("in this report"), said("source, note"))
-    return Grid(said("Strokes"), heads, tuple(rows), "llrrllm")
+    return TableBlock(said("Strokes"), heads, tuple(rows), "llrrllm")
 
 
-def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, str]) -> Grid:
+def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, str]) -> TableBlock:
     """Return the design variables: name, symbol, value, unit, where each stands; one that was changed says what it was."""
     rows: list[tuple[Cell, ...]] = []
     for name, value in machine.dimensions.items():
@@ -72,7 +72,7 @@ def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, 
         sign = unit_sign(unit) if unit else ""
         rows.append((name, Formula(listing.symbol_latex(name)), shown_number(float(value), unit, 7), sign, where, note))
     heads = (said("dimension"), said("symbol"), said("value"), said("unit"), said("stands in"), said("source, note"))
-    return Grid(said("Dimensions"), heads, tuple(rows), "llrllm")
+    return TableBlock(said("Dimensions"), heads, tuple(rows), "llrllm")
 
 
 def member_rows(machine: Mechanism, names: tuple[str, ...], notes: Mapping[str, str]) -> tuple[tuple[Cell, ...], ...]:
@@ -100,8 +100,8 @@ def definition_section(machine: Mechanism) -> Section:
         said("Definition of the mechanism"),
         (
             Paragraph(said("In the order in which the positions are worked out; lengths in m, angles as marked.")),
-            Grid(said("Members"), heads, rows, "lm"),
-            Grid(said("Rigid bodies"), (said("No."), said("points")), bodies, "lm"),
+            TableBlock(said("Members"), heads, rows, "lm"),
+            TableBlock(said("Rigid bodies"), (said("No."), said("points")), bodies, "lm"),
             Paragraph(count),
         ),
     )

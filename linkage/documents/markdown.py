@@ -12,9 +12,9 @@ from secrets import token_hex
 from ..disk import check_place, in_words, replacing_text
 from ..errors import FileError
 from ..language import said
-from .content import Block, Cell, Document, Equality, Formula, Grid, Illustration, Mark, Paragraph, Section, Term
+from .content import Block, Cell, Document, Equality, Formula, Illustration, Mark, Paragraph, Section, TableBlock, TermBlock
 from .html import captions_of, footer
-from .pictures import svg
+from .pictures import picture_svg
 
 SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|$~])")
 MARKER = "hydrolinkage"
@@ -27,7 +27,7 @@ def write_markdown(document: Document, path: Path) -> None:
     pictures = {f"{number:02d}_{each.name}.svg": each for number, each in enumerate(illustrations(document), 1)}
     names = {id(each): f"{folder.name}/{name}" for name, each in pictures.items()}
     text = markdown(document, names)
-    replace_folder(folder, {name: svg(each) for name, each in pictures.items()})
+    replace_folder(folder, {name: picture_svg(each) for name, each in pictures.items()})
     with replacing_text(path) as stream:
         stream.write(text)
 
@@ -61,22 +61,22 @@ def markdown(document: Document, names: dict[int, str]) -> str:
     """Return a document as Markdown; `names` are the pictures' places by their identity."""
     captions = captions_of(document.sections)
     lines = [
-        f"# {plain(document.title)}",
+        f"# {escaped_markdown(document.title)}",
         "",
-        f"{plain(said('Calculation report'))}. {plain(document.subtitle)}",
+        f"{escaped_markdown(said('Calculation report'))}. {escaped_markdown(document.subtitle)}",
         "",
         "| | |",
         "| --- | --- |",
     ]
-    lines += [f"| {plain(name)} | {plain(value)} |" for name, value in document.facts]
+    lines += [f"| {escaped_markdown(name)} | {escaped_markdown(value)} |" for name, value in document.facts]
     for number, section in enumerate(document.sections, 1):
         lines += section_text(number, section, captions, names)
-    return "\n".join([*lines, "", "---", "", plain(footer(document)), ""])
+    return "\n".join([*lines, "", "---", "", escaped_markdown(footer(document)), ""])
 
 
 def section_text(number: int, section: Section, captions: dict[int, str], names: dict[int, str]) -> Iterator[str]:
     """Yield the lines of a section."""
-    yield from ("", f"## {number}. {plain(section.title)}")
+    yield from ("", f"## {number}. {escaped_markdown(section.title)}")
     for block in section.blocks:
         yield ""
         yield from block_text(block, captions, names)
@@ -85,23 +85,23 @@ def section_text(number: int, section: Section, captions: dict[int, str], names:
 def block_text(block: Block, captions: dict[int, str], names: dict[int, str]) -> Iterator[str]:
     """Yield the lines of a block."""
     if isinstance(block, Paragraph):
-        yield plain(block.text)
-    elif isinstance(block, Term):
-        yield from ("| | |", "| --- | --- |", *(f"| {plain(name)} | {plain(value)} |" for name, value in block.rows))
-    elif isinstance(block, Grid):
-        yield from table_text(block, captions.get(id(block), ""))
+        yield escaped_markdown(block.text)
+    elif isinstance(block, TermBlock):
+        yield from ("| | |", "| --- | --- |", *(f"| {escaped_markdown(name)} | {escaped_markdown(value)} |" for name, value in block.rows))
+    elif isinstance(block, TableBlock):
+        yield from table_markdown(block, captions.get(id(block), ""))
     elif isinstance(block, Equality):
         yield from ("$$", equality_latex(block), "$$")
     else:
-        caption = plain(captions.get(id(block), block.caption))
+        caption = escaped_markdown(captions.get(id(block), block.caption))
         yield from (f"![{caption}]({names[id(block)]})", "", f"*{caption}*")
 
 
-def table_text(grid: Grid, caption: str) -> Iterator[str]:
+def table_markdown(grid: TableBlock, caption: str) -> Iterator[str]:
     """Yield the lines of a table."""
     if caption:
-        yield from (f"*{plain(caption)}*", "")
-    yield f"| {' | '.join(map(plain, grid.headings))} |"
+        yield from (f"*{escaped_markdown(caption)}*", "")
+    yield f"| {' | '.join(map(escaped_markdown, grid.headings))} |"
     yield f"| {' | '.join('---:' if kind == 'r' else '---' for kind in grid.columns)} |"
     for row in grid.rows:
         yield f"| {' | '.join(map(cell_text, row))} |"
@@ -111,7 +111,7 @@ def cell_text(value: Cell) -> str:
     """Return a cell in one line."""
     if isinstance(value, Formula):
         return f"${value.latex.replace('|', chr(92) + 'vert ')}$"
-    return f"**{plain(value.word)}**" if isinstance(value, Mark) else plain(value)
+    return f"**{escaped_markdown(value.word)}**" if isinstance(value, Mark) else escaped_markdown(value)
 
 
 def equality_latex(block: Equality) -> str:
@@ -122,6 +122,6 @@ def equality_latex(block: Equality) -> str:
     return body + (rf" \tag{{{block.number}}}" if block.number else "")
 
 
-def plain(text: str) -> str:
+def escaped_markdown(text: str) -> str:
     """Return a text whose signs mean nothing in Markdown, in one line."""
     return SPECIAL.sub(r"\\\1", " ".join(text.split()))

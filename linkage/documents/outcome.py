@@ -27,7 +27,7 @@ from ..reports.table import column_blocks, flat
 from ..statics import PinForces, max_table
 from ..units import show, shown_number, unit_sign
 from .calculation import has_loads
-from .content import Block, Cell, Grid, Illustration, Paragraph, Section
+from .content import Block, Cell, Illustration, Paragraph, Section, TableBlock
 from .inputs import length_unit
 from .run import Looked
 
@@ -117,7 +117,7 @@ def results_section(looked: Looked, names: Sequence[str] | None, first: str, lim
             Paragraph(said("{n} of {count} poses of the table cannot be assembled; they have no values.", n=missing, count=looked.count))
         )
     blocks += column_grids(said("Results over the stroke"), shown)
-    whole = curves(looked)
+    whole = curve_columns(looked)
     coordinates = {f"{point}_{axis}" for point in looked.machine.plan.points for axis in "xy"}
     drawn = [name for name in whole if name != first and (name in names if names is not None else name not in coordinates)]
     for name in [first, *drawn]:
@@ -131,7 +131,7 @@ def results_section(looked: Looked, names: Sequence[str] | None, first: str, lim
     return Section(said("Results"), tuple(blocks))
 
 
-def curves(looked: Looked) -> dict[str, Column]:
+def curve_columns(looked: Looked) -> dict[str, Column]:
     """Return the columns of results and of members at the poses of the curves, by name."""
     with unwarned():
         found = {column.name: column for column in results(looked.machine, looked.curve)}
@@ -162,13 +162,13 @@ def safe(name: str) -> str:
     return "".join(each if each.isalnum() and each.isascii() else "_" for each in name)
 
 
-def column_grids(caption: str, columns: Sequence[Column]) -> Iterator[Grid]:
+def column_grids(caption: str, columns: Sequence[Column]) -> Iterator[TableBlock]:
     """Yield columns of results as tables as wide as a page; the first column leads each."""
     texts = [text_cells(column, values) for column, values in zip(columns, flat(columns), strict=True)]
     for number, block in enumerate(column_blocks(columns, texts, LETTERS, 2)):
         rows = tuple(zip(*(texts[place] for place in block), strict=True))
         title = caption if not number else said("{caption}, continued", caption=caption)
-        yield Grid(title, tuple(columns[place].heading for place in block), rows, "r" * len(block))
+        yield TableBlock(title, tuple(columns[place].heading for place in block), rows, "r" * len(block))
 
 
 # -- cylinders and springs ---------------------------------------------------------------------------------
@@ -186,15 +186,15 @@ def members_section(looked: Looked) -> Section | None:
         except LinkageError as error:
             refused.append(Paragraph(str(error)))
             continue
-        rows += [(name, *extremes(looked, column)) for column in columns]
+        rows += [(name, *column_extremes(looked, column)) for column in columns]
     if not members:
         return None
     heads = (said("member"), said("quantity"), said("least"), said("at stroke"), said("greatest"), said("at stroke"))
-    table = [Grid(said("Cylinders over the stroke, without friction"), heads, tuple(rows), "llrlrl")] if rows else []
+    table = [TableBlock(said("Cylinders over the stroke, without friction"), heads, tuple(rows), "llrlrl")] if rows else []
     return Section(said("Hydraulics"), (*table, *refused))
 
 
-def extremes(looked: Looked, column: Column) -> tuple[str, ...]:
+def column_extremes(looked: Looked, column: Column) -> tuple[str, ...]:
     """Return a column's heading, its least and greatest value and the strokes of these."""
     values = np.broadcast_to(np.asarray(column.values, float), looked.curve.shape)
     if not np.isfinite(values).any():
@@ -234,9 +234,9 @@ def forces_section(looked: Looked) -> Section | None:
         said("pin"), said("joint"), said("on body"), said("from body"), said("Fx, {unit}", unit=unit), said("Fy, {unit}", unit=unit),
         said("F, {unit}", unit=unit), said("x axis"), said("at stroke"), said("load case"), said("motion"),
     )  # fmt: skip
-    table = Grid(said("Largest pin forces, for FEM"), heads, tuple(pin_row(looked, row) for row in rows), "llllrrrllll")
+    table = TableBlock(said("Largest pin forces, for FEM"), heads, tuple(pin_row(looked, row) for row in rows), "llllrrrllll")
     drives = (said("load case"), said("motion"), said("drive or member"), said("least"), said("greatest"), said("unit"))
-    ranges = Grid(said("Driving forces and thrusts at the poses of the table"), drives, tuple(drive_rows(looked, found)), "lllrrl")
+    ranges = TableBlock(said("Driving forces and thrusts at the poses of the table"), drives, tuple(drive_rows(looked, found)), "lllrrl")
     remarks = [Paragraph(each) for each in dict.fromkeys(remark for one in found for remark in one.remarks)]
     return Section(title, (ranges, looks, table, *remarks))
 
@@ -286,7 +286,8 @@ def limits_section(looked: Looked) -> Section:
     rows = [row for each in found.values() for row in limit_rows(looked, each)]
     held = said("Each stroke by itself, the others held at {pose}.", pose=looked.words(looked.pose))
     return Section(
-        title, (*([Paragraph(held)] if len(found) > 1 else []), Grid(said("Reach, dead points, transmission"), heads, tuple(rows), "lmm"))
+        title,
+        (*([Paragraph(held)] if len(found) > 1 else []), TableBlock(said("Reach, dead points, transmission"), heads, tuple(rows), "lmm")),
     )
 
 

@@ -18,12 +18,12 @@ from matplotlib.path import Path as Outline
 from matplotlib.transforms import IdentityTransform
 
 from ..disk import replacing
-from ..formulas.typeset import Row, boxes, pieces
+from ..formulas.typeset import BoxRow, boxes, breakable
 from ..language import said
-from .content import Block, Cell, Document, Equality, Formula, Grid, Illustration, Mark, Paragraph, Section
+from .content import Block, Cell, Document, Equality, Formula, Illustration, Mark, Paragraph, Section, TableBlock
 from .html import captions_of
 from .pictures import painted
-from .setting import Ink, Laid, Letters, Stroke, face, laid, width, wrapped
+from .setting import Ink, InkLine, Laid, Letters, face, laid, width, wrapped
 
 WIDE, HIGH = 595.276, 841.89
 LEFT, RIGHT, TOP, BOTTOM = 57.0, 42.0, 48.0, 52.0
@@ -74,7 +74,7 @@ class Page:
         for picture, x, y in self.pictures:
             painted(figure, picture, (x / INCH, (HIGH - y) / INCH - picture.size[1]))
         foot, of = HIGH - 30.0, said("page {n} of {all}", n=number, all=count)
-        line = Stroke(((LEFT, foot - 11.0), (WIDE - RIGHT, foot - 11.0)), 0.4, RULE)
+        line = InkLine(((LEFT, foot - 11.0), (WIDE - RIGHT, foot - 11.0)), 0.4, RULE)
         words = [wrapped(f"{document.footer}", ROOM - 90.0, SMALL)[0], of]
         places = [LEFT, WIDE - RIGHT - width(of, SMALL)]
         feet = [Letters(x, foot, text, SMALL, "regular", MUTED) for text, x in zip(words, places, strict=True)]
@@ -102,7 +102,7 @@ class InkArtist(Artist):
                 self.line(renderer, context, each)
         context.restore()
 
-    def line(self, renderer: Any, context: GraphicsContextBase, each: Stroke) -> None:
+    def line(self, renderer: Any, context: GraphicsContextBase, each: InkLine) -> None:
         """Draw a line or an area."""
         outline = Outline([(x, HIGH - y) for x, y in each.points])
         context.set_foreground(each.colour)
@@ -145,7 +145,7 @@ class Flow:
             if isinstance(ink, Letters):
                 self.put(Letters(x + ink.x, line - ink.y, ink.text, ink.size, ink.face, colour))
             else:
-                self.put(Stroke(tuple((x + px, line - py) for px, py in ink.points), ink.width, colour, ink.fill))
+                self.put(InkLine(tuple((x + px, line - py) for px, py in ink.points), ink.width, colour, ink.fill))
 
     def words(self, text: str, size: float = TEXT, name: str = "regular", colour: str = INK, after: float = 4.0) -> None:
         """Draw a paragraph."""
@@ -161,7 +161,7 @@ class Flow:
         self.words(document.title, 17.0, "bold", after=0.0)
         self.words(f"{said('Calculation report')}. {document.subtitle}", TEXT, colour=MUTED, after=7.0)
         rows = tuple((name, document.verdict if value == document.verdict.word else value) for name, value in document.facts)
-        self.table(Grid("", ("", ""), rows, "lm"), "", headed=False)
+        self.table(TableBlock("", ("", ""), rows, "lm"), "", headed=False)
 
     def section(self, number: int, section: Section) -> None:
         """Draw a section; small pictures stand in pairs."""
@@ -172,7 +172,7 @@ class Flow:
         self.y -= room
         y = self.take(22.0)
         self.put(Letters(LEFT, y + 12.0, f"{number}. {section.title}", 11.5, "bold", INK))
-        self.put(Stroke(((LEFT, y + 16.5), (WIDE - RIGHT, y + 16.5)), 0.9, INK))
+        self.put(InkLine(((LEFT, y + 16.5), (WIDE - RIGHT, y + 16.5)), 0.9, INK))
         waiting: list[Illustration] = []
         for block in section.blocks:
             if isinstance(block, Illustration) and block.size[0] * INCH < 0.55 * ROOM:
@@ -191,7 +191,7 @@ class Flow:
         """Draw a block."""
         if isinstance(block, Paragraph):
             self.words(block.text)
-        elif isinstance(block, Grid):
+        elif isinstance(block, TableBlock):
             self.table(block, self.captions.get(id(block), ""))
         elif isinstance(block, Equality):
             self.equality(block)
@@ -234,7 +234,7 @@ class Flow:
 
     # -- tables ----------------------------------------------------------------------------------------
 
-    def table(self, grid: Grid, caption: str, headed: bool = True) -> None:
+    def table(self, grid: TableBlock, caption: str, headed: bool = True) -> None:
         """Draw a table; its head is repeated on every page."""
         widths = column_widths(grid)
         body = [row_lines(row, widths, grid.columns) for row in grid.rows]
@@ -260,14 +260,14 @@ class Flow:
     def table_head(self, head: Sequence[Sequence[str]], widths: Sequence[float], columns: str, high: float) -> None:
         """Draw the headings of a table."""
         y, x, end = self.take(high), LEFT, LEFT + sum(widths)
-        self.put(Stroke(((x, y), (end, y), (end, y + high), (x, y + high), (x, y)), 0.0, HEAD, fill=True))
+        self.put(InkLine(((x, y), (end, y), (end, y + high), (x, y + high), (x, y)), 0.0, HEAD, fill=True))
         for lines, wide, kind in zip(head, widths, columns, strict=True):
             for place, text in enumerate(lines):
                 at = x + wide - 2.5 - width(text, CELL, "bold") if kind == "r" else x + 2.5
                 self.put(Letters(at, y + high - 2.6 - 1.32 * CELL * (len(lines) - 1 - place), text, CELL, "bold", INK))
             x += wide
         for level in (y, y + high):
-            self.put(Stroke(((LEFT, level), (end, level)), 0.6, INK))
+            self.put(InkLine(((LEFT, level), (end, level)), 0.6, INK))
 
     def row(self, row: Sequence[Cell], cells: Sequence[Any], widths: Sequence[float], columns: str, y: float, high: float) -> None:
         """Draw a row of a table."""
@@ -282,15 +282,15 @@ class Flow:
                     at = x + wide - 2.5 - width(text, CELL, name) if kind == "r" else x + 2.5
                     self.put(Letters(at, y + 1.5 + CELL * (1.0 + 1.32 * place), text, CELL, name, colour))
             x += wide
-        self.put(Stroke(((LEFT, y + high), (x, y + high)), 0.35, RULE))
+        self.put(InkLine(((LEFT, y + high), (x, y + high)), 0.35, RULE))
 
 
 def equality_pieces(block: Equality) -> Iterator[Laid]:
     """Yield the pieces of an equation, set; all but the first of a step's that follow another begin with its sign of equality."""
     equals = laid(boxes("= "), MATH)
     for place, step in enumerate(block.steps):
-        for first, piece in enumerate(pieces(boxes(step))):
-            each = laid(Row((Row(()), piece)) if first else piece, MATH)  # so that a sign in front has room on both sides
+        for first, piece in enumerate(breakable(boxes(step))):
+            each = laid(BoxRow((BoxRow(()), piece)) if first else piece, MATH)  # so that a sign in front has room on both sides
             if not place or first:
                 yield each
             else:
@@ -299,7 +299,7 @@ def equality_pieces(block: Equality) -> Iterator[Laid]:
                 yield Laid(lead + each.width, max(each.height, equals.height), max(each.depth, equals.depth), ink)
 
 
-def column_widths(grid: Grid) -> list[float]:
+def column_widths(grid: TableBlock) -> list[float]:
     """Return the widths of a table's columns: as its texts ask, long ones in what is left."""
     natural = []
     for place in range(len(grid.columns)):

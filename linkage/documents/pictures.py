@@ -18,7 +18,7 @@ FONT = "'DejaVu Sans', Verdana, sans-serif"
 """Where the first font is missing, one with the same widths."""
 
 
-def svg(picture: Illustration) -> str:
+def picture_svg(picture: Illustration) -> str:
     """Return a picture as SVG."""
     with rc_context(REPRODUCIBLE):
         figure = Figure(figsize=picture.size, dpi=100)

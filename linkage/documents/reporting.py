@@ -23,13 +23,13 @@ from ..reports import NOTHING, At
 from ..units import current_system, show, shown_number, unit_system
 from ..verdict import Verdict
 from .calculation import calculated, calculation_section, has_loads
-from .checks import checks_section, kept
-from .content import Cell, Document, Grid, Mark, Paragraph, Section
+from .checks import checks_section, kept_mark
+from .content import Cell, Document, Mark, Paragraph, Section, TableBlock
 from .fingerprint import DIGITS, fingerprint, own_version
 from .html import write_html
 from .inputs import definition_section, inputs_section
 from .markdown import write_markdown
-from .outcome import curves, drawing_section, forces_section, limits_section, members_section, results_section
+from .outcome import curve_columns, drawing_section, forces_section, limits_section, members_section, results_section
 from .pdf import write_pdf
 from .run import Looked
 
@@ -62,7 +62,7 @@ def report(
         machine, language=language, units=units, case=case, at=at, count=count, columns=columns, trace=trace, limits=limits,
         title_block=title_block, start=start,
     )  # fmt: skip
-    with in_words(language, units):
+    with speaking(language, units):
         WRITERS[place.suffix.lower()](document, place)
     return place
 
@@ -85,18 +85,18 @@ def report_document(
     looked = Looked.at(machine, at, count, case)
     if not isinstance(title_block, Mapping) or not all(isinstance(each, str) for pair in title_block.items() for each in pair):
         raise DefinitionError(f'title_block={cited(title_block)}: rows of text are expected, title_block={{"Checked by": "N. N."}}.')
-    with in_words(language, units):
-        return written(looked, columns, trace, limits, title_block, start)
+    with speaking(language, units):
+        return composed(looked, columns, trace, limits, title_block, start)
 
 
 @contextmanager
-def in_words(name: str | None, units: str | None) -> Iterator[None]:
+def speaking(name: str | None, units: str | None) -> Iterator[None]:
     """Speak a language and show a system of units; those that hold already where none is named."""
     with spoken(name or current_language()), unit_system(units or current_system() or None):
         yield
 
 
-def written(
+def composed(
     looked: Looked,
     columns: Sequence[str] | None,
     trace: Sequence[str] | None,
@@ -108,7 +108,7 @@ def written(
     machine, featured = looked.machine, looked.machine.featured()
     with unwarned():
         first = column_shown(machine, looked.curve, None).name
-    names = list(curves(looked))
+    names = list(curve_columns(looked))
     own = {name: given for name, given in featured.limits.items() if name in names}
     bounds = checked_limits(own if limits is None else limits, names, machine.plan.title)
     path = named_points(machine, trace, "trace") if trace is not None else tuple(featured.path) or machine.plan.moving[-1:]
@@ -187,7 +187,7 @@ def verdicts_of(machine: Mechanism) -> tuple[Section, Mark]:
     rows = tuple(verdict_row(each) for each in found)
     judged = [each for each in found if isinstance(each, Verdict)]
     count = sum(each.ok for each in judged)
-    grid_of = Grid(said("Rules, over the whole strokes"), (said("rule"), said("result"), said("what was found")), rows, "llm")
+    grid_of = TableBlock(said("Rules, over the whole strokes"), (said("rule"), said("result"), said("what was found")), rows, "llm")
     word = said("{kept} of {all} rules kept", kept=count, all=len(judged)) if judged else said("no rules declared")
     return Section(title, (grid_of,)), Mark(count == len(judged) if judged else None, word)
 
@@ -195,5 +195,5 @@ def verdicts_of(machine: Mechanism) -> tuple[Section, Mark]:
 def verdict_row(verdict: str) -> tuple[Cell, ...]:
     """Return a verdict as cells: its rule, whether it is kept, its sentence; of a plain sentence only that."""
     if isinstance(verdict, Verdict):
-        return translated(verdict.rule), kept(verdict.ok), verdict.sentence
+        return translated(verdict.rule), kept_mark(verdict.ok), verdict.sentence
     return "", Mark(None, "–"), verdict

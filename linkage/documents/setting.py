@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.font_manager import FontProperties, fontManager, get_font
 from matplotlib.ft2font import LoadFlags
 
-from ..formulas.typeset import Arrowed, Box, Fenced, Fraction, Lines, Rooted, Row, Script, Sign
+from ..formulas.typeset import Arrowed, Box, BoxRow, Fenced, Fraction, Lines, Rooted, Script, Sign
 
 FACES = {"regular": ("normal", "normal"), "italic": ("italic", "normal"), "bold": ("normal", "bold")}
 EM = 1000
@@ -77,7 +77,7 @@ class Letters:
 
 @final
 @dataclass(frozen=True)
-class Stroke:
+class InkLine:
     """A line through points, or an area that is filled."""
 
     points: tuple[tuple[float, float], ...]
@@ -85,12 +85,12 @@ class Stroke:
     colour: str = "#000000"
     fill: bool = False
 
-    def moved(self, x: float, y: float) -> Stroke:
+    def moved(self, x: float, y: float) -> InkLine:
         """Return it at another place."""
-        return Stroke(tuple((px + x, py + y) for px, py in self.points), self.width, self.colour, self.fill)
+        return InkLine(tuple((px + x, py + y) for px, py in self.points), self.width, self.colour, self.fill)
 
 
-Ink: TypeAlias = Letters | Stroke
+Ink: TypeAlias = Letters | InkLine
 
 
 @final
@@ -118,21 +118,21 @@ AXIS = 0.3
 def laid(box: Box, size: float) -> Laid:
     """Return a box of a formula, set in a size."""
     if isinstance(box, Sign):
-        return sign(box, size)
-    if isinstance(box, Row):
+        return sign_laid(box, size)
+    if isinstance(box, BoxRow):
         return row(box.parts, size)
     if isinstance(box, Fraction):
         return fraction(laid(box.over, 0.92 * size), laid(box.under, 0.92 * size), size)
     if isinstance(box, Script):
-        return script(box, size)
+        return script_laid(box, size)
     if isinstance(box, Arrowed):
         return arrowed(laid(box.base, size), size)
     if isinstance(box, Rooted):
         return rooted(laid(box.base, size), size)
-    return fenced(box, size) if isinstance(box, Fenced) else lines(box, size)
+    return fenced(box, size) if isinstance(box, Fenced) else lines_laid(box, size)
 
 
-def sign(box: Sign, size: float) -> Laid:
+def sign_laid(box: Sign, size: float) -> Laid:
     """Return one sign or word."""
     if box.kind == "space":
         return Laid(float(box.text) * size, 0.0, 0.0, ())
@@ -144,13 +144,13 @@ def row(parts: Sequence[Box], size: float) -> Laid:
     """Return boxes beside each other, with space about the signs of operations and behind names of functions."""
     ink: list[Ink] = []
     x, height, depth = 0.0, 0.6 * size, 0.15 * size
-    parts = [inner for each in parts for inner in (each.parts or (each,) if isinstance(each, Row) else (each,))]
+    parts = [inner for each in parts for inner in (each.parts or (each,) if isinstance(each, BoxRow) else (each,))]
     for place, part in enumerate(parts):
         each = laid(part, size)
         operates = isinstance(part, Sign) and part.kind == "operator" and part.text in SPACED
         binary = operates and place > 0
         x += 0.24 * size if binary else 0.0
-        ink = joined([*ink, *each.at(x, 0.0)])
+        ink = run_together([*ink, *each.at(x, 0.0)])
         x += each.width + (0.24 * size if binary else 0.0)
         if isinstance(part, Sign) and part.text == ",":
             x += 0.3 * size
@@ -160,7 +160,7 @@ def row(parts: Sequence[Box], size: float) -> Laid:
     return Laid(x, height, depth, tuple(ink))
 
 
-def joined(ink: list[Ink]) -> list[Ink]:
+def run_together(ink: list[Ink]) -> list[Ink]:
     """Return ink whose last two texts, where one goes on with the other, are one: what is copied out of a page is whole words."""
     if len(ink) < 2:
         return ink
@@ -188,12 +188,12 @@ def fraction(over: Laid, under: Laid, size: float) -> Laid:
     """Return one over another."""
     wide, axis, gap = max(over.width, under.width) + 0.3 * size, AXIS * size, 0.14 * size
     up, down = axis + gap + over.depth, axis - gap - under.height
-    line = Stroke(((0.06 * size, axis), (wide - 0.06 * size, axis)), 0.05 * size)
+    line = InkLine(((0.06 * size, axis), (wide - 0.06 * size, axis)), 0.05 * size)
     ink = (*over.at(0.5 * (wide - over.width), up), *under.at(0.5 * (wide - under.width), down), line)
     return Laid(wide + 0.1 * size, up + over.height, under.depth - down, ink)
 
 
-def script(box: Script, size: float) -> Laid:
+def script_laid(box: Script, size: float) -> Laid:
     """Return a box with index and exponent."""
     base = laid(box.base, size)
     small, x = 0.7 * size, base.width + 0.03 * size
@@ -215,8 +215,8 @@ def arrowed(base: Laid, size: float) -> Laid:
     """Return a box under an arrow."""
     y, tip = base.height + 0.06 * size, 0.16 * size
     end = max(base.width, 0.5 * size)
-    line = Stroke(((0.04 * size, y), (end, y)), 0.045 * size)
-    head = Stroke(((end - tip, y + 0.6 * tip), (end, y), (end - tip, y - 0.6 * tip)), 0.045 * size)
+    line = InkLine(((0.04 * size, y), (end, y)), 0.045 * size)
+    head = InkLine(((end - tip, y + 0.6 * tip), (end, y), (end - tip, y - 0.6 * tip)), 0.045 * size)
     return Laid(max(base.width, end) + 0.04 * size, y + 0.14 * size, base.depth, (*base.ink, line, head))
 
 
@@ -224,7 +224,7 @@ def rooted(base: Laid, size: float) -> Laid:
     """Return the square root of a box."""
     x, top, low = 0.55 * size, base.height + 0.14 * size, -base.depth
     hook = ((0.0, 0.3 * top), (0.15 * size, 0.36 * top), (0.32 * size, low), (0.5 * size, top), (x + base.width + 0.1 * size, top))
-    return Laid(x + base.width + 0.15 * size, top + 0.08 * size, base.depth, (Stroke(hook, 0.05 * size), *base.at(x, 0.0)))
+    return Laid(x + base.width + 0.15 * size, top + 0.08 * size, base.depth, (InkLine(hook, 0.05 * size), *base.at(x, 0.0)))
 
 
 def fenced(box: Fenced, size: float) -> Laid:
@@ -241,20 +241,20 @@ def fence(text: str, body: Laid, size: float) -> Laid:
         return Laid(0.0, 0.0, 0.0, ())
     low = body.height <= 0.95 * size and body.depth <= 0.35 * size
     if low and text != "|":
-        return sign(Sign("operator", text), size)
+        return sign_laid(Sign("operator", text), size)
     top, bottom = body.height + 0.05 * size, -body.depth - 0.03 * size
     if text in "|‖":
-        return Laid(0.26 * size, top, -bottom, (Stroke(((0.13 * size, top), (0.13 * size, bottom)), 0.05 * size),))
+        return Laid(0.26 * size, top, -bottom, (InkLine(((0.13 * size, top), (0.13 * size, bottom)), 0.05 * size),))
     wide, middle, half = 0.2 * size, 0.5 * (top + bottom), 0.5 * (top - bottom)
     ways = np.linspace(-1.0, 1.0, 13)
     bend = wide * (1.0 - np.sqrt(np.maximum(0.0, 1.0 - 0.96 * ways**2)))
     bend = wide * np.abs(ways) ** 0.25 if text in "{}" else bend
     xs = 0.12 * size + (bend if text in "({[" else wide - bend)
     points = tuple((float(x), float(middle + half * way)) for x, way in zip(xs, ways, strict=True))
-    return Laid(wide + 0.2 * size, top, -bottom, (Stroke(points, 0.055 * size),))
+    return Laid(wide + 0.2 * size, top, -bottom, (InkLine(points, 0.055 * size),))
 
 
-def lines(box: Lines, size: float) -> Laid:
+def lines_laid(box: Lines, size: float) -> Laid:
     """Return rows below each other, their middle at the height of fractions."""
     rows = [[laid(cell, size) for cell in each] for each in box.rows]
     columns = max(map(len, rows))

@@ -73,7 +73,7 @@ class Sign:
 
 @final
 @dataclass(frozen=True)
-class Row:
+class BoxRow:
     """Boxes beside each other."""
 
     parts: tuple[Box, ...]
@@ -133,7 +133,7 @@ class Lines:
     rows: tuple[tuple[Box, ...], ...]
 
 
-Box: TypeAlias = Sign | Row | Fraction | Script | Arrowed | Rooted | Fenced | Lines
+Box: TypeAlias = Sign | BoxRow | Fraction | Script | Arrowed | Rooted | Fenced | Lines
 
 TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[{}^_&]|\d+(?:\.\d+)?|[^\W\d_]|\S", re.DOTALL)
 
@@ -143,9 +143,9 @@ def boxes(latex: str) -> Box:
     return _Reader(latex).row(())
 
 
-def pieces(box: Box) -> list[Box]:
+def breakable(box: Box) -> list[Box]:
     """Return a row cut in front of its outermost sums, products and comparisons: where a line may break."""
-    if not isinstance(box, Row):
+    if not isinstance(box, BoxRow):
         return [box]
     cut: list[list[Box]] = [[]]
     for place, part in enumerate(box.parts):
@@ -153,7 +153,7 @@ def pieces(box: Box) -> list[Box]:
         if breaks and place and cut[-1] and not (len(cut[-1]) == 1 and is_operator(cut[-1][0])):
             cut.append([])
         cut[-1].append(part)
-    return [Row(tuple(parts)) for parts in cut if parts]
+    return [BoxRow(tuple(parts)) for parts in cut if parts]
 
 
 def is_operator(box: Box) -> bool:
@@ -195,12 +195,12 @@ class _Reader:
         parts: list[Box] = []
         while (token := self.peek()) and token not in ends:
             if token in ("^", "_"):
-                base = parts.pop() if parts else Row(())
+                base = parts.pop() if parts else BoxRow(())
                 parts.append(self.scripts(base))
             else:
                 parts.append(self.one())
-        flat = [each for part in parts for each in (part.parts if isinstance(part, Row) else (part,))]
-        return flat[0] if len(flat) == 1 else Row(tuple(flat))
+        flat = [each for part in parts for each in (part.parts if isinstance(part, BoxRow) else (part,))]
+        return flat[0] if len(flat) == 1 else BoxRow(tuple(flat))
 
     def scripts(self, base: Box) -> Box:
         low = high = None
@@ -209,7 +209,7 @@ class _Reader:
             found = self.one()
             low, high = (found, high) if token == "_" else (low, found)
         if high == Sign("variable", "°") and low is None:
-            return Row((base, Sign("name", "°")))
+            return BoxRow((base, Sign("name", "°")))
         return Script(base, low, high)
 
     def one(self) -> Box:

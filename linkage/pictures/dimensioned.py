@@ -94,7 +94,7 @@ class LengthLine:
         ax.annotate("", tuple(end), tuple(start), arrowprops=arrow, zorder=20.5, annotation_clip=False)
         way = float(np.degrees(np.arctan2(*(end - start)[::-1])))
         way = (way + 90.0) % 180.0 - 90.0
-        number(ax, self.text, 0.5 * (start + end), way)
+        write_number(ax, self.text, 0.5 * (start + end), way)
 
 
 @final
@@ -129,10 +129,10 @@ class AngleArc:
         x, y = self.corner
         size, ends = 2.0 * self.radius, np.degrees([self.start, self.end])
         ax.add_patch(Arc((x, y), size, size, theta1=ends[0], theta2=ends[1], color=style.INK, linewidth=0.7, zorder=20.0))
-        number(ax, self.text, self.middle, 0.0)
+        write_number(ax, self.text, self.middle, 0.0)
 
 
-def number(ax: Axes, text: str, place: FloatArray, way: float) -> None:
+def write_number(ax: Axes, text: str, place: FloatArray, way: float) -> None:
     """Write a dimension over its line, turned by an angle [deg]."""
     x, y = place.tolist()
     ax.text(
@@ -151,18 +151,18 @@ def placed_dimensions(scene: Scene, at: Places, pose: int, scale: float, box: Bo
     """
     letter = LETTERS / scale
     taken = [cloud(scene, at)]
-    for ends, corner, text in dimensions_of(scene.motion, at, pose):
+    for ends, corner, text in given_dimensions(scene.motion, at, pose):
         places = line_choices(text, *ends, letter) if corner is None else arc_choices(text, corner, *ends, letter)
         choices: list[LengthLine | AngleArc] = [each for each in places if is_within(each.covered, box)]
         points = np.concatenate(taken)
-        costs = [crowding(each, points) + 1.2 * (rank // 2) for rank, each in enumerate(choices)]
+        costs = [covering(each, points) + 1.2 * (rank // 2) for rank, each in enumerate(choices)]
         if costs and min(costs) < MOST:
             best = choices[int(np.argmin(costs))]
             taken.append(best.covered)
             yield best
 
 
-def dimensions_of(motion: Motion, at: Places, pose: int) -> Iterator[tuple[tuple[FloatArray, FloatArray], FloatArray | None, str]]:
+def given_dimensions(motion: Motion, at: Places, pose: int) -> Iterator[tuple[tuple[FloatArray, FloatArray], FloatArray | None, str]]:
     """Yield what is given: the two points of a length, or the two sides of an angle with its corner, and the text; short ones first."""
     plan = motion.plan
     lengths = []
@@ -219,7 +219,7 @@ def is_within(points: FloatArray, box: Bounds) -> bool:
     return bool(np.all((x > left) & (x < right) & (y > bottom) & (y < top)))
 
 
-def crowding(each: LengthLine | AngleArc, taken: FloatArray) -> float:
+def covering(each: LengthLine | AngleArc, taken: FloatArray) -> float:
     """Return how many of the points that a dimension would cover lie within a letter of one that is taken."""
     near = np.abs(each.covered[:, None, :] - taken[None, :, :]).max(axis=2) < 0.7 * each.letter
     return float(np.count_nonzero(near.any(axis=1)))

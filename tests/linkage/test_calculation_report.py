@@ -12,14 +12,14 @@ import pytest
 
 from linkage import RIGHT, DefinitionError, Dyad, FileError, Ground, LoadCase, Mechanism, Stroke, Weight, deg, max_table, pin_forces, report
 from linkage.documents import report_document
-from linkage.documents.content import Equality, Grid, Illustration
+from linkage.documents.content import Equality, Illustration, TableBlock
 from linkage.documents.fingerprint import fingerprint
-from linkage.documents.html import html
+from linkage.documents.html import html_text
 from linkage.documents.markdown import markdown
 from linkage.documents.pdf import pdf
 from linkage.documents.run import Looked
 from linkage.formulas.mathml import mathml
-from linkage.formulas.typeset import Fraction, Row, Script, boxes, pieces
+from linkage.formulas.typeset import BoxRow, Fraction, Script, boxes, breakable
 from linkage.language import language
 from linkage.motion import Column
 from linkage.reports import results, run_of
@@ -63,12 +63,12 @@ def hitch():
 
 @pytest.fixture(scope="module")
 def page(hitch):
-    return html(hitch)
+    return html_text(hitch)
 
 
 def grids(document, *headings):
     """Return the tables of a document with some headings."""
-    blocks = [block for section in document.sections for block in section.blocks if isinstance(block, Grid)]
+    blocks = [block for section in document.sections for block in section.blocks if isinstance(block, TableBlock)]
     return [block for block in blocks if set(headings) <= set(block.headings)]
 
 
@@ -147,7 +147,7 @@ def test_a_check_fails_where_a_length_is_not_kept(monkeypatch):
 
 def test_russian_says_everything_in_russian():
     with language("ru"):
-        text = html(report_document(ThreePointHitch()))
+        text = html_text(report_document(ThreePointHitch()))
     body = re.sub(r"<style>.*?</style>|<math.*?</math>|<img[^>]*>", "", text, flags=re.DOTALL)
     assert '<html lang="ru"' in text
     for word in (
@@ -189,7 +189,7 @@ def test_load_cases_are_looked_at_alone_or_all(tmp_path):
 
 def test_sources_stand_beside_the_numbers_and_names_are_escaped(tmp_path):
     document = report_document(Lifter(OB=0.41), title_block={"<b>": "a|b & *c*"})
-    page, text = html(document), markdown(document, {id(each): "x.svg" for s in document.sections for each in s.blocks})
+    page, text = html_text(document), markdown(document, {id(each): "x.svg" for s in document.sections for each in s.blocks})
     assert "measured at the frame" in page and "from the data sheet" in page and "was 400" in page
     assert "&lt;b&gt;" in page and "a|b &amp; *c*" in page and "<signs>" not in page
     assert r"\<b\>" in text and r"a\|b & \*c\*" in text and r"\<signs\>" in text
@@ -271,7 +271,7 @@ def test_the_text_of_a_pdf_can_be_selected_in_russian_too(tmp_path):
         assert word in text
     document = report_document(MowerLift(), language="ru")
     grid = next(
-        block for section in document.sections for block in section.blocks if isinstance(block, Grid) and "Fx, кН" in block.headings
+        block for section in document.sections for block in section.blocks if isinstance(block, TableBlock) and "Fx, кН" in block.headings
     )
     assert all(re.search(r"\s+".join(map(re.escape, row[4:7])), text) for row in grid.rows)
 
@@ -320,8 +320,8 @@ def test_latex_becomes_mathml(latex, expected):
 
 def test_latex_is_read_into_boxes_that_break_before_signs():
     row = boxes(r"a + \frac{b}{c_{1}} \cdot 3")
-    assert isinstance(row, Row) and isinstance(row.parts[2], Fraction) and isinstance(row.parts[2].under, Script)
-    assert len(pieces(row)) == 3 and len(pieces(boxes("-a"))) == 1
+    assert isinstance(row, BoxRow) and isinstance(row.parts[2], Fraction) and isinstance(row.parts[2].under, Script)
+    assert len(breakable(row)) == 3 and len(breakable(boxes("-a"))) == 1
     cases = boxes(r"\begin{cases} a & \text{for}\: x > 0 \\ b & \text{otherwise} \end{cases}")
     assert mathml(cases).count("<mtr>") == 2
 
@@ -329,7 +329,7 @@ def test_latex_is_read_into_boxes_that_break_before_signs():
 @pytest.mark.slow
 def test_every_walking_leg_has_a_report():
     document = report_document(Jansen())
-    ElementTree.fromstring(html(document).removeprefix("<!DOCTYPE html>"))
+    ElementTree.fromstring(html_text(document).removeprefix("<!DOCTYPE html>"))
     assert pdf(document)
 
 

@@ -28,6 +28,7 @@ HOMES = {
     "plot": "plot:PlotCommand",
     "animate": "plot:AnimateCommand",
     "page": "page:PageCommand",
+    "report": "report:ReportCommand",
     "export": "export:ExportCommand",
     "save": "show:SaveCommand",
     "optimise": "optimise:OptimiseCommand",

@@ -26,6 +26,7 @@ from .paper import empty_page, legend_row, remark, title
 from .scene import Scene
 from .strokes import is_turn, stroke_words, unreached_words
 from .style import FAINT, STRONG
+from .telling import telling_angles
 
 MANY = 1_000_000
 """Poses of a path: more do not fit into a picture."""
@@ -133,9 +134,11 @@ def motions(machine: Mechanism, at: Any, count: int) -> tuple[tuple[str, ...], M
         return joint_motions(machine, given, several, count)
     moving = max(given, key=lambda name: np.size(given[name])) if given else first_stroke(machine)
     start, end = machine.strokes[moving].start, machine.strokes[moving].end
-    usual = (0.5 * (start + end), start) if is_turn(machine, Run({moving: (start, end)}, {})) else (start, end)
-    given_values = {name: np.atleast_1d(chosen_values(machine, name, usual if value is None else value)) for name, value in given.items()}
-    at_values: dict[str, Any] = stroke_middles(machine) | given_values
+    others = {name: np.atleast_1d(chosen_values(machine, name, value)) for name, value in given.items() if value is not None}
+    at_values: dict[str, Any] = stroke_middles(machine) | others
+    if moving not in others:
+        is_round = is_turn(machine, Run({moving: (start, end)}, {}))
+        at_values[moving] = telling_angles(machine, moving, at_values) if is_round else np.array([start, end])
     shown = machine.at(unreachable="nan", **at_values)
     if not shown.reached.any():
         machine.at(**at_values)

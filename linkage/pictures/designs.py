@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
 from ..errors import DefinitionError
+from ..language import said
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion
 from ..plan import plan_measure
@@ -75,7 +76,7 @@ def draw_designs(machines: Sequence[Mechanism], at: Any, path: Sequence[str], co
     legend_row(ax, keys, texts, columns)
     title(figure, first.plan.heading, at_words(shown[0]))
     lost = [text for text, scene in zip(texts, scenes, strict=True) if not scene.reached]
-    sheet_note(ax, [f"Cannot be assembled here: {'; '.join(lost)}."] if lost else [])
+    sheet_note(ax, [said("Cannot be assembled here: {designs}.", designs="; ".join(lost))] if lost else [])
     return figure
 
 
@@ -137,8 +138,8 @@ def what_differs(designs: Sequence[Mechanism]) -> list[str]:
     for machine, heading in zip(designs, titles, strict=True):
         words = [heading] if len(set(titles)) > 1 else []
         words += [f"{name} = {shown_value(machine, name)}" for name in names[:MOST_NAMED]]
-        words += [f"and {len(names) - MOST_NAMED} more"] if len(names) > MOST_NAMED else []
-        found.append(", ".join(words) or "the same design")
+        words += [said("and {n} more", n=len(names) - MOST_NAMED)] if len(names) > MOST_NAMED else []
+        found.append(", ".join(words) or said("the same design"))
     return found
 
 
@@ -152,6 +153,6 @@ def at_words(motion: Motion) -> str:
     """Return the strokes of a motion in words; of several values that they are so many."""
     values: Mapping[str, Any] = {name: np.unique(np.ravel(value)) for name, value in motion.strokes.items()}
     return ", ".join(
-        stroke_words(motion.plan, name, float(each[0])) if each.size == 1 else f"{name}: {each.size} values"
+        stroke_words(motion.plan, name, float(each[0])) if each.size == 1 else said("{name}: {n} values", name=name, n=each.size)
         for name, each in values.items()
     )

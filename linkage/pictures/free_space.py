@@ -36,6 +36,18 @@ def cloud(scene: Scene, at: Places) -> FloatArray:
     return np.concatenate([np.empty((0, 2)), *wide, *beside, *points])
 
 
+def around(scene: Scene, at: Places) -> FloatArray:
+    """Return points along the lines of the surroundings at a pose, shape (n, 2) [m]."""
+    found = [np.empty((0, 2))]
+    for piece in scene.surroundings:
+        if np.isfinite([at[name] for name in piece.on]).all():
+            for line in piece.lines:
+                corners = piece.placed(line.rows[:, 1:], at)
+                ends = [*corners[1:], *corners[: int(line.closed)]]
+                found += [segment(P, Q, 1.5 * scene.size) for P, Q in zip(corners, ends, strict=False) if not np.array_equal(P, Q)]
+    return np.concatenate(found)
+
+
 def _normal(line: FloatArray) -> FloatArray:
     """Return the unit normal of a line of points."""
     along = line[-1] - line[0]

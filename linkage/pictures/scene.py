@@ -15,8 +15,8 @@ from ..errors import DefinitionError
 from ..loads import ForceElement, Glyph
 from ..motion import Motion, require_motion
 from ..program import FloatArray
-from ..quantities import Joint, Quantity, Where
-from ..steps import Guide
+from ..quantities import Joint, Quantity, Where, needs
+from ..steps import Arrow, Guide, Point
 from ..surroundings import Outline
 from ..vectors import Line
 from .shapes import (
@@ -512,6 +512,14 @@ class Scene:
     def dots(self) -> tuple[str, ...]:
         """The other points."""
         return tuple(name for name in self.places if name not in self.pins)
+
+    @cached_property
+    def minor(self) -> frozenset[str]:
+        """The points within a body that are only centres of mass or help to construct others: their names are small."""
+        inner = {name for points in self.bodies for name in points} - {name for points in self.hulls for name in points}
+        heavy = {glyph.points[0] for _, glyph in self.glyphs if glyph.drawn_as == "weight"}
+        base = {name for each in self.motion.plan.members.values() if isinstance(each, (Point, Arrow, Quantity)) for name in needs(each)}
+        return frozenset(name for name in self.dots if name in inner and name in heavy | base)
 
     # -- sizes -----------------------------------------------------------------------------------------
 

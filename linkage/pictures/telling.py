@@ -58,7 +58,7 @@ def faint_poses(machine: Mechanism, tried: Motion, bold: int) -> list[int]:
     return found[::-1] or [opposite] * bool(reached[opposite])
 
 
-def way_round(one: Any, other: Any, steps: int) -> Any:
+def way_round(one: Any, other: Any, steps: float) -> Any:
     """Return how many steps two poses of a round of so many are apart, the shorter way."""
     return np.minimum(np.abs(one - other), steps - np.abs(one - other))
 

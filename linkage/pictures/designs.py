@@ -17,7 +17,7 @@ from ..language import said
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion
 from ..plan import plan_measure
-from ..reports import stroke_middles
+from ..reports import Run, first_stroke, stroke_middles
 from ..units import display_unit, show
 from . import style
 from .drawing import Drawing
@@ -26,8 +26,9 @@ from .overlays import sheet_note
 from .paper import empty_page, legend_row, title
 from .poses import motions, named_points, trace
 from .scene import Scene
-from .strokes import stroke_words
+from .strokes import is_turn, stroke_words
 from .style import FAINT, STRONG, Look
+from .telling import telling_angles
 
 MOST_DESIGNS = 12
 MOST_NAMED = 3
@@ -47,7 +48,7 @@ def draw_designs(machines: Sequence[Mechanism], at: Any, path: Sequence[str], co
     """
     designs = separated(machines)
     first = designs[0]
-    values = stroke_middles(first) if at is None else at
+    values = usual_pose(first) if at is None else at
     path = named_points(first, path, "path")
     moved = [motions(machine, values, count) for machine in designs]
     shown, swept = [each for _, each, _ in moved], [each for _, _, each in moved]
@@ -78,6 +79,15 @@ def draw_designs(machines: Sequence[Mechanism], at: Any, path: Sequence[str], co
     lost = [text for text, scene in zip(texts, scenes, strict=True) if not scene.reached]
     sheet_note(ax, [said("Cannot be assembled here: {designs}.", designs="; ".join(lost))] if lost else [])
     return figure
+
+
+def usual_pose(machine: Mechanism) -> Mapping[str, Any]:
+    """Return where designs are compared unless it is said: every stroke in its middle, one that goes round where the first is open."""
+    middles, moving = stroke_middles(machine), first_stroke(machine)
+    stroke = machine.strokes[moving]
+    if not is_turn(machine, Run({moving: (stroke.start, stroke.end)}, {})):
+        return middles
+    return {**middles, moving: float(telling_angles(machine, moving, middles)[-1])}
 
 
 def let_through(drawing: Drawing) -> None:

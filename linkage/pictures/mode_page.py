@@ -103,7 +103,7 @@ def draw_mode(ax: Axes, mode: Assembly, scene: Scene, extent: tuple[float, float
         return
     drawing = Drawing(ax, scene, STRONG)
     drawing.ground()
-    drawing.label([scene.at(scene.reached[0])])
+    drawing.label([scene.at(scene.reached[0])], all_points=False)
     drawing.update(scene.reached[0])
 
 

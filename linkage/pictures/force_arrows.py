@@ -133,9 +133,9 @@ def short_name(forces: ForcesAt, body: str) -> str:
     return body if len(body) <= 8 or len(points) < 3 else f"{points[0]}{points[1]}\N{HORIZONTAL ELLIPSIS}"
 
 
-def named_body(forces: ForcesAt, body: str) -> str:
-    """Return a body's name as it is written at an arrow, the frame's in the language that is spoken."""
-    return translated("frame") if body == FRAME else short_name(forces, body)
+def from_words(forces: ForcesAt, body: str) -> str:
+    """Return where a force comes from, in words."""
+    return said("from the frame") if body == FRAME else said("from {body}", body=short_name(forces, body))
 
 
 def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
@@ -144,7 +144,7 @@ def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
     for place, joint in enumerate(found.joints):
         if body in (joint.on, joint.by):
             other, sign = (joint.by, 1.0) if joint.on == body else (joint.on, -1.0)
-            colour, from_other = MEMBER if other in found.thrusts else PIN, said("from {body}", body=named_body(forces, other))
+            colour, from_other = MEMBER if other in found.thrusts else PIN, from_words(forces, other)
             force, couple = sign * forces.one(joint.force), sign * float(forces.one(joint.couple))
             if joint.has_force:
                 arrows.append(

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from ..language import said, translated
+from ..language import said
 from ..motion import Motion
 from ..program import FloatArray
 from . import style
@@ -59,11 +59,9 @@ def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure
     draw_polygon(beside, layer)
     sheet_note(ax, [said("No forces here: {why}", why=forces.refusal)] if forces.refusal else forces.found.remarks)
     where = [stroke_words(motion.plan, name, float(values.ravel()[pose])) for name, values in motion.strokes.items()]
-    title(
-        figure,
-        said("{machine}: forces on {body}", machine=motion.plan.heading, body=translated(body) if body == FRAME else body),
-        ", ".join(where),
-    )
+    heading = motion.plan.heading
+    on_body = said("{machine}: forces on {body}", machine=heading, body=body)
+    title(figure, said("{machine}: forces on the frame", machine=heading) if body == FRAME else on_body, ", ".join(where))
     legend_row(ax, *ax.get_legend_handles_labels())
     footnote(figure, closing_words(layer, body))
     return figure

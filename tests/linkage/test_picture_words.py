@@ -138,3 +138,14 @@ def test_masses_and_moments_of_bodies_are_marked_at_their_places():
         assert np.hypot(*(seen - centre).T).max() < 1.1 * scene.size
         bar = marks["O", "A"].placed(marks["O", "A"].corners, at)
         assert np.hypot(*(bar - 0.5 * (at["O"] + at["A"])).T).max() < 1.1 * scene.size
+
+
+def test_a_long_legend_is_written_so_small_that_it_fits():
+    with language("ru"):
+        figure = draw(ThreePointHitch(), forces=True, path=["G"])
+    legend = figure.axes[0].get_legend()
+    extent = legend.get_window_extent(figure.canvas.get_renderer())
+    assert extent.x1 <= figure.bbox.width
+    assert legend.get_texts()[0].get_fontsize() < 10.0
+    plain = draw(ThreePointHitch(), path=["G"]).axes[0].get_legend()
+    assert plain.get_texts()[0].get_fontsize() == 10.0

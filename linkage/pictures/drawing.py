@@ -78,15 +78,17 @@ class Drawing:
         for name, way in props(self.scene).items():
             ground(self.ax, at[name], way, self.scene.size, self.look)
 
-    def label(self, poses: Sequence[Places], keep_clear: Sequence[FloatArray] = (), *, all_points: bool = True) -> None:
+    def label(
+        self, poses: Sequence[Places], keep_clear: Sequence[FloatArray] = (), *, all_points: bool = True, font: float = style.LABEL
+    ) -> None:
         """Name the points, or those alone that are no construction; names keep clear of the mechanism at all `poses` and of points [m]."""
         size, scale = self.scene.size, points_a_metre(self.ax)
         clouds = [np.concatenate([points, *keep_clear]) for points in label_free(self.scene, poses)]
         gap = 1.15 * size * scale + 1.5
         minor = self.scene.minor
         names = [name for name in self.scene.places if all_points or name not in minor]
-        spots = offsets(names, poses, clouds, scale, gap, minor=minor)
-        self.parts += [LabelPart(self.ax, name, spot, gap, self.look, name in minor) for name, spot in spots.items()]
+        spots = offsets(names, poses, clouds, scale, gap, font, minor=minor)
+        self.parts += [LabelPart(self.ax, name, spot, gap, self.look, name in minor, font) for name, spot in spots.items()]
 
     def update(self, pose: int) -> None:
         """Move to a pose, a flat index."""

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, cited, unknown, unwarned
 from ..language import noted, said, translated
+from ..loads import ForceElement
 from ..motion import Motion
 from ..program import FloatArray
 from ..statics import PinForces, pin_forces
@@ -194,7 +195,21 @@ def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatA
         if square <= 1e-18 * float((each_of**2).sum()):
             yield element, body, middle, np.zeros(2), moment
         else:
-            yield element, body, middle + moment * np.array([-force[1], force[0]]) / -square, force, 0.0
+            place = middle + moment * np.array([-force[1], force[0]]) / -square
+            centre = mass_centre(forces, element)
+            yield element, body, place + force * float((centre - place) @ force) / square if centre is not None else place, force, 0.0
+
+
+def mass_centre(forces: ForcesAt, element: str) -> FloatArray | None:
+    """Return the centre of a body's own mass that is declared beside its points, shape (2,) [m]; None for any other element."""
+    plan = forces.found.motion.plan
+    found = plan.of_kind(ForceElement).get(element)
+    for glyph in found.glyphs(plan.members) if found is not None else ():
+        if glyph.away is not None:
+            P, Q = (forces.place(name) for name in glyph.points[:2])
+            along = (Q - P) / np.hypot(*(Q - P))
+            return np.asarray(P + glyph.away[0] * along + glyph.away[1] * np.array([-along[1], along[0]]))
+    return None
 
 
 def drawn_body(found: PinForces, name: str) -> str:

@@ -34,9 +34,11 @@ MINOR = 0.75
 class LabelPart(MovingPart):
     """A point's name at an offset [points], joined to the point by a thin line where it stands away from it."""
 
-    def __init__(self, ax: Axes, name: str, offset: FloatArray, gap: float, look: Look, minor: bool = False) -> None:
+    def __init__(
+        self, ax: Axes, name: str, offset: FloatArray, gap: float, look: Look, minor: bool = False, font: float = style.LABEL
+    ) -> None:
         self.points = (name,)
-        font = style.LABEL * (MINOR if minor else 1.0)
+        font = font * (MINOR if minor else 1.0)
         leader = {"arrowstyle": "-", "color": look.colour(style.MUTED), "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.6 * gap}
         self.is_led = bool(distance_to_box(offset, half_of(name, font)) > LED * gap)
         self.text = ax.annotate(

@@ -27,8 +27,8 @@ MOST_MODES = 24
 """The modes on a page; of more, these first ones."""
 ACROSS, PANEL, GAP, HEAD_ROOM, LINE = 4, 3.1, 0.18, 0.72, 0.135
 """Panels in a row, a panel's width, the gap between two, the room for the title, and the height of a line of code [inch]."""
-CODE = 6.6
-"""The size of the letters of code [points]."""
+CODE, NAMES = 6.6, 8.0
+"""The sizes of the letters of code and of points' names [points]."""
 
 
 def draw_modes(modes: Sequence[Assembly]) -> Figure:
@@ -103,7 +103,7 @@ def draw_mode(ax: Axes, mode: Assembly, scene: Scene, extent: tuple[float, float
         return
     drawing = Drawing(ax, scene, STRONG)
     drawing.ground()
-    drawing.label([scene.at(scene.reached[0])], all_points=False)
+    drawing.label([scene.at(scene.reached[0])], all_points=False, font=NAMES)
     drawing.update(scene.reached[0])
 
 

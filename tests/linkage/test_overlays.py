@@ -182,7 +182,7 @@ def test_own_mass_is_drawn_at_its_centre_of_gravity_and_a_moment_as_a_curve():
     along = (B - A) / np.hypot(*(B - A))
     centre = A + 0.2 * along + 0.05 * np.array([-along[1], along[0]])
     tail, vector = arrows(figure, "load own ")["load own on ABP"]
-    assert_allclose(tail[0], centre[0], atol=1e-9)
+    assert_allclose(tail, centre, atol=1e-9)
     assert abs(vector[0]) < 1e-9 and vector[1] < 0.0
     assert named(figure, "moment drag")["moment drag on CB value"].get_text() == "0.250 kNm drag"
     curve = np.array(named(figure, "moment drag")["moment drag on CB"].get_xydata())

@@ -36,7 +36,7 @@ def cloud(scene: Scene, at: Places) -> FloatArray:
     return np.concatenate([np.empty((0, 2)), *wide, *beside, *points])
 
 
-def around(scene: Scene, at: Places) -> FloatArray:
+def surrounding_points(scene: Scene, at: Places) -> FloatArray:
     """Return points along the lines of the surroundings at a pose, shape (n, 2) [m]."""
     found = [np.empty((0, 2))]
     for piece in scene.surroundings:

@@ -21,7 +21,7 @@ from . import style
 from .drawing import Drawing, mechanism
 from .force_arrows import force_question
 from .free_body import draw_free_body
-from .free_space import around, cloud
+from .free_space import cloud, surrounding_points
 from .overlays import NO_OVERLAYS, Overlays
 from .paper import empty_page, legend_row, remark, title
 from .scene import Scene
@@ -108,7 +108,7 @@ def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int, o
     if laid:
         overlays.centrodes(ax, swept)
         at = Scene(shown).at(last)
-        laid.draw(ax, whole.size, np.concatenate([cloud(whole, at), around(whole, at)]))
+        laid.draw(ax, whole.size, np.concatenate([cloud(whole, at), surrounding_points(whole, at)]))
     heading(figure, ax, shown, moving)
     remark(figure, ax, unreached_words(swept, moving[0]) if len(moving) == 1 else unreached_on_the_way(swept))
     return figure
@@ -126,7 +126,7 @@ def draw_laid_over(motion: Motion, swept: Motion, pose: int, overlays: Overlays)
     drawing.update(pose)
     overlays.centrodes(ax, swept)
     at = scene.at(pose)
-    laid.draw(ax, scene.size, np.concatenate([cloud(scene, at), around(scene, at)]))
+    laid.draw(ax, scene.size, np.concatenate([cloud(scene, at), surrounding_points(scene, at)]))
     legend_row(ax, *ax.get_legend_handles_labels())
     return figure
 

@@ -56,7 +56,12 @@ class LabelPart(MovingPart):
 
 
 def offsets(
-    names: Sequence[str], poses: Sequence[Places], clouds: Sequence[FloatArray], scale: float, gap: float, font: float = style.LABEL,
+    names: Sequence[str],
+    poses: Sequence[Places],
+    clouds: Sequence[FloatArray],
+    scale: float,
+    gap: float,
+    font: float = style.LABEL,
     minor: Collection[str] = (),
 ) -> dict[str, FloatArray]:
     """Return where each name stands, from its point, shape (2,) each, in the unit of `font`.

@@ -105,6 +105,7 @@ def points_a_metre(ax: Axes) -> float:
 
 # A figure that is saved as every file here is: whole, or what stood there is left as it was.
 
+
 @final
 class Picture(Figure):
     """A matplotlib figure whose `savefig` replaces a file whole; FileError, in words, where it cannot be written."""

@@ -438,7 +438,7 @@ function plotted() {
   const box = plot.getBoundingClientRect(), W = box.width || 400, H = box.height || 200, one = columns[column], two = columns[second];
   plot.replaceChildren();
   set(plot, { viewBox: `0 0 ${W} ${H}` });
-  const stroke = strokes[runs], given = one && data.limits[one.name], limit = given ? [given[0] / one.factor, given[1], given[2]] : null;
+  const stroke = strokes[runs], given = one && data.limits[one.name], limit = given ? [given[0] / one.factor, limitText(given), given[2]] : null;
   const values = inUnit(one, now), others = two ? inUnit(two, now) : null, was = isChanged() || isMoved() ? inUnit(one, base) : null;
   const same = two && two.unit === one.unit, T = 10, B = 40;
   const [low, high] = range([values, isMoved() ? null : was, same ? others : null], limit), [low2, high2] = same ? [low, high] : range([others]);
@@ -553,7 +553,9 @@ function ends(lost) {
   }
   return said;
 }
-function judged(each, [value, text, side], add) {
+const limitText = ([, text, , ru]) => (language === "ru" && ru) || text;
+function judged(each, limit, add) {
+  const [value, , side] = limit, text = limitText(limit);
   const ext = extremes(series(each, now));
   if (!ext) return;
   const worst = side === "below" ? ext.low : ext.high, ok = side === "below" ? worst.value >= value : worst.value <= value;
@@ -581,7 +583,9 @@ function cylinder(each, add) {
     if (k > 0) add(null, each.name, say("its length stands still at about {where}, where its thrust moves nothing", { where: strokeText(now.along[now.reached[k]]) }));
   }
   const pressed = each.pressure === undefined ? null : extremes(now.values[each.pressure]);
-  const judges = !data.verdicts.length || !base.reached.some((i) => base.values[each.pressure][i] > (each.most === undefined ? Infinity : base.values[each.most][i]));
+  const row = (name) => base.values[each[name]] || [], exceeds = (i) => row("pressure")[i] > row("most")[i] || row("reserve")[i] < 1;
+  /* A machine that has verdicts and is content with the delivered design though it exceeds these has a rule of its own for them. */
+  const judges = !data.verdicts.length || data.verdicts.some(([ok]) => ok === 0) || !base.reached.some(exceeds);
   if (pressed) {
     const unit = data.pressureUnit, most = at(each.most), given = { pressure: shown(pressed.high.value, unit, 4), where: strokeText(pressed.high.at), most: shown(most, unit, 4) };
     if (most > 0) add(judges ? pressed.high.value <= most : null, each.name, say("needs up to {pressure} at {where}; {most} are allowed", given));

@@ -7,10 +7,11 @@ Source: Rekhlitski, Chuprynin (2013), (36), (37), (39).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from types import MappingProxyType
-from typing import ClassVar, TypeAlias, cast, final
+from typing import Any, ClassVar, TypeAlias, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,11 +24,12 @@ from linkage.loads.two_point import end_forces
 from linkage.motion import Motion
 from linkage.plan import ArrayReading
 from linkage.program import is_traced
-from linkage.quantities import Member, Reference, label, name_of
+from linkage.quantities import Member, Reference, label, name_of, quantity
 from linkage.statics import AnyMotion, Case, Loads, plan_of, stroke_followed
 from linkage.vectors import Scalar
 
 from .accumulator import AccumulatorBlock
+from .gas import Polytropic
 from .inputs import Array, all_finite, follows, in_pascals, number_set
 from .member import Circuit, Cylinder, the_cylinder
 
@@ -139,11 +141,46 @@ class FloatCircuit(Circuit):
         return np.asarray(free - np.sign(ram.growth(motion, rates)) * friction)
 
     def formulas(self, written: Formulas) -> None:
-        """Write the cylinder's thrust of the line's pressure, which the gas laws of the block give: a given number here. (37)"""
+        """Write the line's pressure, by the isothermal law or as a given number, and the cylinder's thrust of it. (17)-(33), (36), (37)"""
         ram = self.ram(written)
-        pressure = written.given(f"p_{ram.name}", self.pressure, "bar")
-        area, _ = ram.sides_written(written, pressure)
+        area, _ = ram.sides_written(written, np.ones(()))
+        left = self._withdrawn_written(written, ram, area)
+        pressure = written.given(f"p_{ram.name}", self.pressure, "bar") if left is None else self._pressure_written(written, ram, left)
         written.carry(ram, -pressure * area if ram.works == "rod" else pressure * area)
+
+    def _withdrawn_written(self, written: Formulas, ram: Cylinder, area: Array) -> Array | None:
+        """Return the fluid that has left the block [m3] as a formula, None where there is none.
+
+        There is one for an ideal gas that moves slowly, where a label gives the cylinder's length.
+        """
+        block, plan = self.block, written.plan
+        if not isinstance(block, AccumulatorBlock) or not isinstance(block.gas, Polytropic) or np.any(block.gas.n != 1.0):
+            return None
+        length = plan.table.lengths.get(frozenset((name_of(ram.A), name_of(ram.B))))
+        if length is None or not written.equals(self.number(written, "exponent"), 1.0):
+            return None
+        charged = length_at(written, ram, self.number(written, "at"))
+        sense = -1.0 if ram.works == "rod" else 1.0
+        return written.line(f"dV_{ram.name}", (written.distance(ram.A, ram.B) - charged) * area * sense, "l")
+
+    def _pressure_written(self, written: Formulas, ram: Cylinder, left: Array) -> Array:
+        """Write p (V - V_idle) = sum of V_i C_i over the gases that work; one works up to the volume at which its charge C_i is left."""
+        block = self.block
+        assert isinstance(block, AccumulatorBlock)
+        atmosphere = number_written(written, block.atmosphere)
+        charges = [
+            written.line(f"C_{ram.name}_{number}", number_written(written, each.charge) + atmosphere, "bar")
+            for number, each in enumerate(block.accumulators, 1)
+        ]
+        vessels = [number_written(written, each.volume) for each in block.accumulators]
+        settled = self.number(written, "charge_pressure") + atmosphere
+        gas = written.line(f"V_{ram.name}", gas_written(charges, vessels, settled) + left, "l")
+        works = [gas <= gas_written(charges, vessels, charge) for charge in charges]
+        parts = list(zip(works, charges, vessels, strict=True))
+        amount = written.line(f"pV_{ram.name}", reduce(np.add, (np.where(at_work, V * C, 0.0) for at_work, C, V in parts)), "Nm")
+        idle = written.line(f"Vi_{ram.name}", reduce(np.add, (np.where(at_work, 0.0, V) for at_work, _, V in parts)), "l")
+        pressure = np.where(gas <= reduce(np.add, vessels), amount / (gas - idle) - atmosphere, 0.0)
+        return written.line(f"p_{ram.name}", pressure, "bar")
 
     def pushes(self, motion: Poses, rates: Rates = AT_REST) -> list[Push]:
         return [Push(self.ram(motion), self.thrust(motion, rates if rates.has_friction else AT_REST))]
@@ -153,6 +190,16 @@ class FloatCircuit(Circuit):
 
     def moving(self, motion: Poses, rates: Rates) -> list[Load]:
         return [load for push in self.pushes(motion, rates) for load in end_forces(push, motion)]
+
+
+def number_written(written: Formulas, value: Any) -> Array:
+    """Return a number of a block, as it is written in a class or follows a quantity, for the equations [SI]."""
+    return written.value(quantity(value)) if follows(value) else np.asarray(value, float)
+
+
+def gas_written(charges: Sequence[Array], vessels: Sequence[Array], pressure: Array) -> Array:
+    """Return the gas volume [m3] of ideal gases at an absolute pressure [Pa]."""
+    return reduce(np.add, (V * np.minimum(1.0, C / pressure) for C, V in zip(charges, vessels, strict=True)))
 
 
 def length_at(motion: Poses, ram: Cylinder, at: Array) -> Scalar:

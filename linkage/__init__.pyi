@@ -3,6 +3,7 @@
 from .doors import animate as animate
 from .doors import draw as draw
 from .doors import equations as equations
+from .doors import export as export
 from .doors import optimise as optimise
 from .doors import page as page
 from .doors import plot as plot

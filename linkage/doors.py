@@ -211,6 +211,34 @@ def page(
     return page(machine, path, count=count, column=column, trace=trace, limit=limit, at=at)
 
 
+def export(
+    what: Mechanism | Motion,
+    path: str | PathLike[str],
+    *,
+    at: Mapping[str, Any] = NOTHING,
+    count: int = 101,
+    trace: Sequence[str] = (),
+    columns: Sequence[Column] = (),
+) -> Path:
+    """Return the path of the file it wrote for another program: `export(hitch, "hitch.xlsx")`. The ending of the name says which.
+
+    .xlsx (extra `xlsx`): a workbook of live formulas, the numbered equations one after the other at `count` poses of a stroke; a dimension
+    typed over changes all of it. `at=dict(tilt=0.1)` holds a stroke, `at=dict(S=(0.1, 0.2))` says where one runs. What no formula gives
+    (pins found by iteration) is a number there, marked so.
+    .csv: the table of results in full precision: of a machine over its strokes, `count` poses each of those that `at` does not give; of a
+    motion at its poses, its points and outputs or the `columns` given.
+    .dxf (extra `cad`) and .svg: a drawing in millimetres, true size, by layers: of a machine at the strokes that `at` gives, a pose each
+    (default: the start of the first stroke); of a motion all its poses. `trace` names points whose paths are drawn.
+
+    What stood at the path is replaced whole, or left as it was. Raises DefinitionError for another kind of file, for what does not go with
+    it, a batch of designs, and where the extra is not installed; AssemblyError for poses out of reach; FileError for a path that cannot be
+    written.
+    """
+    from .exports import export
+
+    return export(what, path, at=at, count=count, trace=trace, columns=columns)
+
+
 def equations(
     machine: Mechanism | type[Mechanism],
     *,

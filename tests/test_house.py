@@ -25,6 +25,7 @@ FLOORS = (
     ("statics",),
     ("formulas", "study", "files"),
     ("pictures", "reports"),
+    ("exports",),
     ("cli",),
 )
 FLOOR = {room: number for number, rooms in enumerate(FLOORS) for room in rooms}
@@ -37,8 +38,8 @@ MAY_IMPORT = {  # of the project's own three
 MAY_PRINT = {"cli", "demo"}
 
 HEAVY = {"PIL", "imageio_ffmpeg", "matplotlib", "networkx", "numba", "pydantic", "rich", "scipy", "sympy"}
-OPTIONAL = {"dask", "distributed", "ezdxf", "openpyxl", "pymoo"}  # extras: there may be nothing to import
-HEAVY_ROOMS = {f"linkage.{room}" for room in ("formulas", "study", "pictures", "reports", "files")}
+OPTIONAL = {"dask", "distributed", "ezdxf", "pymoo", "xlsxwriter"}  # extras: there may be nothing to import
+HEAVY_ROOMS = {f"linkage.{room}" for room in ("formulas", "study", "pictures", "reports", "files", "exports")}
 
 
 def room(module: str) -> str:
@@ -271,7 +272,7 @@ def test_the_door_loads_numpy_only():
     assert (HEAVY | OPTIONAL).isdisjoint(loaded), sorted((HEAVY | OPTIONAL).intersection(loaded))
 
 
-DOORS = {"animate", "draw", "equations", "optimise", "page", "plot"}  # thin functions of the package in front of those of a room
+DOORS = {"animate", "draw", "equations", "export", "optimise", "page", "plot"}  # thin functions of the package in front of those of a room
 
 
 def defined(path: str) -> set[str]:

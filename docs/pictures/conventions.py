@@ -19,7 +19,7 @@ from matplotlib.patheffects import withStroke
 
 from linkage.pictures import style
 from linkage.pictures.drawing import BodyPart, dot, pin
-from linkage.pictures.scene import Ram
+from linkage.pictures.scene import Plate, Ram
 from linkage.pictures.style import STRONG
 from linkage.pictures.symbols import CylinderPart, block, ground
 
@@ -98,7 +98,7 @@ def line(ax: Axes, *places: Place, colour: str = style.MUTED, width: float = sty
 def body(ax: Axes, colour: str, *places: Place) -> None:
     """Draw a rigid body: a bar, or a plate with its corners counter-clockwise."""
     named = {str(i): np.array(each) for i, each in enumerate(places)}
-    BodyPart(ax, tuple(named), SIZE, colour, STRONG).update(named)
+    BodyPart(ax, Plate(tuple(named), np.eye(len(named))), SIZE, colour, STRONG).update(named)
 
 
 def pins(ax: Axes, *places: Place) -> None:

@@ -17,7 +17,7 @@ from ..steps import Pin, Step
 from ..vectors import Side
 from .groups import solve_groups
 from .newton import Newton, at_sketch
-from .sketch import places_at
+from .sketch import Place, places_at
 
 MOST = 16
 STARTS, ROUNDS = 500, 5
@@ -157,7 +157,7 @@ def rounded_to(value: float, digits: int = 4) -> float:
 # Groups: their pins' solutions at the sketch, found from many places.
 
 
-def group_modes(plan: Plan, inputs: Mapping[str, Any]) -> Iterator[tuple[dict[str, tuple[float, float]], dict[str, Member], Mapping[str, Any]]]:
+def group_modes(plan: Plan, inputs: Mapping[str, Any]) -> Iterator[tuple[dict[str, Place], dict[str, Member], Mapping[str, Any]]]:
     """Yield the modes of a plan's groups, the declared one first: pins' places at the sketch, the members, the pins at the inputs."""
     yield {}, with_own_groups(plan, {}), {}
     if not plan.groups:

@@ -22,6 +22,7 @@ HOMES = {
     "table": "table:TableCommand",
     "plot": "plot:PlotCommand",
     "animate": "plot:AnimateCommand",
+    "export": "export:ExportCommand",
     "save": "show:SaveCommand",
     "optimise": "optimise:OptimiseCommand",
     "study": "study:StudyCommand",

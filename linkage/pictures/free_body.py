@@ -30,7 +30,7 @@ from .force_arrows import FRAME, ForceQuestion, ForcesAt, body_layer, drawn_body
 from .labels import LabelPart, offsets
 from .overlays import sheet_note
 from .paper import BOTTOM, LEFT, RIGHT, TOP, footnote, legend_row, title
-from .scene import Bounds, Places, Scene
+from .scene import Bounds, Places, Plate, Scene
 from .shapes import hull, segment
 from .sheet import Picture, fitted_to, points_a_metre, sheet
 from .strokes import stroke_words
@@ -150,7 +150,7 @@ class FreeBodyPicture:
             block.set_xy([(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)])
         elif self.body != FRAME:
             places = np.array([self.at[name] for name in self.points])
-            parts.append(BodyPart(ax, tuple(self.points[i] for i in hull(places)), self.size, style.BODIES[0], STRONG))
+            parts.append(BodyPart(ax, Plate(self.points, np.eye(len(places))[list(hull(places))]), self.size, style.BODIES[0], STRONG))
         return [*parts, *(pin(ax, name, self.size, STRONG) for name in self.points)]
 
     def outline(self) -> FloatArray:
@@ -163,9 +163,10 @@ class FreeBodyPicture:
         """Write the points' names where they cover nothing."""
         scale = points_a_metre(ax)
         own = {name: self.at[name] for name in self.points}
-        spots = offsets(list(own), [own], [covered], scale, 1.15 * self.size * scale + 1.5)
+        gap = 1.15 * self.size * scale + 1.5
+        spots = offsets(list(own), [own], [covered], scale, gap)
         for name, spot in spots.items():
-            LabelPart(ax, name, spot, STRONG).update(self.at)
+            LabelPart(ax, name, spot, gap, STRONG).update(self.at)
 
 
 def draw_polygon(ax: Axes, layer: ArrowLayer) -> None:

@@ -105,6 +105,11 @@ def rich_tables(columns: Sequence[Column], width: int | None = None) -> Iterator
 CHUNK = 10_000
 
 
+def as_text(heading: str) -> str:
+    """Return a heading that no spreadsheet takes for a formula: an apostrophe goes before one that begins like one."""
+    return f"'{heading}" if heading[:1] in ("=", "+", "-", "@", "\t", "\r") else heading
+
+
 def write_csv(columns: Sequence[Column], stream: TextIO, progress: Callable[[int, int], None] | None = None) -> None:
     """Write columns as CSV: a header with units, one row a pose, full precision, an empty field for NaN.
 
@@ -115,7 +120,7 @@ def write_csv(columns: Sequence[Column], stream: TextIO, progress: Callable[[int
         raise DefinitionError(f'{cited(stream)} is no open file; write into open("table.csv", "w", newline="").')
     total = len(values[0])
     writer = csv.writer(stream)
-    writer.writerow(column.heading for column in columns)
+    writer.writerow(as_text(column.heading) for column in columns)
     for start in range(0, total, CHUNK):
         rows = zip(*(each[start : start + CHUNK].tolist() for each in values), strict=True)
         writer.writerows([["" if value != value else repr(value) for value in row] for row in rows])

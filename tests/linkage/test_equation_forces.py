@@ -332,8 +332,23 @@ def test_they_are_latex():
 def test_numbers_within_an_equation_are_si_and_the_result_has_its_own_unit():
     text = equations(HeaderBalancer, forces=True, at={"h": 0.1}).text()
     assert "L_AB(h) = L_min + h = 0.7 + 0.1 = 0.8 m = 800 mm" in text
-    assert "L_min = 700 mm" in text and "m1 = 1500 kg" in text and "p_lift = 35.2134 bar" in text
+    assert "L_min = 700 mm" in text and "m1 = 1500 kg" in text and "Pa = 35.2134 bar" in text
     assert "T_lift = A_lift*p_lift = 0.00623449*3.52134e+06 = 21953.8 N = 21.9538 kN" in text
+
+
+LOW = {"P_I": 30 * kgf_cm2, "atmosphere": 0.0, "charge": 60 * kgf_cm2}
+
+
+@pytest.mark.parametrize("changed", [{}, {"charge": 60 * kgf_cm2}, {"charge": 60 * kgf_cm2, "V_II": 0.0}, LOW])
+def test_gases_of_a_line_have_a_formula(changed):
+    header = HeaderBalancer(**changed)
+    motion = header.sweep(41)
+    values = equations(header, forces=True).values(at=motion.strokes)
+    assert_allclose(values["p_lift"], header.floating.pressure(motion), rtol=1e-12)
+
+
+def test_a_fast_movement_of_a_line_is_a_given_number():
+    assert equations(HeaderBalancer(n=1.4), forces=True).text().count("; p_lift.") == 1
 
 
 def test_many_digits():

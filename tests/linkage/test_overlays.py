@@ -92,7 +92,11 @@ def scale_of(figure, unit):
 # -- forces ------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("machine", [*LOADED, Press, Tipper], ids=lambda machine: machine.__name__)
+QUICK = ("ThreePointHitch", "HeaderBalancer", "Press")
+EVERY = [pytest.param(each, marks=() if each.__name__ in QUICK else pytest.mark.slow) for each in (*LOADED, Press, Tipper)]
+
+
+@pytest.mark.parametrize("machine", EVERY, ids=[each.values[0].__name__ for each in EVERY])
 def test_arrows_are_the_pin_forces_and_loads_in_one_scale(machine):
     motion = pose_of(machine())
     found = pin_forces(motion)
@@ -317,7 +321,7 @@ def test_pole_of_a_coupler_is_where_crank_and_rocker_meet():
     assert all(np.allclose(ray[0], pole) for ray in rays)
 
 
-@pytest.mark.parametrize("name", ["watt_two", "jansen", "three_point_hitch", "klann"])
+@pytest.mark.parametrize("name", ["watt_two", "three_point_hitch", "klann", pytest.param("jansen", marks=pytest.mark.slow)])
 def test_three_poles_stand_in_a_line(name):
     """Kennedy and Aronhold: of any three bodies the three poles are in line."""
     machine = next(point for point in entry_points(group="hydrolinkage.machines") if point.name == name).load()

@@ -987,7 +987,7 @@ USES = [
     ),
     ("draw(@)", "None; 3", ("is no mechanism; give a design such as FourBar().",)),
     ("draw(@)", "Lift", ("Lift is a class, the structure; give a design of it, Lift().",)),
-    ("draw(@)", "batch", ("Lift: this motion holds 2 designs and", "a time, each dimension a single number.")),
+    ("draw(@, forces=True)", "batch", ("Lift: this motion holds 2 designs and", "a time, each dimension a single number.")),
     ("draw(lifting, at=@)", '"a"; nan; [None]; {"S": "a"}; []; 1j', ("values of S are expected, such as at=[0.0, 0.1].",)),
     ("draw(lifting, at=@)", '{"Q": 1}', ("Stroke 'Q' is unknown in Lift. Known: S.",)),
     (

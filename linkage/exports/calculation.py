@@ -1,0 +1,263 @@
+"""A design's equations as columns over a stroke: what each is, what it equals, and its numbers."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from typing import Any, final
+
+import numpy as np
+import sympy
+
+from ..errors import DefinitionError, SingularWarning
+from ..formulas import Equation, Equations, equations, explicit
+from ..formulas.listing import X_AXIS
+from ..formulas.numbered import members_with_lines
+from ..formulas.words import Direction
+from ..mechanism import Mechanism
+from ..motion import Motion
+from ..plan import plan_measure
+from ..program import FloatArray
+from ..quantities import Dimension, Quantity, Stroke
+from ..reports import Run
+
+AGREE = 1e-9
+"""Relative: a formula that is further from the engine is not used."""
+ITERATED = "found by iteration: a number, not a formula"
+BY_ENGINE = "told by the engine: a number, not a formula"
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class CalculatedColumn:
+    """One quantity over the poses: the number of its equation, its name, what it says and its SI unit; `expr` is None for plain numbers.
+
+    `turns` is not None for the direction of a vector, which goes on over the poses without a jump: whole turns added at the first one.
+    `checks` marks a difference that is zero where pins found together fit.
+    """
+
+    number: str
+    name: str
+    meaning: str
+    unit: str
+    symbol: Any
+    expr: Any
+    values: FloatArray
+    turns: int | None = None
+    checks: bool = False
+
+
+@final
+class Calculation:
+    """The equations of one design over a run, forces and transfer ratios included, as columns in their order.
+
+    Raises AssemblyError where a pose cannot be assembled, DefinitionError for a batch of designs. `left_out` says, in sentences, what has
+    no equation.
+    """
+
+    def __init__(self, design: Mechanism, run: Run, count: int) -> None:
+        self.design, self.run = design, run
+        self.left_out: list[str] = []
+        if any(len(way) != 2 for way in run.ways.values()):
+            raise DefinitionError(f"{design.plan.title}: a workbook's strokes run from one value to another; give {run.stroke} two.")
+        over = run.over(np.linspace(0.0, 1.0, count))
+        self.stroke_values: dict[str, Any] = {name: np.asarray(value, float) for name, value in over.items()}
+        self.motion = design.at(**self.stroke_values)
+        self.equations = self._equations()
+        self.columns: list[CalculatedColumn] = []
+        self._known = self._inputs(self.equations, self.stroke_values)
+        for symbol, number, what in self._numbers():
+            self._add(CalculatedColumn("", number, what, "", symbol, None, self._spread(self._known[symbol])))
+        for each in self.equations:
+            self._write(each)
+
+    # -- what there is to write ------------------------------------------------------------------------
+
+    def _equations(self) -> Equations:
+        """Return the equations with as much of ratios and forces as has some."""
+        targets = self._ratio_targets()
+        try:
+            return equations(self.design, ratio=targets, wrt=self.run.stroke, forces=True)
+        except DefinitionError:
+            pass
+        found: list[str] = []
+        for target in targets:
+            try:
+                equations(self.design, ratio=target, wrt=self.run.stroke)
+                found.append(target)
+            except DefinitionError as error:
+                self.left_out.append(str(error))
+        forces = True
+        try:
+            equations(self.design, forces=True)
+        except DefinitionError as error:
+            self.left_out.append(str(error))
+            forces = False
+        return equations(self.design, ratio=found, wrt=self.run.stroke, forces=forces)
+
+    def _ratio_targets(self) -> list[str]:
+        """Return the outputs that move with the run and have an equation, and the last point that is built."""
+        plan = self.design.plan
+        written = members_with_lines(equations(self.design)._listing)
+        outputs = [name for name, each in plan.of_kind(Quantity).items() if not isinstance(each, (Stroke, Dimension))]
+        return [name for name in (*outputs, *plan.moving[-1:]) if name in written and self.run.stroke in plan.reaches(name)]
+
+    def _numbers(self) -> Iterator[tuple[Any, str, str]]:
+        """Yield what no equation gives: pins found together, and what elements tell."""
+        listing = self.equations._listing
+        for pin in listing.unknowns:
+            for axis, symbol in zip("xy", explicit(listing.names.vector(pin)), strict=True):
+                yield symbol, f"{pin}_{axis}", ITERATED
+        for given in self.equations._givens:
+            for symbol in explicit(given.symbol):
+                yield symbol, column_name(symbol.name), BY_ENGINE
+
+    # -- columns ---------------------------------------------------------------------------------------
+
+    def _write(self, each: Equation) -> None:
+        """Add the columns of an equation: one of a number, two of a vector; before them the directions that it takes."""
+        rhs = each.rhs
+        for place, word in enumerate(sorted(rhs.atoms(Direction), key=str)):
+            rhs = rhs.xreplace({word: self._direction(each, word, "abcdefgh"[place % 8])})
+        number, unit = f"({each.number})", si_text(each)
+        if not (each.lhs.is_Symbol or (each.lhs.is_Matrix and hasattr(each.lhs, "name"))):
+            (left,), (right,) = explicit(each.lhs), explicit(rhs)
+            self._column(number, f"{each.name} - ({right})" if right != 0 else each.name, f"{each}: zero where it holds", unit,
+                         sympy.Dummy(real=True), left - right, checks=True)  # fmt: skip
+            return
+        for symbol, expr in zip(explicit(each.lhs), explicit(rhs), strict=True):
+            self._column(number, column_name(symbol.name), str(each), unit, symbol, expr)
+        self._compare(each)
+
+    def _direction(self, each: Equation, word: Any, letter: str) -> Any:
+        """Return the symbol of a vector's direction, with a column of its own, in which it does not jump."""
+        symbol = sympy.Symbol(str(word), real=True)
+        if symbol not in self._known:
+            (expr,) = explicit(word)
+            text = str(each).partition(" = ")[0]
+            name = f"angle({word.args[0]})"
+            self._column(f"({each.number}{letter})", name, f"the direction that {text} takes, without jumps", "rad", symbol, expr, turns=0)
+        return symbol
+
+    def _column(
+        self, number: str, name: str, meaning: str, unit: str, symbol: Any, expr: Any, turns: int | None = None, checks: bool = False
+    ) -> None:
+        i = dict(zip(explicit(X_AXIS), (sympy.S.One, sympy.S.Zero), strict=True))
+        exact = expr.xreplace({symbol: value for symbol, value in i.items() if symbol not in self._known})
+        values = self._spread(worked_out(exact, self._known))
+        values = values if turns is None else np.unwrap(values)
+        self._add(CalculatedColumn(number, name, meaning, unit, symbol, exact, values, turns, checks))
+
+    def _add(self, column: CalculatedColumn) -> None:
+        self.columns.append(column)
+        self._known[column.symbol] = column.values
+
+    def _spread(self, values: Any) -> FloatArray:
+        """Return values over the poses, shape (poses,)."""
+        return np.array(np.broadcast_to(np.asarray(values, float), self.motion.shape))
+
+    def _compare(self, each: Equation) -> None:
+        """Hold an output's column against the engine: put a direction's whole turns right, or keep the engine's numbers."""
+        member = self.design.plan.members.get(each.name)
+        if not isinstance(member, Quantity) or isinstance(member, (Stroke, Dimension)):
+            return
+        engine, column = self._spread(self.motion[each.name]), self.columns[-1]
+        if is_close(column.values, engine):
+            return
+        turned = [place for place, other in enumerate(self.columns) if other.turns is not None and column.expr.has(other.symbol)]
+        for place in turned:
+            other = self.columns[place]
+            turns = round(float(engine[0] - column.values[0]) / float(column.expr.diff(other.symbol)) / (2.0 * np.pi))
+            self.columns[place] = replace(other, values=other.values + 2.0 * np.pi * turns, turns=turns)
+            again = self._known | {other.symbol: self.columns[place].values}
+            values = self._spread(worked_out(column.expr, again))
+            if is_close(values, engine):
+                self._known = again | {column.symbol: values}
+                self.columns[-1] = replace(column, values=values)
+                return
+            self.columns[place] = other
+        self.columns.pop()
+        self._add(replace(column, expr=None, values=engine, meaning=f"{column.meaning}; {BY_ENGINE}"))
+
+    # -- other designs ---------------------------------------------------------------------------------
+
+    def _inputs(self, written: Equations, poses: Mapping[str, Any]) -> dict[Any, Any]:
+        return written._inputs(poses)
+
+    def at_design(self, design: Mechanism, poses: Mapping[str, Any]) -> tuple[Motion, dict[Any, Any]]:
+        """Return another design's motion at some poses, and what the formulas give there, by symbol; plain numbers are the engine's."""
+        own = self.equations
+        other = Equations(design, own._lines, own._listing, 1, None, own._forces)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", SingularWarning)
+            motion = design.at(**poses)
+            known = self._inputs(other, poses)
+        for column in self.columns:
+            if column.expr is not None:
+                values = np.broadcast_to(np.asarray(worked_out(column.expr, known), float), motion.shape)
+                known[column.symbol] = values if column.turns is None else np.unwrap(values) + 2.0 * np.pi * column.turns
+        return motion, known
+
+    @property
+    def stroke_symbols(self) -> dict[str, Any]:
+        """The symbols of the strokes, by name."""
+        return {name: self.equations._listing.names.quantity(name) for name in self.design.strokes}
+
+    # -- dimensions ------------------------------------------------------------------------------------
+
+    @cached_property
+    def dimension_symbols(self) -> dict[Any, str]:
+        """The dimension behind each plain symbol of the formulas, a fixed point's coordinates by both of their symbols."""
+        names, spellings = self.equations._listing.names, self.design.plan.table.spellings
+        found = {names.quantity(name): name for name in self.design.dimensions}
+        for point in (*self.design.plan.ground, *self.equations._listing.fixed_guides):
+            for axis, symbol in zip("xy", explicit(names.vector(point)), strict=True):
+                if f"{point}.{axis}" in spellings:
+                    found[symbol] = spellings[f"{point}.{axis}"][0]
+        return found
+
+    @cached_property
+    def used(self) -> set[str]:
+        """The dimensions that some formula reads."""
+        free: set[Any] = set().union(*(each.expr.free_symbols for each in self.columns if each.expr is not None))
+        return {self.dimension_symbols[symbol] for symbol in free if symbol in self.dimension_symbols}
+
+    def measure(self, name: str) -> str:
+        """Return what a dimension measures: "length", "angle", ..."""
+        return plan_measure(self.design.plan, name)
+
+
+def column_name(symbol: str) -> str:
+    """Return a plain symbol's name as a heading: AB.x is AB_x, dAB/dS.x is dAB_x/dS."""
+    head, dot, axis = symbol.rpartition(".")
+    if not dot:
+        return symbol
+    over, slash, under = head.partition("/")
+    return f"{over}_{axis}{slash}{under}"
+
+
+def si_text(each: Equation) -> str:
+    """Return the unit that an equation's numbers have in SI and radians."""
+    return "rad" if each.unit.si == "deg" else each.unit.si
+
+
+def worked_out(expr: Any, known: Mapping[Any, Any]) -> Any:
+    """Return an expression's value from those of its symbols."""
+    needed, function = function_of(expr)
+    with np.errstate(all="ignore"):
+        return function(*(known[symbol] for symbol in needed))
+
+
+@lru_cache(maxsize=2048)
+def function_of(expr: Any) -> tuple[Sequence[Any], Callable[..., Any]]:
+    """Return an expression's symbols, and the function of their values that it is."""
+    needed: Sequence[Any] = sorted(expr.free_symbols, key=str)
+    return needed, sympy.lambdify(needed, expr, "numpy", dummify=True)
+
+
+def is_close(values: FloatArray, engine: FloatArray) -> bool:
+    """Return whether values are the engine's, NaN at the same poses."""
+    size = float(np.nanmax(np.abs(engine), initial=1.0))
+    return bool(np.allclose(values, engine, rtol=AGREE, atol=AGREE * size, equal_nan=True))

@@ -1,0 +1,103 @@
+"""A drawing as SVG: true size in millimetres, words as words, a group for each pose and layer, parts by their members' names."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import copysign, hypot
+from xml.sax.saxutils import escape, quoteattr
+
+import numpy as np
+
+from ..program import FloatArray
+from .geometry import LAYERS, Circle, Lettering, Measured, Part, Polyline, PoseDrawing
+
+PAGE_MARGIN = 0.05
+"""Room around the drawing, as a share of its greater side."""
+STROKE = 0.0022
+"""The width of a line, as a share of the drawing's greater side."""
+FILLS = {"bodies": "#DCE8F5", "cylinders": "#DDEFE4", "frame": "#EEF1F4", "pins": "#FFFFFF"}
+
+
+def svg(poses: Sequence[PoseDrawing], paths: Sequence[Part], title: str) -> bytes:
+    """Return the bytes of an .svg file."""
+    drawn = [(f"pose{number}", pose.title, pose.parts) for number, pose in enumerate(poses, 1)] + [("paths", "paths", tuple(paths))]
+    corners = np.concatenate([reach(part) for _, _, parts in drawn for part in parts])
+    (left, bottom), (right, top) = corners.min(axis=0), corners.max(axis=0)
+    greater = max(right - left, top - bottom)
+    pad, line = PAGE_MARGIN * greater, STROKE * greater
+    wide, high = right - left + 2.0 * pad, top - bottom + 2.0 * pad
+    dashes = " ".join(f"{share * line:.3f}" for share in (5.0, 1.5, 1.0, 1.5))
+    head = [
+        '<?xml version="1.0" encoding="UTF-8"?>',
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide:.3f}mm" height="{high:.3f}mm" '
+        f'viewBox="{left - pad:.3f} {-top - pad:.3f} {wide:.3f} {high:.3f}" role="img">',
+        f"<title>{escape(title)}</title>",
+        f"<style>.centre_lines {{ stroke-dasharray: {dashes} }} .text {{ stroke: none }}</style>",
+        f'<g fill="none" stroke-width="{line:.3f}" stroke-linejoin="round" font-family="sans-serif">',
+    ]
+    groups = [pose_group(*each, faint=place > 0 and each[0] != "paths") for place, each in enumerate(drawn)]
+    return "\n".join([*head, *groups, "</g>", "</svg>", ""]).encode()
+
+
+def pose_group(key: str, title: str, parts: Sequence[Part], faint: bool) -> str:
+    """Return the parts of one pose, a group a layer."""
+    inside = []
+    for layer, (_, colour) in LAYERS.items():
+        own = [each for each in parts if each.layer == layer and not isinstance(each, Measured)]
+        if own:
+            fill, share = FILLS.get(layer, "none"), 0.6 if layer in FILLS else 1.0
+            inside.append(f'<g class={quoteattr(layer)} stroke="{colour}" fill="{fill}" style="fill-opacity: {share}">')
+            inside += [svg_element(each, colour) for each in own]
+            inside.append("</g>")
+    look = ' opacity="0.45"' if faint else ""
+    return "\n".join([f"<g id={quoteattr(key)}{look}>", f"<title>{escape(title)}</title>", *inside, "</g>"])
+
+
+def svg_element(part: Part, colour: str) -> str:
+    """Return one part; y goes down on a page."""
+    name = f"data-name={quoteattr(part.name)}"
+    if isinstance(part, Circle):
+        x, y = part.centre
+        return f'<circle {name} cx="{svg_number(x)}" cy="{svg_number(-y)}" r="{svg_number(part.radius)}"/>'
+    if isinstance(part, Lettering):
+        x, y = map(svg_number, part.place * np.array([1.0, -1.0]))
+        size = svg_number(part.height)
+        return f'<text {name} x="{x}" y="{y}" font-size="{size}" fill="{colour}">{escape(part.text)}</text>'
+    assert isinstance(part, Polyline)
+    open_line = "" if part.closed else ' fill="none"'
+    return f'<path {name} d="{path_text(part)}"{open_line}/>'
+
+
+def path_text(part: Polyline) -> str:
+    """Return a line's commands, bulges as arcs."""
+    bulges = part.bulges or (0.0,) * len(part.vertices)
+    text = "M" + xy(part.vertices[0])
+    following = np.roll(part.vertices, -1, axis=0) if part.closed else part.vertices[1:]
+    for start, end, bulge in zip(part.vertices, following, bulges, strict=False):
+        if bulge == 0.0:
+            text += f" L{xy(end)}"
+        else:
+            radius = hypot(*(end - start)) * (1.0 + bulge * bulge) / (4.0 * abs(bulge))
+            text += f" A{svg_number(radius)} {svg_number(radius)} 0 {int(abs(bulge) > 1.0)} {int(copysign(1.0, bulge) < 0.0)} {xy(end)}"
+    return text + (" Z" if part.closed else "")
+
+
+def xy(point: FloatArray) -> str:
+    """Return a place as text; y goes down on a page."""
+    return f"{svg_number(point[0])} {svg_number(-point[1])}"
+
+
+def svg_number(value: float) -> str:
+    """Return a length [mm] as text, to a millionth of a millimetre, without a minus before zero."""
+    return f"{value:z.6f}".rstrip("0").rstrip(".")
+
+
+def reach(part: Part) -> FloatArray:
+    """Return corners of what a part covers, shape (n, 2) [mm]."""
+    if isinstance(part, Polyline):
+        return part.vertices
+    if isinstance(part, Circle):
+        return np.array([part.centre - part.radius, part.centre + part.radius])
+    if isinstance(part, Lettering):
+        return np.array([part.place, part.place + part.height * np.array([0.7 * len(part.text), 1.0])])
+    return np.array([part.start, part.end])

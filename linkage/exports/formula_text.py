@@ -1,0 +1,125 @@
+"""SymPy expressions as the formulas of a spreadsheet.
+
+Three things differ from other languages: a sign binds closer than a power (-a^2 is (-a)^2), ATAN2 takes x before y, and LN is the natural
+logarithm. Names and decimals are those of the file format, whatever language the spreadsheet speaks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, final
+
+import sympy
+from sympy.printing.precedence import PRECEDENCE
+from sympy.printing.str import StrPrinter
+
+from ..formulas.printing import reading_order
+
+LONGEST_FORMULA = 8000
+"""Characters; a spreadsheet takes 8192."""
+FUNCTION_NAMES: Mapping[str, str] = {
+    "sin": "SIN", "cos": "COS", "tan": "TAN", "acos": "ACOS", "asin": "ASIN", "atan": "ATAN", "Abs": "ABS", "exp": "EXP", "log": "LN",
+    "sign": "SIGN", "Min": "MIN", "Max": "MAX",
+}  # fmt: skip
+
+
+def formula(expr: Any, read: Callable[[Any], str]) -> str | None:
+    """Return an expression as a formula, `=...`; None where it is longer than a spreadsheet takes. `read` gives a symbol's place."""
+    text = f"={FormulaText(read).doprint(expr)}"
+    return text if len(text) <= LONGEST_FORMULA else None
+
+
+@final
+class FormulaText(StrPrinter):  # type: ignore[misc]
+    """A formula's text; `read` gives the place of a symbol."""
+
+    def __init__(self, read: Callable[[Any], str]) -> None:
+        super().__init__()
+        self.read = read
+
+    def _print_Symbol(self, expr: Any) -> str:
+        return self.read(expr)
+
+    _print_Dummy = _print_Symbol
+
+    def _print_Float(self, expr: Any) -> str:
+        return repr(float(expr)).removesuffix(".0")
+
+    def _print_Rational(self, expr: Any) -> str:
+        return f"{expr.p}/{expr.q}"
+
+    def _print_Pi(self, expr: Any) -> str:
+        return "PI()"
+
+    def _print_NaN(self, expr: Any) -> str:
+        return "NA()"
+
+    def _print_Add(self, expr: Any, order: Any = None) -> str:
+        text = ""
+        for each in reading_order(expr.args):
+            negative = each.could_extract_minus_sign()
+            part = self._bare(-each) if negative else self._bare(each)
+            text += f"-{part}" if negative and text else f"+{part}" if text else self._print(each)
+        return text
+
+    def _bare(self, expr: Any) -> str:
+        """Return a term of a sum behind its sign."""
+        return str(self.parenthesize(expr, PRECEDENCE["Mul"], strict=True))
+
+    def _print_Mul(self, expr: Any) -> str:
+        if expr.could_extract_minus_sign():
+            rest = self.parenthesize(-expr, PRECEDENCE["Mul"], strict=True)
+            return f"-1*{rest}" if "^" in rest else f"-{rest}"
+        over, under = sympy.fraction(expr, exact=True)
+        if under == 1:
+            return "*".join(self.parenthesize(each, PRECEDENCE["Mul"], strict=True) for each in sympy.Mul.make_args(expr))
+        return f"{self.parenthesize(over, PRECEDENCE['Mul'])}/{self.parenthesize(under, PRECEDENCE['Pow'])}"
+
+    def _print_Pow(self, expr: Any, rational: bool = False) -> str:
+        base, power = expr.args
+        if power == sympy.Rational(1, 2):
+            return f"SQRT({self._print(base)})"
+        if power.is_number and power.is_negative:
+            return f"1/{self.parenthesize(sympy.Pow(base, -power), PRECEDENCE['Pow'])}"
+        return f"{self._alone(base)}^{self._alone(power)}"
+
+    def _alone(self, expr: Any) -> str:
+        """Return an expression as one piece: a cell, a function, a number without a sign, or in brackets."""
+        text = str(self._print(expr))
+        is_one = expr.is_Symbol or expr.is_Function or (expr.is_number and text.replace(".", "").isdigit())
+        return text if is_one else f"({text})"
+
+    def _print_atan2(self, expr: Any) -> str:
+        y, x = map(self._print, expr.args)
+        return f"ATAN2({x},{y})"
+
+    def _print_Function(self, expr: Any) -> str:
+        return f"{FUNCTION_NAMES[type(expr).__name__]}({','.join(map(self._print, expr.args))})"
+
+    _print_Abs = _print_Min = _print_Max = _print_Function
+
+    def _print_Piecewise(self, expr: Any) -> str:
+        (value, condition), *others = expr.args
+        if condition is sympy.true or condition == True:  # noqa: E712 - SymPy's truth
+            return str(self._print(value))
+        other = self._print(sympy.Piecewise(*others, evaluate=False)) if others else "NA()"
+        return f"IF({self._print(condition)},{self._print(value)},{other})"
+
+    def _print_Relational(self, expr: Any) -> str:
+        sign = {"==": "=", "!=": "<>"}.get(expr.rel_op, expr.rel_op)
+        return f"{self.parenthesize(expr.lhs, PRECEDENCE['Add'])}{sign}{self.parenthesize(expr.rhs, PRECEDENCE['Add'])}"
+
+    def _print_And(self, expr: Any) -> str:
+        return f"AND({','.join(map(self._print, expr.args))})"
+
+    def _print_Or(self, expr: Any) -> str:
+        return f"OR({','.join(map(self._print, expr.args))})"
+
+    def _print_Not(self, expr: Any) -> str:
+        return f"NOT({self._print(expr.args[0])})"
+
+    def _print_BooleanTrue(self, expr: Any) -> str:
+        return "TRUE"
+
+    def _print_BooleanFalse(self, expr: Any) -> str:
+        return "FALSE"

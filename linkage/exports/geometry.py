@@ -1,0 +1,256 @@
+"""What a drawing of a mechanism holds, in mm and true size, whatever format it is written in: lines, circles and words by layers.
+
+Centre lines run from pin to pin. A body's outline goes around its outermost pins at a distance, its corners true arcs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from types import MappingProxyType
+from typing import final
+
+import numpy as np
+
+from ..errors import known_name
+from ..loads import PinFriction
+from ..motion import Motion
+from ..pictures.scene import Places, Ram, Scene
+from ..program import FloatArray
+from ..units import mm
+
+LAYERS: Mapping[str, tuple[int, str]] = MappingProxyType(
+    {
+        "frame": (8, "#6B7785"),
+        "bodies": (5, "#1F5FA8"),
+        "centre_lines": (1, "#C0392B"),
+        "cylinders": (3, "#2E7D4F"),
+        "elements": (30, "#B8660B"),
+        "pins": (7, "#1F2933"),
+        "paths": (6, "#8E44AD"),
+        "text": (7, "#1F2933"),
+        "dimensions": (4, "#0E7C86"),
+    }
+)
+"""The layers, each with its colour by the index of CAD programs, and as a page shows it."""
+ROUND = 0.9
+"""The distance of an outline from its pins, in sizes of the picture."""
+STAND_OFF, HEIGHT = 3.2, 1.3
+"""How far a dimension's line stands from what it measures, and the height of its letters, in sizes."""
+PIN = 0.5
+"""The radius of a pin whose bearing is not declared, in sizes."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Polyline:
+    """A line through vertices, shape (n, 2) [mm]; `bulges` are the tangents of a quarter of the arcs that follow each, 0 straight."""
+
+    layer: str
+    name: str
+    vertices: FloatArray
+    bulges: tuple[float, ...] = ()
+    closed: bool = False
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Circle:
+    """A circle [mm]."""
+
+    layer: str
+    name: str
+    centre: FloatArray
+    radius: float
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Lettering:
+    """A text whose lower left corner stands at a place, with its height [mm]."""
+
+    layer: str
+    name: str
+    place: FloatArray
+    text: str
+    height: float
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """The distance of two places [mm] with the name of the dimension, its line so far to the left, its letters so high [mm]."""
+
+    layer: str
+    name: str
+    start: FloatArray
+    end: FloatArray
+    aside: float
+    height: float
+
+
+Part = Polyline | Circle | Lettering | Measured
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class PoseDrawing:
+    """The parts of a mechanism at one pose, and the pose in words."""
+
+    title: str
+    parts: tuple[Part, ...]
+
+
+def pose_parts(motion: Motion, pose: int) -> tuple[Part, ...]:
+    """Return the parts of a mechanism at a pose of a motion, by its flat index. DefinitionError for a batch of designs."""
+    scene = Scene(motion)
+    at = {name: place / mm for name, place in scene.at(pose).items()}
+    size = scene.size / mm
+    return (
+        *frame_parts(scene, at, size),
+        *body_parts(scene, at, size),
+        *cylinder_parts(scene, at, size),
+        *spring_parts(scene, at),
+        *pin_parts(scene, at, size),
+        *(Lettering("text", name, at[name] + 0.9 * size, name, 1.6 * size) for name in motion.plan.points),
+        *dimension_parts(scene, at, size),
+    )
+
+
+def path_parts(motion: Motion, points: Sequence[str]) -> tuple[Part, ...]:
+    """Return the paths of points over a motion, where they are reached. DefinitionError for an unknown name."""
+    found = []
+    for name in points:
+        known_name("Point", name, motion.plan.points, where=motion.plan.title)
+        path = motion[name].reshape(2, -1).T / mm
+        found.append(Polyline("paths", name, path[np.isfinite(path).all(axis=1)]))
+    return tuple(found)
+
+
+# The frame, with the tracks on it.
+
+
+def frame_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
+    """Yield a triangle under each pin on the frame, and the fixed tracks."""
+    for name in scene.grounds:
+        foot = at[name] + size * np.array([[-1.9, -3.2], [1.9, -3.2]])
+        yield Polyline("frame", name, np.array([at[name], *foot]), closed=True)
+    for track in scene.tracks:
+        layer = "frame" if track.fixed else "bodies"
+        start, end = (at[name] for name in track.ends)
+        yield Polyline(layer, track.name, np.array([start, end]))
+        along = direction(start, end)
+        for rider in track.riders:
+            ends = at[rider] - 2.1 * size * along, at[rider] + 2.1 * size * along
+            yield Polyline("bodies", rider, bar_corners(*ends, 1.25 * size), closed=True)
+
+
+# Bodies: an outline about the outermost pins, and centre lines from pin to pin.
+
+
+def body_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
+    """Yield outlines and centre lines."""
+    for corners, points in zip(scene.hulls, scene.bodies, strict=True):
+        name = "".join(points)
+        places = np.array([at[point] for point in corners])
+        yield outline_around(name, places, ROUND * size)
+        if len(corners) > 1:
+            yield Polyline("centre_lines", name, places, closed=len(corners) > 2)
+
+
+def outline_around(name: str, corners: FloatArray, distance: float) -> Polyline:
+    """Return the line around a convex polygon at a distance [mm], its corners arcs; `corners`, shape (k, 2), counter-clockwise."""
+    along = np.roll(corners, -1, axis=0) - corners
+    along = along / np.hypot(*along.T)[:, None]
+    out = distance * np.column_stack([along[:, 1], -along[:, 0]])
+    before = np.roll(out, 1, axis=0)
+    swing = np.arctan2(before[:, 0] * out[:, 1] - before[:, 1] * out[:, 0], (before * out).sum(axis=1)) % (2.0 * np.pi)
+    vertices = np.stack([corners + before, corners + out], axis=1).reshape(-1, 2)
+    bulges = np.column_stack([np.tan(swing / 4.0), np.zeros(len(corners))]).ravel()
+    return Polyline("bodies", name, vertices, tuple(bulges.tolist()), closed=True)
+
+
+def direction(start: FloatArray, end: FloatArray) -> FloatArray:
+    """Return the unit vector from one place to another, shape (2,)."""
+    return np.asarray((end - start) / (np.hypot(*(end - start)) or 1.0))
+
+
+def bar_corners(start: FloatArray, end: FloatArray, half: float) -> FloatArray:
+    """Return the corners of a box along a line, shape (4, 2)."""
+    x, y = half * direction(start, end)
+    across = np.array([-y, x])
+    return np.array([start - across, end - across, end + across, start + across])
+
+
+# Cylinders, springs, dampers and struts.
+
+
+def cylinder_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
+    """Yield the barrel, the piston and the rod of each cylinder, and its line from pin to pin."""
+    for ram in scene.rams:
+        P, Q = at[ram.P], at[ram.Q]
+        along = direction(P, Q)
+        P, Q = (place + ram.aside / mm * np.array([-along[1], along[0]]) for place in (P, Q))
+        name = ram.P + ram.Q
+        for start, end, half in cylinder_pieces(ram, float(np.hypot(*(Q - P))), size):
+            yield Polyline("cylinders", name, bar_corners(P + start * along, P + end * along, half), closed=True)
+        yield Polyline("centre_lines", name, np.array([P, Q]))
+
+
+def cylinder_pieces(ram: Ram, length: float, size: float) -> Iterator[tuple[float, float, float]]:
+    """Yield start, end and half the width [mm] of barrel, piston and rod, along a cylinder of some length [mm]."""
+    bottom, mouth, piston = ram.bottom / mm, ram.mouth / mm, ram.piston(length * mm) / mm
+    yield bottom, mouth, 1.3 * size
+    yield piston - 0.45 * size, piston + 0.45 * size, 1.12 * size
+    yield piston + 0.45 * size, max(length, piston + 0.45 * size), 0.42 * size
+
+
+def spring_parts(scene: Scene, at: Places) -> Iterator[Part]:
+    """Yield the lines of springs, dampers and struts."""
+    for each in scene.straights:
+        P, Q = at[each.P], at[each.Q]
+        along = direction(P, Q)
+        axes = np.array([along, [-along[1], along[0]]])
+        for line in each.lines:
+            yield Polyline("elements", each.P + each.Q, P + line.at(float(np.hypot(*(Q - P))) * mm) / mm @ axes, closed=line.closed)
+
+
+# Pins and lengths.
+
+
+def pin_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
+    """Yield a circle for each pin, of its bearing's radius where friction declares one, and a small one for each other point."""
+    motion = scene.motion
+    radii = {str(getattr(each.point, "name", each.point)): each for each in motion.plan.of_kind(PinFriction).values()}
+    for name in motion.plan.points:
+        is_pin = name in scene.pins
+        declared = float(np.ravel(radii[name].number(motion, "radius"))[0]) / mm if name in radii else 0.0
+        yield Circle("pins", name, at[name], declared or (PIN if is_pin else 0.5 * PIN) * size)
+
+
+def dimension_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
+    """Yield the lengths that a label gives, each once, read from the left; the longer of two along one line stands further out."""
+    labelled = scene.motion.plan.table.lengths
+    pairs = [each for each in combinations(scene.motion.plan.points, 2) if frozenset(each) in labelled]
+    placed: list[tuple[FloatArray, FloatArray, float]] = []
+    for P, Q in sorted(pairs, key=lambda pair: float(np.hypot(*(at[pair[1]] - at[pair[0]])))):
+        name, start, end = P + Q, at[P], at[Q]
+        if not np.hypot(*(end - start)) > 0.0:
+            continue
+        if (end[0], end[1]) < (start[0], start[1]):
+            start, end = end, start
+        aside = STAND_OFF * size
+        while any(aside == other and along_one_line((start, end), (a, b), size) for a, b, other in placed):
+            aside += 0.75 * STAND_OFF * size
+        placed.append((start, end, aside))
+        yield Measured("dimensions", name, start, end, aside, HEIGHT * size)
+
+
+def along_one_line(one: tuple[FloatArray, FloatArray], other: tuple[FloatArray, FloatArray], size: float) -> bool:
+    """Return whether two stretches lie along one line and overlap; closer than a size [mm] counts as on it."""
+    along = direction(*one)
+    across = np.array([-along[1], along[0]])
+    off = [abs(float((place - one[0]) @ across)) for place in other]
+    reach = sorted(float((place - one[0]) @ along) for place in other)
+    return max(off) < size and reach[0] < float((one[1] - one[0]) @ along) and reach[1] > 0.0

@@ -1,0 +1,414 @@
+"""A design as a workbook with live formulas: dimensions, strokes, the equations one after the other, results and a chart."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping, Sequence
+from datetime import datetime
+from functools import cached_property
+from inspect import cleandoc
+from typing import Any, final
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..formulas.numbered import CONVENTION, DEFINITIONS, uses
+from ..motion import Column, stroke_display_unit, stroke_unit
+from ..reports import Run
+from ..units import deg, display_unit, factor
+from .calculation import CalculatedColumn, Calculation
+from .extras import missing_extra
+from .formula_text import formula
+from .live_results import LiveResult, live_results
+from .names import cell_names
+
+MADE = datetime(2000, 1, 1)
+"""The date in the file: the same design gives the same bytes."""
+ROWS_ABOVE = 4
+"""Rows above the numbers of the calculation: number, name, unit, meaning."""
+RESULT_ROWS_ABOVE = 3
+ROW_MARK = "#ROW#"
+"""What stands in a formula for the number of its row."""
+FITS = 1e-9
+"""m; pins found together miss their links by less."""
+
+
+def workbook(calculation: Calculation, name: str) -> bytes:
+    """Return the bytes of an .xlsx file; DefinitionError where XlsxWriter is not installed."""
+    try:
+        import xlsxwriter
+    except ImportError:
+        raise missing_extra("xlsx", "an .xlsx", "XlsxWriter") from None
+    stream = io.BytesIO()
+    options = {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False, "strings_to_numbers": False}
+    with xlsxwriter.Workbook(stream, options) as book:
+        book.set_properties({"title": calculation.design.plan.heading, "comments": f"hydrolinkage: {name}", "created": MADE})
+        book.set_calc_mode("auto")
+        Sheets(book, calculation).write()
+    return stream.getvalue()
+
+
+@final
+class Sheets:
+    """The sheets of one workbook; texts are written as texts, whatever they begin with."""
+
+    def __init__(self, book: Any, calculation: Calculation) -> None:
+        self.book, self.calculation = book, calculation
+        self.results = live_results(calculation)
+        self.count = calculation.motion.shape[0]
+        ink, pale = "#1F2933", "#EEF1F4"
+        head = {"bold": True, "bg_color": pale, "font_color": ink, "border": 1, "border_color": "#C9D1D9", "valign": "top"}
+        self.head = book.add_format(head)
+        self.wrapped = book.add_format({**head, "bold": False, "text_wrap": True, "font_size": 9})
+        self.dead_head = book.add_format({**head, "italic": True, "font_color": "#8A5A00"})
+        dead = {"italic": True, "font_color": "#8A5A00"}
+        self.dead_wrapped = book.add_format({**head, **dead, "bold": False, "text_wrap": True, "font_size": 9})
+        self.title = book.add_format({"bold": True, "font_size": 14, "font_color": ink})
+        self.text = book.add_format({"font_color": ink})
+        self.muted = book.add_format({"font_color": "#6B7785", "indent": 1})
+        self.input = book.add_format(
+            {"font_color": "#0000FF", "bg_color": "#FFFBE6", "num_format": "General", "border": 1, "border_color": "#E3D9A8"}
+        )
+        self.plain = book.add_format({"num_format": "General", "font_color": ink})
+        self.warning = book.add_format({"bold": True, "font_color": "#C0392B"})
+        self._formats: dict[tuple[str, bool], Any] = {}
+
+    def write(self) -> None:
+        """Write all sheets, in the order in which they are read."""
+        titles = ("Dimensions", "Strokes", "Calculation", "Results", "Chart")
+        first, strokes, middle, last, chart = (self.book.add_worksheet(title) for title in titles)
+        for sheet in (first, strokes, middle, last, chart):
+            sheet.set_landscape()
+            sheet.set_paper(9)
+            if sheet is middle:
+                sheet.set_print_scale(45)
+            else:
+                sheet.fit_to_pages(1, 0)
+        middle.repeat_rows(0, ROWS_ABOVE - 1)
+        middle.repeat_columns(0, len(self.calculation.design.strokes))
+        last.repeat_rows(0, RESULT_ROWS_ABOVE - 1)
+        self._dimensions(first)
+        self._strokes(strokes)
+        self._calculation(middle)
+        self._results(last)
+        self._chart(chart)
+
+    # -- what is given ---------------------------------------------------------------------------------
+
+    @cached_property
+    def names(self) -> dict[Any, str]:
+        """The names of the cells of dimensions, by the dimension, and of the ends of strokes, by (stroke, "from" or "to")."""
+        calculation = self.calculation
+        shown = {name: calculation.equations._listing.names.quantity(name).name for name in calculation.design.dimensions}
+        ends = {(stroke, end): f"{stroke}_{end}" for stroke in calculation.design.strokes for end in ("from", "to")}
+        keys = [*shown, *ends]
+        texts = [*shown.values(), *ends.values()]
+        unique = [text if texts.index(text) == place else f"{text}_{place}" for place, text in enumerate(texts)]
+        found = cell_names(unique)
+        return {key: found[text] for key, text in zip(keys, unique, strict=True)}
+
+    def _dimensions(self, sheet: Any) -> None:
+        """Write the design variables: the value that is typed in, in its unit, and beside it in SI, by the name that formulas use."""
+        design = self.calculation.design
+        sheet.set_column(0, 0, 30)
+        sheet.set_column(1, 3, 15)
+        sheet.set_column(4, 4, 30)
+        sheet.set_column(5, 5, 70)
+        sheet.write_string(0, 0, design.plan.heading, self.title)
+        about = cleandoc(type(design).__doc__ or "").splitlines()
+        sheet.write_string(1, 0, about[0] if about else "", self.muted)
+        sheet.write_string(2, 0, "Type over a number on yellow; all sheets follow. SI and radians in the calculation.", self.muted)
+        row = 4
+        for column, text in enumerate(("Dimension", "Value", "Unit", "SI value", "Name in formulas", "Note")):
+            sheet.write_string(row, column, text, self.head)
+        for name, value in design.dimensions.items():
+            row += 1
+            entry = design.plan.table.entries[name]
+            unit = entry.unit or display_unit(self.calculation.measure(name), "mm")
+            sheet.write_string(row, 0, name, self.text)
+            sheet.write_number(row, 1, tidy(value / factor(unit)), self.input)
+            sheet.write_string(row, 2, unit, self.muted)
+            sheet.write_formula(row, 3, f"=B{row + 1}{to_si(unit)}", self.plain, float(value))
+            sheet.write_string(row, 4, self.names[name], self.muted)
+            sheet.write_string(row, 5, self._note(name, entry.where), self.muted)
+            self.book.define_name(self.names[name], f"=Dimensions!$D${row + 1}")
+        sheet.freeze_panes(5, 1)
+        self._check(sheet, row + 2)
+        for place, text in enumerate(self._remarks()):
+            sheet.write_string(row + 3 + place, 0, text, self.text)
+
+    def _note(self, name: str, where: str) -> str:
+        read = {str(symbol) for result in self.results if result.expr is not None for symbol in result.expr.free_symbols}
+        symbols = {str(symbol) for symbol, owner in self.calculation.dimension_symbols.items() if owner == name}
+        kept = any(name in result.kept for result in self.results)
+        if name not in self.calculation.used and not symbols & read and not kept:
+            return f"{where}; no formula here reads it" if where else "no formula here reads it"
+        return where
+
+    def _check(self, sheet: Any, row: int) -> None:
+        """Write a warning that appears where pins found together do not fit the dimensions any more."""
+        places = [place for place, column in enumerate(self.calculation.columns) if column.checks]
+        if not places:
+            return
+        ranges = [self._range("Calculation", self._place(place), ROWS_ABOVE) for place in places]
+        worst = ",".join(f"MAX({each}),-MIN({each})" for each in ranges)
+        pins = " ".join(self.calculation.equations._listing.unknowns)
+        text = f"The pins {pins} were found by iteration and do not fit these dimensions: export the changed design again."
+        sheet.write_formula(row, 0, f'=IF(MAX({worst})>{FITS!r},"{text}","")', self.warning, "")
+
+    def _remarks(self) -> list[str]:
+        """Return what a reader should know: conventions, the words of the equations, and what does not follow a changed number."""
+        calculation, lines = self.calculation, self.calculation.equations
+        dead = [column.name for column in calculation.columns if column.expr is None]
+        lost = [result.column.name for result in self.results if result.expr is None]
+        return [
+            "",
+            *CONVENTION,
+            *(text for words, text in DEFINITIONS if uses(lines, words)),
+            *([f"Numbers, not formulas, in the calculation: {', '.join(dead)}. Export the changed design again."] if dead else []),
+            *([f"Numbers, not formulas, in the results: {', '.join(lost)}."] if lost else []),
+            *(f"Left out: {text}" for text in calculation.left_out),
+            *([f"Left out of the forces: the friction of {', '.join(friction)}."] if (friction := self._friction()) else []),
+        ]
+
+    def _friction(self) -> list[str]:
+        forces = self.calculation.equations._forces
+        return [] if forces is None else forces.friction
+
+    def _strokes(self, sheet: Any) -> None:
+        """Write the ends of the stroke that runs and the others' values, then all strokes at every pose."""
+        calculation, strokes = self.calculation, list(self.calculation.design.strokes)
+        plan, run = calculation.design.plan, calculation.run
+        sheet.set_column(0, 6, 15)
+        for column, text in enumerate(("Stroke", "From", "To", "Unit", "From, SI", "To, SI", "Note")):
+            sheet.write_string(0, column, text, self.head)
+        for row, name in enumerate(strokes, 1):
+            unit, runs = stroke_display_unit(plan, name, "mm"), name in run.ways
+            sheet.write_string(row, 0, name, self.text)
+            for column, (end, value) in enumerate(stroke_ends_of(run, name).items()):
+                sheet.write_number(row, 1 + column, tidy(value / factor(unit)), self.input)
+                sheet.write_formula(row, 4 + column, f"={'BC'[column]}{row + 1}{to_si(unit)}", self.plain, value)
+                self.book.define_name(self.names[name, end], f"=Strokes!${'EF'[column]}${row + 1}")
+            sheet.write_string(row, 3, unit, self.muted)
+            sheet.write_string(row, 6, f"{self.count} poses from one end to the other" if runs else "held", self.muted)
+        top = self._stroke_head
+        for column, (name, unit) in enumerate((("pose", ""), *((name, stroke_unit(plan, name)) for name in strokes))):
+            sheet.write_string(top - 1, column, f"{name}, {unit}" if unit else name, self.head)
+        for pose in range(self.count):
+            sheet.write_number(top + pose, 0, pose, self.plain)
+            for column, name in enumerate(strokes, 1):
+                value = float(np.broadcast_to(calculation.stroke_values[name], (self.count,))[pose])
+                sheet.write_formula(top + pose, column, f"={self._stroke_text(name, top + pose + 1)}", self.plain, value)
+
+    def _stroke_text(self, name: str, row: int) -> str:
+        start = self.names[name, "from"]
+        if name not in self.calculation.run.ways or self.count == 1:
+            return start
+        return f"{start}+({self.names[name, 'to']}-{start})*A{row}/{self.count - 1}"
+
+    @property
+    def _stroke_head(self) -> int:
+        """The rows of the strokes' sheet above the poses."""
+        return len(self.calculation.design.strokes) + 3
+
+    # -- the equations ---------------------------------------------------------------------------------
+
+    def _place(self, column: int) -> int:
+        """Return where a column of the calculation stands in its sheet: behind the pose and the strokes."""
+        return 1 + len(self.calculation.design.strokes) + column
+
+    @cached_property
+    def _letters(self) -> dict[Any, str]:
+        """The letter of the column of each symbol of the calculation's sheet."""
+        from xlsxwriter.utility import xl_col_to_name
+
+        symbols = [*self.calculation.stroke_symbols.values(), *(each.symbol for each in self.calculation.columns)]
+        return {symbol: str(xl_col_to_name(1 + place)) for place, symbol in enumerate(symbols)}
+
+    def _text(self, expr: Any, sheet: str = "") -> str | None:
+        """Return an expression as a formula with ROW_MARK where the row's number goes; None for one that is too long.
+
+        A symbol is a cell of the calculation in the same row, or a dimension by its name.
+        """
+        dimensions = self.calculation.dimension_symbols
+
+        def read(symbol: Any) -> str:
+            letter = self._letters.get(symbol)
+            return f"{sheet}{letter}{ROW_MARK}" if letter is not None else self.names[dimensions[symbol]]
+
+        return formula(expr, read)
+
+    def _calculation(self, sheet: Any) -> None:
+        """Write a column for each equation, two for a vector, in their order: number, name, unit, meaning, and a formula a pose."""
+        plan, strokes = self.calculation.design.plan, list(self.calculation.design.strokes)
+        sheet.set_row(3, 75)
+        sheet.set_column(0, 0, 7)
+        sheet.set_column(1, self._place(len(self.calculation.columns)), 16)
+        given = [("", "pose", "", "number of the pose"), *(("", name, stroke_unit(plan, name), "stroke") for name in strokes)]
+        for column, texts in enumerate(given):
+            self._heading(sheet, column, texts)
+        for pose in range(self.count):
+            row = ROWS_ABOVE + pose
+            sheet.write_formula(row, 0, f"=Strokes!A{self._stroke_head + pose + 1}", self.plain, pose)
+            for column, name in enumerate(strokes, 1):
+                value = float(np.broadcast_to(self.calculation.stroke_values[name], (self.count,))[pose])
+                text = f"=Strokes!{'ABCDEFGHIJKLMNOPQRSTUVWXYZ'[column]}{self._stroke_head + pose + 1}"
+                sheet.write_formula(row, column, text, self._format(1.0, False), value)
+        for place, each in enumerate(self.calculation.columns):
+            self._heading(sheet, self._place(place), (each.number, each.name, each.unit, each.meaning), dead=each.expr is None)
+            self._column(sheet, self._place(place), each)
+        sheet.freeze_panes(ROWS_ABOVE, 1 + len(strokes))
+
+    def _heading(self, sheet: Any, column: int, texts: Sequence[str], dead: bool = False) -> None:
+        for row, text in enumerate(texts):
+            upper, lower = (self.dead_head, self.dead_wrapped) if dead else (self.head, self.wrapped)
+            sheet.write_string(row, column, text, lower if row == 3 else upper)
+
+    def _column(self, sheet: Any, place: int, each: CalculatedColumn) -> None:
+        """Write one column's formulas with their values, or its values alone."""
+        look = self._format(float(np.nanmax(np.abs(each.values), initial=0.0)), each.expr is None)
+        template = None if each.expr is None else self._text(each.expr)
+        for pose, value in enumerate(each.values.tolist()):
+            row = ROWS_ABOVE + pose
+            text = None if template is None else template.replace(ROW_MARK, str(row + 1))
+            if text is not None and each.turns is not None:
+                text = without_jump(text, each.turns, f"{self._letters[each.symbol]}{row}" if pose else "")
+            self._number(sheet, row, place, text, value, look)
+
+    def _number(self, sheet: Any, row: int, column: int, text: str | None, value: float, look: Any) -> None:
+        if text is not None:
+            sheet.write_formula(row, column, text, look, value if np.isfinite(value) else "#NUM!")
+        elif np.isfinite(value):
+            sheet.write_number(row, column, value, look)
+        else:
+            sheet.write_string(row, column, "", look)
+
+    def _format(self, size: float, dead: bool) -> Any:
+        """Return how numbers up to a size are shown."""
+        text = "0.00000E+00" if size >= 1e7 or 0.0 < size < 1e-3 else "0.00" if size >= 1e4 else "0.0000" if size >= 100.0 else "0.000000"
+        if (text, dead) not in self._formats:
+            colour = {"italic": True, "font_color": "#8A5A00"} if dead else {"font_color": "#1F2933"}
+            self._formats[text, dead] = self.book.add_format({"num_format": text, **colour})
+        return self._formats[text, dead]
+
+    # -- results ---------------------------------------------------------------------------------------
+
+    def _results(self, sheet: Any) -> None:
+        """Write the machine's own table, in its units; what no equation gives as numbers."""
+        sheet.set_column(0, max(len(self.results) - 1, 0), 14)
+        for column, result in enumerate(self.results):
+            dead = result.expr is None
+            texts = (result.column.name, result.column.unit, "a number, not a formula" if dead else self._condition(result))
+            for row, text in enumerate(texts):
+                sheet.write_string(row, column, text, (self.dead_wrapped if dead else self.wrapped) if row == 2 else self.head)
+            shown = np.broadcast_to(result.column.shown, self.calculation.motion.shape)
+            look = self._result_format(result)
+            template = self._result_text(result)
+            for pose, value in enumerate(shown.tolist()):
+                formula_here = None if template is None else template.replace(ROW_MARK, str(ROWS_ABOVE + pose + 1))
+                self._number(sheet, RESULT_ROWS_ABOVE + pose, column, formula_here, value, look)
+        sheet.set_row(2, 36)
+        sheet.freeze_panes(RESULT_ROWS_ABOVE, 1)
+
+    def _condition(self, result: LiveResult) -> str:
+        own = self.calculation.design.dimensions
+        return f"while {', '.join(f'{name} = {own[name]:g}' for name in result.kept)}" if result.kept else ""
+
+    def _result_text(self, result: LiveResult) -> str | None:
+        text = None if result.expr is None else self._text(result.expr, "Calculation!")
+        if text is None:
+            return None
+        body = text[1:] if result.expr.is_Symbol else f"({text[1:]})"
+        shown = f"{body}{from_si(result.column.unit)}"
+        if not result.kept:
+            return f"={shown}"
+        own = self.calculation.design.dimensions
+        tests = ",".join(f"{self.names[name]}={own[name]:g}" for name in result.kept)
+        return f"=IF(AND({tests}),{shown},NA())"
+
+    def _result_format(self, result: LiveResult) -> Any:
+        digits = result.column.digits
+        key = (f"0.{'0' * digits}" if digits else "0", result.expr is None)
+        if key not in self._formats:
+            colour = {"italic": True, "font_color": "#8A5A00"} if key[1] else {"font_color": "#1F2933"}
+            self._formats[key] = self.book.add_format({"num_format": key[0], **colour})
+        return self._formats[key]
+
+    def _chart(self, sheet: Any) -> None:
+        """Draw what the machine is about over its stroke."""
+        columns = [result.column for result in self.results]
+        over_stroke = next((place for place, each in enumerate(columns) if each.name == self.calculation.run.stroke), None)
+        shown = featured_place(columns, self.calculation.design.featured().column)
+        chart = self.book.add_chart({"type": "scatter", "subtype": "straight"})
+        x, y = columns[over_stroke] if over_stroke is not None else None, columns[shown]
+        stroke = self._range("Calculation", 1 + list(self.calculation.design.strokes).index(self.calculation.run.stroke), ROWS_ABOVE)
+        chart.add_series({
+            "name": y.heading,
+            "categories": f"={stroke if over_stroke is None else self._range('Results', over_stroke, RESULT_ROWS_ABOVE)}",
+            "values": f"={self._range('Results', shown, RESULT_ROWS_ABOVE)}",
+            "line": {"color": "#1F5FA8", "width": 2.25},
+        })  # fmt: skip
+        unit = stroke_unit(self.calculation.design.plan, self.calculation.run.stroke)
+        axis = {"num_font": {"size": 10}, "major_gridlines": {"visible": True, "line": {"color": "#E1E5EA", "width": 0.75}}}
+        chart.set_title({"name": f"{self.calculation.design.plan.heading}: {y.heading}", "name_font": {"size": 13}, "overlay": False})
+        low, high = span(x.shown if x is not None else self.calculation.stroke_values[self.calculation.run.stroke])
+        name = x.heading if x is not None else f"{self.calculation.run.stroke}, {unit}"
+        chart.set_x_axis({"name": name, "min": low, "max": high, "label_position": "low", "crossing": "min", **axis})
+        chart.set_y_axis({"name": y.heading, "label_position": "low", "crossing": "min", **axis})
+        chart.set_legend({"none": True})
+        chart.set_size({"width": 860, "height": 480})
+        sheet.insert_chart("B2", chart)
+        sheet.hide_gridlines(2)
+
+    def _range(self, sheet: str, column: int, head: int) -> str:
+        from xlsxwriter.utility import xl_col_to_name
+
+        letter = xl_col_to_name(column)
+        return f"{sheet}!${letter}${head + 1}:${letter}${head + self.count}"
+
+
+def featured_place(columns: Sequence[Column], wanted: str) -> int:
+    """Return the place of the column that is drawn: the one that is wanted, else the last that changes."""
+    names = [each.name for each in columns]
+    changing = [place for place, each in enumerate(columns) if float(np.ptp(each.drawn[np.isfinite(each.drawn)])) > 0.0]
+    return names.index(wanted) if wanted in names else changing[-1] if changing else len(columns) - 1
+
+
+def span(values: Any) -> tuple[float, float]:
+    """Return the least and the greatest of some values, as an axis is labelled."""
+    return tidy(float(np.min(values))), tidy(float(np.max(values)))
+
+
+def stroke_ends_of(run: Run, name: str) -> Mapping[str, float]:
+    """Return the two ends of a stroke that runs [SI], or the value of one that is held."""
+    way = run.ways.get(name)
+    return {"from": run.held[name]} if way is None else {"from": way[0], "to": way[-1]}
+
+
+def tidy(value: float) -> float:
+    """Return a number without the noise that a change of units leaves in its last digits."""
+    return float(f"{value:.15g}")
+
+
+def to_si(unit: str) -> str:
+    """Return what turns a number in a unit into SI, as the end of a formula."""
+    return "*PI()/180" if unit and factor(unit) == deg else "" if factor(unit) == 1.0 else f"*{factor(unit)!r}"
+
+
+def from_si(unit: str) -> str:
+    """Return what turns SI into a number in a unit, as the end of a formula."""
+    return "*180/PI()" if unit and factor(unit) == deg else "" if factor(unit) == 1.0 else f"/{factor(unit)!r}"
+
+
+def without_jump(text: str, turns: int, before: str) -> str:
+    """Return the formula of a direction that goes on from the cell before without a jump; of the first one with its whole turns."""
+    if not before:
+        return f"{text}+2*PI()*({turns})" if turns else text
+    return f"{text}-2*PI()*ROUND(({text[1:]}-{before})/(2*PI()),0)"
+
+
+def check_count(count: Any) -> int:
+    """Return the number of poses; DefinitionError for anything but a whole number of rows that a sheet has."""
+    if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or not 2 <= count <= 100_000:
+        raise DefinitionError(f"count={count!r}: a number of poses from 2 to 100000 is expected, such as 101.")
+    return int(count)

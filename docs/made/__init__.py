@@ -22,12 +22,19 @@ GENERATED = HERE / "_generated"
 
 def setup(app: Any) -> dict[str, bool]:
     """Have everything made before the sources are read, show what their examples draw, and set formulas as MathML."""
-    app.connect("builder-inited", lambda app: make_all(GENERATED))
+    app.add_config_value("keep_generated", False, "", [bool, str])
+    app.connect("builder-inited", make_unless_kept)
     app.connect("source-read", show_examples)
     app.connect("html-page-context", put_paths)
     app.connect("autodoc-process-docstring", api.as_restructured)
     app.add_html_math_renderer("mathml", (formulas.inline, None), (formulas.block, None))
     return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def make_unless_kept(app: Any) -> None:
+    """Make all that is generated; with `./run docs -D keep_generated=1` only where nothing is there, for one who writes texts."""
+    if app.config.keep_generated in (False, "0", "") or not (GENERATED / "examples.json").exists():
+        make_all(GENERATED)
 
 
 def make_all(folder: Path) -> None:
@@ -44,10 +51,10 @@ def make_all(folder: Path) -> None:
         for each in waiting:
             each.result()
         found = {page: each.result() for page, each in shown.items()}
-    (folder / "examples.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
     gallery.make(entries, folder)
     commands.make(folder / "commands.md")
     api.make(folder / "api")
+    (folder / "examples.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
 
 
 def drawing_pages() -> Iterator[str]:

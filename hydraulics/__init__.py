@@ -21,9 +21,9 @@ from .gas import adiabatic as adiabatic
 from .gas import isothermal as isothermal
 from .gas import polytropic as polytropic
 from .judged import lift_verdicts as lift_verdicts
-from .lift import Holding as Holding
 from .lift import LiftCircuit as LiftCircuit
-from .lift import Lowering as Lowering
+from .line import Holding as Holding
+from .line import Lowering as Lowering
 from .member import Cylinder as Cylinder
 from .nitrogen import real_nitrogen as real_nitrogen
 from .requests import buckling as buckling

@@ -23,6 +23,7 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import keep_own, refuses_changes
+from linkage.language import said
 from linkage.loads import Poses
 from linkage.loads.element import value_text
 from linkage.program import is_traced
@@ -95,6 +96,7 @@ class Accumulator:
 # A gas of charge p_i fills its vessel V_i up to that pressure; above it, it holds V_i v(p)/v(p_i), v being the specific
 # volume of the gas law. Between two charges the sum is (amount) v(p) + (idle volume), so its inverse is closed form
 # for any gas law. Source: Rekhlitski, Chuprynin (2013), (17)-(33), for any number of charges.
+
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -449,35 +451,49 @@ class WorkingRange:
         """Return whether a charge [Pa absolute] stays below the lowest pressure by the margin."""
         low = self.p_min + self.atmosphere
         ok = charge <= CHARGE_SHARE * low
-        says = f"{self._text(charge)} against {self._text(CHARGE_SHARE * low)}, {CHARGE_SHARE:g} of the lowest pressure (absolute)"
-        idle = "; it is idle there, full of gas" if charge >= low else ""
+        says = said(
+            "{charge} against {most}, {share:g} of the lowest pressure (absolute)",
+            charge=self._text(charge), most=self._text(CHARGE_SHARE * low), share=CHARGE_SHARE,
+        )  # fmt: skip
+        rule, named = f"charge of accumulator {number}", said("charge of accumulator {n}", n=number)
+        if ok:
+            return Verdict(rule, True, f"{says}.", named)
+        idle = said("; it is idle there, full of gas") if charge >= low else ""
         wanted, possible = self._gauge(CHARGE_SHARE * low), self._gauge(charge / CHARGE_SHARE)
-        remedy = f"{idle}; lower the charge to {wanted}, or raise the lowest pressure to {possible}"
-        return Verdict(f"charge of accumulator {number}", ok, f"{says}{'' if ok else remedy}.")
+        remedy = said("; lower the charge to {wanted}, or raise the lowest pressure to {possible}", wanted=wanted, possible=possible)
+        return Verdict(rule, False, f"{says}{idle}{remedy}.", named)
 
     def compression(self, number: int, charge: float) -> Verdict:
         """Return whether the gas of a charge [Pa absolute] is not compressed too far."""
         high = self.p_max + self.atmosphere
         ok = high <= COMPRESSION * charge
-        says = f"{self._text(high)} at most is {high / charge:.4g} times the charge, limit {COMPRESSION:g} (absolute)"
+        says = said(
+            "{high} at most is {ratio:.4g} times the charge, limit {limit:g} (absolute)",
+            high=self._text(high), ratio=high / charge, limit=COMPRESSION,
+        )  # fmt: skip
+        rule, named = f"compression of accumulator {number}", said("compression of accumulator {n}", n=number)
+        if ok:
+            return Verdict(rule, True, f"{says}.", named)
         wanted, possible = self._gauge(high / COMPRESSION), self._gauge(COMPRESSION * charge)
-        remedy = f"; raise the charge to {wanted}, or lower the highest pressure to {possible}"
-        return Verdict(f"compression of accumulator {number}", ok, f"{says}{'' if ok else remedy}.")
+        remedy = said("; raise the charge to {wanted}, or lower the highest pressure to {possible}", wanted=wanted, possible=possible)
+        return Verdict(rule, False, f"{says}{remedy}.", named)
 
     def exhausted(self, held: float) -> Verdict:
         """Return whether the line still holds fluid [m3] at its lowest pressure."""
-        says = f"{held / cm3:.4g} cm3 of fluid left at the lowest pressure, {self._text(self.p_min)} gauge"
-        return Verdict("exhausted", held > 0.0, f"{says}{'' if held > 0.0 else '; lower a charge, or charge the line higher'}.")
+        fluid, low = show(held, "cm3", 4), self._text(self.p_min)
+        says = said("{fluid} of fluid left at the lowest pressure, {low} gauge", fluid=fluid, low=low)
+        return Verdict("exhausted", held > 0.0, f"{says}{'' if held > 0.0 else said('; lower a charge, or charge the line higher')}.")
 
     def permitted(self) -> Verdict:
         """Return whether the highest pressure is allowed."""
         ok = self.p_max <= self.allowed
-        says = f"highest pressure {self._text(self.p_max)}, allowed {self._text(self.allowed)} (gauge)"
-        remedy = "; set the relief valve lower or take a stronger accumulator"
+        high, allowed = self._text(self.p_max), self._text(self.allowed)
+        says = said("highest pressure {high}, allowed {allowed} (gauge)", high=high, allowed=allowed)
+        remedy = said("; set the relief valve lower or take a stronger accumulator")
         return Verdict("allowed pressure", ok, f"{says}{'' if ok else remedy}.")
 
     def _text(self, pressure: float) -> str:
         return show(pressure, self.unit, 4)
 
     def _gauge(self, absolute: float) -> str:
-        return f"{self._text(absolute - self.atmosphere)} gauge"
+        return said("{pressure} gauge", pressure=self._text(absolute - self.atmosphere))

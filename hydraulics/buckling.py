@@ -24,14 +24,15 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, known_name
 from linkage.frozen import refuses_changes
+from linkage.language import noted, said, translated
 from linkage.program import is_traced
-from linkage.units import MPa, kN, mm
+from linkage.units import MPa, show
 from linkage.verdict import Verdict
 
 from .cylinder import next_rod
 from .inputs import LONGEST, Array, in_metres, one_number, pose_values, positive
 
-MOUNTINGS = MappingProxyType({"pin-pin": 1.0, "fixed-pin": 0.699156, "fixed-fixed": 0.5, "fixed-free": 2.0})
+MOUNTINGS = MappingProxyType({noted("pin-pin"): 1.0, noted("fixed-pin"): 0.699156, noted("fixed-fixed"): 0.5, noted("fixed-free"): 2.0})
 """Buckling length over length, by how the two ends are held (Euler's four cases; 0.699156 is pi over the root of tan x = x)."""
 
 
@@ -105,16 +106,17 @@ class Buckling:
     def judged(self, length: float, thrust: float, where: str = "", unbounded: bool = False) -> Verdict:
         """Return the verdict at one length [m] and thrust of one cylinder [N], at a place in words; `unbounded`: it grows from there."""
         if unbounded:
-            return Verdict("buckling", False, f"the thrust grows without bounds {where}: no rod holds there; keep away from that pose.")
+            text = said("the thrust grows without bounds {where}: no rod holds there; keep away from that pose.", where=where)
+            return Verdict("buckling", False, text)
         if not one_number(thrust, "Thrust") > 0.0:
-            return Verdict("buckling", True, "the rod is never pushed.")
+            return never_pushed()
         one_number(length, "Length between the ends")
         limit, ok = float(self.critical(length)), thrust <= float(self.allowed(length))
-        at = f" {where}" if where else ""
-        says = (
-            f"{thrust / kN:.4g} kN on a {self.rod / mm:.4g} mm rod {length / mm:.0f} mm long ({self.mounting}){at}, "
-            f"buckling at {limit / kN:.4g} kN: safety {limit / thrust:.3g}, at least {self.safety:g}"
-        )
+        says = said(
+            "{thrust} on a {rod} rod {length} long ({mounting}){where}, buckling at {limit}: safety {safety:.3g}, at least {least:g}",
+            thrust=show(thrust, "kN", 4), rod=show(self.rod, "mm", 4), length=show(length, "mm", ".0f"), mounting=translated(self.mounting),
+            where=f" {where}" if where else "", limit=show(limit, "kN", 4), safety=limit / thrust, least=self.safety,
+        )  # fmt: skip
         return Verdict("buckling", ok, f"{says}{'' if ok else self._remedy(length, thrust)}.")
 
     def _remedy(self, length: float, thrust: float) -> str:
@@ -123,8 +125,13 @@ class Buckling:
             while thicker.allowed(length) < thrust:
                 thicker = replace(thicker, rod=next_rod(thicker.rod))
         except DefinitionError:
-            return "; no standard rod holds: shorten the cylinder or use more of them"
-        return f"; a rod of {thicker.rod / mm:.0f} mm holds"
+            return said("; no standard rod holds: shorten the cylinder or use more of them")
+        return said("; a rod of {rod} holds", rod=show(thicker.rod, "mm", ".0f"))
+
+
+def never_pushed() -> Verdict:
+    """Return the verdict on a rod that nothing pushes."""
+    return Verdict("buckling", True, said("the rod is never pushed."))
 
 
 def _length(length: ArrayLike) -> Array:

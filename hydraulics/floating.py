@@ -18,15 +18,18 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited
 from linkage.frozen import refuses_changes
+from linkage.language import said
 from linkage.loads import AT_REST, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
 from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
-from linkage.motion import Motion
+from linkage.motion import Motion, greatest, lowest
 from linkage.plan import ArrayReading
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of, quantity
 from linkage.statics import AnyMotion, Case, Loads, plan_of, stroke_followed
+from linkage.units import show
 from linkage.vectors import Scalar
+from linkage.verdict import Verdict
 
 from .accumulator import AccumulatorBlock
 from .gas import Polytropic
@@ -99,6 +102,21 @@ class FloatCircuit(Circuit):
 
     def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
         return self.pressure(motion)
+
+    def verdicts(self, motion: Motion) -> list[Verdict]:
+        """Return the range of the line's pressure over a motion, and whether fluid is left everywhere."""
+        try:
+            low, high = lowest(motion, self.pressure), greatest(motion, self.pressure)
+        except DefinitionError as error:
+            return [Verdict("line", False, " ".join(str(error).split()))]
+        unit = self.accumulators(motion).unit or "bar"
+        says = said(
+            "its pressure goes from {low} {low_where} to {high} {high_where}",
+            low=show(low.value, unit, 4), low_where=low.where, high=show(high.value, unit, 4), high_where=high.where,
+        )  # fmt: skip
+        if low.value > 0.0:
+            return [Verdict("line", True, f"{says}.")]
+        return [Verdict("line", False, says + said(": the line is empty there. Charge it higher, or take larger accumulators."))]
 
     def ram(self, motion: Poses) -> Cylinder:
         """Return its cylinder, as the motion's class has it."""

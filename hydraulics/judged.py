@@ -13,19 +13,20 @@ from typing import final
 import numpy as np
 
 from linkage.errors import DefinitionError, known_name, unknown
+from linkage.language import said, said_of, with_and
 from linkage.motion import Motion, Span, below_zero, greatest, lowest, reached, require_motion
 from linkage.statics import Case, Loads, elements_of, same
-from linkage.units import UNITS, litre, mm, show
+from linkage.units import UNITS, show
 from linkage.verdict import Verdict
 
 from .cylinder import CylinderSize, standard_bores
 from .inputs import Array, not_negative, one_number
-from .lift import Choice, Holding, LiftCircuit, Lowering, Work
+from .line import Choice, Holding, LiftLine, Lowering, Work
 from .member import Cylinder, one_design, one_size
 
 
 def lift_verdicts(
-    circuit: LiftCircuit | str, motion: Motion, loads: Loads = None, *, case: Case = None, resistance: float = 0.0, unit: str = "bar"
+    circuit: LiftLine | str, motion: Motion, loads: Loads = None, *, case: Case = None, resistance: float = 0.0, unit: str = "bar"
 ) -> list[Verdict]:
     """Return the verdicts on lifting (with the remedy), oil and time, holding, and lowering against a `resistance` [Pa].
 
@@ -53,19 +54,37 @@ def lift_verdicts(
     ]
 
 
-def the_circuit(circuit: LiftCircuit | str, motion: Motion) -> LiftCircuit:
+def line_verdicts(circuit: LiftLine, motion: Motion, case: Case = None) -> list[Verdict]:
+    """Return `lift_verdicts` of a circuit under the machine's own loads; over a grid of strokes its least reserve, and the holding."""
+    try:
+        if len(motion._stroke_shape) <= 1:
+            return lift_verdicts(circuit, motion, case=case)
+        cylinders = [LiftingCylinder(circuit, ram, motion, case=case) for ram in circuit.rams(motion)]
+        nothing = idle(cylinders)
+        if nothing is not None:
+            return [nothing]
+        several = len(cylinders) > 1
+        return [with_name(verdict, each.ram, several) for each in cylinders for verdict in (each.lifting(), each.holding())]
+    except DefinitionError as error:
+        return [Verdict("lifting", False, " ".join(str(error).split()))]
+
+
+def the_circuit(circuit: LiftLine | str, motion: Motion) -> LiftLine:
     """Return the circuit that is meant, by its name in the class too; DefinitionError for what is none."""
     require_motion(motion)
-    circuits = motion.plan.of_kind(LiftCircuit)
+    circuits = motion.plan.of_kind(LiftLine)
     found = circuits.get(circuit) if isinstance(circuit, str) else circuit
-    if not isinstance(found, LiftCircuit):
+    if not isinstance(found, LiftLine):
         raise unknown("LiftCircuit", str(circuit), circuits, where=motion.plan.title)
     return found
 
 
 def with_name(verdict: Verdict, ram: Cylinder, several: bool) -> Verdict:
     """Return a verdict that names its cylinder, where there are several."""
-    return Verdict(f"{verdict.rule} {ram.name or ram}", verdict.ok, verdict.sentence) if several else verdict
+    if not several:
+        return verdict
+    name = ram.name or str(ram)
+    return Verdict(f"{verdict.rule} {name}", verdict.ok, verdict.sentence, f"{verdict.heading} {name}")
 
 
 def idle(cylinders: Sequence[LiftingCylinder]) -> Verdict | None:
@@ -77,16 +96,24 @@ def idle(cylinders: Sequence[LiftingCylinder]) -> Verdict | None:
     fed = [(name, each.ram) for each in cylinders for name, rams in feeding if any(same(each.ram, ram) for ram in rams)]
     if fed:
         (line, ram), *_ = fed
-        says = f"{ram.name or ram} is fed by {line} and carries the gas's force, whatever the load: there is nothing that the pump lifts"
-        return Verdict("lifting", False, f"{says}. Judge what the drive must do, driving_force(motion), or leave {line} out of the loads.")
+        text = said(
+            "{ram} is fed by {line} and carries the gas's force, whatever the load: there is nothing that the pump lifts. "
+            "Judge what the drive must do, driving_force(motion), or leave {line} out of the loads.",
+            ram=ram.name or ram, line=line,
+        )  # fmt: skip
+        return Verdict("lifting", False, text)
     if any(each.carries for each in cylinders):
         return None
     acting = [name for name, each in elements if not each.holds and not each.joined(first.motion.plan.members)]
-    why = "no load is declared, such as Weight(G, mass=...)."
-    if acting:
-        many = f"the loads {', '.join(acting)} ask" if len(acting) > 1 else f"{acting[0]} asks"
-        why = f"{many} nothing of it; is a mass zero?"
-    return Verdict("lifting", False, f"there is nothing to lift: {why}")
+    if not acting:
+        return Verdict("lifting", False, said("there is nothing to lift: no load is declared, such as Weight(G, mass=...)."))
+    text = said_of(
+        len(acting),
+        "there is nothing to lift: {loads} asks nothing of it; is a mass zero?",
+        "there is nothing to lift: the loads {loads} ask nothing of it; is a mass zero?",
+        loads=", ".join(acting),
+    )
+    return Verdict("lifting", False, text)
 
 
 @final
@@ -116,9 +143,7 @@ class Lifting:
 class LiftingCylinder:
     """One cylinder of a circuit over a motion."""
 
-    def __init__(
-        self, circuit: LiftCircuit, ram: Cylinder, motion: Motion, loads: Loads = None, case: Case = None, unit: str = "bar"
-    ) -> None:
+    def __init__(self, circuit: LiftLine, ram: Cylinder, motion: Motion, loads: Loads = None, case: Case = None, unit: str = "bar") -> None:
         self.circuit, self.ram, self.motion, self.loads, self.case, self.unit = circuit, ram, motion, loads, case, unit
 
     @property
@@ -151,27 +176,35 @@ class LiftingCylinder:
         """Return whether the pump lifts over the whole motion; where not, the pressure needed and the standard bore that would do."""
         found, pump = self.lifted(), self.show(self.circuit.supply(self.motion))
         if found.is_free:
-            return Verdict("lifting", True, f"the load drives all the way: it is not limited by this cylinder{self.other_side()}.")
+            text = said("the load drives all the way: it is not limited by this cylinder{remedy}.", remedy=self.other_side())
+            return Verdict("lifting", True, text)
         if found.least == 0.0:
-            text = f"at {pump} the force needed grows without bounds {found.where}: no cylinder lifts there; keep away from that pose."
+            text = said(
+                "at {pump} the force needed grows without bounds {where}: no cylinder lifts there; keep away from that pose.",
+                pump=pump, where=found.where,
+            )  # fmt: skip
             return Verdict("lifting", False, text)
-        aside = f"there it is not limited by this cylinder{self.other_side()}"
-        free = f"; the load drives {spans(found.driven)}, {aside}" if found.driven else ""
-        says = f"at {pump} the least reserve is {found.least:.3f}, {found.where}"
+        free = said(
+            "; the load drives {where}, there it is not limited by this cylinder{remedy}",
+            where=with_and(found.driven), remedy=self.other_side(),
+        ) if found.driven else ""  # fmt: skip
+        says = said("at {pump} the least reserve is {least:.3f}, {where}", pump=pump, least=found.least, where=found.where)
         if found.least >= 1.0:
             return Verdict("lifting", True, f"{says}{free}.")
-        return Verdict("lifting", False, f"{says}; too weak {spans(found.short)}{free}. {self.remedy(found)}")
+        weak = said("; too weak {where}", where=with_and(found.short)) if found.short else ""
+        return Verdict("lifting", False, f"{says}{weak}{free}. {self.remedy(found)}")
 
     def lifted(self) -> Lifting:
         """Return how the cylinder lifts, in numbers."""
         motion, worst = self.motion, greatest(self.motion, self.use)
-        driven = below_zero(motion, self.force)
+        along = len(motion._stroke_shape) <= 1  # parts of a way are told, not of a grid
+        driven = below_zero(motion, self.force) if along else ()
         if np.isnan(worst.value) or worst.value <= 0.0:
             return Lifting(np.inf, "", (), driven)
         least = 0.0 if worst.unbounded else 1.0 / float(worst.value)
         if least >= 1.0:
             return Lifting(least, worst.where, (), driven)
-        short = below_zero(motion, self.spare)
+        short = below_zero(motion, self.spare) if along else ()
         if worst.unbounded:
             return Lifting(least, worst.where, short, driven)
         needed = greatest(motion, lambda at: self.circuit.pressure_for(at, self.loads, **self.choice)).value
@@ -204,16 +237,19 @@ class LiftingCylinder:
 
     def other_side(self) -> str:
         """Return the remedy where the thrust changes its sign and one side alone is declared."""
-        return '; works="both" judges the other side as well' if self.ram.works != "both" else ""
+        return said('; works="both" judges the other side as well') if self.ram.works != "both" else ""
 
     def remedy(self, found: Lifting) -> str:
         """Return what makes up for a reserve below 1: a pressure, or a standard bore with its reserve."""
         needed = self.show(found.needed)
         if len(self.circuit.rams(self.motion)) > 1:
-            return f"It needs {needed}, or larger bores on this line."
+            return said("It needs {needed}, or larger bores on this line.", needed=needed)
         if np.isnan(found.bore):
-            return f"It needs {needed}; no standard bore is large enough."
-        return f"It needs {needed}, or a bore of {found.bore / mm:.0f} mm, with a reserve of {found.gained:.2f}."
+            return said("It needs {needed}; no standard bore is large enough.", needed=needed)
+        bore = show(found.bore, "mm", ".0f")
+        return said(
+            "It needs {needed}, or a bore of {bore}, with a reserve of {gained:.2f}.", needed=needed, bore=bore, gained=found.gained
+        )
 
     # -- holding and lowering ------------------------------------------------------------------------------
 
@@ -227,21 +263,29 @@ class LiftingCylinder:
         working, other = greatest(motion, lambda at: holds(at).working), greatest(motion, lambda at: holds(at).other)
         endless = next((each for each in (working, other) if each.unbounded), None)
         if endless is not None:
-            text = f"the pressure grows without bounds {endless.where}: nothing holds there; keep away from that pose."
+            text = said("the pressure grows without bounds {where}: nothing holds there; keep away from that pose.", where=endless.where)
             return Verdict("holding", False, text)
         ok = bool(working.value <= limit and other.value <= limit)
-        sides = "piston" if self.ram.works != "rod" else "rod", "rod" if self.ram.works != "rod" else "piston"
-        drives = "" if self.ram.works == "both" else " where the load drives"
-        found = [(working, f"{sides[0]} side"), (other, f"{sides[1]} side{drives}")]
-        parts = [f"up to {self.show(most.value)} stand in the {side}, {most.where}" for most, side in found if most.value > 0.0]
-        valve = "the relief valve" if circuit.relief is not None else "the pump, for no relief= is given"
-        says = f"with the pump off {', '.join(parts) or 'no pressure stands on either side'}"
-        rest = f", held against {valve}, {self.show(limit)}" if ok else f"; that is above {valve}, {self.show(limit)}: take a larger bore"
-        return Verdict("holding", ok, f"{says}{rest}.")
+        pistons, rods = said("piston side"), said("rod side")
+        sides = (rods, pistons) if self.ram.works == "rod" else (pistons, rods)
+        drives = "" if self.ram.works == "both" else said(" where the load drives")
+        parts = [
+            said("up to {pressure} stand in the {side}, {where}", pressure=self.show(most.value), side=side, where=most.where)
+            for most, side in ((working, sides[0]), (other, f"{sides[1]}{drives}"))
+            if most.value > 0.0
+        ]
+        stands = ", ".join(parts) or said("no pressure stands on either side")
+        given, pump = self.show(limit), circuit.relief is None
+        valve = said("the pump, for no relief= is given, {limit}", limit=given) if pump else said("the relief valve, {limit}", limit=given)
+        if ok:
+            return Verdict("holding", True, said("with the pump off {stands}, held against {valve}.", stands=stands, valve=valve))
+        return Verdict(
+            "holding", False, said("with the pump off {stands}; that is above {valve}: take a larger bore.", stands=stands, valve=valve)
+        )
 
     def lowering(self, resistance: float = 0.0) -> Verdict:
         """Return whether it sinks by itself against the resistance of the returning oil; where not, what the other side must give."""
-        circuit, motion, against = self.circuit, self.motion, f"against {self.show(resistance)} in the return line"
+        circuit, motion, against = self.circuit, self.motion, said("against {pressure} in the return line", pressure=self.show(resistance))
 
         def sinks(at: Motion) -> Lowering:
             return circuit.lowering(at, self.loads, resistance=resistance, cylinder=self.ram, case=self.case)
@@ -254,37 +298,46 @@ class LiftingCylinder:
         if not stuck:
             least = lowest(motion, lambda at: sinks(at).working)
             if least.value <= 1e-9 * float(circuit.supply(motion)):
-                text = f"it goes back by itself {against}; {least.where} the load presses on neither side and nothing drives it."
+                text = said(
+                    "it goes back by itself {against}; {where} the load presses on neither side and nothing drives it.",
+                    against=against, where=least.where,
+                )  # fmt: skip
                 return Verdict("lowering", True, text)
-            text = f"it sinks by itself {against}: the load makes at least {self.show(least.value)} in the working side, {least.where}."
+            text = said(
+                "it sinks by itself {against}: the load makes at least {pressure} in the working side, {where}.",
+                against=against, pressure=self.show(least.value), where=least.where,
+            )  # fmt: skip
             return Verdict("lowering", True, text)
         whole = reached(motion)
         everywhere = len(stuck) == len(whole) and all(str(a) == str(b) for a, b in zip(stuck, whole, strict=True))
-        where = "anywhere" if everywhere else spans(stuck)
+        where = said("anywhere") if everywhere else with_and(stuck)
         most = greatest(motion, lambda at: sinks(at).push)
         if most.unbounded:
-            text = f"it does not sink by itself {where} {against}, and no push moves it {most.where}: keep away from that pose."
+            text = said(
+                "it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.",
+                where=where, against=against, pose=most.where,
+            )  # fmt: skip
             return Verdict("lowering", False, text)
-        push = self.show(most.value)
-        return Verdict("lowering", False, f"it does not sink by itself {where} {against}: the other side must push with up to {push}.")
+        text = said(
+            "it does not sink by itself {where} {against}: the other side must push with up to {push}.",
+            where=where, against=against, push=self.show(most.value),
+        )  # fmt: skip
+        return Verdict("lowering", False, text)
 
 
-def oil_verdict(circuit: LiftCircuit, motion: Motion) -> Verdict:
+def oil_verdict(circuit: LiftLine, motion: Motion) -> Verdict:
     """Return how much oil the motion takes, and how long the pump's flow needs for it."""
     oil, back = float(circuit.oil(motion)), oil_back(circuit, motion)
-    says = f"{oil / litre:.2f} l from end to end{f' outwards, {back / litre:.2f} l inwards' if back else ''}"
+    says = said("{oil} from end to end", oil=show(oil, "l", ".2f"))
+    if back:
+        says = said("{oil} from end to end outwards, {back} inwards", oil=show(oil, "l", ".2f"), back=show(back, "l", ".2f"))
     if not np.any(circuit.number(motion, "flow") > 0.0):
-        return Verdict("oil", True, f"{says}; time follows from the pump's flow, which is not given.")
-    flow = float(circuit.number(motion, "flow")) * 60.0 / litre
-    return Verdict("oil", True, f"{says}, {float(circuit.time(motion)):.1f} s at {flow:.4g} l/min.")
+        return Verdict("oil", True, said("{says}; time follows from the pump's flow, which is not given.", says=says))
+    time, flow = show(float(circuit.time(motion)), "s", ".1f"), show(float(circuit.number(motion, "flow")), "l/min", 4)
+    return Verdict("oil", True, said("{says}, {time} at {flow}.", says=says, time=time, flow=flow))
 
 
-def oil_back(circuit: LiftCircuit, motion: Motion) -> float:
+def oil_back(circuit: LiftLine, motion: Motion) -> float:
     """Return the oil [m3] that the rod sides take over the same way, of cylinders that work with both; 0 where none does."""
     both = [ram for ram in circuit.rams(motion) if ram.works == "both"]
     return sum(float(ram.travel(motion) * ram.sized(motion).pull_area) for ram in both)
-
-
-def spans(found: Sequence[Span]) -> str:
-    """Return parts of a motion in words."""
-    return " and ".join(map(str, found))

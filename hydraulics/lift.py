@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from types import MappingProxyType
-from typing import Any, ClassVar, TypeAlias, TypedDict, Unpack, cast, final
+from typing import Any, ClassVar, TypeAlias, Unpack, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -24,12 +24,11 @@ from linkage.frozen import refuses_changes
 from linkage.loads import Force, ForceElement, Load, Parameter, Poses, require_poses
 from linkage.loads.element import Formulas
 from linkage.motion import Motion
-from linkage.plan import Mask
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of, real
 from linkage.statics import AnyMotion, Case, Loads, elements_of
+from linkage.verdict import Verdict
 
-from .cylinder import CylinderSize
 from .inputs import (
     Array,
     efficient,
@@ -42,23 +41,17 @@ from .inputs import (
     only_where,
     positive,
 )
-from .member import DIRECTIONS, Circuit, Cylinder, the_cylinder, thrust_along
+from .judged import line_verdicts
+from .line import Choice, Holding, LiftLine, Lowering, Work
+from .member import DIRECTIONS, Cylinder, Reading, the_cylinder, thrust_along
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
-
-
-class Choice(TypedDict, total=False):
-    """Which cylinder of a line is meant, in which load case, in which direction of its own."""
-
-    cylinder: Reference | None
-    case: Case
-    direction: str | None
 
 
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class LiftCircuit(Circuit):
+class LiftCircuit(LiftLine):
     """A pump on a cylinder: `circuit = LiftCircuit(lift, pressure=180 * bar, flow=60 * litre / minute, mechanical_efficiency=0.9)`.
 
     Several cylinders on one line, `LiftCircuit([lift, aux], ...)`, share one pressure and carry thrust by area. `pressure` is the
@@ -234,6 +227,16 @@ class LiftCircuit(Circuit):
     def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
         return self._pressure(motion, self.work(motion, loads, cylinder=cylinder, case=case, direction=direction))
 
+    def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, case: Case, direction: str | None) -> Array | None:
+        return self.reserve(motion, cylinder=cylinder, case=case, direction=direction)
+
+    def verdicts(self, motion: Motion) -> list[Verdict]:
+        """Return the verdicts on lifting, oil, holding and lowering; over a grid of several strokes the least reserve and the holding."""
+        return line_verdicts(self, motion)
+
+    def gauges_of(self, cylinder: Cylinder) -> dict[str, Reading]:
+        return {"most": self.supply, "reserve": lambda motion: self.reserve(motion, cylinder=cylinder)}
+
     def largest(self, motion: AnyMotion, loads: Loads = None, *, share: float = 1.0, **choice: Unpack[Choice]) -> Array:
         """Return the greatest rod force in the working direction [N]: k_h p area, less the back pressure's share."""
         proper_share(share)
@@ -364,76 +367,6 @@ class LiftCircuit(Circuit):
             push.append(np.maximum(against * area - brings, 0.0) / other)
             by_itself.append(np.asarray(brings > against * area))
         return Lowering(np.min(working, axis=0), np.max(push, axis=0), np.all(by_itself, axis=0))
-
-
-@final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
-class Work:
-    """A cylinder's thrust [N] while it grows (`sense` 1) or shrinks (-1), its size, and the mechanical efficiency."""
-
-    thrust: Array
-    sense: Array
-    size: CylinderSize
-    k_m: Array
-
-    @property
-    def pulls(self) -> Mask:
-        """Where the rod side works: of both sides where the thrust pulls."""
-        if self.size.works == "both":
-            return np.asarray(self.thrust < 0.0)[()]
-        return np.full(np.shape(self.thrust), self.size.works == "rod")
-
-    @property
-    def area(self) -> Array:
-        """The area of the side that works [m2]."""
-        return np.asarray(np.where(self.pulls, self.size.pull_area, self.size.push_area))[()]
-
-    @property
-    def other_area(self) -> Array:
-        """The area of the other side [m2]."""
-        return np.asarray(np.where(self.pulls, self.size.push_area, self.size.pull_area))[()]
-
-    @property
-    def along(self) -> Array:
-        """The thrust in the direction in which the working side pushes or pulls [N]."""
-        return np.where(self.pulls, -self.thrust, self.thrust)
-
-    @property
-    def supplied(self) -> Mask:
-        """Where the working side is filled by the pump: it moves the way it pushes or pulls."""
-        return np.asarray(self.sense * np.where(self.pulls, -1.0, 1.0) >= 0.0)[()]
-
-    @property
-    def force(self) -> Array:
-        """The rod force in the working direction [N]: over k_m where the load resists the motion, times k_m where it drives."""
-        resists = self.along * np.where(self.supplied, 1.0, -1.0) > 0.0
-        return np.where(resists, self.along / self.k_m, self.along * self.k_m)
-
-
-@final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
-class Holding:
-    """Gauge pressures [Pa] that hold a load: on the working side, and on the other one where the load drives on."""
-
-    working: Array
-    other: Array
-
-
-@final
-@refuses_changes
-@dataclass(frozen=True, eq=False)
-class Lowering:
-    """Going back against a load, gauge pressures [Pa].
-
-    `working` is what the load alone makes in the working side, `push` what the other side must give where that does not do,
-    `by_itself` whether it sinks without it (a mask).
-    """
-
-    working: Array
-    push: Array
-    by_itself: Array
 
 
 IDLE = 1e-12

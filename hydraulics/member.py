@@ -11,26 +11,28 @@ FAIL standard size: bore 110 mm and rod 60 mm; the rod is not of ISO 3320, next 
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from functools import reduce
+from functools import partial, reduce
 from types import MappingProxyType
-from typing import ClassVar, Literal, cast, final
+from typing import ClassVar, Literal, TypeAlias, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, cited, unknown, unwarned
 from linkage.frozen import refuses_changes
+from linkage.language import noted, said, said_of, with_and
 from linkage.loads import AT_REST, Declared, DrawnAs, ForceElement, LoadCase, Parameter, Poses, Push, Rates, TwoPoint, require_poses
 from linkage.loads.element import Formulas
-from linkage.motion import Column, Motion, Tabled, greatest, lowest, require_motion
+from linkage.motion import Column, Judging, Motion, Request, Tabled, greatest, lowest, require_motion
+from linkage.plan import Plan
 from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import AnyMotion, Case, Loads, elements_of, member_thrust, same
-from linkage.units import mm
+from linkage.statics import AnyMotion, Case, LawRequest, Loads, elements_of, member_thrust, same
+from linkage.units import mm, show, shown_number, unit_sign
 from linkage.verdict import Verdict
 
-from .buckling import Buckling
+from .buckling import Buckling, never_pushed
 from .cylinder import BORES_MM, RODS_MM, CylinderSize, standard_rods
 from .inputs import Array, follows, number_set, one_number, positive, stroke_in_metres
 
@@ -42,7 +44,7 @@ DIRECTIONS = ("frictionless", "extending", "retracting")
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class Cylinder(TwoPoint, Tabled):
+class Cylinder(TwoPoint, Tabled, Judging):
     """`count` equal cylinders side by side between A and B: `lift = Cylinder(A, B, bore=110 * mm, rod=60 * mm, count=2)`.
 
     In a class bore and rod [m] are the design variables `lift.bore` and `lift.rod`. `works` is the side the pressure acts
@@ -191,11 +193,40 @@ class Cylinder(TwoPoint, Tabled):
         return pressure_of(self, motion, loads, case, direction)
 
     def columns(self, motion: Motion) -> list[Column]:
-        """Return its thrust without friction and, unless several circuits have it, its pressure, for the table of results."""
+        """Return its thrust without friction and, unless several circuits have it, its pressure and its reserve, for the table."""
+        return self.columns_in(motion)
+
+    def columns_in(self, motion: Motion, case: Case = None, direction: str | None = None) -> list[Column]:
         require_poses(motion)
-        pressed = len(circuits_of(self, motion.plan)) <= 1
-        thrust = Column("thrust", self.thrust(motion), "kN")
-        return [thrust, Column("pressure", self.pressure(motion), "bar", 2)] if pressed else [thrust]
+        found = [Column(noted("thrust"), self.thrust(motion, case=case, direction=direction or "frictionless"), "kN")]
+        if len(circuits_of(self, motion.plan)) > 1:
+            return found
+        found.append(Column(noted("pressure"), self.pressure(motion, case=case, direction=direction), "bar", 2))
+        circuit = circuit_having(self, motion.plan)
+        reserve = None if circuit is None else circuit.reserve_of(self, motion, case, direction)
+        return found if reserve is None else [*found, Column(noted("reserve"), reserve, "", 3)]
+
+    def verdicts(self, motion: Motion) -> list[Verdict]:
+        """Return whether it fits the motion, is of a standard size, and whether its rod buckles where it carries something."""
+        carries = any(each.loads(motion) or each.pushes(motion, AT_REST) for each in motion.plan.of_kind(ForceElement).values())
+        try:
+            return [*self.fits(motion), self.standard(motion), *(self.buckling(motion) if carries else [])]
+        except DefinitionError as error:
+            return [Verdict("cylinder", False, " ".join(str(error).split()))]
+
+    def gauges(self, plan: Plan) -> dict[str, Request]:
+        circuits = circuits_of(self, plan)
+        found: dict[str, Reading] = {"thrust": self.thrust}
+        if len(circuits) <= 1:
+            found["pressure"] = self.pressure
+        if len(circuits) == 1:
+            found |= circuits[0].gauges_of(self)
+        found |= {name: partial(self._length_given, name) for name in LENGTHS if getattr(self, name) is not None}
+        return {name: Gauge(f"{self.name} {name}", read) for name, read in found.items()}
+
+    def _length_given(self, name: str, motion: AnyMotion) -> Array:
+        """Return its closed length or its stroke as it is given [m]."""
+        return positive(stroke_in_metres(number_set(self, motion, name), LENGTHS[name], self.sized(motion).bore), LENGTHS[name])
 
     def formulas(self, written: Formulas) -> None:
         """Write its area, and its pressure where no circuit says it."""
@@ -242,34 +273,59 @@ class Cylinder(TwoPoint, Tabled):
         return [] if stroke is None else [self._travels(high - low, stroke)]
 
     def _reaches(self, low: float, high: float, closed: float, opened: float) -> Verdict:
-        out = f" and {opened / mm:.1f} mm open" if np.isfinite(opened) else ""
         faults = []
         if closed > low + TOLERANCE:
-            faults.append(f"it is {(closed - low) / mm:.1f} mm too long closed: take one with a shorter closed length")
+            much = show(closed - low, "mm", ".1f")
+            faults.append(said("it is {much} too long closed: take one with a shorter closed length", much=much))
         if opened < high - TOLERANCE:
-            single = high - closed <= closed
-            remedy = "take a longer stroke" if single else "no cylinder comes out by more than it is long closed: move its pins"
-            faults.append(f"{(high - opened) / mm:.1f} mm are missing open: {remedy}")
+            missing = show(high - opened, "mm", ".1f")
+            if high - closed <= closed:
+                faults.append(said("{missing} are missing open: take a longer stroke", missing=missing))
+            else:
+                faults.append(
+                    said("{missing} are missing open: no cylinder comes out by more than it is long closed: move its pins", missing=missing)
+                )
         elif np.isfinite(opened) and opened - closed > closed:
-            faults.append(f"it cannot come out by {(opened - closed) / mm:.1f} mm, more than it is long closed: move its pins")
-        says = f"{self._pins} goes from {low / mm:.1f} to {high / mm:.1f} mm, the cylinder is {closed / mm:.1f} mm long closed{out}"
-        return Verdict("length", not faults, f"{'; '.join([says, *faults])}.")
+            stroke = show(opened - closed, "mm", ".1f")
+            faults.append(said("it cannot come out by {stroke}, more than it is long closed: move its pins", stroke=stroke))
+        says = said(
+            "{pins} goes from {low} to {high}, the cylinder is {closed} long closed",
+            pins=self._pins, low=shown_number(low, "mm", ".1f"), high=show(high, "mm", ".1f"), closed=show(closed, "mm", ".1f"),
+        )  # fmt: skip
+        out = said(" and {opened} open", opened=show(opened, "mm", ".1f")) if np.isfinite(opened) else ""
+        return Verdict("length", not faults, f"{'; '.join([f'{says}{out}', *faults])}.")
 
     def _travels(self, travel: float, stroke: float) -> Verdict:
-        says = f"{self._pins} changes by {travel / mm:.1f} mm, the stroke is {stroke / mm:.1f} mm"
-        short = travel > stroke + TOLERANCE
-        missing = f"; {(travel - stroke) / mm:.1f} mm are missing: take a longer stroke"
-        return Verdict("length", not short, f"{says}{missing if short else ''}.")
+        way, given = show(travel, "mm", ".1f"), show(stroke, "mm", ".1f")
+        says = said("{pins} changes by {travel}, the stroke is {stroke}", pins=self._pins, travel=way, stroke=given)
+        if travel <= stroke + TOLERANCE:
+            return Verdict("length", True, f"{says}.")
+        short = said("; {missing} are missing: take a longer stroke", missing=show(travel - stroke, "mm", ".1f"))
+        return Verdict("length", False, f"{says}{short}.")
 
     def standard(self, motion: Poses | None = None) -> Verdict:
         """Return whether bore and rod are of ISO 3320; where not, what is next to them."""
         size = one_size(self.size if motion is None else self.sized(motion))
-        faults = [text for text in (_near(size.bore, BORES_MM, "bore"), _near(size.rod, RODS_MM, "rod")) if text]
+        faults = []
+        if beside := _near(size.bore, BORES_MM):
+            text = said_of(
+                len(beside), "the bore is not of ISO 3320, next to it is {near}", "the bore is not of ISO 3320, next to it are {near}",
+                near=_listed(beside),
+            )  # fmt: skip
+            faults.append(text)
+        if beside := _near(size.rod, RODS_MM):
+            text = said_of(
+                len(beside), "the rod is not of ISO 3320, next to it is {near}", "the rod is not of ISO 3320, next to it are {near}",
+                near=_listed(beside),
+            )  # fmt: skip
+            faults.append(text)
         suits = any(abs(rod - size.rod) < 1e-9 for rod in standard_rods(size.bore))
         if not faults and not suits:
-            faults = [f"this rod does not suit this bore; it may have {_listed(rod / mm for rod in standard_rods(size.bore))} mm"]
-        says = f"bore {size.bore / mm:.4g} mm and rod {size.rod / mm:.4g} mm"
-        return Verdict("standard size", not faults, f"{'; '.join([says, *faults]) if faults else f'{says} are a pair of ISO 3320'}.")
+            faults = [said("this rod does not suit this bore; it may have {rods}", rods=_listed(standard_rods(size.bore)))]
+        says = said("bore {bore} and rod {rod}", bore=show(size.bore, "mm", 4), rod=show(size.rod, "mm", 4))
+        if not faults:
+            return Verdict("standard size", True, said("{says} are a pair of ISO 3320.", says=says))
+        return Verdict("standard size", False, f"{'; '.join([says, *faults])}.")
 
     def buckling(self, motion: Motion, loads: Loads = None, *, case: Case = None) -> list[Verdict]:
         """Return whether a rod buckles at its largest utilisation: over every pose, load case and direction, one design.
@@ -295,7 +351,7 @@ class Cylinder(TwoPoint, Tabled):
                     force = float(self.thrust(place, loads, case=each, direction=direction)) / self.count
                 worst = float(found.value), float(place.distance(self.A, self.B)), force, found.where
         if worst is None:
-            return [Verdict("buckling", True, "the rod is never pushed.")]
+            return [never_pushed()]
         return [rod.judged(worst[1], worst[2], worst[3], unbounded=not np.isfinite(worst[0]))]
 
     def buckling_use(self, motion: AnyMotion, loads: Loads = None, *, case: Case = None, direction: str | None = None) -> Array:
@@ -317,6 +373,28 @@ class Cylinder(TwoPoint, Tabled):
     @property
     def _pins(self) -> str:
         return "".join(label(end) for end in (self.A, self.B))
+
+
+Reading: TypeAlias = Callable[[AnyMotion], Array]
+"""A number of a cylinder over the poses of a motion [SI]."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Gauge(LawRequest):
+    """What a live page reads of a cylinder at every pose, with its words."""
+
+    words: str
+    read: Reading
+
+    def law(self, motion: AnyMotion) -> Array:
+        return self.read(motion)
+
+    def examine(self, plan: Plan) -> None:
+        """Look at nothing: it was made by a cylinder of the plan."""
+
+    def __str__(self) -> str:
+        return self.words
 
 
 def thrust_along(cylinder: Cylinder, thrust: Array) -> Array:
@@ -350,7 +428,7 @@ def circuits_of(cylinder: Cylinder, plan: Declared) -> list[Circuit]:
     return [each for each in plan.of_kind(Circuit).values() if any(same(cylinder, one) for one in each.members(plan.members))]
 
 
-class Circuit(ForceElement):
+class Circuit(ForceElement, Judging):
     """The base of circuits: what feeds cylinders."""
 
     places: ClassVar[tuple[str, ...]] = ()
@@ -382,9 +460,17 @@ class Circuit(ForceElement):
         found = (found_in(members, each, title) if is_named(each) else each for each in self.references)
         return tuple(each for each in found if isinstance(each, Cylinder))
 
+    def gauges_of(self, cylinder: Cylinder) -> dict[str, Reading]:
+        """Return what it tells of one of its cylinders on a live page: the `most` pressure it may have [Pa], its `reserve`."""
+        return {}
+
     @abstractmethod
     def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
         """Return the pressure on the working side of one of its cylinders, shape (...) [Pa gauge]."""
+
+    def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, case: Case, direction: str | None) -> Array | None:
+        """Return the greatest rod force of one of its cylinders over the needed one, shape (...); None where no pump feeds it."""
+        return None
 
 
 def changes_in_motion(motion: AnyMotion, loads: Loads) -> bool:
@@ -455,13 +541,13 @@ def one_size(size: CylinderSize) -> OneSize:
     return OneSize(float(np.ravel(size.bore)[0]), float(np.ravel(size.rod)[0]))
 
 
-def _near(value: float, series: tuple[int, ...], what: str) -> str:
-    """Return what stands beside a size [m] that is not of a series [mm]; empty where it is of it."""
+def _near(value: float, series: tuple[int, ...]) -> list[float]:
+    """Return the sizes [m] beside one that is not of a series [mm]; empty where it is of it."""
     if any(abs(value / mm - each) < 1e-6 for each in series):
-        return ""
+        return []
     below, above = [each for each in series if each * mm < value][-1:], [each for each in series if each * mm > value][:1]
-    return f"the {what} is not of ISO 3320, next to it {'are' if below and above else 'is'} {_listed([*below, *above])} mm"
+    return [each * mm for each in (*below, *above)]
 
 
 def _listed(values: Iterable[float]) -> str:
-    return " and ".join(f"{value:.0f}" for value in values)
+    return f"{with_and(shown_number(value, 'mm', '.0f') for value in values)} {unit_sign('mm')}"

@@ -7,6 +7,7 @@ from .doors import export as export
 from .doors import optimise as optimise
 from .doors import page as page
 from .doors import plot as plot
+from .doors import report as report
 from .errors import AssemblyError as AssemblyError
 from .errors import DefinitionError as DefinitionError
 from .errors import FileError as FileError

@@ -196,19 +196,36 @@ def page(
     machine: Mechanism,
     path: str | Path,
     *,
-    count: int = 60,
+    vary: Sequence[str] | Mapping[str, Sequence[float] | None] | None = None,
+    columns: Sequence[Column | RequestLike] | None = None,
     column: str | None = None,
     trace: Sequence[str] | None = None,
-    limit: Sequence[Any] | None = None,
+    limit: Sequence[Any] | Mapping[str, Sequence[Any]] | None = None,
     at: Mapping[str, Any] = NOTHING,
+    count: int = 101,
+    language: str = "en",
 ) -> Path:
-    """Return the path of the browser page it wrote, .html: the mechanism moved by hand or running, in one file without network access.
+    """Return the path of the live page it wrote, .html: one file without network access, in which the mechanism moves and changes.
 
-    The arguments are those of `animate`. Raises DefinitionError for a name that does not end in .html.
+    Every stroke has a slider, and so have the dimensions of `vary`, `["OB", "CD"]` or with their ranges [SI], `{"OB": (0.28, 0.34)}`, of a
+    point "M" both coordinates; without it the first lengths, a mass and a bore. All others can be added in the page, and pins on the
+    ground can be dragged. Everything is worked out anew in the browser by the machine's own program; a value goes only as far as the
+    mechanism can be assembled, and the page says which step is how much short.
+
+    `columns` are what its chooser offers, names of columns or requests such as `capacity("lift", "G")`, by default the table of
+    results; `column` is shown first, else what the machine is about. A column that no program gives is shown for the delivered design
+    alone, with the reason. `limit` is the limit of that column, `(value [SI], text, "above" or "below")`, or limits by column. `trace`
+    names points whose paths are drawn, `at=dict(tilt=0.1)` holds another stroke, `at=dict(S=(0.1, 0.2))` says where one runs [m or rad],
+    `count` is the number of poses of the curve. The page speaks English and Russian, `language` is the one it begins with.
+
+    Raises DefinitionError for a batch of designs, an unknown name, or a file that does not end in .html, FileError for a path that cannot
+    be written.
     """
     from .pictures import page
 
-    return page(machine, path, count=count, column=column, trace=trace, limit=limit, at=at)
+    return page(
+        machine, path, vary=vary, columns=columns, column=column, trace=trace, limit=limit, at=at, count=count, language=language
+    )  # fmt: skip
 
 
 def export(
@@ -259,6 +276,41 @@ def equations(
     from .formulas import equations
 
     return equations(machine, start=start, numbers=numbers, at=at, ratio=ratio, wrt=wrt, forces=forces)
+
+
+def report(
+    machine: Mechanism,
+    path: str | Path,
+    *,
+    language: str | None = None,
+    units: str | None = None,
+    case: Any = None,
+    at: Mapping[str, Any] = NOTHING,
+    count: int = 11,
+    columns: Sequence[str] | None = None,
+    trace: Sequence[str] | None = None,
+    limits: Mapping[str, Sequence[Any]] | None = None,
+    title_block: Mapping[str, str] = NOTHING,
+    start: int = 1,
+) -> Path:
+    """Return the path of the calculation report it wrote: .html, in one file; .pdf, A4; or .md with its pictures in FILE_files.
+
+    It has the inputs with units and sources, drawings with dimensions, the numbered equations with numbers filled in, from `start` on,
+    tables and curves, the largest pin forces, limits of motion, checks with their measured figures, verdicts, the version and a hash of
+    the inputs. The same inputs give the same bytes.
+
+    `language` ("en", "ru") and `units` ("si", "bar-mm", "kgf", "us") are those that hold already unless named. `case` names one load
+    case; without it all are looked at. `at` holds strokes or says between which values one runs [m or rad], as for `animate`; `count` is
+    the number of rows of the tables, `columns` the results shown, `trace` the points whose paths are drawn, `limits` as `plot` takes
+    them. `title_block` adds rows to the title block, `{"Checked by": "N. N.", "Date": "2026-05-01"}`. What stood at the path is replaced
+    whole. Raises DefinitionError for a batch of designs, another kind of file or an unknown name, AssemblyError where no pose is in reach.
+    """
+    from .documents import report
+
+    return report(
+        machine, path, language=language, units=units, case=case, at=at, count=count, columns=columns, trace=trace, limits=limits,
+        title_block=title_block, start=start,
+    )  # fmt: skip
 
 
 @overload

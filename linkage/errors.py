@@ -8,10 +8,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
 from traceback import extract_tb
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-import numpy.typing as npt
+if TYPE_CHECKING:
+    import numpy.typing as npt
 
 
 class LinkageError(Exception):
@@ -54,6 +54,8 @@ class AssemblyError(LinkageError):
     def __init__(self, message: str, *, point: str = "", mask: npt.ArrayLike | None = None, shortfall: float = float("nan")) -> None:
         super().__init__(message, member=point)
         self.point = point
+        import numpy as np  # here, so that who only reads names, as `hydrolinkage list` does, is spared it
+
         self.mask = np.zeros((), bool) if mask is None else np.asarray(mask, bool)
         self.shortfall = shortfall
 

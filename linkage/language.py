@@ -15,7 +15,7 @@ the names of members. Decimals have a point in every language: what is printed c
 from __future__ import annotations
 
 import gettext
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import lru_cache
@@ -96,6 +96,11 @@ def _filled(template: str, values: dict[str, object]) -> str:
         return template.format(**values)
     except (KeyError, IndexError) as error:
         raise DefinitionError(f"said({cited(template)}): it has {{{error.args[0]}}}, which is not given.") from None
+
+
+def with_and(parts: Iterable[object]) -> str:
+    """Return parts in a row: "A", "A and B", "A and B and C"."""
+    return said(" and ").join(map(str, parts))
 
 
 def noted(text: str) -> str:

@@ -25,9 +25,11 @@ from .motion import (
     Motion,
     PoseFunction,
     RequestLike,
+    added_verdicts,
     at_values,
     columns_of,
     evaluate,
+    motion_verdicts,
     require_motion,
     source_of,
     sweep_values,
@@ -69,8 +71,11 @@ class OfADesign:
         return self.unbound if design is None else MethodType(self.method, design)
 
 
-def of_own_motion(method: Callable[[Mechanism, Motion], Answer]) -> Callable[[Mechanism, Motion], Answer]:
-    """Return a machine's own `columns` or `verdicts`, which refuses in words what is no motion of the machine."""
+def of_own_motion(cls: type[Mechanism], method: Callable[[Mechanism, Motion], Answer]) -> Callable[[Mechanism, Motion], Answer]:
+    """Return a machine's own `columns` or `verdicts`, which refuses in words what is no motion of the machine.
+
+    To the verdicts of a class are added those of what its subclasses declare beside its own members.
+    """
 
     @wraps(method)
     def checked(machine: Mechanism, motion: Motion) -> Answer:
@@ -80,7 +85,10 @@ def of_own_motion(method: Callable[[Mechanism, Motion], Answer]) -> Callable[[Me
             said = f"{method.__name__}(...) is given a motion of {motion.plan.title}, which has no {missing[0]}"
             raise DefinitionError(f"{machine.plan.title}: {said}; give one of {machine.plan.title}.")
         with told(f"{machine.plan.title}.{method.__name__}(motion)"):
-            return method(machine, motion)
+            found = method(machine, motion)
+        if method.__name__ != "verdicts" or not isinstance(found, list) or type(machine).owner("verdicts") is not cls:
+            return found
+        return cast(Answer, [*found, *added_verdicts(motion, cls.plan.members)])
 
     return checked
 
@@ -124,7 +132,7 @@ class Mechanism(metaclass=MechanismType):
         super().__init_subclass__(**options)
         for name in ("columns", "verdicts"):
             if isfunction(vars(cls).get(name)):
-                type.__setattr__(cls, name, of_a_design(of_own_motion(vars(cls)[name])))
+                type.__setattr__(cls, name, of_a_design(of_own_motion(cls, vars(cls)[name])))
         members = declared(cls)
         type.__setattr__(cls, "plan", Plan(assembled(members, cls.__name__), cls.__name__))
         reached = cls.plan.reaches(*cls.plan.moving)
@@ -140,6 +148,11 @@ class Mechanism(metaclass=MechanismType):
         check(cls.plan)
         for member in (*members.values(), *cls.plan.members.values()):
             member.settle(cls.__name__)
+
+    @classmethod
+    def owner(cls, name: str) -> type[Mechanism]:
+        """Return the class that gives a machine its `columns` or its `verdicts`: itself or the nearest of its bases that has them."""
+        return next(base for base in cls.__mro__ if name in vars(base) and issubclass(base, Mechanism))
 
     def __init__(self, **dimensions: npt.ArrayLike) -> None:
         self._values = self._settings(dimensions)
@@ -285,9 +298,12 @@ class Mechanism(metaclass=MechanismType):
 
     @of_a_design
     def verdicts(self, motion: Motion) -> list[str]:
-        """Return what an engineer should know of this motion: sentences, or `Verdict`s. A machine replaces it by its own."""
-        require_motion(motion)
-        return []
+        """Return what an engineer should know of this motion: sentences, or `Verdict`s. A machine replaces it by its own.
+
+        Without its own it is whether it is assembled, its dead points, and what its members say, such as cylinders and circuits; of a
+        batch, how many designs fail.
+        """
+        return motion_verdicts(require_motion(motion))
 
     @of_a_design
     def featured(self) -> Featured:

@@ -70,7 +70,7 @@ UNITS: dict[str, tuple[float, str]] = {
     "l/min": (litre / minute, "flow"), "gal/min": (gal / minute, "flow"), "m3/s": (1.0, "flow"),
     "N/m": (N, "stiffness"), "N/mm": (N / mm, "stiffness"), "kN/m": (kN, "stiffness"), "kgf/mm": (kgf / mm, "stiffness"),
     "lbf/in": (lbf / inch, "stiffness"),
-    "W": (1.0, "power"), "kW": (1e3, "power"), "hp": (550 * lbf * ft, "power"),
+    "kW": (1e3, "power"), "hp": (550 * lbf * ft, "power"),
     "m/s": (1.0, "speed"), "mm/s": (mm, "speed"), "in/s": (inch, "speed"),
     "rad/m": (1.0, "angle per length"),
 }  # fmt: skip
@@ -156,7 +156,7 @@ SIGNS = (
     noted("lbf ft"), noted("Pa"), noted("kPa"), noted("MPa"), noted("bar"), noted("kgf_cm2"), noted("kgf/cm2"), noted("psi"), noted("l"),
     noted("litre"), noted("cm3"), noted("m3"), noted("gal"), noted("in3"), noted("mm2"), noted("cm2"), noted("m2"), noted("in2"),
     noted("l/min"), noted("gal/min"), noted("m3/s"), noted("N/m"), noted("N/mm"), noted("kN/m"), noted("kgf/mm"), noted("lbf/in"),
-    noted("W"), noted("kW"), noted("hp"), noted("m/s"), noted("mm/s"), noted("in/s"), noted("rad/m"),
+    noted("kW"), noted("hp"), noted("m/s"), noted("mm/s"), noted("in/s"), noted("rad/m"),
 )  # fmt: skip
 """The units that another language writes in its own way."""
 

@@ -34,8 +34,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     motion = machine.sweep(101)
     show_table(machine.columns(machine.at(S=TABLE_AT)))
     print()
-    for sentence in machine.verdicts(motion):
-        print(sentence)
+    for verdict in machine.verdicts(motion):
+        print(verdict.replace(". ", ".\n     "))
     print()
     try:
         with in_words(folder):

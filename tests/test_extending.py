@@ -4,8 +4,10 @@ import inspect
 import json
 import shutil
 import subprocess
+from base64 import b64decode
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
+from zlib import decompress
 
 import numpy as np
 import pytest
@@ -185,7 +187,9 @@ def test_the_drawn_profile_touches_the_drawn_roller():
 def test_pictures_and_pages_show_it(tmp_path):
     draw(Valve(), at={"phi": 1.0}).savefig(tmp_path / "valve.png")
     page(Valve(), path=tmp_path / "valve.html")
-    assert '"contours":[{"P":' in (tmp_path / "valve.html").read_text(encoding="utf-8")
+    _, _, packed = (tmp_path / "valve.html").read_text(encoding="utf-8").partition('<script id="data" type="text/plain">')
+    data = json.loads(decompress(b64decode(packed.partition("<")[0])))
+    assert [data["scene"]["names"][each["P"]] for each in data["scene"]["contours"]] == ["O", "R"]
 
 
 @pytest.mark.parametrize("machine", [Valve, Loose, Rod])

@@ -25,7 +25,7 @@ FLOORS = (
     ("statics",),
     ("formulas", "study", "files"),
     ("pictures", "reports"),
-    ("exports",),
+    ("documents", "exports"),
     ("cli",),
 )
 FLOOR = {room: number for number, rooms in enumerate(FLOORS) for room in rooms}
@@ -39,7 +39,7 @@ MAY_PRINT = {"cli", "demo"}
 
 HEAVY = {"PIL", "imageio_ffmpeg", "matplotlib", "networkx", "numba", "pydantic", "rich", "scipy", "sympy"}
 OPTIONAL = {"dask", "distributed", "ezdxf", "pymoo", "xlsxwriter"}  # extras: there may be nothing to import
-HEAVY_ROOMS = {f"linkage.{room}" for room in ("formulas", "study", "pictures", "reports", "files", "exports")}
+HEAVY_ROOMS = {f"linkage.{room}" for room in ("formulas", "study", "pictures", "reports", "files", "exports", "documents")}
 
 
 def room(module: str) -> str:
@@ -98,7 +98,7 @@ def import_faults(path: PurePosixPath, tree: ast.AST) -> Iterator[str]:
             yield f"{where}: {package} imports {owner}"
         elif package == owner == "linkage" and not door and (fault := climbing(here, module)):
             yield f"{where}: {fault}"
-        is_heavy = owner in HEAVY | OPTIONAL or ".".join(module.split(".")[:2]) in HEAVY_ROOMS or module.endswith(".figures")
+        is_heavy = owner in HEAVY | OPTIONAL | {"numpy"} or ".".join(module.split(".")[:2]) in HEAVY_ROOMS or module.endswith(".figures")
         if lazy and not door and not is_heavy:
             yield f"{where}: {module} is imported inside a function, which is for heavy libraries only: import it at the top"
 
@@ -272,7 +272,7 @@ def test_the_door_loads_numpy_only():
     assert (HEAVY | OPTIONAL).isdisjoint(loaded), sorted((HEAVY | OPTIONAL).intersection(loaded))
 
 
-DOORS = {"animate", "draw", "equations", "export", "optimise", "page", "plot"}  # thin functions of the package in front of those of a room
+DOORS = {"animate", "draw", "equations", "export", "optimise", "page", "plot", "report"}  # thin functions in front of those of a room
 
 
 def defined(path: str) -> set[str]:

@@ -6,11 +6,14 @@ import os
 import sys
 import warnings
 from argparse import ArgumentParser, Namespace
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from importlib.metadata import EntryPoint, PackageNotFoundError, entry_points, version
-from typing import Any, NoReturn, final
+from typing import Any, NoReturn, TextIO, cast, final
 
 from ..errors import DefinitionError, FileError, LinkageError, SingularWarning, unknown
+from ..language import ENGLISH, language, languages
+from ..units import SYSTEMS, unit_system
 from .command import Command
 
 # The commands there are: the built-in ones, and those of other packages by entry point.
@@ -20,12 +23,18 @@ HOMES = {
     "list": "listing:ListCommand",
     "show": "show:ShowCommand",
     "table": "table:TableCommand",
+    "limits": "forces:LimitsCommand",
+    "forces": "forces:ForcesCommand",
     "plot": "plot:PlotCommand",
     "animate": "plot:AnimateCommand",
+    "page": "page:PageCommand",
+    "report": "report:ReportCommand",
     "export": "export:ExportCommand",
     "save": "show:SaveCommand",
     "optimise": "optimise:OptimiseCommand",
     "study": "study:StudyCommand",
+    "new": "new:NewCommand",
+    "doctor": "doctor:DoctorCommand",
 }
 BUILT_IN = {name: EntryPoint(name, f"{__package__}.{home}", GROUP) for name, home in HOMES.items()}
 
@@ -86,9 +95,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         with warnings.catch_warnings():
             warnings.simplefilter("default", SingularWarning)
             warnings.showwarning = say_warning
-            code = execute(list(sys.argv[1:] if argv is None else argv))
-            sys.stdout.flush()
-            return code
+            return execute(list(sys.argv[1:] if argv is None else argv))
     except FileError as error:
         if isinstance(error.__cause__, BrokenPipeError):
             close_stdout()
@@ -111,31 +118,110 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def execute(arguments: list[str]) -> int:
     """Return the exit code of the command that the arguments name."""
+    arguments = behind_command(arguments)
     commands = commands_for(arguments)
+    if arguments and not arguments[0].startswith("-"):
+        (command,) = commands
+        options = parsed(command, arguments[1:])
+        with lasting_output(names_file(options)) as output, unit_system(options.units), language(options.language):
+            code = int(command.run(options))
+            return PIPE_CLOSED if output.broken else code
     what = "Planar linkages moved by cylinders: numbers, equations and pictures."
     parser = OneLineParser(prog=PROGRAM, description=what, allow_abbrev=False)
     parser.add_argument("--version", action="version", version=f"{PROGRAM} {installed_version()}")
     subparsers = parser.add_subparsers(metavar="COMMAND", dest="command")
     for command in commands:
-        branch = subparsers.add_parser(command.name, help=command.help, description=command.help, allow_abbrev=False)
-        command.add(branch)
-        branch.set_defaults(run=command.run)
-    options = parse_arguments(parser, arguments)
-    if options.command is None:
-        parser.print_help(sys.stderr)
-        return BAD_INPUT
-    return int(options.run(options))
+        subparsers.add_parser(command.name, help=command.help)
+    parser.parse_args(arguments)
+    parser.print_help(sys.stderr)
+    return BAD_INPUT
 
 
-def parse_arguments(parser: OneLineParser, arguments: list[str]) -> Namespace:
-    """Return the arguments by name; names of columns may stand behind options, where argparse leaves them over."""
-    options, left = parser.parse_known_args(arguments)
-    names = [word for word in left if word != "--"]
-    if names and ("columns" not in options or any(word.startswith("-") for word in names)):
-        parser.error(f"unrecognized arguments: {' '.join(left)}")
-    if names:
-        options.columns = [*options.columns, *names]
-    return options
+COMMON = ("--units", "--language")
+
+
+def behind_command(arguments: list[str]) -> list[str]:
+    """Return arguments with those of every command, where they stand first, behind the command."""
+    first: list[str] = []
+    rest = arguments
+    while rest and rest[0].partition("=")[0] in COMMON:
+        count = 1 if "=" in rest[0] else 2
+        first, rest = [*first, *rest[:count]], rest[count:]
+    return [*rest[:1], *first, *rest[1:]] if rest and not rest[0].startswith("-") else arguments
+
+
+def common_arguments(parser: ArgumentParser) -> None:
+    """Declare the arguments that every command has."""
+    group = parser.add_argument_group("of every command")
+    group.add_argument("--units", choices=SYSTEMS, help="show everything in one system of units (default: each number in its own)")
+    group.add_argument("--language", choices=languages(), default=ENGLISH, help="the language of sentences and headings")
+
+
+def parsed(command: Command, arguments: list[str]) -> Namespace:
+    """Return a command's arguments by name, options and others in any order."""
+    parser = OneLineParser(prog=f"{PROGRAM} {command.name}", description=command.help, allow_abbrev=False)
+    command.add(parser)
+    common_arguments(parser)
+    try:
+        return parser.parse_intermixed_args(arguments)
+    except TypeError:  # a command with commands of its own takes them as they stand
+        return parser.parse_args(arguments)
+
+
+# A reader that has gone, as `head` does: what is written into files is written all the same.
+
+FILES = ("output", "csv", "folder", "file", "pictures")
+"""Arguments that name a file which a command writes, or one that says which it writes."""
+
+
+def names_file(options: Namespace) -> bool:
+    """Return whether a command writes into files beside what it says."""
+    return any(getattr(options, name, None) not in (None, "-") for name in FILES)
+
+
+@final
+class LastingOutput:
+    """Standard output that goes on in silence where nobody reads it any more; `broken` says so."""
+
+    def __init__(self, stream: TextIO, *, lasts: bool) -> None:
+        self.stream, self.lasts, self.broken = stream, lasts, False
+
+    def __getattr__(self, name: str) -> Any:
+        """Return what the stream has."""
+        return getattr(self.stream, name)
+
+    def write(self, text: str) -> int:
+        """Write a text, or drop it."""
+        return self._unbroken(lambda: self.stream.write(text)) or 0
+
+    def flush(self) -> None:
+        """Bring what is written on its way."""
+        self._unbroken(self.stream.flush)
+
+    def _unbroken(self, act: Callable[[], Any]) -> Any:
+        if self.broken:
+            return None
+        try:
+            return act()
+        except BrokenPipeError:
+            if not self.lasts:
+                raise
+            self.broken = True
+            close_stdout()
+            return None
+
+
+@contextmanager
+def lasting_output(lasts: bool) -> Iterator[LastingOutput]:
+    """Yield standard output, put in its place, as one that lasts."""
+    own = sys.stdout
+    output = LastingOutput(own, lasts=lasts)
+    sys.stdout = cast(TextIO, output)
+    try:
+        yield output
+        output.flush()
+    finally:
+        sys.stdout = own
 
 
 def installed_version() -> str:

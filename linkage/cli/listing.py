@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 import ast
+import re
 import sys
 import traceback
 from argparse import ArgumentParser, Namespace
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from functools import lru_cache
 from importlib.machinery import PathFinder
 from importlib.metadata import EntryPoint, entry_points
 from importlib.util import find_spec, resolve_name
 from inspect import cleandoc
 from pathlib import Path
+from shutil import get_terminal_size
+from textwrap import wrap
 from typing import Any, final
 
 from ..errors import DefinitionError, LinkageError
-from .command import Command, lined_up
+from .command import Command
+from .entry import BUILT_IN, PROGRAM
+from .entry import GROUP as COMMANDS_GROUP
 
 GROUP = "hydrolinkage.machines"
 OWN = "A machine of your own is written package.module:Class, file.py, file.py:Class, file.toml or file.json."
@@ -28,26 +35,78 @@ def registered() -> dict[str, EntryPoint]:
 
 @final
 class ListCommand(Command):
-    """Prints every installed machine with its first line."""
+    """Prints every installed machine with its first line, kind by kind, and the commands."""
 
     name = "list"
-    help = "the machines there are"
+    help = "the machines and the commands there are"
 
     def add(self, parser: ArgumentParser) -> None:
         """Declare nothing."""
 
     def run(self, options: Namespace) -> int:
-        rows = []
-        for name, entry in registered().items():
+        entries = registered()
+        packages = {name: package_of(entry) for name, entry in entries.items()}
+        count = Counter(packages.values())
+        groups: dict[str, list[tuple[str, str]]] = {}
+        titles: dict[str, str] = {}
+        for name, entry in entries.items():
+            package = packages[name] if count[packages[name]] >= KIND else packages[name].partition(".")[0]
             try:
-                rows.append((name, first_line(entry)))
+                row = name, first_line(entry)
             except DefinitionError as error:
                 print(f"hydrolinkage: warning: {error}", file=sys.stderr)
-        if not rows:
+            else:
+                title = titles[package] = titles.get(package) or group_title(entry, package)
+                groups.setdefault(title, []).append(row)
+        if not groups:
             raise DefinitionError(f"No machine is installed; install the package (pip install -e .). {OWN}")
-        for line in lined_up(rows):
-            print(line)
+        for title, rows in (groups | {"Commands": list(commands())}).items():
+            print(title, *hanging(rows), "", sep="\n")
+        print(*wrapped(OWN, ""), sep="\n")
         return 0
+
+
+KIND = 3
+"""Machines of a package that make a kind of their own; those of fewer are of the kind of the package around it."""
+
+
+def package_of(entry: EntryPoint) -> str:
+    """Return the package that a machine is in, of two words at most: `mechanisms.classics`, `mechanisms`."""
+    first, *rest = entry.module.split(".")
+    two = ".".join([first, *rest[:1]])
+    path = source_file(two)
+    return two if path is not None and path.name == "__init__.py" else first
+
+
+def group_title(entry: EntryPoint, package: str) -> str:
+    """Return the title of the kind that a machine is of: what its package says of itself, and whose it is where it is not shipped."""
+    node = syntax(package)
+    says = (ast.get_docstring(node) or "").partition("\n")[0] if node is not None else ""
+    title = re.split(r"[,:.]", says)[0].strip() or package
+    whose = entry.dist.metadata["Name"] if entry.dist is not None else PROGRAM
+    return title if whose == PROGRAM else f"{title} ({whose})"
+
+
+def commands() -> Iterator[tuple[str, str]]:
+    """Yield the commands by name, with what they say of themselves; none of them is loaded."""
+    added = {entry.name: entry for entry in entry_points(group=COMMANDS_GROUP)}
+    for name, entry in {**BUILT_IN, **added}.items():
+        yield name, attribute(entry.module, entry.attr, "help") or ""
+
+
+def hanging(rows: Sequence[tuple[str, str]]) -> Iterator[str]:
+    """Yield names and what is said of them as lines, which on a terminal are no wider than that."""
+    size = max(len(name) for name, _ in rows)
+    for name, text in rows:
+        yield from wrapped(text, f"  {name.ljust(size)}  ")
+
+
+def wrapped(text: str, start: str) -> list[str]:
+    """Return a text that begins with a start as lines: on a terminal no wider than that, elsewhere one."""
+    if not sys.stdout.isatty():
+        return [f"{start}{text}".rstrip()]
+    width = max(get_terminal_size().columns, len(start) + 20)
+    return wrap(text, width, initial_indent=start, subsequent_indent=" " * len(start)) or [start.rstrip()]
 
 
 def first_line(entry: EntryPoint) -> str:
@@ -59,26 +118,69 @@ def first_line(entry: EntryPoint) -> str:
 
 
 def docstring(module: str, name: str) -> str | None:
-    """Return the docstring of a class, "" where it has none; None where no source says it, as of a class that is made by a call.
+    """Return the docstring of a class, "" where it has none; None where no source says it, as of a class that is made by a call."""
+    node = class_node(module, name)
+    return None if node is None else cleandoc(ast.get_docstring(node) or "")
+
+
+def attribute(module: str, name: str, key: str) -> str | None:
+    """Return the text that a class binds to a name in its source; None where it does not."""
+    node = class_node(module, name)
+    for line in node.body if node is not None else ():
+        match line:
+            case ast.Assign(targets=[ast.Name(id=found)], value=ast.Constant(value=str(text))) if found == key:
+                return text
+    return None
+
+
+def class_node(module: str, name: str) -> ast.ClassDef | None:
+    """Return a class as its source writes it; None where no source says it.
 
     A module that hands the class on (`from .machine import Hitch as Hitch`) is followed.
     """
     path = source_file(module)
     if path is None:
         return None
+    alone = class_alone(path, name)
+    if alone is not None:
+        return alone
+    tree = syntax(module)
     package = module if path.name == "__init__.py" else module.rpartition(".")[0]
-    try:
-        lines = ast.parse(path.read_bytes()).body
-    except (OSError, SyntaxError, ValueError):
-        return None
-    for line in reversed(lines):
+    for line in reversed(tree.body) if tree is not None else ():
         if isinstance(line, ast.ClassDef) and line.name == name:
-            return cleandoc(ast.get_docstring(line) or "")
+            return line
         if isinstance(line, ast.ImportFrom):
             for each in line.names:
                 if (each.asname or each.name) == name:
-                    return docstring(resolve_name("." * line.level + (line.module or ""), package), each.name)
+                    return class_node(resolve_name("." * line.level + (line.module or ""), package), each.name)
     return None
+
+
+def class_alone(path: Path, name: str) -> ast.ClassDef | None:
+    """Return a class by the lines that begin it, up to its first function: no more is parsed; None where that is no class."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, ValueError):
+        return None
+    begun = [each.start() for each in re.finditer(rf"^class {name}\b", text, re.MULTILINE)]
+    if not begun:
+        return None
+    end = re.compile(r"\n(?:\S|    (?:@|def |async def ))").search(text, begun[-1])
+    try:
+        tree = ast.parse(text[begun[-1] : end.start() if end else len(text)])
+    except (SyntaxError, ValueError):
+        return None
+    return tree.body[0] if len(tree.body) == 1 and isinstance(tree.body[0], ast.ClassDef) else None
+
+
+@lru_cache(maxsize=64)
+def syntax(module: str) -> ast.Module | None:
+    """Return a module as its source writes it; None where there is none, or none that can be read."""
+    path = source_file(module)
+    try:
+        return None if path is None else ast.parse(path.read_bytes())
+    except (OSError, SyntaxError, ValueError):
+        return None
 
 
 def source_file(module: str) -> Path | None:

@@ -23,7 +23,7 @@ from ..study.checks import unit_of
 from ..study.optimum import Rounded
 from ..study.space import Space
 from ..study.tried import heading_with_unit, tried_names
-from ..units import factor
+from ..units import factor, shown_in
 from .command import Command, progress_bar
 from .listing import OWN, registered
 from .machines import find, machine, split
@@ -157,7 +157,7 @@ def write_front(search: SearchFile, found: Front) -> None:
             if path.suffix.lower() == ".csv":
                 lines = csv.writer(stream)
                 lines.writerow(map(heading_with_unit, zip(heads, units, strict=True)))
-                lines.writerows([repr(value / factor(unit)) for value, unit in zip(row, units, strict=True)] for row in rows)
+                lines.writerows([repr(value / factor(shown_in(unit))) for value, unit in zip(row, units, strict=True)] for row in rows)
             else:
                 stream.writelines(json.dumps(dict(zip(heads, row, strict=True))) + "\n" for row in rows)
         print(path)

@@ -3,12 +3,27 @@
 from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
+from collections.abc import Sequence
 from typing import Any, final
 
+from ..errors import DefinitionError
 from ..mechanism import Mechanism
+from ..motion import Column
+from ..reports import results
 from .command import Command, machine_arguments, motion_arguments, path_argument, picture, picture_argument, pose_count, progress_bar
 from .machines import find
-from .settings import columns_picked, design, motion_along, motion_at, stroke_values, traced_points
+from .settings import (
+    acting_of,
+    columns_picked,
+    design,
+    force_arguments,
+    limit_argument,
+    motion_along,
+    motion_at,
+    parse_limit,
+    stroke_values,
+    traced_points,
+)
 
 
 @final
@@ -24,11 +39,15 @@ class PlotCommand(Command):
         picture_argument(parser, "default: NAME.png")
         path_argument(parser)
         motion_arguments(parser, 101)
+        force_arguments(parser)
+        limit_argument(parser)
 
     def run(self, options: Namespace) -> int:
         found = find(options.machine)
         path = picture(options.output, found, options.machine)
         machine = design(found, options.settings)
+        if not options.columns and (options.limits or options.case or options.direction):
+            raise DefinitionError("--limit, --case and --direction go with curves; name their columns, such as plot NAME pressure.")
         figure = curves(machine, options) if options.columns else poses(machine, options)
         figure.savefig(path)
         print(path)
@@ -40,11 +59,13 @@ def curves(machine: Mechanism, options: Namespace) -> Any:
     given = dict(stroke_values(machine.plan, text) for text in options.strokes)
     many = [name for name, values in given.items() if len(values) > 1]
     over = motion_at(machine, options.strokes, options.count) if many else motion_along(machine, options.count, given)
-    columns = columns_picked(machine, over, options.columns, [])
-    limits = {column.name: machine.featured().limits.get(column.name) for column in columns}
+    columns = columns_picked(machine, over, options.columns, [], acting_of(machine, options))
+    names = [column.name for column in columns]
+    limits: dict[str, Sequence[Any]] = {name: limit for name, limit in machine.featured().limits.items() if name in names}
+    limits |= dict(parse_limit(text, columns) for text in options.limits)
     from ..pictures import plot
 
-    return plot(over, columns, limits={name: limit for name, limit in limits.items() if limit is not None})
+    return plot(over, columns, limits=limits)
 
 
 def poses(machine: Mechanism, options: Namespace) -> Any:
@@ -76,6 +97,7 @@ class AnimateCommand(Command):
         parser.add_argument("-o", "--output", metavar="FILE", required=True, help=f"{', '.join(SUFFIXES)}")
         parser.add_argument("--column", metavar="I", help="the column of `table` whose curve runs along (default: what it is about)")
         path_argument(parser)
+        limit_argument(parser)
         parser.add_argument("--count", metavar="N", type=pose_count, default=60, help="poses over the stroke (default 60)")
         parser.add_argument(
             "--at", dest="strokes", metavar="S=0.6", action="append", default=[],
@@ -87,10 +109,23 @@ class AnimateCommand(Command):
         path = picture(options.output, found, options.machine, SUFFIXES)
         machine = design(found, options.settings)
         at, trace = dict(stroke_values(machine.plan, text) for text in options.strokes), traced_points(machine, options.path)
-        motion_along(machine, options.count, at)
+        over = motion_along(machine, options.count, at)
+        column, limit = curve_and_limit(results(machine, over), options)
         from ..pictures import animate
 
         with progress_bar(f"drawing {path.name}") as progress:
-            animate(machine, path, count=options.count, column=options.column, trace=trace, at=at, progress=progress)
+            animate(machine, path, count=options.count, column=column, trace=trace, limit=limit, at=at, progress=progress)
         print(path)
         return 0
+
+
+def curve_and_limit(columns: Sequence[Column], options: Namespace) -> tuple[str | None, Sequence[Any] | None]:
+    """Return the column whose curve runs along, that of a limit unless one is named, and its limit."""
+    if not options.limits:
+        return options.column, None
+    if len(options.limits) > 1:
+        raise DefinitionError("one curve runs along an animation, with one limit; give one --limit.")
+    name, limit = parse_limit(options.limits[0], columns)
+    if options.column not in (None, name):
+        raise DefinitionError(f"--limit is of {name}, and the curve that runs along is of {options.column}; name the same column.")
+    return name, limit

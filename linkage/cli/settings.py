@@ -1,18 +1,56 @@
-"""`--set` and `--at`: design variables and strokes as text, checked against what they measure."""
+"""What the options of commands mean: settings and strokes as text, load cases, columns by their names, exit codes."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+import re
+from argparse import ArgumentParser, Namespace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, unknown
+from ..errors import DefinitionError, cited, known_name, unknown
+from ..loads import LoadCase
 from ..mechanism import Mechanism
-from ..motion import Column, Motion, stroke_unit
+from ..motion import Column, Motion, Request, RequestLike, columns_of, stroke_unit
 from ..plan import Plan, plan_measure
-from ..reports import NOTHING, At, results, run_of
-from ..units import parse
+from ..quantities import Dimension, Quantity, Stroke
+from ..reports import NOTHING, At, force_columns, results, run_of
+from ..steps import Point
+from ..units import UNITS, parse
+from ..verdict import Verdict
+
+DIRECTIONS = ("frictionless", "extending", "retracting")
+FAILED = 1
+"""The exit code of `--check` where a verdict fails."""
+
+
+def force_arguments(parser: ArgumentParser) -> None:
+    """Declare the arguments that choose the loads."""
+    parser.add_argument("--case", metavar="CASE", help="the load case of this name instead of the loads as they are declared")
+    parser.add_argument(
+        "--direction", choices=DIRECTIONS, help="with the declared friction of this direction: of the stroke, or of each cylinder"
+    )
+    parser.add_argument("--drive", metavar="S", help="the stroke that moves, for friction where there are several")
+
+
+def check_argument(parser: ArgumentParser) -> None:
+    """Declare the argument that turns a verdict that fails into an exit code."""
+    parser.add_argument("--check", action="store_true", help="leave with exit code 1 where a verdict fails")
+
+
+def verdicts_of(machine: Mechanism, motion: Motion) -> list[str]:
+    """Return a machine's verdicts; DefinitionError where its own `verdicts` gives something else than sentences."""
+    verdicts: Any = machine.verdicts(motion)
+    if not isinstance(verdicts, (list, tuple)) or not all(isinstance(each, str) for each in verdicts):
+        raise DefinitionError(f"{machine.plan.title}: verdicts(motion) gives {cited(verdicts)}; a list of sentences is expected.")
+    return list(verdicts)
+
+
+def judged_code(verdicts: Sequence[str], options: Namespace) -> int:
+    """Return the exit code of what was judged: 1 where that is asked for and a verdict fails; a plain sentence does not."""
+    return FAILED if options.check and any(isinstance(each, Verdict) and not each.ok for each in verdicts) else 0
 
 
 def design(machine: type[Mechanism], texts: Sequence[str]) -> Mechanism:
@@ -58,7 +96,7 @@ def si_value(text: str, kind: str, what: str) -> float:
         raise DefinitionError(f"{what}: {error}") from None
 
 
-def motion_at(machine: Mechanism, texts: Sequence[str], count: int) -> Motion:
+def motion_at(machine: Mechanism, texts: Sequence[str], count: int, unreachable: str = "raise") -> Motion:
     """Return the motion at strokes such as `S=0.6,650mm`; those not given go over their range at `count` poses.
 
     Several that take more than one value make a grid.
@@ -67,7 +105,7 @@ def motion_at(machine: Mechanism, texts: Sequence[str], count: int) -> Motion:
     axes = {name: given.get(name, np.linspace(stroke.start, stroke.end, count)) for name, stroke in machine.strokes.items()}
     many = {name: axis for name, axis in axes.items() if len(axis) > 1 or name not in given}
     grids = dict(zip(many, np.meshgrid(*many.values(), indexing="ij"), strict=True)) if many else {}
-    return machine.at(**{name: grids.get(name, axis[0]) for name, axis in axes.items()})
+    return machine.at(unreachable=unreachable, **{name: grids.get(name, axis[0]) for name, axis in axes.items()})
 
 
 def motion_along(machine: Mechanism, count: int, at: At = NOTHING) -> Motion:
@@ -87,19 +125,124 @@ def stroke_values(plan: Plan, text: str) -> tuple[str, Any]:
     return name, np.array([si_value(value, kind, f"--at {name}") for value in values.split(",")])
 
 
-def columns_picked(machine: Mechanism, motion: Motion, names: Sequence[str], strokes: Sequence[str]) -> list[Column]:
-    """Return the columns of some names, in their order, after the strokes'; all where none is named."""
-    plan, columns = machine.plan, results(machine, motion)
+# -- columns -----------------------------------------------------------------------------------------------
+
+
+@final
+@dataclass(frozen=True)
+class Acting:
+    """Under which loads forces are asked for: a load case by name, and a direction of motion; None for the machine's own way."""
+
+    case: str | None = None
+    direction: str | None = None
+    drive: str | None = None
+
+
+PLAIN = Acting()
+
+
+def acting_of(machine: Mechanism, options: Namespace) -> Acting:
+    """Return the load case and the direction that options mean; DefinitionError for a case or a drive that is not there."""
+    cases = {name: each for name, each in machine.plan.of_kind(LoadCase).items()}
+    if options.case is not None and options.case not in cases:
+        remedy = "" if cases else f" {machine.plan.title} declares none; write {options.case} = LoadCase({options.case!r}, scale=...)."
+        raise DefinitionError(f"{unknown('Load case', options.case, cases, where=machine.plan.title)}{remedy}")
+    if options.drive is not None and options.drive not in machine.strokes:
+        raise unknown("Stroke", options.drive, machine.strokes, where=machine.plan.title)
+    return Acting(options.case, options.direction, options.drive)
+
+
+def columns_picked(
+    machine: Mechanism, motion: Motion, names: Sequence[str], strokes: Sequence[str], acting: Acting = PLAIN
+) -> list[Column]:
+    """Return the columns of some names, in their order, after the strokes'; all where none is named.
+
+    A name is one of the machine's table, one that every machine with loads has, or a request in text: `pressure(lift)`, `ratio(G.y)`.
+    In a load case or a direction they are those that every machine has.
+    """
+    plan, is_plain = machine.plan, acting == PLAIN
+    columns = results(machine, motion) if is_plain else [*columns_of(motion), *force_columns(motion, acting.case, acting.direction)]
     known = {column.name: column for column in columns}
     if not known:
         raise DefinitionError(f"{plan.title} has no results: it declares no stroke, no point that moves and no output.")
     if not names:
         return columns
-    for name in names:
-        if name not in known:
-            is_point = f" {name} is a point; `plot --path {name}` draws its path." if name in plan.points else ""
-            raise DefinitionError(f"{unknown('Column', name, known, where=f'the table of {plan.title}')}{is_point}")
-    return [known[name] for name in dict.fromkeys([*(name for name in strokes if name in known), *names])]
+    if is_plain and not known.keys() >= {*names}:
+        every = [*columns_of(motion), *force_columns(motion)]
+        known = {column.name: column for column in every} | known
+    led = [known[name] for name in strokes if name in known]
+    found = [column for name in names for column in ([known[name]] if name in known else requested(machine, motion, name, acting, known))]
+    return list({column.name: column for column in [*led, *found]}.values())
+
+
+def requested(machine: Mechanism, motion: Motion, text: str, acting: Acting, known: Mapping[str, Column]) -> list[Column]:
+    """Return the columns of a request in text, two of a point's; DefinitionError for what is none."""
+    plan = machine.plan
+    if not any(sign in text for sign in "()+-*/"):
+        is_point = f" {text} is a point; `plot --path {text}` draws its path." if text in plan.points else ""
+        raise DefinitionError(f"{unknown('Column', text, known, where=f'the table of {plan.title}')}{is_point}")
+    from ..files.criterion import quantity_said
+
+    found = quantity_said(text, machine)
+    is_of_forces = isinstance(found, Request) and found.in_case(acting.case or "") is not found
+    if is_of_forces and acting.direction is not None and "direction" not in text:
+        remedy = "write direction= into it where it takes one, or take the columns drive force, thrust, pressure, reserve"
+        raise DefinitionError(f"{text} has no direction by --direction; {remedy}.")
+    if isinstance(found, Request) and acting.case is not None:
+        found = found.in_case(acting.case)
+    over = motion.moved(motion.strokes) if is_of_forces else motion
+    return columns_asked(over, found, text)
+
+
+def columns_asked(motion: Motion, asked: RequestLike, name: str, unit: str | None = None) -> list[Column]:
+    """Return what is asked of a motion as one column, or as two of a point's."""
+    if motion[asked].shape == motion.shape:
+        return [Column.of(motion, asked, unit, name)]
+    return [Column(f"{name}_{axis}", part, unit or "") for axis, part in zip("xy", motion[asked], strict=True)]
+
+
+PER = {("angle", "m"): "rad/m"}
+"""The unit of a ratio by what it measures and the unit of its stroke; plain numbers, and m for a turn of 1 rad, have none."""
+
+
+def ratio_columns(machine: Mechanism, motion: Motion, targets: Sequence[str], wrt: str | None) -> Iterator[Column]:
+    """Yield the derivatives of points and outputs by a stroke, by each of them where none is named: `dG_y/dS`."""
+    plan = machine.plan
+    if wrt is not None and wrt not in plan.strokes:
+        raise unknown("Stroke", wrt, plan.strokes, where=plan.title)
+    for target in targets:
+        member = plan.members.get(target)
+        if not isinstance(member, (Point, Quantity)):
+            outputs = [name for name, each in plan.of_kind(Quantity).items() if not isinstance(each, (Stroke, Dimension))]
+            raise unknown("Point or output", target, [*plan.moving, *outputs], where=plan.title)
+        parts = [f"{target}_x", f"{target}_y"] if isinstance(member, Point) else [target]
+        kind = member.measures if isinstance(member, Quantity) else "length"
+        for stroke in [wrt] if wrt is not None else plan.strokes:
+            values = np.reshape(motion.ratio(target, wrt=stroke), (len(parts), *motion.shape))
+            unit = PER.get((kind, stroke_unit(plan, stroke)), "")
+            yield from (Column(f"d{name}/d{stroke}", value, unit) for name, value in zip(parts, values, strict=True))
+
+
+LIMITS = {"<=": ("above", "at most"), ">=": ("below", "at least")}
+
+
+def limit_argument(parser: ArgumentParser) -> None:
+    """Declare the argument that says which values of a column fail."""
+    parser.add_argument(
+        "--limit", dest="limits", metavar='"pressure<=180bar"', action="append", default=[],
+        help="draw this limit of a column, COLUMN<=VALUE or COLUMN>=VALUE with its unit, the side that fails shaded; repeatable",
+    )  # fmt: skip
+
+
+def parse_limit(text: str, columns: Sequence[Column]) -> tuple[str, tuple[float, str, str]]:
+    """Return a column's name and its limit as `plot` takes it: the value [SI], words, and the side that fails."""
+    name, sign, value = (part.strip() for part in re.fullmatch(r"(.*?)(<=|>=|$)(.*)", text, re.DOTALL).groups())  # type: ignore[union-attr]
+    if not (name and sign and value):
+        raise DefinitionError(f'--limit {text}: write a column, <= or >=, and a value, such as --limit "pressure<=180bar".')
+    units = {column.name: column.unit for column in columns}
+    unit = units[known_name("Column", name, units, "--limit")]
+    side, words = LIMITS[sign]
+    return name, (si_value(value, UNITS[unit][1] if unit else "", f"--limit {name}"), f"{words} {value}", side)
 
 
 def traced_points(machine: Mechanism, names: Sequence[str] | None) -> tuple[str, ...]:

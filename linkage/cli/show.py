@@ -6,16 +6,16 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Iterable, Iterator
 from inspect import cleandoc
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, final
+from typing import TYPE_CHECKING, final
 
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError
 from ..mechanism import Mechanism
 from ..plan import printed, strokes_text
 from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
 from .command import Command, lined_up, machine_arguments, picture, picture_argument
 from .machines import find
-from .settings import design, motion_at, stroke_values
+from .settings import check_argument, design, judged_code, motion_at, stroke_values, verdicts_of
 
 if TYPE_CHECKING:
     from ..formulas import Equations
@@ -33,6 +33,7 @@ class ShowCommand(Command):
 
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
+        check_argument(parser)
         group = parser.add_argument_group("equations")
         group.add_argument("--equations", action="store_true", help="the vector equations too, numbered")
         group.add_argument("--start", metavar="N", type=int, help="the first equation's number (default 1)")
@@ -60,8 +61,9 @@ class ShowCommand(Command):
         if options.equations:
             print_section("Equations", str(listed(machine, options)).splitlines())
         poses = POSES.get(len(machine.strokes), MANY)
-        print_section("Verdict", verdict_lines(machine, machine.verdicts(motion_at(machine, [], poses))))
-        return 0
+        verdicts = verdicts_of(machine, motion_at(machine, [], poses))
+        print_section("Verdict", verdicts)
+        return judged_code(verdicts, options)
 
 
 def check_asked(options: Namespace) -> None:
@@ -139,13 +141,6 @@ def construction(machine: Mechanism) -> Iterator[str]:
     dimensions, defaults = machine.plan.of_kind(Dimension), machine.plan.defaults
     changed = {name: value for name, value in machine.dimensions.items() if value != defaults[name]}
     yield from (f"{name} = {text}" for name, text in printed(machine.plan, changed).items() if name not in dimensions)
-
-
-def verdict_lines(machine: Mechanism, verdicts: Any) -> list[str]:
-    """Return a machine's verdicts; DefinitionError where its own `verdicts` gives something else than sentences."""
-    if not isinstance(verdicts, (list, tuple)) or not all(isinstance(each, str) for each in verdicts):
-        raise DefinitionError(f"{machine.plan.title}: verdicts(motion) gives {cited(verdicts)}; a list of sentences is expected.")
-    return list(verdicts)
 
 
 def print_section(title: str, lines: Iterable[str]) -> None:

@@ -10,12 +10,26 @@ from shutil import get_terminal_size
 from typing import TextIO, final
 
 from ..disk import replacing_text
-from ..motion import Column
-from ..reports import rich_tables, text_table, write_csv
+from ..errors import DefinitionError
+from ..motion import Column, Motion
+from ..reports import is_loaded, rich_tables, text_table, write_csv
+from ..statics import PinForces, max_table, pin_forces, table_text
 from .command import Command, machine_arguments, motion_arguments, progress_bar
 from .machines import find
-from .settings import columns_picked, design, motion_at
+from .settings import (
+    Acting,
+    acting_of,
+    check_argument,
+    columns_picked,
+    design,
+    force_arguments,
+    judged_code,
+    motion_at,
+    ratio_columns,
+    verdicts_of,
+)
 
+COLUMNS = "only these columns (default: all), or what is asked for in words: 'pressure(lift)', 'ratio(G.y)'"
 RICH_ROWS = 500  # a longer table is printed plain, which takes no time
 
 
@@ -28,16 +42,54 @@ class TableCommand(Command):
 
     def add(self, parser: ArgumentParser) -> None:
         machine_arguments(parser)
-        parser.add_argument("columns", metavar="COLUMN", nargs="*", default=[], help="only these columns (default: all)")
+        parser.add_argument("columns", metavar="COLUMN", nargs="*", default=[], help=COLUMNS)
         csv_argument(parser)
         motion_arguments(parser, 11)
+        ratio_arguments(parser)
+        force_arguments(parser)
+        parser.add_argument("--pins", action="store_true", help="the largest force of every pin too, its direction and pose")
+        parser.add_argument("--limits", action="store_true", help="how far each stroke goes too, dead points, transmission angles")
+        check_argument(parser)
 
     def run(self, options: Namespace) -> int:
+        if options.csv == "-" and (options.pins or options.limits):
+            raise DefinitionError("--pins and --limits do not go into CSV; leave them out, or write it into a file, --csv table.csv.")
         machine = design(find(options.machine), options.settings)
-        poses = motion_at(machine, options.strokes, options.count)
-        columns = columns_picked(machine, poses, options.columns, list(poses.strokes))
+        poses, acting = motion_at(machine, options.strokes, options.count), acting_of(machine, options)
+        strokes = list(poses.strokes)
+        names = options.columns or (strokes if options.ratio else [])  # ratios alone stand beside their strokes
+        columns = columns_picked(machine, poses, names, strokes, acting)
+        columns += ratio_columns(machine, poses, options.ratio, options.wrt)
+        pins = worst_pins(poses, acting) if options.pins else ""
         write_table(columns, poses.reached.size, options.csv)
-        return 0
+        if pins:
+            print(f"\n{pins}")
+        if options.limits:
+            print(f"\n{poses.limits()}")
+        if not options.check:
+            return 0
+        verdicts = verdicts_of(machine, poses)
+        if options.csv != "-":
+            print("", *verdicts, sep="\n")
+        return judged_code(verdicts, options)
+
+
+def ratio_arguments(parser: ArgumentParser) -> None:
+    """Declare the arguments that add derivatives."""
+    parser.add_argument("--ratio", metavar="G", action="append", default=[], help="the derivatives of a point or an output; repeatable")
+    parser.add_argument("--wrt", metavar="S", help="the stroke of these derivatives (default: each)")
+
+
+def worst_pins(motion: Motion, *actings: Acting) -> str:
+    """Return the table of the largest force of every joint, over some load cases and directions; DefinitionError where nothing acts."""
+    if not is_loaded(motion):
+        raise DefinitionError(f"{motion.plan.title} declares no load, so that no pin carries anything; declare one, Weight(G, mass=100).")
+    return table_text(max_table([pins_of(motion, each) for each in actings]))
+
+
+def pins_of(motion: Motion, acting: Acting) -> PinForces:
+    """Return the joint forces of a motion in a load case and a direction."""
+    return pin_forces(motion, case=acting.case, direction=acting.direction or "frictionless", drive=acting.drive)
 
 
 def csv_argument(parser: ArgumentParser) -> None:

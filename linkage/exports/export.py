@@ -42,7 +42,7 @@ def export(
         raise DefinitionError(f"{file}: the file's name ends in one of {', '.join(ENDINGS)}, which chooses what is written.")
     check_exportable(what, kind, at, trace, columns)
     check_place(path)
-    content = written(what, kind, file.name, at, check_count(count), trace, columns)
+    content = content_of(what, kind, file.name, at, check_count(count), trace, columns)
     with replacing(path) as stream:
         stream.write(content)
     return file
@@ -69,7 +69,7 @@ def check_exportable(what: Any, kind: str, at: Any, trace: Any, columns: Any) ->
         raise DefinitionError(f'{title}: trace={cited(trace)}: a list of points is expected, such as trace=["G"].')
 
 
-def written(
+def content_of(
     what: Mechanism | Motion, kind: str, name: str, at: Mapping[str, Any], count: int, trace: Sequence[str], columns: Sequence[Column]
 ) -> bytes:
     """Return a file's bytes."""

@@ -140,7 +140,7 @@ def frame_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
         layer = "frame" if track.fixed else "bodies"
         start, end = (at[name] for name in track.ends)
         yield Polyline(layer, track.name, np.array([start, end]))
-        along = direction(start, end)
+        along = unit_vector(start, end)
         for rider in track.riders:
             ends = at[rider] - 2.1 * size * along, at[rider] + 2.1 * size * along
             yield Polyline("bodies", rider, bar_corners(*ends, 1.25 * size), closed=True)
@@ -171,14 +171,14 @@ def outline_around(name: str, corners: FloatArray, distance: float) -> Polyline:
     return Polyline("bodies", name, vertices, tuple(bulges.tolist()), closed=True)
 
 
-def direction(start: FloatArray, end: FloatArray) -> FloatArray:
+def unit_vector(start: FloatArray, end: FloatArray) -> FloatArray:
     """Return the unit vector from one place to another, shape (2,)."""
     return np.asarray((end - start) / (np.hypot(*(end - start)) or 1.0))
 
 
 def bar_corners(start: FloatArray, end: FloatArray, half: float) -> FloatArray:
     """Return the corners of a box along a line, shape (4, 2)."""
-    x, y = half * direction(start, end)
+    x, y = half * unit_vector(start, end)
     across = np.array([-y, x])
     return np.array([start - across, end - across, end + across, start + across])
 
@@ -190,7 +190,7 @@ def cylinder_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
     """Yield the barrel, the piston and the rod of each cylinder, and its line from pin to pin."""
     for ram in scene.rams:
         P, Q = at[ram.P], at[ram.Q]
-        along = direction(P, Q)
+        along = unit_vector(P, Q)
         P, Q = (place + ram.aside / mm * np.array([-along[1], along[0]]) for place in (P, Q))
         name = ram.P + ram.Q
         for start, end, half in cylinder_pieces(ram, float(np.hypot(*(Q - P))), size):
@@ -210,7 +210,7 @@ def spring_parts(scene: Scene, at: Places) -> Iterator[Part]:
     """Yield the lines of springs, dampers and struts."""
     for each in scene.straights:
         P, Q = at[each.P], at[each.Q]
-        along = direction(P, Q)
+        along = unit_vector(P, Q)
         axes = np.array([along, [-along[1], along[0]]])
         for line in each.lines:
             yield Polyline("elements", each.P + each.Q, P + line.at(float(np.hypot(*(Q - P))) * mm) / mm @ axes, closed=line.closed)
@@ -249,7 +249,7 @@ def dimension_parts(scene: Scene, at: Places, size: float) -> Iterator[Part]:
 
 def along_one_line(one: tuple[FloatArray, FloatArray], other: tuple[FloatArray, FloatArray], size: float) -> bool:
     """Return whether two stretches lie along one line and overlap; closer than a size [mm] counts as on it."""
-    along = direction(*one)
+    along = unit_vector(*one)
     across = np.array([-along[1], along[0]])
     off = [abs(float((place - one[0]) @ across)) for place in other]
     reach = sorted(float((place - one[0]) @ along) for place in other)

@@ -69,7 +69,7 @@ NUMERIC: Mapping[str, str] = MappingProxyType(
 )
 """NumPy's functions by the names that a file may give them."""
 CONDITIONS: Mapping[str, Condition] = MappingProxyType({"reachable": reachable})
-AXES = {"_x": x, "_y": y}
+AXES = {"_x": x, "_y": y, ".x": x, ".y": y}
 
 
 def measure_said(text: Any, machine: Mechanism, over: Mapping[str, Any] | None = None) -> Measure:
@@ -238,13 +238,17 @@ class CriterionParser(Grammar):
             return CONDITIONS[name]
         if name in plan.table.spellings:
             return name
-        if name[:-2] in plan.points and name[-2:] in AXES:
-            return AXES[name[-2:]](name[:-2])
+        if (coordinate := self.coordinate(name)) is not None:
+            return coordinate
         if name in CONSTANTS:
             self.kinds += [UNITS[name][1]] if name in UNITS else []
             return CONSTANTS[name]
         quantities = [each for each, one in plan.members.items() if isinstance(one, Quantity)]
         raise unknown("Quantity", name, list(dict.fromkeys([*quantities, *plan.table.names()])), where=plan.title)
+
+    def coordinate(self, name: str) -> Quantity | None:
+        """Return the coordinate of a point that a name means, `G_y` or `G.y`; None for any other."""
+        return AXES[name[-2:]](name[:-2]) if name[:-2] in self.plan.points and name[-2:] in AXES else None
 
     # -- functions -------------------------------------------------------------------------------------
 
@@ -319,6 +323,8 @@ class CriterionParser(Grammar):
         if not of_quantities and ends and token.kind in ("name", "text"):
             self.place += 1
             word = token.text.strip("'\"")
+            if word not in self.plan.members and (coordinate := self.coordinate(word)) is not None:
+                return coordinate
             return {"true": True, "false": False, "least": least, "most": most}.get(word, word)
         if not of_quantities and token.text == "(":
             return self.pair_or_sum()

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, FileError, about
 from ..mechanism import Mechanism
+from ..motion import Featured
 from ..plan import Table
 from ..quantities import Member
 from ..steps import Point
@@ -18,7 +19,7 @@ from .names import Names, member_name, shortened
 from .registry import registry
 from .source import Faults, source
 
-HEAD = ("name", "doc", "order")
+HEAD = ("name", "doc", "order", "featured")
 MEMBERS = 400
 SKETCHED = 100  # members that stand in a sketch: assembling them takes time by the cube
 LINKS = 200
@@ -51,11 +52,12 @@ def built(data: Any, faults: Faults, trust: Collection[str]) -> type[Mechanism]:
     """Return the class that the tables say."""
     sections = sections_of(data, faults)
     title, doc = head_read(data, faults)
+    featured = featured_read(data.get("featured", {}), faults)
     names = names_of(sections, faults)
     order = ordered(data, names, faults)
     members = members_read(order, sections, names, title, faults, trust)
     faults.check()
-    return made(title, doc, members, names, faults)
+    return made(title, doc, featured, members, names, faults)
 
 
 # -- the tables --------------------------------------------------------------------------------------------
@@ -86,6 +88,16 @@ def head_read(data: Mapping[str, Any], faults: Faults) -> tuple[str, str | None]
     if doc is not None and not (isinstance(doc, str) and all(each.isprintable() or each in "\n\t" for each in doc)):
         faults.add(("doc",), f"{shortened(doc)} is not a text of printable characters.")
     return str(title), doc
+
+
+def featured_read(given: Any, faults: Faults) -> Featured:
+    """Return what the machine is about; what is none is noted."""
+    found = Featured()
+    with faults.at("featured"):
+        if not isinstance(given, Mapping) or not {"column", "path", "limits"} >= given.keys():
+            raise DefinitionError('a table is expected, column = "tilt", path = ["G"], limits = { tilt = [0.1, "most"] }.')
+        found = Featured(**given)
+    return found
 
 
 def names_of(sections: Mapping[str, Mapping[str, Any]], faults: Faults) -> Names:
@@ -155,11 +167,12 @@ def check_alone(name: str, member: Member, title: str) -> None:
 # -- the class ---------------------------------------------------------------------------------------------
 
 
-def made(title: str, doc: str | None, members: Mapping[str, Member], names: Names, faults: Faults) -> type[Mechanism]:
+def made(title: str, doc: str | None, featured: Featured, members: Mapping[str, Member], names: Names, faults: Faults) -> type[Mechanism]:
     """Return the class with these members; what is wrong with it as a whole comes with the file's name and key."""
     try:
         with np.errstate(all="ignore"):
-            machine: type[Mechanism] = type(title, (Mechanism,), {"__module__": __name__, "__doc__": doc, **members})
+            own = {"__module__": __name__, "__doc__": doc, "featured": lambda self: featured}
+            machine: type[Mechanism] = type(title, (Mechanism,), {**own, **members})
             for name in machine.plan.named():
                 with about(name):
                     machine.plan.nodes(name)

@@ -52,12 +52,22 @@ def entry_written(name: str, write: Any, member: Any, design: Design) -> Any:
 
 
 def head_table(machine: Machine, order: list[str]) -> dict[str, Any]:
-    """Return what stands above the sections: name, docstring, and the members' order where the sections do not keep it."""
+    """Return what stands above the sections: name, docstring, the members' order where these do not keep it, what it is about."""
     cls = type(machine) if isinstance(machine, Mechanism) else machine
     doc = cleandoc(cls.__doc__ or "")
     if not all(each.isprintable() or each in "\n\t" for each in doc):
         raise DefinitionError(f"{cls.__name__}: its docstring holds characters that cannot be printed; take them out.")
-    return {"name": cls.__name__} | ({"doc": doc} if doc else {}) | ({"order": order} if order else {})
+    beside = {"doc": doc, "order": order, "featured": featured_table(machine)}
+    return {"name": cls.__name__} | {name: value for name, value in beside.items() if value}
+
+
+def featured_table(machine: Machine) -> dict[str, Any]:
+    """Return what a machine is about, [SI]; empty where it does not say."""
+    design = machine if isinstance(machine, Mechanism) else machine()
+    found = design.featured()
+    limits = {name: list(limit) for name, limit in found.limits.items()}
+    table: dict[str, Any] = {"column": found.column, "path": list(found.path), "limits": limits}
+    return {name: value for name, value in table.items() if value}
 
 
 def left_out(machine: Machine) -> tuple[str, ...]:
@@ -67,7 +77,7 @@ def left_out(machine: Machine) -> tuple[str, ...]:
         require_mechanism(cls)
     own = [base for base in cls.__mro__ if issubclass(base, Mechanism) and base is not Mechanism]
     names = {name for base in own for name in vars(base) if name == "__init__" or not name.startswith(("__", "_abc_"))}
-    return tuple(sorted(names - {"plan", *declared(cls)}))
+    return tuple(sorted(names - {"featured", "plan", *declared(cls)}))
 
 
 def to_toml(machine: Machine) -> str:
@@ -129,7 +139,7 @@ def toml_text(data: Mapping[str, Any]) -> str:
 def toml_section(name: str, table: Mapping[str, Any]) -> Iterator[str]:
     """Yield a section's lines."""
     lines = [f"{toml_key(each)} = {toml_inline(value)}" for each, value in table.items()]
-    if all(len(line) <= WIDTH or not isinstance(value, Mapping) for line, value in zip(lines, table.values(), strict=True)):
+    if not all(isinstance(value, Mapping) for value in table.values()) or all(len(line) <= WIDTH for line in lines):
         yield f"[{toml_key(name)}]"
         yield from lines
         return

@@ -112,7 +112,8 @@ class Listing:
 
     def write(self, order: Iterable[str]) -> None:
         """Write every member: points and outputs in the order given, vectors and angles where they are first needed."""
-        left = list(order)
+        left = [name for name in order if name in self.plan.members]  # of a list of parts the steps made of it come last
+        left += [name for name in self.plan.members if name not in left]
         while left:
             name, *left = left
             member = self.plan.members[name]

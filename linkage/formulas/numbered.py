@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from textwrap import wrap
@@ -13,12 +14,13 @@ import numpy as np
 import sympy
 
 from ..errors import DefinitionError, cited, unknown
+from ..language import translated
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..motion.requests import stroke_of
 from ..quantities import is_whole
 from .forces import WORDS, ForceLines, GivenNumber
 from .listing import X_AXIS, Listing, Written
-from .printing import Latex, Text, plain_number
+from .printing import Latex, Text, number_latex, plain_number
 from .rates import lines_needed, ratio_lines
 from .symbolic import LENGTH, Unit
 from .words import Cross, Direction, Dot, Tcos, TurnV, TurnVL, explicit
@@ -127,8 +129,56 @@ class Equation:
         own = shown.get(self.name, "") if self.unit.si_factor != self.unit.factor else ""
         return " = ".join(kept) + unit + (f" = {own}" if own else "")
 
+    def sheet(self, words: Mapping[str, str], values: Mapping[str, str], shown: Mapping[str, str]) -> SheetLine:
+        """Return the equation as a calculation sheet has it, in LaTeX: symbol, formula, numbers, result; see `filled`."""
+        unit, latex = self.unit, Latex(words)
+        arguments = rf"\left({', '.join(map(latex.doprint, self.follows))}\right)" if self.follows else ""
+        formula, numbers, result = latex.doprint(self.rhs), Latex(words, values).doprint(self.rhs), number_latex(values[self.name])
+        own = shown.get(self.name, "") if unit.si_factor != unit.factor else ""
+        results = [f"{result}{'' if unit.text == 'deg' or not unit.si else f' {unit_latex(unit.si)}'}"]
+        results += [shown_latex(own)] if own else []
+        return SheetLine(
+            self.number, latex.doprint(self.lhs) + arguments, formula, "" if numbers in (formula, result) else numbers, tuple(results)
+        )
+
     def __repr__(self) -> str:
         return f"({self.number}) {self}"
+
+
+@final
+@dataclass(frozen=True)
+class SheetLine:
+    """An equation with its numbers, in LaTeX: `symbol = formula = numbers = results`; `numbers` is empty where it says nothing new.
+
+    The results have their units; the second, where there is one, is in the unit the quantity is shown in.
+    """
+
+    number: int
+    symbol: str
+    formula: str
+    numbers: str
+    results: tuple[str, ...]
+
+    @property
+    def steps(self) -> tuple[str, ...]:
+        """What stands between the signs of equality, without repetition."""
+        first = self.results[0]
+        kept = [self.symbol, self.formula, *([self.numbers] if self.numbers else []), *self.results]
+        return tuple(step for place, step in enumerate(kept) if place != 1 or step != first)
+
+
+def unit_latex(unit: str) -> str:
+    r"""Return a unit as LaTeX, in the language that is spoken: `\,\mathrm{N}`, `\,\mathrm{m}^{2}`."""
+    text = re.sub(r"([^\W\d_])(\d)", r"\1}^{\2}\\mathrm{", translated(unit.replace("kgf_cm2", "kgf/cm2")))
+    return rf"\,\mathrm{{{text}}}".replace(r"\mathrm{}", "")
+
+
+def shown_latex(text: str) -> str:
+    """Return a value with its unit, as `value_shown` gives it, as LaTeX."""
+    value, _, unit = text.rpartition(" ") if not text.endswith(")") else (text, "", "")
+    if unit == "deg":
+        return number_latex(text)
+    return number_latex(value) + (unit_latex(unit) if unit else "")
 
 
 def value_in_equation(value: Any, unit: Unit) -> str:
@@ -278,6 +328,31 @@ class Equations(Sequence[Equation]):
 
     __repr__ = __str__
 
+    def sheet(self, at: Mapping[str, Any] | None = None) -> list[SheetLine]:
+        """Return the equations with their numbers at a pose, in LaTeX, as a calculation sheet shows them."""
+        values, shown = self._filled(at or self._poses)
+        return [each.sheet(self._listing.names.latex, values, shown) for each in self._items]
+
+    @property
+    def together(self) -> tuple[str, ...]:
+        """The pins that are found together, by iteration: no closed form gives them, and the equations are what they keep."""
+        return tuple(self._listing.unknowns)
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """The elements whose dry friction is not in the equations of forces."""
+        return tuple(self._forces.friction) if self._forces is not None else ()
+
+    def symbol_latex(self, name: str) -> str:
+        """Return the LaTeX of a stroke or a design variable."""
+        symbol = self._listing.names.quantity(name)
+        return str(self._listing.names.latex.get(symbol.name, symbol.name))
+
+    @property
+    def definitions(self) -> list[str]:
+        """The definitions of the words that the equations use, as LaTeX, a line each."""
+        return [text.replace("&", "") for words, text in LATEX if uses(self, words)]
+
     def latex(self, definitions: bool = True) -> str:
         r"""Return the equations as a LaTeX `align` environment, numbered by `\tag`; in front the definitions of its words."""
         words = self._listing.names.latex
@@ -324,6 +399,7 @@ LATEX: tuple[tuple[tuple[Any, ...], str], ...] = (
         r"\operatorname{TurnV}\left(\vec{V}, a\right) \frac{L}{\left|\vec{V}\right|}",
     ),
     ((Tcos,), r"\operatorname{Tcos}\left(L_1, L_2, L_3\right) &= \arccos \frac{L_1^2 + L_2^2 - L_3^2}{2 L_1 L_2}"),
+    ((Cross,), r"\left(\vec{U} \times \vec{V}\right)_{z} &= U_x V_y - U_y V_x"),
 )
 
 
@@ -372,6 +448,7 @@ def latex_legend(equations: Any) -> list[str]:
 
 # Numbers for the equations: each line evaluated from those before it, on arrays or to any number of digits.
 
+
 def evaluated(lines: Sequence[Written], inputs: Mapping[Any, Any], digits: int | None = None) -> dict[Any, Any]:
     """Return every line's value [SI]: a scalar or a pair, by its symbol.
 
@@ -392,6 +469,11 @@ def _rounded(value: Any, digits: int) -> Any:
     return tuple(_rounded(part, digits) for part in value) if isinstance(value, tuple) else sympy.Float(value, digits)
 
 
+def in_reals(value: Any) -> Any:
+    """Return a value; NaN in the place of what is no real number, such as a power of a negative one."""
+    return np.where(np.imag(value) == 0.0, np.real(value), np.nan)[()] if np.iscomplexobj(value) else value
+
+
 def _evaluated(lines: Sequence[Written], known: dict[Any, Any], arithmetic: str) -> dict[Any, Any]:
     known |= dict(zip(explicit(X_AXIS), (1.0, 0.0), strict=True))
     found: dict[Any, Any] = {}
@@ -399,7 +481,7 @@ def _evaluated(lines: Sequence[Written], known: dict[Any, Any], arithmetic: str)
         expressions = explicit(line.rhs)
         needed = sorted(set().union(*(each.free_symbols for each in expressions)), key=str)
         function = sympy.lambdify(needed, expressions, arithmetic, dummify=True)
-        values = function(*(known[symbol] for symbol in needed))
+        values = [in_reals(value) for value in function(*(known[symbol] for symbol in needed))]
         known |= dict(zip(explicit(line.lhs), values, strict=True))
         found[line.lhs] = values[0] if len(values) == 1 else tuple(values)
     return found

@@ -20,6 +20,20 @@ def plain_number(value: float, digits: int = 6) -> str:
     return "0" if float(text) == 0.0 else text
 
 
+def number_latex(text: str, *, inside: bool = False) -> str:
+    r"""Return a value of an equation's text as LaTeX: `28.7^{\circ}` for `28.7 deg`, `1.8 \cdot 10^{7}` for `1.8e+07`, a pair as it is.
+
+    A number that stands `inside` an expression is in parentheses where it is negative.
+    """
+    if text.startswith("(") and ", " in text:
+        return rf"\left({', '.join(number_latex(part) for part in text.strip('()').split(', '))}\right)"
+    number, _, unit = text.partition(" ")
+    digits, _, power = number.partition("e")
+    shown = rf"{digits} \cdot 10^{{{int(power)}}}" if power else digits
+    shown += r"^{\circ}" if unit == "deg" else ""
+    return rf"\left({shown}\right)" if inside and text.startswith("-") else shown
+
+
 def reading_order(terms: Sequence[Any]) -> list[Any]:
     """Return the terms of a sum as they are read: positive ones first, points before vectors, numbers last."""
     return sorted(terms, key=lambda each: (not each.free_symbols, is_negative(each), not isinstance(each, PointSymbol)))
@@ -115,20 +129,30 @@ class Text(StrPrinter):  # type: ignore[misc]
 
 @final
 class Latex(LatexPrinter):  # type: ignore[misc]
-    r"""LaTeX: `\overrightarrow{AB} = \operatorname{TurnV}_{L}\left(...\right)`. `words` holds the symbols' LaTeX."""
+    r"""LaTeX: `\overrightarrow{AB} = \operatorname{TurnV}_{L}\left(...\right)`. `words` holds the symbols' LaTeX.
 
-    def __init__(self, words: Mapping[str, str]) -> None:
-        super().__init__()
-        self.words = words
+    With `values`, as `Text` takes them, the numbers stand in the place of the symbols, and products have their dots.
+    """
+
+    def __init__(self, words: Mapping[str, str], values: Mapping[str, str] | None = None) -> None:
+        super().__init__({"mul_symbol": "dot"} if values else None)
+        self.words, self.values = words, values or {}
+        self.times = r" \cdot " if values else " "
 
     def _print_Symbol(self, expr: Any, style: str = "plain") -> str:
+        if expr.name in self.values:
+            return number_latex(self.values[expr.name], inside=True)
         return self.words.get(expr.name) or str(super()._print_Symbol(expr))
 
     def _print_MatrixSymbol(self, expr: Any, style: str = "plain") -> str:
+        if expr.name in self.values:
+            return number_latex(self.values[expr.name], inside=True)
         return r"\vec{\imath}" if expr.name == "i" else self.words.get(expr.name, expr.name)
 
     def _print_MatrixElement(self, expr: Any) -> str:
         axis = "xy"[int(expr.i)]
+        if expr.parent.name in self.values:
+            return number_latex(self.values[expr.parent.name].strip("()").split(", ")["xy".index(axis)], inside=True)
         return self.words.get(f"{expr.parent.name}.{axis}") or rf"{self._print(expr.parent)}_{{{axis}}}"
 
     def _print_Float(self, expr: Any) -> str:
@@ -145,8 +169,8 @@ class Latex(LatexPrinter):  # type: ignore[misc]
         if is_negative(expr):
             return f"- {self._print(-expr)}"
         if under != 1:
-            return rf"\frac{{{self._print(over)}}}{{{self._print(under)}}} {self._print(vector)}"
-        return self._print(vector) if over == 1 else f"{self.parenthesize(over, PRECEDENCE['Mul'])} {self._print(vector)}"
+            return rf"\frac{{{self._print(over)}}}{{{self._print(under)}}}{self.times}{self._print(vector)}"
+        return self._print(vector) if over == 1 else f"{self.parenthesize(over, PRECEDENCE['Mul'])}{self.times}{self._print(vector)}"
 
     def _call(self, head: str, expr: Any) -> str:
         return rf"{head}\left({', '.join(map(self._print, expr.args))}\right)"
@@ -161,6 +185,10 @@ class Latex(LatexPrinter):  # type: ignore[misc]
         return self._call(r"\operatorname{Tcos}", expr)
 
     def _print_Norm(self, expr: Any) -> str:
+        if self.values:
+            found = Text(self.values).doprint(expr)
+            if not found.startswith("|"):
+                return number_latex(found)
         return rf"\left|{self._print(expr.args[0])}\right|"
 
     def _print_Direction(self, expr: Any) -> str:

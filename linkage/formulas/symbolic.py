@@ -24,6 +24,7 @@ from .words import Cross, Deg, Dot, Norm, TurnV
 
 # What an expression measures: lengths, angles, and products of them.
 
+
 @final
 @dataclass(frozen=True)
 class Unit:
@@ -85,7 +86,7 @@ ANGLE = Unit(angle=Fraction(1))
 
 SI: Mapping[str, str] = {
     "length": "m", "angle": "rad", "time": "s", "mass": "kg", "force": "N", "moment": "Nm", "pressure": "Pa", "volume": "m3", "area": "m2",
-    "angle per length": "rad/m",
+    "flow": "m3/s", "stiffness": "N/m", "power": "W", "speed": "m/s", "angle per length": "rad/m",
 }  # fmt: skip
 """What a unit's kind is measured in."""
 
@@ -290,6 +291,7 @@ FUNCTIONS: dict[str, Callable[..., Term]] = {
 
 # Tabulated functions: a name in the equations, polynomials of its pieces when they are written out.
 
+
 @final
 class CurveFunction(sympy.Function):  # type: ignore[misc]
     """A tabulated function, or a derivative of it, by its name."""
@@ -324,6 +326,7 @@ def within_half_a_turn(angle: Term) -> Term:
 
 
 # Points and vectors of the symbolic reading: SymPy vectors that obey the plane's algebra, as the rules of steps ask.
+
 
 @final
 class Place:

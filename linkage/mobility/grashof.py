@@ -67,7 +67,7 @@ def four_bars(plan: Plan, inputs: Mapping[str, Any]) -> list[FourBar]:
     hung = {name: [bar.P for bar in point.bars()] for name, point in plan.points.items()}
     for name, ends in hung.items():
         for Q, P in (ends[::-1], ends) if len(ends) == 2 else ():
-            frames = [a if b == P else b for a, b in rigid if P in (a, b) and ({a, b} - {P}) & set(plan.ground)]
+            frames = [a if b == P else b for a, b in rigid if P in (a, b) and ({a, b} - {P}) & (set(plan.ground) - {Q})]
             if Q in plan.ground and frames and {(P, name), (Q, name)} <= set(rigid):
                 O = frames[0]
                 sides = [float(reading.link_length(*pair)) for pair in ((O, Q), (O, P), (P, name), (Q, name))]

@@ -5,9 +5,10 @@ from .extremes import Extremum, Span, below_zero, greatest, lowest, reached
 from .featured import Featured
 from .gaps import gap
 from .grid import Grid
+from .judging import Judging, added_verdicts, geometry_verdicts, member_verdicts, motion_verdicts
 from .limits import stroke_display_unit, stroke_unit
 from .live import LiveText, live_text
-from .motion import Motion, Target, each_at_its_stroke, out_of_reach, require_motion
+from .motion import Motion, OnePose, Target, each_at_its_stroke, out_of_reach, require_motion
 from .peaks import highest, last_holding
 from .poles import whole_body
 from .pose_requests import condition, transmission

@@ -15,6 +15,7 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError
+from ..language import said
 from ..plan import Mask
 from ..program import FloatArray
 from .between import Function, OnLegs, require_function, values_of
@@ -41,14 +42,20 @@ class Extremum:
     @property
     def where(self) -> str:
         """Where it stands, in words: `at S = 0.1234 m`, `at S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges."""
-        return "at " + ", ".join(f"{name} = {place_text(value, self.units[name])}" for name, value in self.strokes.items())
+        return said("at {place}", place=places_text(self.strokes, self.units))
 
     def __str__(self) -> str:
         if np.ndim(self.value):
-            return f"{np.nanmin(self.value):.6g} to {np.nanmax(self.value):.6g} {self.where}"
+            ends = said("{low} to {high}", low=f"{np.nanmin(self.value):.6g}", high=f"{np.nanmax(self.value):.6g}")
+            return f"{ends} {self.where}"
         if np.isnan(self.value):
-            return "no value at any pose"
-        return f"{'without bounds' if self.unbounded else f'{self.value:.6g}'} {self.where}"
+            return said("no value at any pose")
+        return f"{said('without bounds') if self.unbounded else f'{self.value:.6g}'} {self.where}"
+
+
+def places_text(strokes: Mapping[str, Any], units: Mapping[str, str]) -> str:
+    """Return values of strokes as a place is read: `S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges."""
+    return ", ".join(f"{name} = {place_text(value, units[name])}" for name, value in strokes.items())
 
 
 def greatest(motion: Motion, f: Function) -> Extremum:
@@ -97,6 +104,7 @@ def moving(motion: Motion) -> tuple[str, ...]:
 
 # Where on the way of a motion something is below zero, looked for between its poses, whatever their number.
 
+
 @final
 @dataclass(frozen=True)
 class Span:
@@ -111,12 +119,11 @@ class Span:
         moving = [name for name in self.start if self.start[name] != self.end[name]]
         if len(moving) == 1:
             (name,) = moving
-            others = ", ".join(f"{each} = {place_text(value, self.units[each])}" for each, value in self.start.items() if each != name)
-            return f"from {name} = {place_text((self.start[name], self.end[name]), self.units[name])}{f' ({others})' if others else ''}"
-        start, end = (
-            ", ".join(f"{name} = {place_text(value, self.units[name])}" for name, value in at.items()) for at in (self.start, self.end)
-        )
-        return f"from {start} to {end}" if moving else f"at {start}"
+            others = places_text({each: value for each, value in self.start.items() if each != name}, self.units)
+            way = said("from {name} = {range}", name=name, range=place_text((self.start[name], self.end[name]), self.units[name]))
+            return f"{way} ({others})" if others else way
+        start, end = (places_text(at, self.units) for at in (self.start, self.end))
+        return said("from {start} to {end}", start=start, end=end) if moving else said("at {place}", place=start)
 
 
 def below_zero(motion: Motion, f: Function) -> tuple[Span, ...]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, final
 
 from ..errors import DefinitionError, cited
+from ..quantities import is_number
 
 
 @final
@@ -29,3 +30,8 @@ class Featured:
             raise DefinitionError(f'Featured(path={cited(self.path)}): a list of points is expected, path=["G"].')
         if not isinstance(self.limits, Mapping):
             raise DefinitionError(f'Featured(limits={cited(self.limits)}): limits by column are expected, dict(tilt=(0.1, "most")).')
+        for name, limit in self.limits.items():
+            value, *words = limit if isinstance(limit, (list, tuple)) and limit else (None,)
+            if not is_number(value) or len(words) > 2 or not all(isinstance(each, str) for each in words):
+                said = f"Featured(limits={{{cited(name)}: {cited(limit)}}})"
+                raise DefinitionError(f'{said}: write (value [SI], text) or (value, text, "below").')

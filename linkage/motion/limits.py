@@ -10,9 +10,10 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError
 from ..frozen import FrozenDict, refuses_changes
+from ..language import said, said_of
 from ..plan import ArrayReading, Mask, Plan, failures, missing_words, opening
 from ..program import FloatArray
-from ..units import UNITS, deg, display_unit, factor
+from ..units import UNITS, deg, display_unit, show, shown_number, unit_sign
 from .peaks import last_holding
 
 SAMPLES = 1441
@@ -43,29 +44,44 @@ class StrokeLimits:
         return tuple((value, stop) for value, stop in ends if stop)
 
     def __str__(self) -> str:
-        held = f", with {', '.join(map(str, self.held))} held" if self.held else ""
-        lines = [f"{self.stroke}: declared {stroke_number(self.start, self.unit, 6)} to {stroke_text(self.end, self.unit, 6)}{held}"]
+        held = said(", with {strokes} held", strokes=", ".join(map(str, self.held))) if self.held else ""
+        start, end = stroke_number(self.start, self.unit, 6), stroke_text(self.end, self.unit, 6)
+        lines = [f"{self.stroke}: {said('declared {low} to {high}', low=start, high=end)}{held}"]
         for each in self.intervals:
             lines += self._reach(each)
-        lines += [f"  change point at {stroke_text(value, self.unit)}: the branches of {step} cross" for value, step in self.change_points]
-        lines += [
-            f"  dead point of {name} at {self.stroke} = {stroke_text(value, self.unit)}: its length stands still"
-            for value, name in self.cylinder_dead_points
-        ]
-        lines += [
-            f"  least transmission angle at {each.joint}: {each.angle / deg:.4g} deg at {stroke_text(each.stroke, self.unit, 6)}"
-            for each in self.transmission
-        ]
-        return "\n".join([*lines, *([f"  {self.open_turn}"] if self.open_turn else [])])
+        found = [
+            *(
+                said("change point at {place}: the branches of {step} cross", place=stroke_text(value, self.unit), step=step)
+                for value, step in self.change_points
+            ),
+            *(
+                said(
+                    "dead point of {name} at {stroke} = {place}: its length stands still",
+                    name=name, stroke=self.stroke, place=stroke_text(value, self.unit),
+                )
+                for value, name in self.cylinder_dead_points
+            ),
+            *(
+                said(
+                    "least transmission angle at {joint}: {angle} at {place}",
+                    joint=each.joint, angle=show(each.angle, "deg", 4), place=stroke_text(each.stroke, self.unit, 6),
+                )
+                for each in self.transmission
+            ),
+            *([str(self.open_turn)] if self.open_turn else []),
+        ]  # fmt: skip
+        return "\n".join([*lines, *(f"  {each}" for each in found)])
 
     def _reach(self, interval: Interval) -> list[str]:
         """Return the lines of an interval."""
         ends = (interval.low, interval.low_stop), (interval.high, interval.high_stop)
         if not (interval.low_stop or interval.high_stop):
-            return [f"  reachable all the way from {stroke_number(interval.low, self.unit)} to {stroke_text(interval.high, self.unit)}"]
-        low, high = (stroke_number(value, self.unit) + ("" if stop else " (looked no farther)") for value, stop in ends)
-        stops = [f"    {stroke_number(value, self.unit)}: dead point of {stop}" for value, stop in ends if stop]
-        return [f"  reachable from {low} to {high} {display_unit(UNITS[self.unit][1])}", *stops]
+            low, high = stroke_number(interval.low, self.unit), stroke_text(interval.high, self.unit)
+            return [f"  {said('reachable all the way from {low} to {high}', low=low, high=high)}"]
+        low, high = (stroke_number(value, self.unit) + ("" if stop else said(" (looked no farther)")) for value, stop in ends)
+        stops = [f"    {stroke_number(value, self.unit)}: {said('dead point of {step}', step=stop)}" for value, stop in ends if stop]
+        sign = unit_sign(display_unit(UNITS[self.unit][1]))
+        return [f"  {said('reachable from {low} to {high} {unit}', low=low, high=high, unit=sign)}", *stops]
 
 
 @final
@@ -126,8 +142,14 @@ class Open:
     turns: int
 
     def __str__(self) -> str:
-        end = f"the motion repeats after {self.turns} turns ({360 * self.turns} deg)" if self.turns else "nor after a few more"
-        return f"after one turn the pins {' '.join(self.pins)} do not stand where they began; {end}"
+        apart = said("after one turn the pins {pins} do not stand where they began", pins=" ".join(self.pins))
+        if not self.turns:
+            return f"{apart}; {said('nor after a few more')}"
+        turned = show(360 * self.turns * deg, "deg")
+        again = said_of(
+            self.turns, "the motion repeats after {n} turn ({angle})", "the motion repeats after {n} turns ({angle})", angle=turned
+        )  # fmt: skip
+        return f"{apart}; {again}"
 
 
 # The search for the ends of what is reached.
@@ -184,6 +206,7 @@ def end_of_reach(scan: Scan, inside: float, outside: float) -> tuple[float, str]
 
 # Where a mechanism cannot be assembled, in words: the strokes, and what is missing there.
 
+
 @np.errstate(all="ignore")
 def assembly_error(plan: Plan, reading: ArrayReading, mask: Mask, strokes: Mapping[str, Any], stop: str = "") -> AssemblyError:
     """Return the error for poses that cannot be assembled.
@@ -224,29 +247,32 @@ def si_span(values: Any, unit: str) -> str:
 
 # Strokes as they are read.
 
+
 def span_text(values: Any, unit: str) -> str:
     """Return the range of some stroke values as it is read: `0 to 0.25 m`, `90 deg`."""
     if not np.size(values):
         return "nothing"
     low, high = float(np.min(values)), float(np.max(values))
-    return stroke_text(low, unit, 6) if low == high else f"{stroke_number(low, unit, 6)} to {stroke_text(high, unit, 6)}"
+    if low == high:
+        return stroke_text(low, unit, 6)
+    return said("{low} to {high}", low=stroke_number(low, unit, 6), high=stroke_text(high, unit, 6))
 
 
 def place_text(value: Any, unit: str) -> str:
     """Return a stroke [m or rad], or the range of several, as a place of it is read: `0.1234 m`, `25.00 deg`, `0.1000 to 0.2000 m`."""
     digits, shown = 2 if unit == "rad" else 4, display_unit(UNITS[unit][1])
-    ends = dict.fromkeys(f"{float(each) / factor(shown) + 0.0:.{digits}f}" for each in (np.min(value), np.max(value)))
-    return f"{' to '.join(ends)} {shown}"
+    low, high = (shown_number(float(each), shown, f"z.{digits}f") for each in (np.min(value), np.max(value)))
+    return f"{low if low == high else said('{low} to {high}', low=low, high=high)} {unit_sign(shown)}"
 
 
 def stroke_text(value: float, unit: str, digits: int = 9) -> str:
     """Return a value of a stroke [m or rad] as it is read: `0.25 m`, `90 deg`."""
-    return f"{stroke_number(value, unit, digits)} {display_unit(UNITS[unit][1])}"
+    return show(value, display_unit(UNITS[unit][1]), digits)
 
 
 def stroke_number(value: float, unit: str, digits: int = 9) -> str:
     """Return a value of a stroke [m or rad] as it is read, without its unit; angles in degrees."""
-    return f"{value / factor(display_unit(UNITS[unit][1])):.{digits}g}"
+    return shown_number(value, display_unit(UNITS[unit][1]), digits)
 
 
 def stroke_display_unit(plan: Plan, name: str, length: str = "m") -> str:

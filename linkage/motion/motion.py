@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeAlias, cast
 
 import numpy as np
 
@@ -612,8 +612,12 @@ def out_of_reach(motion: Motion) -> AssemblyError:
     return assembly_error(motion.plan, motion._grid.read_at(missing), missing, motion.strokes, scan.stop_words(motion))
 
 
+class OnePose:
+    """The base of what stands for all poses of a motion while a program is made of what is asked of it: its numbers have no value yet."""
+
+
 def require_motion(given: object) -> Motion:
-    """Return the motion that was given; DefinitionError for anything else."""
-    if not isinstance(given, Motion):
+    """Return the motion that was given, or what stands for one while a program is made; DefinitionError for anything else."""
+    if not isinstance(given, (Motion, OnePose)):
         raise DefinitionError(f"{given!r:.60} is no motion; give machine.sweep(...) or machine.at(...).")
-    return given
+    return cast(Motion, given)

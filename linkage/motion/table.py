@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +12,9 @@ import numpy as np
 from ..errors import DefinitionError, cited
 from ..frozen import refuses_changes
 from ..language import heading_of
-from ..program import FloatArray
+from ..loads import LoadCase
+from ..plan import Plan
+from ..program import FloatArray, claim, is_traced
 from ..quantities import Coordinate, Dimension, Member, Quantity, Stroke
 from ..units import decimals, display_unit, factor, shown_in, unit_or_none, unit_sign
 from .limits import stroke_display_unit
@@ -48,6 +51,7 @@ class Column:
             what = f"Column {self.name}: {cited(self.values)} holds no numbers"
             raise DefinitionError(f"{what}; give one for each pose, NaN where it has none.")
         unit_or_none(self.unit, where=f"the column {self.name}")
+        claim(self.values, self.name)
 
     @classmethod
     def of(cls, motion: Motion, request: RequestLike, unit: str | None = None, name: str = "", digits: int = 4) -> Column:
@@ -96,7 +100,9 @@ class Column:
 def are_numbers(values: Any) -> bool:
     """Return whether values are real numbers or truth values, all of them known."""
     try:
-        return np.asarray(values).dtype.kind in "fiub" and not np.ma.is_masked(values)
+        array = np.asarray(values)
+        one = array.flat[0] if array.dtype.kind == "O" and array.size == 1 else None
+        return is_traced(one) or (array.dtype.kind in "fiub" and not np.ma.is_masked(values))
     except ValueError:
         return False
 
@@ -127,3 +133,14 @@ class Tabled(Member):
 
         The motion was asked for with `unreachable="nan"`: values are NaN where there is none.
         """
+
+    def columns_in(self, motion: Motion, case: LoadCase | str | None = None, direction: str | None = None) -> list[Column]:
+        """Return its columns in a load case, while it moves in a direction; by default none but the plain ones of `columns`."""
+        return self.columns(motion) if case is None and direction is None else []
+
+    def gauges(self, plan: Plan) -> Mapping[str, Request]:
+        """Return what a live page shows of it beside its columns, by its name.
+
+        `thrust` [N], `pressure` [Pa] and the greatest that it may have, `most`; `reserve`; its `closed` length and its `stroke` [m].
+        """
+        return {}

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..errors import DefinitionError, cited, unknown
+from ..language import translated
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of
 from ..program import FloatArray
@@ -130,7 +131,7 @@ def panel(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None 
     ax.plot(along.values, column.drawn, color=colour, linewidth=style.BOLD, zorder=5.0, marker="o" if len(along.values) == 1 else None)
     quiet(ax)
     ax.set_title(typeset(column.heading), loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
-    ax.set_xlabel(f"{along.name}, {along.unit}", fontsize=style.TEXT, color=style.MUTED)
+    ax.set_xlabel(along.heading, fontsize=style.TEXT, color=style.MUTED)
     if np.ptp(along.values) > 0.0:
         ax.set_xlim(float(along.values.min()), float(along.values.max()))
     ax.xaxis.set_major_locator(locator(along.is_turning))
@@ -171,7 +172,7 @@ def mark_limit(ax: Axes, along: StrokeAxis, column: Column, limit: Limit) -> Non
     ax.plot(along.values, short, color=style.ACCENT, linewidth=style.BOLD + 0.6, zorder=5.1)
     for place in limit_crossings(along.values, column.drawn, value):
         ax.plot([place], [value], marker="o", markersize=6, color=style.ACCENT, markeredgecolor=style.PAPER, zorder=6.0)
-        _note(ax, f"{place:.4g} {along.unit}", place, value, along.values, limit)
+        _note(ax, f"{place:.4g} {translated(along.unit)}", place, value, along.values, limit)
     _name(ax, limit, value, along.values, column.drawn)
 
 

@@ -17,13 +17,13 @@ from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 from PIL import Image
 
-from ..disk import check_place, replacing, replacing_text, spoken
+from ..disk import check_place, replacing, spoken
 from ..errors import DefinitionError, FileError, LinkageError, cited
 from ..mechanism import Mechanism, require_mechanism
 from ..program import FloatArray
 from ..reports import NOTHING, At
 from . import style
-from .browser import page_html
+from .browser import COUNT, page
 from .curves import Limit, limit_of, panel, typeset
 from .drawing import Drawing
 from .poses import named_points, trace
@@ -33,7 +33,6 @@ from .strokes import RATE, Playback, StrokeAxis, frame_count, playback, stroke_w
 
 GIF_DPI = 100
 MP4_DPI = 150
-PAGE_FINENESS = 3
 
 Progress: TypeAlias = Callable[[int, int], None]
 """What is called as the poses of an animation are done: with their number, and that of all."""
@@ -58,25 +57,23 @@ def animate(
         raise DefinitionError(f"progress={cited(progress)} is no function; give one of (done, total).")
     target, poses = Path(path), frame_count(count)
     kind = target.suffix.lower()
-    if kind not in KINDS:
+    if kind not in (*KINDS, ".html"):
         raise DefinitionError(f"{target.name}: an animation is written as .gif, .mp4 or .html; give a name with one of these endings.")
     trace = named_points(machine, machine.featured().path if trace is None else trace, "trace")
     if limit is not None:
         limit_of(limit)
     check_place(target)
-    write, fineness = KINDS[kind]
-    played = playback(machine, fineness * (poses - 1) + 1, column, at=at, eased=fineness == 1)
+    report = progress or (lambda done, total: None)
+    if kind == ".html":
+        report(1, 2)
+        page(machine, target, column=column, trace=trace, limit=limit, at=at, count=max(poses, COUNT))
+        report(2, 2)
+        return target
+    played = playback(machine, poses, column, at=at)
     if limit is None:
         limit = machine.featured().limits.get(played.column.name)
-    write(played, target, trace, limit, progress or (lambda done, total: None))
+    KINDS[kind](played, target, trace, limit, report)
     return target
-
-
-def page(machine: Mechanism, path: str | Path, **given: Any) -> Path:
-    """Return the path of the browser page it wrote; see `linkage.page`."""
-    if not isinstance(path, (str, os.PathLike)) or Path(path).suffix.lower() != ".html":
-        raise DefinitionError(f"{cited(path)} is no name of a page; give one that ends in .html.")
-    return animate(machine, path, **given)
 
 
 def gif(played: Playback, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
@@ -94,17 +91,8 @@ def mp4(played: Playback, target: Path, trace: Sequence[str], limit: Any, progre
     write_mp4(target, drawn_frames(stage, played.order, progress), (width, height))
 
 
-def html(played: Playback, target: Path, trace: Sequence[str], limit: Any, progress: Progress) -> None:
-    """Write a page."""
-    text = page_html(played.motion, played.column, trace, limit, is_turn=played.is_turn)
-    progress(1, 2)
-    with replacing_text(target) as stream:
-        stream.write(text)
-    progress(2, 2)
-
-
-KINDS = {".gif": (gif, 1), ".mp4": (mp4, 1), ".html": (html, PAGE_FINENESS)}
-"""An ending -> what writes it, and between how many times as many poses it moves: a page runs at its own pace."""
+KINDS = {".gif": gif, ".mp4": mp4}
+"""An ending -> what writes it."""
 
 
 def drawn_frames(stage: Stage, poses: Sequence[int], progress: Progress) -> Iterator[npt.NDArray[np.uint8]]:
@@ -284,6 +272,7 @@ def palette_of(sample: npt.NDArray[np.uint8]) -> Image.Image:
 
 
 # Frames written as an MP4 (H.264) through ffmpeg.
+
 
 def write_mp4(path: Path, frames: Iterable[npt.NDArray[np.uint8]], size: tuple[int, int]) -> None:
     """Write frames of a size, width and height in pixels; LinkageError where ffmpeg is not installed, FileError where it fails."""

@@ -20,7 +20,7 @@ from ..quantities import is_whole
 from ..study import Optimum
 from ..study.measures import At, Constraint, Given, Leaf, Least, Measure, Most, words_of
 from ..study.optimum import unit_of_leaf
-from ..units import factor, mm
+from ..units import factor, mm, shown_in
 from . import style
 from .curves import Limit, axis_range, locator, mark_limit, panel_grid, typeset
 from .drawing import Drawing
@@ -271,7 +271,7 @@ def marks_of(constraint: Constraint, leaves: Sequence[Leaf], stroke: str) -> Ite
 
 def course_panel(ax: Axes, optimum: Optimum, course: QuantityCourse) -> None:
     """Draw one quantity over its stroke before and after, with its limits."""
-    unit = stroke_display_unit(optimum.problem.plan, course.stroke, "mm")
+    unit = shown_in(stroke_display_unit(optimum.problem.plan, course.stroke, "mm"))
     name = typeset(words_of(course.leaf.quantity))
     both = Column(name, np.concatenate([course.before[1], course.after[1]]), course.unit)
     along = StrokeAxis(course.stroke, unit, course.after[0] / factor(unit), "")
@@ -281,7 +281,7 @@ def course_panel(ax: Axes, optimum: Optimum, course: QuantityCourse) -> None:
     ax.plot(course.before[0] / factor(unit), old.drawn, color=BEFORE[0], linewidth=BEFORE[1], zorder=4.5)
     ax.plot(along.values, column.drawn, color=AFTER[0], linewidth=AFTER[1], zorder=5.0)
     ax.set_title(column.heading, loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
-    ax.set_xlabel(f"{along.name}, {along.unit}", fontsize=style.TEXT, color=style.MUTED)
+    ax.set_xlabel(along.heading, fontsize=style.TEXT, color=style.MUTED)
     ax.xaxis.set_major_locator(locator(along.is_turning))
     ax.yaxis.set_major_locator(locator())
     ends = [course.before[0] / factor(unit), along.values]
@@ -290,7 +290,7 @@ def course_panel(ax: Axes, optimum: Optimum, course: QuantityCourse) -> None:
     for limit in course.limits:
         mark_limit(ax, along, column, limit)
     for place, value, sign in course.marks:
-        spot = [place / factor(unit)], [value / factor(course.unit)]
+        spot = [place / factor(unit)], [value / factor(column.shown_unit)]
         ax.plot(*spot, MARKS[sign], clip_on=False, color=style.ACCENT, markersize=6, markeredgewidth=1.5, zorder=6.0)
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import combinations, pairwise, product
 from typing import TypeAlias, final
 
@@ -15,9 +15,10 @@ from ..errors import DefinitionError
 from ..loads import ForceElement, Glyph
 from ..motion import Motion, require_motion
 from ..program import FloatArray
-from ..quantities import Joint, Quantity
+from ..quantities import Joint, Quantity, Where
 from ..steps import Guide
 from ..surroundings import Outline
+from ..vectors import Line
 from .shapes import (
     APART,
     HALF,
@@ -51,6 +52,8 @@ class SlideTrack:
     along: FloatArray
     riders: tuple[str, ...]
     fixed: bool
+    line: Callable[[Where], Line]
+    """The same, of any reading."""
 
     @property
     def ends(self) -> tuple[str, str]:
@@ -84,7 +87,12 @@ def guides(motion: Motion) -> Iterator[SlideTrack]:
             fixed = set(guide.points) <= set(plan.ground) and (guide.angle is None or not plan.moves(guide.angle))
             line = motion._reading.line(guide)
             origin, along = pose_rows(motion, line.origin.x, line.origin.y), pose_rows(motion, line.direction.x, line.direction.y)
-            yield SlideTrack(name, origin, along, riders, fixed)
+            yield SlideTrack(name, origin, along, riders, fixed, partial(reading_line, guide))
+
+
+def reading_line(guide: Guide, where: Where) -> Line:
+    """Return a guide's line."""
+    return where.line(guide)
 
 
 def slots(motion: Motion) -> Iterator[SlideTrack]:
@@ -95,7 +103,7 @@ def slots(motion: Motion) -> Iterator[SlideTrack]:
             if joint.track and joint.line is not None and joint.track[0] not in guides:
                 line = joint.line(motion._reading)
                 along = pose_rows(motion, line.direction.x, line.direction.y)
-                yield SlideTrack(f"{name}|slot", pose_rows(motion, line.origin.x, line.origin.y), along, (joint.point,), False)
+                yield SlideTrack(f"{name}|slot", pose_rows(motion, line.origin.x, line.origin.y), along, (joint.point,), False, joint.line)
 
 
 def slide_joints(motion: Motion) -> Iterator[Joint]:

@@ -8,12 +8,13 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError, cited, known_name
+from ..language import translated
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, check_any, last_holding, require_motion, stroke_display_unit
 from ..plan import Plan
 from ..program import FloatArray
 from ..reports import NOTHING, At, Run, results, run_of
-from ..units import factor
+from ..units import factor, shown_in
 
 
 @final
@@ -48,8 +49,13 @@ class StrokeAxis:
             steps = np.array([np.abs(np.diff(values)) * (shares[name] / np.ptp(values)) for name, values in moving.items()]).max(axis=0)
             return cls("way", "%", 100.0 * np.append(0.0, np.cumsum(steps) / steps.sum()), others_in_words(motion, ""))
         name = max(onward or moving or plan.strokes, key=lambda name: shares.get(name, 0.0))
-        unit = stroke_display_unit(plan, name, "mm")
+        unit = shown_in(stroke_display_unit(plan, name, "mm"))
         return cls(name, unit, np.asarray(motion.strokes[name] / factor(unit)), others_in_words(motion, name))
+
+    @property
+    def heading(self) -> str:
+        """Its name with its unit, in the language that is spoken: `S, mm`."""
+        return f"{self.name}, {translated(self.unit)}"
 
     @property
     def is_turning(self) -> bool:
@@ -65,10 +71,10 @@ def travel_share(plan: Plan, name: str, values: FloatArray) -> float:
 
 def stroke_words(plan: Plan, name: str, value: float, *, fixed: bool = False) -> str:
     """Return a stroke's value [SI] as text: `S = 550 mm`, `phi = 90°`; fixed, with whole units."""
-    unit = stroke_display_unit(plan, name, "mm")
+    unit = shown_in(stroke_display_unit(plan, name, "mm"))
     shown = round(value / factor(unit), 9)  # 0 where a turn of the drawing ends near 0
     text = f"{name} = {shown:{'z.0f' if fixed else '.4g'}}".replace("-", "\N{MINUS SIGN}")
-    return text + ("°" if unit == "deg" else f" {unit}")
+    return text + ("°" if unit == "deg" else f" {translated(unit)}")
 
 
 def others_in_words(motion: Motion, moving: str) -> str:

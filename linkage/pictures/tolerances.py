@@ -18,7 +18,7 @@ from ..study.measures import Given, Least, Most
 from ..study.monte_carlo import Band, MonteCarlo, share_words
 from ..study.sensitivity import Effect, Tornado
 from ..study.tolerances import tolerance_words
-from ..units import factor, show, unit_or_none
+from ..units import factor, show, shown_in, unit_or_none, unit_sign
 from . import style
 from .curves import locator, panel_grid, typeset
 from .sheet import panels
@@ -96,13 +96,13 @@ class BandShown(NamedTuple):
 
     def values(self, values: FloatArray | float) -> FloatArray:
         """Return values [SI] as they are drawn."""
-        return np.asarray((values - self.band.nominal * self.narrow) / factor(self.unit))
+        return np.asarray((values - self.band.nominal * self.narrow) / factor(shown_in(self.unit)))
 
     @property
     def heading(self) -> str:
         """What is drawn, with its unit."""
         text = self.band.quantity + (", deviation from nominal" if self.narrow else "")
-        return fill(typeset(f"{text}, {self.unit}" if self.unit else text), WIDEST)
+        return fill(typeset(f"{text}, {unit_sign(self.unit)}" if self.unit else text), WIDEST)
 
 
 def band_panel(ax: Axes, along: StrokeAxis, drawn: BandShown, limits: Sequence[tuple[float, str]]) -> None:
@@ -120,7 +120,7 @@ def band_panel(ax: Axes, along: StrokeAxis, drawn: BandShown, limits: Sequence[t
     ax.plot(at, drawn.values(middle), color=style.CURVE, linewidth=style.BOLD, zorder=5.0, label=word)
     ax.plot(at, drawn.values(band.nominal), color=style.INK, linewidth=1.0, linestyle=(0, (4, 3)), zorder=5.5, label="nominal")
     ax.set_title(drawn.heading, loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
-    ax.set_xlabel(f"{along.name}, {along.unit}", fontsize=style.TEXT, color=style.MUTED)
+    ax.set_xlabel(along.heading, fontsize=style.TEXT, color=style.MUTED)
     if np.ptp(at) > 0.0:
         ax.set_xlim(float(at.min()), float(at.max()))
     ax.xaxis.set_major_locator(locator(along.is_turning))
@@ -160,7 +160,7 @@ def plot_tornado(found: Tornado) -> Figure:
         raise DefinitionError(f"{cited(found)} has no bars; give the result of tornado(...).")
     bars = [bar for bar in found.bars if bar.length > 0.0][:MOST] or list(found.bars[:1])
     figure, (ax,) = panels((7.6, ROW * len(bars) + 1.9), 1, w_pad=0.12, h_pad=0.12)
-    scale, unit = factor(found.unit), f", {found.unit}" if found.unit else ""
+    scale, unit = factor(shown_in(found.unit)), f", {unit_sign(found.unit)}" if found.unit else ""
     for place, bar in enumerate(bars):
         draw_bar(ax, bar, place, scale)
     ax.axvline(0.0, color=style.INK, linewidth=1.0, zorder=6.0)

@@ -37,7 +37,7 @@ def plot_zone(machine: Mechanism, found: Zone, unit: str = "") -> Figure:
         ax.plot(along.values, now.drawn, color=style.INK, linewidth=1.0, linestyle=(0, (4, 3)), zorder=5.5, label="as it is set")
         ax.legend(loc="best", frameon=False, fontsize=style.SMALL, labelcolor=style.INK)
     ax.set_title(typeset(low.heading), loc="left", fontsize=style.TITLE, fontweight="bold", color=style.INK, pad=9)
-    ax.set_xlabel(f"{along.name}, {along.unit}", fontsize=style.TEXT, color=style.MUTED)
+    ax.set_xlabel(along.heading, fontsize=style.TEXT, color=style.MUTED)
     ax.set_xlim(float(along.values.min()), float(along.values.max()))
     ax.set_ylim(*axis_range(Column(found.quantity, np.concatenate([found.low, found.high]), unit)))
     ax.xaxis.set_major_locator(locator(along.is_turning))

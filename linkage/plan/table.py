@@ -44,6 +44,7 @@ class Table:
         self.spellings: dict[str, tuple[str, int]] = {}
         self.following: dict[str, str] = {}
         self.lengths: dict[frozenset[str], Quantity] = {}
+        self.angles: dict[tuple[str, frozenset[str]], Quantity] = {}
         self._labels: dict[Label, tuple[str, Quantity]] = {}
 
     def add(self, name: str, default: float, kind: str, where: str, unit: str = "") -> None:
@@ -63,7 +64,7 @@ class Table:
     def dimension(self, slot: Slot, spelling: str, value: Operand, where: str) -> Quantity:
         """Return the quantity a label stands for; a number makes a design variable of that name."""
         given = quantity(value)
-        key = frozenset(slot.points) if slot.kind == "length" else (slot.points[1], frozenset((slot.points[0], slot.points[2])))
+        key: Label = frozenset(slot.points) if slot.kind == "length" else (slot.points[1], frozenset((slot.points[0], slot.points[2])))
         if key in self._labels:
             return self._repeated(key, slot, spelling, given, where)
         stands: Quantity = Variable(spelling) if isinstance(given, Number) else given
@@ -75,8 +76,10 @@ class Table:
         else:
             self.following |= dict.fromkeys(slot.spellings, spelled(given))
         self._labels[key] = (spelling, given)
-        if slot.kind == "length":
-            self.lengths[frozenset(slot.points)] = stands
+        if isinstance(key, frozenset):
+            self.lengths[key] = stands
+        else:
+            self.angles[key] = stands
         return stands
 
     def _repeated(self, key: Label, slot: Slot, spelling: str, given: Quantity, where: str) -> Quantity:

@@ -16,4 +16,4 @@ from .numba_backend import compiled_loop, pays_compiled
 from .operations import ARRAYS, FLOATS, NO_VALUE
 from .schedule import ancestors, lowered, replaced
 from .text import GUARDED, Dialect, function
-from .traced import Comparison, Notes, Traced, elementwise, is_traced, node_of
+from .traced import Comparison, Notes, Traced, claim, elementwise, is_traced, node_of

@@ -40,7 +40,7 @@ class Notes:
     """What laws are true under: nodes `assumed` above zero, and `switches` above zero where it is another law than next to it.
 
     `gaps` are nodes that are above zero where a law has a value. All are kept with the name of the law that is being traced, `owner`;
-    `tests` counts what it asked for.
+    `tests` counts what it asked for. `claims` are, by the columns of one table, the gaps that were noted while each was made.
     """
 
     owner: str = ""
@@ -48,12 +48,18 @@ class Notes:
     assumed: dict[Node, str] = field(default_factory=dict)
     switches: dict[Node, str] = field(default_factory=dict)
     gaps: dict[Node, str] = field(default_factory=dict)
+    claims: dict[str, tuple[Node, ...]] = field(default_factory=dict)
 
     def counted(self) -> None:
         """Count a test; DefinitionError where a law does not come to an end of them."""
         self.tests += 1
         if self.tests > MOST:
             raise valueless("A loop that goes on until its numbers allow it to stop")
+
+    def claimed(self, name: str) -> None:
+        """Give to a name the gaps that were noted since the last one claimed some."""
+        taken = {node for nodes in self.claims.values() for node in nodes}
+        self.claims[name] = self.claims.get(name, ()) + tuple(node for node in self.gaps if node not in taken)
 
 
 @final
@@ -167,6 +173,13 @@ class Comparison:
 
     def __bool__(self) -> bool:
         raise valueless("A comparison in an `if`, a loop, or Python's min and max")
+
+
+def claim(value: Any, name: str) -> None:
+    """Give to a name the gaps that were noted while a traced number was made; nothing for any other number."""
+    found = np.asarray(value, object).flat[0] if np.size(value) == 1 else None
+    if isinstance(found, Traced):
+        found.notes.claimed(name)
 
 
 def is_traced(value: Any) -> bool:

@@ -1,6 +1,7 @@
 """Results as text: tables, values with units, stroke ranges in words."""
 
+from .live_columns import ColumnOf, column_requests
 from .ranges import NOTHING, At, Run, closely, first_stroke, ranges_below_zero, reached_span, run_of, spans_in_words, stroke_middles
-from .results import results
+from .results import force_columns, is_loaded, results
 from .table import rich_tables, text_table, write_csv
 from .values import design_rows, stroke_rows

@@ -11,10 +11,12 @@ import numpy as np
 
 from .. import motion as between
 from ..errors import DefinitionError, cited, unknown
+from ..language import said, with_and
 from ..mechanism import Mechanism
 from ..motion import Motion, out_of_reach, require_motion
 from ..program import FloatArray
 from ..quantities import is_number, real
+from ..units import show, shown_number
 
 Range: TypeAlias = tuple[float, float]
 Spare: TypeAlias = Callable[[Motion], FloatArray]
@@ -56,9 +58,14 @@ def spans_in_words(spans: Sequence[Range], stroke: str, unit: str = "m") -> str:
     for span in spans if isinstance(spans, (list, tuple)) else [spans]:
         if not (isinstance(span, (list, tuple)) and len(span) == 2 and all(map(is_number, span))):
             raise DefinitionError(f"{cited(span)} is no range; give a list of (start, end) [m or rad].")
-    return " and ".join(
-        f"from {stroke} = {low:.4f} to {high:.4f} {unit}" if low < high else f"at {stroke} = {low:.4f} {unit}" for low, high in spans
-    )
+    return with_and(_span_words(low, high, stroke, unit) for low, high in spans)
+
+
+def _span_words(low: float, high: float, stroke: str, unit: str) -> str:
+    first, last = shown_number(low, unit, ".4f"), show(high, unit, ".4f")
+    if low < high:
+        return said("from {name} = {range}", name=stroke, range=said("{low} to {high}", low=first, high=last))
+    return said("at {place}", place=f"{stroke} = {show(low, unit, '.4f')}")
 
 
 # What a picture of the whole runs over: one stroke from end to end or several together, the others held.

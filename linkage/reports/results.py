@@ -3,32 +3,34 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from dataclasses import replace
 
 from ..errors import DefinitionError, cited
 from ..files.callables import REQUESTS, brought, request_function
+from ..language import noted
 from ..loads import ForceElement
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Column, Motion, Tabled, require_motion, stroke_unit
-from ..statics import drive_force, driving_force
+from ..statics import Case, drive_force, driving_force
 
 
 def results(machine: Mechanism, motion: Motion) -> list[Column]:
     """Return the columns of a machine; where it has no table of its own but loads, forces too, NaN at dead points.
 
-    They are the generalised forces of its strokes, and what its members show: of a cylinder its thrust and its pressure.
+    They are the generalised forces of its strokes, and what its members show: of a cylinder thrust, pressure and reserve. To a table
+    of its own are added those of members that a variant of the machine declares.
     """
     require_mechanism(machine)
     require_motion(motion)
     columns = columns_by(machine, motion)
-    if type(machine).columns is not Mechanism.columns:
-        return columns
-    if not any(element.loads(motion) for element in motion.plan.of_kind(ForceElement).values()):
+    if not is_loaded(motion):
         return columns
     whole = motion.moved(motion.strokes)
     taken = {column.name for column in columns}
-    return columns + [column for column in (*drive_columns(whole), *member_columns(whole)) if column.name not in taken]
+    owner = type(machine).owner("columns")
+    further = [*drive_columns(whole), *member_columns(whole)] if owner is Mechanism else member_columns(whole, beside=owner.plan.members)
+    return columns + [column for column in further if column.name not in taken]
 
 
 def columns_by(machine: Mechanism, motion: Motion) -> list[Column]:
@@ -40,22 +42,41 @@ def columns_by(machine: Mechanism, motion: Motion) -> list[Column]:
     return list(found)
 
 
-def drive_columns(motion: Motion) -> Iterator[Column]:
-    """Yield the generalised force of each stroke under the machine's own loads, without friction: of a length [N], of an angle [Nm]."""
+def force_columns(motion: Motion, case: Case = None, direction: str | None = None) -> list[Column]:
+    """Return the generalised forces of a motion's strokes and what its members show, in a load case, while it moves in a direction.
+
+    Nothing where nothing acts; NaN at dead points. The direction is of the stroke in its forces, of each cylinder in what is its own.
+    """
+    if not is_loaded(require_motion(motion)):
+        return []
+    whole = motion.moved(motion.strokes)
+    return [*drive_columns(whole, case, direction), *member_columns(whole, case, direction)]
+
+
+def is_loaded(motion: Motion) -> bool:
+    """Return whether anything acts on a machine."""
+    return any(element.loads(motion) for element in motion.plan.of_kind(ForceElement).values())
+
+
+def drive_columns(motion: Motion, case: Case = None, direction: str | None = None) -> Iterator[Column]:
+    """Yield the generalised force of each stroke under the machine's own loads: of a length [N], of an angle [Nm]."""
     for name in motion.strokes:
-        what, unit = ("torque", "Nm") if stroke_unit(motion.plan, name) == "rad" else ("drive force", "kN")
-        yield Column(
-            what if len(motion.strokes) == 1 else f"{what} {name}", driving_force(motion, drive=name), unit, request=drive_force(name)
-        )
+        what, unit = (noted("torque"), "Nm") if stroke_unit(motion.plan, name) == "rad" else (noted("drive force"), "kN")
+        force = driving_force(motion, drive=name, case=case, direction=direction or "frictionless")
+        title, digits = what if len(motion.strokes) == 1 else f"{what} {name}", 2 if unit == "Nm" else 4
+        yield Column(title, force, unit, digits, request=drive_force(name, case=case) if direction is None else None)
 
 
-def member_columns(motion: Motion) -> Iterator[Column]:
-    """Yield the columns of the members that have some, with their names where several members have the same."""
-    members = motion.plan.of_kind(Tabled).items()
-    found = [(name, asked_by_name(name, column)) for name, member in members for column in member.columns(motion)]
-    count = Counter(column.name for _, column in found)
+def member_columns(motion: Motion, case: Case = None, direction: str | None = None, *, beside: Container[str] = ()) -> Iterator[Column]:
+    """Yield the columns of the members that have some, with their names where several members have the same; not of those `beside`."""
+    members = {name: member for name, member in motion.plan.of_kind(Tabled).items() if name not in beside}
+    found = [(name, column) for name, member in members.items() for column in member.columns_in(motion, case, direction)]
+    if case is None and direction is None:
+        found = [(name, asked_by_name(name, column)) for name, column in found]
+    count, kinds = Counter(column.name for _, column in found), Counter(map(type, members.values()))
     for name, column in found:
-        yield column if count[column.name] == 1 else replace(column, name=f"{column.name} {name}")
+        alone = count[column.name] == kinds[type(members[name])] == 1
+        yield column if alone else replace(column, name=f"{column.name} {name}")
 
 
 def asked_by_name(member: str, column: Column) -> Column:

@@ -4,8 +4,9 @@ from .acting import Case, Loads, elements_of
 from .force_requests import DriveForce, case_words, drive_force, loads_identity, pin_force
 from .holding import same, stroke_followed
 from .joint_forces import JointForce, PinForces, pin_forces
-from .law_requests import LawRequest
+from .law_requests import LawRequest, TracedLaw
 from .poses import AnyMotion, plan_of
 from .supports import reaction
 from .table import PinLoad, max_table, table_text
+from .traced_loads import TracedMotion, traced_acting
 from .work import driving_force, member_thrust

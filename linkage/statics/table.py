@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import pi
 from typing import TypeAlias, final
 
 import numpy as np
 
 from ..errors import DefinitionError, cited, unwarned
-from ..motion import greatest
-from ..units import deg, kN
+from ..language import noted, said, translated
+from ..motion import greatest, stroke_unit
+from ..motion.limits import place_text
+from ..units import shown_number, unit_sign
 from .joint_forces import JointForce, PinForces
 
 Place: TypeAlias = tuple[np.intp, ...]
@@ -37,16 +39,32 @@ class PinLoad:
     design: tuple[int, ...]
     case: str
     direction: str
+    units: Mapping[str, str] = field(default_factory=dict)
+    """The units of its strokes, "m" or "rad"."""
 
     @property
     def cells(self) -> tuple[str, ...]:
-        """The row as text."""
-        at = ", ".join(f"{name} = {value:.4f}" for name, value in self.strokes.items())
-        force, angle = f"{self.force / kN:.3f}", f"{self.angle / deg:.1f}"
-        return self.point, self.kind, self.on, self.by, force, angle, self.axis, at, self.case, self.direction
+        """The row as text, in the units and the language that are chosen."""
+        at = ", ".join(f"{name} = {place_text(value, self.units[name])}" for name, value in self.strokes.items())
+        force, angle = shown_number(self.force, "kN", ".3f"), shown_number(self.angle, "deg", "z.1f")
+        kind, motion = (translated(WORDS.get(word, word)) for word in (self.kind, self.direction))
+        return self.point, kind, self.on, self.by, force, angle, self.axis, at, self.case, motion
 
 
-HEADINGS = ("pin", "kind", "on", "from", "force, kN", "angle, deg", "from axis", "at", "load case", "motion")
+WORDS = {
+    "pin": noted("pin"), "guide": noted("guide"), "slot": noted("slot"), "driven": noted("driven point"), "crank": noted("crank"),
+    "slider": noted("slider"), "telescope": noted("telescope"), "upright": noted("upright"), "frictionless": noted("frictionless"),
+    "extending": noted("extending"), "retracting": noted("retracting"),
+}  # fmt: skip
+"""Kinds of joints and directions of motion, as the table's cells say them."""
+
+
+def max_headings() -> tuple[str, ...]:
+    """Return the headings of the rows' cells, with units."""
+    force, angle = f"{said('force')}, {unit_sign('kN')}", f"{said('angle')}, {unit_sign('deg')}"
+    return (
+        said("pin"), said("kind"), said("on"), said("from"), force, angle, said("from axis"), said("at"), said("load case"), said("motion")
+    )  # fmt: skip
 
 
 def max_table(results: PinForces | Iterable[PinForces]) -> tuple[PinLoad, ...]:
@@ -108,9 +126,7 @@ def largest_at_poses(result: PinForces, joint: JointForce) -> PinLoad:
     return pin_load(result, joint, float(size[place]), place, place[:designs], strokes)
 
 
-def pin_load(
-    result: PinForces, joint: JointForce, force: float, place: Place, design: Place, strokes: Mapping[str, float]
-) -> PinLoad:
+def pin_load(result: PinForces, joint: JointForce, force: float, place: Place, design: Place, strokes: Mapping[str, float]) -> PinLoad:
     """Return a joint's row for its largest force, at a place among the poses of a result; its direction in the body's own axes."""
     angle = float(np.arctan2(joint.force[1][place], joint.force[0][place]))
     if joint.axis is not None:
@@ -121,11 +137,12 @@ def pin_load(
     return PinLoad(
         joint.point, joint.on, joint.by, joint.kind, force, angle, "".join(joint.axis or ("x",)), strokes,
         tuple(map(int, design)), result.case, result.direction,
+        {name: stroke_unit(result.motion.plan, name) for name in strokes},
     )  # fmt: skip
 
 
 def table_text(rows: Iterable[PinLoad]) -> str:
     """Return the table as aligned text."""
-    cells = [HEADINGS, *(row.cells for row in rows)]
+    cells = [max_headings(), *(row.cells for row in rows)]
     sizes = [max(map(len, column)) for column in zip(*cells, strict=True)]
     return "\n".join("  ".join(cell.ljust(size) for cell, size in zip(row, sizes, strict=True)).rstrip() for row in cells)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, LawError, UntracedError, unwarned
-from ..motion import BoundRequest, Motion
+from ..motion import BoundRequest, Motion, OnePose
 from ..motion.requests import stroke_of
 from ..motion.strokes import checked_name
 from ..plan import ArrayReading, Mask, Plan, Trace
@@ -118,7 +118,7 @@ def refuse_friction(motion: AnyMotion, acting: ActingLoads) -> None:
 
 
 @final
-class TracedMotion:
+class TracedMotion(OnePose):
     """One pose that stands for all of them. A number of it is Traced, a vector an array (2,) of such; both pass as arrays of floats.
 
     `read` are the members that have been asked for, `through` those that ratios were taken of, `notes` what has been assumed of them.

@@ -14,7 +14,7 @@ from ..mechanism import Mechanism
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number, is_whole
-from ..units import mm, show
+from ..units import show, shown_number, unit_sign
 from .checks import check_mechanism, unit_of
 from .designs import check_once
 
@@ -83,7 +83,7 @@ def setting_words(plan: Plan, settings: Mapping[str, Any], place: int) -> str:
 def value_words(plan: Plan, name: str, value: Any, place: int) -> str:
     """Return one value of a setting as text; a point's is a pair."""
     if isinstance(value, tuple):
-        return f"({', '.join(f'{part[place] / mm:.6g}' for part in value)}) mm"
+        return f"({', '.join(shown_number(float(part[place]), 'mm') for part in value)}) {unit_sign('mm')}"
     return show(float(value[place]), unit_of(plan, name))
 
 

@@ -9,7 +9,7 @@ from typing import TextIO, final
 
 import numpy as np
 
-from ..units import factor
+from ..units import factor, shown_in
 
 RESULT_HEADINGS = ("what", "name", "unit", "before", "after", "rounded", "limit", "to spare", "gain, %", "for")
 
@@ -38,10 +38,10 @@ class ResultRow:
 
     @property
     def numbers(self) -> tuple[float, ...]:
-        """The numbers in the row's unit."""
+        """The numbers in the unit that the row is shown in."""
         is_met = abs(self.spare) <= ROUNDED_TO_NOTHING * max(abs(self.after), abs(self.limit))
         spare = 0.0 if is_met else self.spare
-        return tuple(each / factor(self.unit) for each in (self.before, self.after, self.rounded, self.limit, spare))
+        return tuple(each / factor(shown_in(self.unit)) for each in (self.before, self.after, self.rounded, self.limit, spare))
 
 
 def result_text(rows: Sequence[ResultRow]) -> str:
@@ -49,7 +49,8 @@ def result_text(rows: Sequence[ResultRow]) -> str:
     cells = [list(RESULT_HEADINGS)]
     for row in rows:
         numbers = ["" if np.isnan(value) else f"{value:.6g}" for value in row.numbers]
-        cells.append([row.what, row.name, row.unit, *numbers, f"{100.0 * row.gain:.2g}" if row.gain else "", row.by if row.gain else ""])
+        gain = [f"{100.0 * row.gain:.2g}", row.by] if row.gain else ["", ""]
+        cells.append([row.what, row.name, shown_in(row.unit), *numbers, *gain])
     kept = [place for place in range(len(RESULT_HEADINGS)) if any(line[place] for line in cells[1:])]
     sizes = {place: max(len(line[place]) for line in cells) for place in kept}
     words = {0, 1, 2, 9}
@@ -67,4 +68,4 @@ def write_result(rows: Sequence[ResultRow], stream: TextIO) -> None:
     for row in rows:
         numbers = ["" if np.isnan(value) else repr(float(value)) for value in row.numbers]
         gain = [repr(100.0 * float(row.gain)), row.by] if row.gain else ["", ""]
-        writer.writerow([row.what, row.name, row.unit, *numbers, *gain])
+        writer.writerow([row.what, row.name, shown_in(row.unit), *numbers, *gain])

@@ -9,6 +9,7 @@ from typing import Any, TypeAlias, final, overload
 import numpy as np
 
 from ..errors import DefinitionError, cited, known_name
+from ..language import said
 from ..mechanism import Mechanism
 from ..motion import highest, last_holding
 from ..program import FloatArray
@@ -72,9 +73,9 @@ def settings_for(
     if isinstance(name, Mapping):
         single = [*(["between"] if between is not None else []), *(["unit"] if unit else []), *strokes]
         if single or target:
-            said = ", ".join(f"{each}=..." for each in single) or f"target={cited(target)}"
+            given = ", ".join(f"{each}=..." for each in single) or f"target={cited(target)}"
             remedy = "of several settings every target says it itself, Target(quantity, value, S=0.1)"
-            raise DefinitionError(f"settings_for(..., {said}): {remedy}.")
+            raise DefinitionError(f"settings_for(..., {given}): {remedy}.")
         return solutions_for(machine, name, quantity, points)
     if points is not None:
         raise DefinitionError(f"settings_for(..., points={cited(points)}): points are those of a box of several settings; leave it out.")
@@ -163,14 +164,23 @@ class SettingWords:
 
     def roots(self, roots: Sequence[float], target: float) -> str:
         """Return the settings that give the target."""
-        return f"{self.what} = {show(target, self.shown_in)} with {self.name} = {' or '.join(show(root, self.unit) for root in roots)}."
+        found, wanted = said(" or ").join(show(root, self.unit) for root in roots), show(target, self.shown_in)
+        return said("{what} = {target} with {name} = {found}.", what=self.what, target=wanted, name=self.name, found=found)
 
     def none(self, at: FloatArray, value: FloatArray, target: float) -> str:
         """Return why no setting gives the target."""
-        known, looked = np.isfinite(value), f"{self.name} between {show(at[0], self.unit)} and {show(at[-1], self.unit)}"
+        known = np.isfinite(value)
+        names = {"name": self.name, "low": show(at[0], self.unit), "high": show(at[-1], self.unit), "what": self.what}
         if not known.any():
-            return f"No {looked} can be assembled there, so that {self.what} has no value. Look farther, or change the stroke."
+            return said(
+                "No {name} between {low} and {high} can be assembled there, so that {what} has no value. "
+                "Look farther, or change the stroke.",
+                **names,
+            )
         least, most = (show(float(end), self.shown_in) for end in (value[known].min(), value[known].max()))
         first, last = (show(float(end), self.unit) for end in (at[known].min(), at[known].max()))
-        reach = f"it can be assembled from {first} to {last}, where {self.what} goes from {least} to {most}"
-        return f"No {looked} gives {self.what} = {show(target, self.shown_in)}: {reach}."
+        return said(
+            "No {name} between {low} and {high} gives {what} = {target}: it can be assembled from {first} to {last}, "
+            "where {what} goes from {least} to {most}.",
+            target=show(target, self.shown_in), first=first, last=last, least=least, most=most, **names,
+        )  # fmt: skip

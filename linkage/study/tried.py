@@ -8,7 +8,7 @@ from typing import final
 
 from ..plan import Plan
 from ..program import FloatArray
-from ..units import factor
+from ..units import factor, shown_in
 from .checks import unit_of
 from .space import Space
 
@@ -43,7 +43,7 @@ def tried_header(space: Space, plan: Plan, objective: str, unit: str) -> list[st
 def heading_with_unit(named: tuple[str, str]) -> str:
     """Return a heading: `OB, mm`."""
     name, unit = named
-    return f"{name}, {unit}" if unit else name
+    return f"{name}, {shown_in(unit)}" if unit else name
 
 
 def tried_rows(space: Space, plan: Plan | None, unit: str, tried: Sequence[Tried]) -> Iterator[list[str | float]]:
@@ -51,10 +51,10 @@ def tried_rows(space: Space, plan: Plan | None, unit: str, tried: Sequence[Tried
 
     Without a plan the dimensions are in SI.
     """
-    factors = [1.0 if plan is None else factor(unit_of(plan, name)) for name in tried_names(space)]
+    factors = [1.0 if plan is None else factor(shown_in(unit_of(plan, name))) for name in tried_names(space)]
     for part in tried:
         chosen = [value for (_, rows), row in zip(space.choices, part.combination, strict=True) for value in rows[row]]
         values = space.values(part.unit).tolist()
         for own, value, missing in zip(values, part.value.tolist(), part.missing.tolist(), strict=True):
             settings = [each / size for each, size in zip((*own, *chosen), factors, strict=True)]
-            yield [part.stage, *settings, value / factor(unit), missing]
+            yield [part.stage, *settings, value / factor(shown_in(unit)), missing]

@@ -12,10 +12,10 @@ from typing import final
 import numpy as np
 
 from linkage import Column, DefinitionError, Featured, Motion, ratio
-from linkage.language import said
+from linkage.language import noted, said
 from linkage.motion import Extremum, greatest, lowest
 from linkage.program import FloatArray
-from linkage.units import kN, mm
+from linkage.units import show, shown_number
 from linkage.verdict import Verdict
 
 SHORT = 1e-6
@@ -53,9 +53,9 @@ def angle_of(motion: Motion) -> str:
     raise DefinitionError(f"{motion.plan.title} is no drive that its angle drives; give a motion of a BoomDrive or an ArmDrive.")
 
 
-LIFTING = Movement("lifting", lambda motion: -moment_given(motion, "lifts"), lambda motion: motion["M_l"])
-FOLDING = Movement("folding", lambda motion: -moment_given(motion, "folds"), lambda motion: -motion["M_l1"])
-OPENING = Movement("opening", lambda motion: moment_given(motion, "opens"), lambda motion: motion["M_l2"])
+LIFTING = Movement(noted("lifting"), lambda motion: -moment_given(motion, "lifts"), lambda motion: motion["M_l"])
+FOLDING = Movement(noted("folding"), lambda motion: -moment_given(motion, "folds"), lambda motion: -motion["M_l1"])
+OPENING = Movement(noted("opening"), lambda motion: moment_given(motion, "opens"), lambda motion: motion["M_l2"])
 
 
 def movements_of(motion: Motion) -> tuple[Movement, ...]:
@@ -66,11 +66,11 @@ def movements_of(motion: Motion) -> tuple[Movement, ...]:
 def drive_columns(motion: Motion) -> list[Column]:
     """Return the angle, the cylinder's length and lever, and for every movement the moments asked for and given, and what is over."""
     angle = angle_of(motion)
-    found = [Column(angle, motion.strokes[angle], "deg", 2, angle), Column("length", motion["length"], "mm", 1, "length")]
-    found.append(Column("lever", np.abs(motion.ratio("length")), "mm", 1, np.abs(ratio("length"))))
+    found = [Column(angle, motion.strokes[angle], "deg", 2, angle), Column(noted("length"), motion["length"], "mm", 1, "length")]
+    found.append(Column(noted("lever"), np.abs(motion.ratio("length")), "mm", 1, np.abs(ratio("length"))))
     for each in movements_of(motion):
         asked, given = each.asked(motion), each.given(motion)
-        moments = {"asked": asked, "given": given, "over": given - asked}
+        moments = {noted("asked"): asked, noted("given"): given, noted("over"): given - asked}
         found += [Column(f"{each.name}: {what}", values, "kNm", 2) for what, values in moments.items()]
     return found
 
@@ -99,10 +99,15 @@ class WorstMovement:
     def verdict(self) -> Verdict:
         """Return it in words."""
         least, most = float(self.least.value), float(self.most.value)
-        missing = f"{-least / kN:.2f} kNm are missing" if self.short else f"{max(least, 0.0) / kN:.2f} kNm are over"
-        says = f"of up to {self.greatest / kN:.2f} kNm asked {missing} {self.least.where}"
-        beside = f", at most {most / kN:.2f} kNm {self.most.where}" if most > 0.0 else ""
-        remedy = "; take a larger bore or a longer lever" if self.short else ""
+        asked, where = show(self.greatest, "kNm", ".2f"), self.least.where
+        if self.short:
+            lacking = show(-least, "kNm", ".2f")
+            says = said("of up to {asked} asked {missing} are missing {where}", asked=asked, missing=lacking, where=where)
+        else:
+            spare = show(max(least, 0.0), "kNm", ".2f")
+            says = said("of up to {asked} asked {spare} are over {where}", asked=asked, spare=spare, where=where)
+        beside = said(", at most {most} {where}", most=show(most, "kNm", ".2f"), where=self.most.where) if most > 0.0 else ""
+        remedy = said("; take a larger bore or a longer lever") if self.short else ""
         return Verdict(self.movement.name, not self.short, f"{says}{beside}{remedy}.")
 
 
@@ -122,21 +127,25 @@ TOLERANCE = 1e-7
 
 def drive_verdicts(motion: Motion) -> list[str]:
     """Return whether the drive carries what is asked, whether its cylinder is as long as that takes, and its least lever."""
-    return [*(str(each.verdict) for each in worst_movements(motion)), str(length_verdict(motion)), str(lever_verdict(motion))]
+    return [*(each.verdict for each in worst_movements(motion)), length_verdict(motion), lever_verdict(motion)]
 
 
 def length_verdict(motion: Motion) -> Verdict:
     """Return whether the cylinder, l closed and l + S open, is as long as the motion takes."""
     low, high = (float(found(motion, lambda each: each["length"]).value) for found in (lowest, greatest))
     closed, stroke = float(np.ravel(motion["l"])[0]), float(motion.inputs["S"].item())
-    pins, cylinder = (f"{start / mm:.1f} to {end / mm:.1f} mm" for start, end in ((low, high), (closed, closed + stroke)))
+    pins, cylinder = (
+        said("{low} to {high}", low=shown_number(start, "mm", ".1f"), high=show(end, "mm", ".1f"))
+        for start, end in ((low, high), (closed, closed + stroke))
+    )
     ok = closed <= low + TOLERANCE and high <= closed + stroke + TOLERANCE
-    return Verdict("length", ok, f"its pins are {pins} apart, the cylinder is {cylinder} long.")
+    return Verdict("length", ok, said("its pins are {pins} apart, the cylinder is {cylinder} long.", pins=pins, cylinder=cylinder))
 
 
 def lever_verdict(motion: Motion) -> Verdict:
     """Return the least lever of the cylinder about the driven joint; not above zero past a dead point."""
     sense = np.sign(np.ravel(motion.ratio("length"))[0])
     least = lowest(motion, lambda each: sense * each.ratio("length"))
-    beyond = "" if least.value > 0.0 else "; the cylinder passes its dead point: move its pins"
-    return Verdict("lever", bool(least.value > 0.0), f"at least {float(least.value) / mm:.1f} mm, {least.where}{beyond}.")
+    beyond = "" if least.value > 0.0 else said("; the cylinder passes its dead point: move its pins")
+    text = said("at least {lever}, {where}", lever=show(float(least.value), "mm", ".1f"), where=least.where)
+    return Verdict("lever", bool(least.value > 0.0), f"{text}{beyond}.")

@@ -17,6 +17,7 @@ from hydraulics import Cylinder
 from hydraulics.inputs import all_finite, one_number, positive
 from linkage import Column, DefinitionError, LoadCase, distance, drive_force, ratio
 from linkage.errors import known_name
+from linkage.language import noted
 from linkage.loads.point import on_slope
 from linkage.program import FloatArray
 
@@ -53,7 +54,7 @@ class LoadMap:
     def columns(self) -> list[Column]:
         """Return the map as a table, a row each radius: the load [kN] at each height."""
         loads = [Column(f"y {height:.4g}", self.load[k], "kN", 2) for k, height in enumerate(self.heights)]
-        return [Column("radius", self.radii, "m", 2), *loads]
+        return [Column(noted("radius"), self.radii, "m", 2), *loads]
 
 
 def load_map(

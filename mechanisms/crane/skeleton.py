@@ -31,8 +31,9 @@ from linkage import (
     ref,
 )
 from linkage.errors import cited
+from linkage.language import noted, said, translated
 from linkage.program import FloatArray
-from linkage.units import deg, kN, mm
+from linkage.units import deg, kN, mm, show
 from linkage.verdict import Verdict
 
 GRAVITY = 9.81
@@ -46,8 +47,8 @@ DOWNWARDS = (0.0, -GRAVITY)
 
 GUARDS: Mapping[str, tuple[str, str]] = MappingProxyType(
     {
-        ">=": ("past_guard", "the folded tip clears the guard (2.13)"),
-        "<=": ("within_guard", "the folded tip comes as near as the guard (2.13)"),
+        ">=": ("past_guard", noted("the folded tip clears the guard (2.13)")),
+        "<=": ("within_guard", noted("the folded tip comes as near as the guard (2.13)")),
     }
 )
 """The two readings of (2.13), whose relation sign is lost in print: each with the margin that it keeps."""
@@ -133,17 +134,19 @@ class CraneSkeleton(Mechanism):
     reading: ClassVar[Literal[">=", "<="]] = ">="
     margins: ClassVar[Mapping[str, str]] = MappingProxyType(
         {
-            "over_stakes": "the arm clears the stakes (2.11)",
-            "below_legal": "the column keeps the legal height (2.14)",
-            "above_cab": "the boom lies above the cab in transport (2.15)",
-            "above_load": "the boom lies above the stakes in transport (2.15)",
-            "telescope_over": "the telescope is at least 0.3 of the arm (2.16)",
-            "telescope_under": "the telescope is at most 0.8 of the arm (2.16)",
-            "boom_over_arm": "the boom is no shorter than the arm (2.16)",
-            "arm_over_column": "the arm is no shorter than the column (2.16)",
+            "over_stakes": noted("the arm clears the stakes (2.11)"),
+            "below_legal": noted("the column keeps the legal height (2.14)"),
+            "above_cab": noted("the boom lies above the cab in transport (2.15)"),
+            "above_load": noted("the boom lies above the stakes in transport (2.15)"),
+            "telescope_over": noted("the telescope is at least 0.3 of the arm (2.16)"),
+            "telescope_under": noted("the telescope is at most 0.8 of the arm (2.16)"),
+            "boom_over_arm": noted("the boom is no shorter than the arm (2.16)"),
+            "arm_over_column": noted("the arm is no shorter than the column (2.16)"),
         }
     )
-    errors: ClassVar[Mapping[str, str]] = MappingProxyType({"reach_error": "boom, arm and telescope reach L at the tool's height (2.10)"})
+    errors: ClassVar[Mapping[str, str]] = MappingProxyType(
+        {"reach_error": noted("boom, arm and telescope reach L at the tool's height (2.10)")}
+    )
 
     def __init__(self, **dimensions: Any) -> None:
         """Set the design [SI]; DefinitionError also for a boom so short that the regression (2.6) gives it no height."""
@@ -216,13 +219,16 @@ class CraneSkeleton(Mechanism):
 
 def met(name: str, rule: str, gap: float) -> Verdict:
     """Return whether a length that should be none [m] is none."""
-    return Verdict(name, abs(gap) <= CLOSE, f"{rule}: {'met' if abs(gap) <= CLOSE else f'off by {gap / mm:+.1f} mm'}.")
+    if abs(gap) <= CLOSE:
+        return Verdict(name, True, said("{rule}: met.", rule=translated(rule)))
+    return Verdict(name, False, said("{rule}: off by {gap}.", rule=translated(rule), gap=show(gap, "mm", "+.1f")))
 
 
 def kept(name: str, rule: str, spare: float) -> Verdict:
     """Return whether a margin [m] is not negative."""
-    says = f"{max(spare, 0.0) / mm:.1f} mm to spare" if spare >= -CLOSE else f"{-spare / mm:.1f} mm are missing"
-    return Verdict(name, spare >= -CLOSE, f"{rule}: {says}.")
+    if spare >= -CLOSE:
+        return Verdict(name, True, said("{rule}: {spare} to spare.", rule=translated(rule), spare=show(max(spare, 0.0), "mm", ".1f")))
+    return Verdict(name, False, said("{rule}: {missing} are missing.", rule=translated(rule), missing=show(-spare, "mm", ".1f")))
 
 
 POSITIONS: Mapping[int, str] = {
@@ -257,12 +263,12 @@ class BackBrokenSkeleton(CraneSkeleton):
     before_cab = A_k - l_c * np.sin(phi_k) + l_p * np.sin(phi_k - psi_k)
 
     margins: ClassVar[Mapping[str, str]] = MappingProxyType(
-        {**CraneSkeleton.margins, "before_cab": "in transport the tip stands before the cab (2.18)"}
+        {**CraneSkeleton.margins, "before_cab": noted("in transport the tip stands before the cab (2.18)")}
     )
     errors: ClassVar[Mapping[str, str]] = MappingProxyType(
         {
             **CraneSkeleton.errors,
-            "joint_error": "phi_k brings the joint to Delta over the platform (2.18)",
-            "tool_error": "psi_k stands the tool on the platform (2.18)",
+            "joint_error": noted("phi_k brings the joint to Delta over the platform (2.18)"),
+            "tool_error": noted("psi_k stands the tool on the platform (2.18)"),
         }
     )

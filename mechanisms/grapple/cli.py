@@ -7,9 +7,10 @@ from argparse import ArgumentParser, Namespace
 from linkage import Motion
 from linkage.cli.command import Command, figure_path, machine_arguments, motion_arguments, picture_argument
 from linkage.cli.machines import find_like
-from linkage.cli.settings import design, motion_at
+from linkage.cli.settings import check_argument, design, judged_code, motion_at
 from linkage.cli.table import csv_argument, write_table
-from linkage.units import deg, mm
+from linkage.language import said
+from linkage.units import show, shown_number, unit_sign
 
 from . import FIGURES, figure
 from .machine import Grapple
@@ -31,6 +32,7 @@ class Gripping(Command):
         picture_argument(parser, "the figure")
         parser.add_argument("--figure", choices=FIGURES, help="which figure (default: stems)")
         motion_arguments(parser, 11)
+        check_argument(parser)
 
     def run(self, options: Namespace) -> int:
         machine = design(find_like(options.machine, Grapple, "grapple"), options.settings)
@@ -40,17 +42,18 @@ class Gripping(Command):
         columns = machine.columns(over)
         print(f"{layout_words(over)}\n{LEGEND}\n")
         write_table(columns, over.reached.size, options.csv)
-        print("", *machine.verdicts(over), sep="\n")
+        verdicts = machine.verdicts(over)
+        print("", *verdicts, sep="\n")
         if path is not None:
             figure(options.figure or "stems", machine).savefig(path)
             print(path)
-        return 0
+        return judged_code(verdicts, options)
 
 
 def layout_words(motion: Motion) -> str:
     """Return where the pins are and how far the lever goes."""
-    (x_O, y_O), (x_E, y_E) = ([float(part.ravel()[0]) / mm for part in motion[name]] for name in "OE")
-    opened, closing = (float(motion[name].ravel()[0]) / deg for name in ("opening_angle", "closing_angle"))
-    arms = f"OA {float(motion['OA'].ravel()[0]) / mm:.2f} mm, OC {float(motion.inputs['rho']) / mm:.2f} mm"
-    pins = f"O ({x_O:.2f}, {y_O:.2f}) mm, E ({x_E:.2f}, {y_E:.2f}) mm"
-    return f"{pins}, {arms}; opens by {opened:.3f} deg, closes by {closing:.3f} deg."
+    places = {name: ", ".join(shown_number(float(part.ravel()[0]), "mm", ".2f") for part in motion[name]) for name in "OE"}
+    opened, closing = (show(float(motion[name].ravel()[0]), "deg", ".3f") for name in ("opening_angle", "closing_angle"))
+    arms = f"OA {show(float(motion['OA'].ravel()[0]), 'mm', '.2f')}, OC {show(float(motion.inputs['rho']), 'mm', '.2f')}"
+    pins = ", ".join(f"{name} ({place}) {unit_sign('mm')}" for name, place in places.items())
+    return said("{pins}, {arms}; opens by {opened}, closes by {closing}.", pins=pins, arms=arms, opened=opened, closing=closing)

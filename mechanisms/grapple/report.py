@@ -9,10 +9,11 @@ import numpy as np
 
 from hydraulics import Cylinder, LiftCircuit
 from linkage import Column, DefinitionError, Motion, pin_forces, ref
+from linkage.language import said
 from linkage.motion import greatest, lowest, require_motion
 from linkage.program import FloatArray
 from linkage.quantities import is_whole
-from linkage.units import deg, kN, mm
+from linkage.units import show, shown_number
 from linkage.verdict import Verdict
 
 ADVISED = (1.2, 1.4)
@@ -60,11 +61,14 @@ def unplaced_words(motion: Motion) -> str:
         for each in (motion["open_length"], motion["shut_length"], motion.inputs["rho"], motion["closing_angle"] + motion["opening_angle"])
     )
     chord, stroke = 2.0 * rho * np.sin(0.5 * swing), abs(shut - opened)
-    lengths = f"its lengths are {opened / mm:.4g} mm at the open lever and {shut / mm:.4g} mm at the closed one"
-    ends = f"the pin C has its ends {chord / mm:.4g} mm apart"
+    lengths = said(
+        "E has no place: its lengths are {opened} at the open lever and {shut} at the closed one, the pin C has its ends {chord} apart",
+        opened=show(opened, "mm", 4), shut=show(shut, "mm", 4), chord=show(chord, "mm", 4),
+    )  # fmt: skip
     if chord < stroke:
-        return f"E has no place: {lengths}, {ends}, less than the stroke; OC = rho from {rho * stroke / chord / mm:.1f} mm on has one."
-    return f"E has no place: {lengths}, {ends}; OC = rho up to {rho * (opened + shut) / chord / mm:.1f} mm has one."
+        least = show(rho * stroke / chord, "mm", ".1f")
+        return said("{says}, less than the stroke; OC = rho from {least} on has one.", says=lengths, least=least)
+    return said("{says}; OC = rho up to {most} has one.", says=lengths, most=show(rho * (opened + shut) / chord, "mm", ".1f"))
 
 
 def require_placed(motion: Motion) -> Motion:
@@ -125,7 +129,7 @@ def grapple_columns(motion: Motion) -> list[Column]:
 def grapple_verdicts(motion: Motion) -> list[Verdict]:
     """Return the verdicts on one design, over its own way whatever poses the motion has."""
     if require_grapple(motion)._design_shape:
-        return [Verdict("grapple", True, "the verdicts are for one design at a time; this motion has a batch of them.")]
+        return [Verdict("grapple", True, said("the verdicts are for one design at a time; this motion has a batch of them."))]
     words = unplaced_words(motion)
     if words:
         return [Verdict("cylinder", False, words)]
@@ -139,10 +143,13 @@ def moment_verdict(motion: Motion) -> Verdict:
     """Return whether the lever's moment is enough for every stem, and where it is scarcest."""
     over = gripping(motion)
     least, most = lowest(over, moment_ratio), greatest(over, moment_ratio)
-    where = {each: float(motion.moved({"theta": np.array([each.strokes["theta"]])})["D"][0]) / mm for each in (least, most)}
+    thin, thick = (show(float(motion.moved({"theta": np.array([each.strokes["theta"]])})["D"][0]), "mm", ".0f") for each in (least, most))
     low, high = float(least.value), float(most.value)
-    text = f"M_g / M_1 is {low:.4g} at the stem of {where[least]:.0f} mm, the least, and {high:.4g} at {where[most]:.0f} mm, the greatest"
-    remedy = "" if low >= 1.0 - MET else ": too little; take a greater bore, or move C along the lever"
+    text = said(
+        "M_g / M_1 is {low:.4g} at the stem of {thin}, the least, and {high:.4g} at {thick}, the greatest",
+        low=low, thin=thin, high=high, thick=thick,
+    )  # fmt: skip
+    remedy = "" if low >= 1.0 - MET else said(": too little; take a greater bore, or move C along the lever")
     return Verdict("moment", low >= 1.0 - MET, f"{text}{remedy}.")
 
 
@@ -150,25 +157,34 @@ def passing_verdict(motion: Motion) -> Verdict:
     """Return whether the cylinder passes the hinge's bush on its whole way. (2.93)"""
     least = lowest(travelling(motion), lambda each: GrappleState(each).H)
     room, needed = float(least.value), float(motion.inputs["bush"] + motion.inputs["rod"] / 2.0)
-    text = f"the cylinder's line passes the hinge at {room / mm:.1f} mm at the least, at theta = {least.strokes['theta'] / deg:.1f} deg"
-    return Verdict("passing", room >= needed - MET, f"{text}; bush and rod need {needed / mm:.1f} mm.")
+    text = said(
+        "the cylinder's line passes the hinge at {room} at the least, at theta = {theta}; bush and rod need {needed}.",
+        room=show(room, "mm", ".1f"), theta=show(float(least.strokes["theta"]), "deg", ".1f"), needed=show(needed, "mm", ".1f"),
+    )  # fmt: skip
+    return Verdict("passing", room >= needed - MET, text)
 
 
 def room_verdict(motion: Motion) -> Verdict:
     """Return whether the cylinder keeps off every stem that is held."""
     least = lowest(gripping(motion), lambda each: each["room"])
     room, needed = float(least.value), float(motion.inputs["bore"] / 2.0)
-    said = "" if room >= needed else ": it runs into the stem; give a greater hinge_gap or another bend"
-    text = f"the cylinder's axis keeps {room / mm:.1f} mm off the stems, at theta = {least.strokes['theta'] / deg:.1f} deg the least"
-    return Verdict("room", room >= needed, f"{text}; half its bore is {needed / mm:.1f} mm{said}.")
+    remedy = "" if room >= needed else said(": it runs into the stem; give a greater hinge_gap or another bend")
+    text = said(
+        "the cylinder's axis keeps {room} off the stems, at theta = {theta} the least; half its bore is {needed}",
+        room=show(room, "mm", ".1f"), theta=show(float(least.strokes["theta"]), "deg", ".1f"), needed=show(needed, "mm", ".1f"),
+    )  # fmt: skip
+    return Verdict("room", room >= needed, f"{text}{remedy}.")
 
 
 def opening_verdict(motion: Motion) -> Verdict:
     """Return whether the open lever lets the largest stem go, and how (2.71) tells it."""
-    opened, exact, about = (float(np.ravel(motion[name])[0]) / deg for name in ("opening_angle", "release_angle", "about_release"))
-    text = f"opens by {opened:.2f} deg; the largest stem goes at {exact:.2f} deg ({about:.2f} deg by (2.71), which is too little)"
-    share = float(motion.inputs["opening"])
-    told = "" if ADVISED[0] <= share <= ADVISED[1] else f"; opening = {share:.3g}, {ADVISED[0]} to {ADVISED[1]} is advised"
+    opened, exact, about = (float(np.ravel(motion[name])[0]) for name in ("opening_angle", "release_angle", "about_release"))
+    text = said(
+        "opens by {opened}; the largest stem goes at {exact} ({about} by (2.71), which is too little)",
+        opened=show(opened, "deg", ".2f"), exact=show(exact, "deg", ".2f"), about=show(about, "deg", ".2f"),
+    )  # fmt: skip
+    share, (low, high) = float(motion.inputs["opening"]), ADVISED
+    told = "" if low <= share <= high else said("; opening = {share:.3g}, {low} to {high} is advised", share=share, low=low, high=high)
     return Verdict("opening", opened >= exact, f"{text}{told}.")
 
 
@@ -178,9 +194,15 @@ def stroke_verdict(motion: Motion) -> Verdict:
     opened, closing = (float(np.ravel(motion[name])[0]) for name in ("opening_angle", "closing_angle"))
     fits = abs(declared.start - opened) < 1e-6 and abs(declared.end + closing) < 1e-6
     lengths = travelling(motion, 2)["EC"]
-    text = f"the lever closes by {closing / deg:.2f} deg from D_0 to d_0, EC goes from {lengths[0] / mm:.1f} to {lengths[-1] / mm:.1f} mm"
-    said = f"; the class's theta goes from {declared.start / deg:.2f} to {declared.end / deg:.2f} deg: make one by grapple_for"
-    return Verdict("stroke", fits, f"{text}{'' if fits else said}.")
+    text = said(
+        "the lever closes by {closing} from D_0 to d_0, EC goes from {low} to {high}",
+        closing=show(closing, "deg", ".2f"), low=shown_number(float(lengths[0]), "mm", ".1f"), high=show(float(lengths[-1]), "mm", ".1f"),
+    )  # fmt: skip
+    if fits:
+        return Verdict("stroke", True, f"{text}.")
+    start, end = shown_number(declared.start, "deg", ".2f"), show(declared.end, "deg", ".2f")
+    other = said("; the class's theta goes from {start} to {end}: make one by grapple_for", start=start, end=end)
+    return Verdict("stroke", False, f"{text}{other}.")
 
 
 def hinge_verdict(motion: Motion) -> Verdict:
@@ -189,4 +211,8 @@ def hinge_verdict(motion: Motion) -> Verdict:
     (hinge,) = pin_forces(over).at("O")
     force = np.hypot(*hinge.force)
     worst = int(np.argmax(force))
-    return Verdict("hinge", True, f"the pin O carries up to {force[worst] / kN:.1f} kN, at the stem of {over['D'][worst] / mm:.0f} mm.")
+    text = said(
+        "the pin O carries up to {force}, at the stem of {stem}.",
+        force=show(float(force[worst]), "kN", ".1f"), stem=show(float(over["D"][worst]), "mm", ".0f"),
+    )  # fmt: skip
+    return Verdict("hinge", True, text)

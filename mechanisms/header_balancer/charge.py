@@ -13,6 +13,7 @@ from hydraulics import AccumulatorBlock, adiabatic, isothermal
 from hydraulics.gas import Gas
 from linkage import DefinitionError, Motion
 from linkage.errors import cited
+from linkage.language import noted
 from linkage.motion import last_holding, lowest
 from linkage.plan import Mask
 from linkage.program import FloatArray
@@ -52,11 +53,11 @@ class Way:
     atmosphere: float | None = None
 
 
-SLOW = Way("slow")
-FAST = Way("fast from the settled charge, n = 1.4", exponent=1.4)
-PAPER = Way("slow, gas law on gauge pressures (the paper's way)", atmosphere=0.0)
-NORMAL = Way("slow, gas law on gauge + 101325 Pa", atmosphere=101325.0)
-CHARGED_FAST = Way("adiabatic from the gas charge on, n = 1.4", adiabatic)
+SLOW = Way(noted("slow"))
+FAST = Way(noted("fast from the settled charge, n = 1.4"), exponent=1.4)
+PAPER = Way(noted("slow, gas law on gauge pressures (the paper's way)"), atmosphere=0.0)
+NORMAL = Way(noted("slow, gas law on gauge + 101325 Pa"), atmosphere=101325.0)
+CHARGED_FAST = Way(noted("adiabatic from the gas charge on, n = 1.4"), adiabatic)
 WAYS = (SLOW, FAST, PAPER, CHARGED_FAST)
 """The ways a limit is looked at. The paper's is slow without the atmosphere; adiabatic from the gas charge on is a bound of it."""
 

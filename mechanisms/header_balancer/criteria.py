@@ -7,9 +7,10 @@ import numpy as np
 from hydraulics import CylinderSize, standard_bores
 from hydraulics.member import one_size
 from linkage import DefinitionError, Motion
+from linkage.language import said, translated, with_and
 from linkage.motion import below_zero
 from linkage.program import FloatArray
-from linkage.units import kgf, kgf_cm2, litre, mm
+from linkage.units import kgf_cm2, mm, show, shown_number, unit_sign
 from linkage.verdict import Verdict
 
 from .charge import FAST, HEADERS, NORMAL, PAPER, SLOW, Way, largest_charge
@@ -36,14 +37,19 @@ def criteria(motion: Motion) -> list[Verdict]:
 def rises(balance: HeaderState) -> Verdict:
     """Return criterion 1: the reaction rises when moving up and falls when moving down, over the whole range."""
     up, down = balance.up, balance.down
-    says = f"moving up the reaction goes from {_kgf(up[0])} to {_kgf(up[-1])}, moving down from {_kgf(down[-1])} to {_kgf(down[0])} kgf"
-    wrong = [way for way, curve in (("up", up), ("down", down)) if np.any(np.diff(curve) <= 0.0)]
+    says = said(
+        "moving up the reaction goes from {up_first} to {up_last}, moving down from {down_first} to {down_last}",
+        up_first=_kgf(up[0]), up_last=_kgf(up[-1]), down_first=_kgf(down[-1]), down_last=show(float(down[0]), "kgf", "z.0f"),
+    )  # fmt: skip
+    wrong = [(way, curve) for way, curve in ((said("up"), up), (said("down"), down)) if np.any(np.diff(curve) <= 0.0)]
     if not wrong:
-        return Verdict("1 reaction follows", True, f"{says}, without a turn.")
-    curve = up if wrong[0] == "up" else down
-    at = balance.height[int(np.argmax(np.diff(curve) <= 0.0))]
-    turns = f"but turns at R_y = {at / mm:+.0f} mm moving {' and '.join(wrong)}: smaller accumulators stiffen the line"
-    return Verdict("1 reaction follows", False, f"{says}, {turns}.")
+        return Verdict("1 reaction follows", True, said("{says}, without a turn.", says=says))
+    at = float(balance.height[int(np.argmax(np.diff(wrong[0][1]) <= 0.0))])
+    text = said(
+        "{says}, but turns at R_y = {at} moving {ways}: smaller accumulators stiffen the line.",
+        says=says, at=show(at, "mm", "+.0f"), ways=with_and(way for way, _ in wrong),
+    )  # fmt: skip
+    return Verdict("1 reaction follows", False, text)
 
 
 def hangs_up(motion: Motion) -> list[Verdict]:
@@ -55,16 +61,19 @@ def hangs_up(motion: Motion) -> list[Verdict]:
 def hang_up(motion: Motion, way: Way) -> Verdict:
     """Return whether the shoe, moving down, carries something over the whole range in one way of looking at it."""
     rule, charge = f"2 no hang-up, {way.title}", float(motion.inputs["charge"])
+    named = said("2 no hang-up, {way}", way=translated(way.title))
     try:
         limit = largest_charge(motion, way)
     except DefinitionError as error:
-        return Verdict(rule, False, str(error))
-    says = f"charged to {kgf_cm2_text(charge)}, at most {kgf_cm2_text(limit)}"
+        return Verdict(rule, False, str(error), named)
+    says = said("charged to {charge}, at most {limit}", charge=kgf_cm2_text(charge), limit=kgf_cm2_text(limit))
     if abs(charge - limit) <= ON_LIMIT:
-        return Verdict(rule, True, f"{says}: on the limit.")
+        return Verdict(rule, True, said("{says}: on the limit.", says=says), named)
+    apart = kgf_cm2_text(abs(limit - charge))
     if charge < limit:
-        return Verdict(rule, True, f"{says}: {kgf_cm2_text(limit - charge)} below it.")
-    return Verdict(rule, False, f"{says}: the shoe lifts off moving down; lower the charge by {kgf_cm2_text(charge - limit)}.")
+        return Verdict(rule, True, said("{says}: {apart} below it.", says=says, apart=apart), named)
+    text = said("{says}: the shoe lifts off moving down; lower the charge by {apart}.", says=says, apart=apart)
+    return Verdict(rule, False, text, named)
 
 
 def hysteresis(balance: HeaderState) -> Verdict:
@@ -73,12 +82,15 @@ def hysteresis(balance: HeaderState) -> Verdict:
     plain, rolling = balance.of_bearing(PLAIN), balance.of_bearing(0.0)
     share = float(np.max(pin / whole))
     ok = share <= PIN_SHARE
-    added = f", {' and '.join(balance.others)} {_span(balance.of_others)}" if balance.others else ""
-    says = (
-        f"{_span(whole)} kgf, of it seals {_span(seals)}, pin O {_span(pin)}{added} kgf; a plain bearing at O (mu = {PLAIN:g}) "
-        f"gives {_span(plain)} kgf, x{np.min(plain / rolling):.2f} to x{np.max(plain / rolling):.2f} of a rolling one's"
-    )
-    remedy = f"; the pin makes up to {100 * share:.0f} % of it: take a rolling bearing at O"
+    sign = unit_sign("kgf")
+    added = f", {with_and(balance.others)} {_span(balance.of_others)}" if balance.others else ""
+    says = said(
+        "{whole}, of it seals {seals}, pin O {pin}{others}; a plain bearing at O (mu = {mu:g}) gives {plain}, x{least:.2f} to x{most:.2f} "
+        "of a rolling one's",
+        whole=f"{_span(whole)} {sign}", seals=_span(seals), pin=_span(pin), others=f"{added} {sign}", mu=PLAIN,
+        plain=f"{_span(plain)} {sign}", least=np.min(plain / rolling), most=np.max(plain / rolling),
+    )  # fmt: skip
+    remedy = said("; the pin makes up to {share:.0f} % of it: take a rolling bearing at O", share=100 * share)
     return Verdict("3 hysteresis", ok, f"{says}{'' if ok else remedy}.")
 
 
@@ -89,25 +101,29 @@ def matching(balance: HeaderState) -> Verdict:
     """
     arm, needed, line, free = balance.arm, balance.required, balance.pressure, balance.free
     ok = bool(needed[-1] < needed[0])
-    says = (
-        f"moving up the block's pressure goes from {line[0] / kgf_cm2:.1f} to {line[-1] / kgf_cm2:.1f}, the required one from "
-        f"{needed[0] / kgf_cm2:.1f} to {needed[-1] / kgf_cm2:.1f} kgf/cm2, the arm H from {arm[0] / mm:.0f} to {arm[-1] / mm:.0f} mm; "
-        f"without friction the reaction goes from {_kgf(free[0])} to {_kgf(free[-1])} kgf"
-    )
+    says = said(
+        "moving up the block's pressure goes from {line[0]} to {line[1]}, the required one from {needed[0]} to {needed[1]} {pressure}, "
+        "the arm H from {arm[0]} to {arm[1]} {length}; without friction the reaction goes from {free[0]} to {free[1]} {force}",
+        line=_ends(line, "kgf/cm2", ".1f"), needed=_ends(needed, "kgf/cm2", ".1f"), pressure=unit_sign("kgf/cm2"),
+        arm=_ends(arm, "mm", ".0f"), length=unit_sign("mm"), free=_ends(free, "kgf", "z.0f"), force=unit_sign("kgf"),
+    )  # fmt: skip
     constant = float(np.interp(0.0, balance.height, free))
     with np.errstate(divide="ignore", invalid="ignore"):
         wanted = arm * balance.thrust_without_line(pressed=constant) / balance.cylinder.sized(balance.motion).thrust(line)
     if not np.all(np.isfinite(wanted)):
-        return Verdict("4 matching", ok, f"{says}; the line is empty at some heights, no arm matches it there: charge it higher.")
+        empty = said("; the line is empty at some heights, no arm matches it there: charge it higher.")
+        return Verdict("4 matching", ok, f"{says}{empty}")
+    low, high = _ends(wanted, "mm", ".0f")
+    even = {"low": low, "high": f"{high} {unit_sign('mm')}", "force": show(constant, "kgf", "z.0f")}
     if ok:
-        even = f"with this line an arm from {wanted[0] / mm:.0f} to {wanted[-1] / mm:.0f} mm would keep it at {_kgf(constant)} kgf"
-        return Verdict("4 matching", True, f"{says}: matched; {even}.")
-    return Verdict(
-        "4 matching", False,
-        f"{says}: not matched, they part. An arm from {wanted[0] / mm:.0f} to {wanted[-1] / mm:.0f} mm would keep it at "
-        f"{_kgf(constant)} kgf: place A and B so that the arm grows while the header rises; larger accumulators help less, "
-        "their pressure still falls.",
+        text = said("{says}: matched; with this line an arm from {low} to {high} would keep it at {force}.", says=says, **even)
+        return Verdict("4 matching", True, text)
+    text = said(
+        "{says}: not matched, they part. An arm from {low} to {high} would keep it at {force}: place A and B so that the arm grows "
+        "while the header rises; larger accumulators help less, their pressure still falls.",
+        says=says, **even,
     )  # fmt: skip
+    return Verdict("4 matching", False, text)
 
 
 def reserve(balance: HeaderState) -> Verdict:
@@ -116,11 +132,13 @@ def reserve(balance: HeaderState) -> Verdict:
     worst, pump = relief(motion).pressure, float(motion.inputs["pump"])
     spare, ok = pump / worst - 1.0, pump >= (1.0 + LEAST_RESERVE) * worst
     seals = float(motion.inputs["seals"] / np.mean(balance.required))
-    says = (
-        f"lifting takes up to {kgf_cm2_text(worst, 1)}, the pump gives {kgf_cm2_text(pump, 1)}: reserve {100 * spare:.0f} %, at least "
-        f"{100 * LEAST_RESERVE:.0f} %; the seals take {100 * seals:.1f} % of the required pressure"
-    )
-    return Verdict("5 pressure level", ok, f"{says}{_smaller(balance, worst, pump) if ok else '; take a larger bore or a stronger pump'}.")
+    says = said(
+        "lifting takes up to {worst}, the pump gives {pump}: reserve {spare:.0f} %, at least {least:.0f} %; the seals take {seals:.1f} % "
+        "of the required pressure",
+        worst=kgf_cm2_text(worst, 1), pump=kgf_cm2_text(pump, 1), spare=100 * spare, least=100 * LEAST_RESERVE, seals=100 * seals,
+    )  # fmt: skip
+    beside = _smaller(balance, worst, pump) if ok else said("; take a larger bore or a stronger pump")
+    return Verdict("5 pressure level", ok, f"{says}{beside}.")
 
 
 def _smaller(balance: HeaderState, worst: float, pump: float) -> str:
@@ -130,19 +148,24 @@ def _smaller(balance: HeaderState, worst: float, pump: float) -> str:
     smaller = [CylinderSize(bore, now.rod, size.count, size.works) for bore in standard_bores() if now.rod < bore < now.bore]
     fits = [float(each.bore) for each in smaller if (1.0 + LEAST_RESERVE) * worst * size.area / each.area <= pump]
     if not fits:
-        return "; no smaller standard bore keeps the reserve, so it is as high as permitted"
-    share = 100.0 * min(fits) ** 2 / now.bore**2
-    return f"; for this header alone a bore of {min(fits) / mm:.0f} mm would do, with {share:.0f} % of the seals' hysteresis"
+        return said("; no smaller standard bore keeps the reserve, so it is as high as permitted")
+    return said(
+        "; for this header alone a bore of {bore} would do, with {share:.0f} % of the seals' hysteresis",
+        bore=show(min(fits), "mm", ".0f"), share=100.0 * min(fits) ** 2 / now.bore**2,
+    )  # fmt: skip
 
 
 def valve(motion: Motion) -> Verdict:
     """Return whether the relief valve stays shut up to transport height."""
     found = relief(motion)
-    says = f"lifting to transport height takes up to {kgf_cm2_text(found.pressure, 1)}, at h = {found.at / mm:.0f} mm; the valve opens at"
-    ok = found.margin > 0.0
+    says = said(
+        "lifting to transport height takes up to {pressure}, at h = {at}; the valve opens at {valve}",
+        pressure=kgf_cm2_text(found.pressure, 1), at=show(found.at, "mm", ".0f"), valve=kgf_cm2_text(float(motion.inputs["valve"]), 1),
+    )  # fmt: skip
     apart = kgf_cm2_text(abs(found.margin), 1)
-    margin = f"margin {apart}" if ok else f"{apart} too low; set it higher or take a larger bore"
-    return Verdict("relief valve", ok, f"{says} {kgf_cm2_text(float(motion.inputs['valve']), 1)}: {margin}.")
+    if found.margin > 0.0:
+        return Verdict("relief valve", True, said("{says}: margin {apart}.", says=says, apart=apart))
+    return Verdict("relief valve", False, said("{says}: {apart} too low; set it higher or take a larger bore.", says=says, apart=apart))
 
 
 def vessels(balance: HeaderState) -> Verdict:
@@ -155,21 +178,21 @@ def vessels(balance: HeaderState) -> Verdict:
 
     line, height = slow(motion), balance.height
     says, slope = [], abs(float((line[-1] - line[0]) / (height[-1] - height[0])))
-    softer = f"{slope * 10 * mm / kgf_cm2:.2f} kgf/cm2 for 10 mm of the shoe"
+    softer = said("{pressure} for {way} of the shoe", pressure=show(slope * 10 * mm, "kgf/cm2", ".2f"), way=show(10 * mm, "mm", ".0f"))
     for each in block.accumulators:
         gas, volume = float(np.max(each.charge)), float(np.max(each.volume))
         if volume <= 0.0:
             continue
-        name = f"the {gas / kgf_cm2:.4g} kgf/cm2 pair ({volume / litre:.4g} l)"
+        name = said("the {charge} pair ({volume})", charge=show(gas, "kgf/cm2", 4), volume=show(volume, "l", 4))
         works = below_zero(motion, lambda at, gas=gas: gas - slow(at))  # type: ignore[misc]
         if not works:
-            says.append(f"{name} is off over the whole range, which makes the line softer, {softer}")
+            says.append(said("{name} is off over the whole range, which makes the line softer, {softer}", name=name, softer=softer))
         elif works[0].start["h"] <= motion.strokes["h"][0] and works[-1].end["h"] >= motion.strokes["h"][-1]:
-            says.append(f"{name} is at work over the whole range")
+            says.append(said("{name} is at work over the whole range", name=name))
         else:
-            at = motion.moved({"h": np.array([works[-1].end["h"]])}).y("R")[0] / mm
-            says.append(f"{name} is at work below R_y = {at:+z.0f} mm and off above: where it joins the curves have a kink")
-    return Verdict("accumulators", True, f"at {kgf_cm2_text(charge)} {'; '.join(says)}.")
+            at = show(float(motion.moved({"h": np.array([works[-1].end["h"]])}).y("R")[0]), "mm", "+z.0f")
+            says.append(said("{name} is at work below R_y = {at} and off above: where it joins the curves have a kink", name=name, at=at))
+    return Verdict("accumulators", True, said("at {charge} {words}.", charge=kgf_cm2_text(charge), words="; ".join(says)))
 
 
 def exchange(motion: Motion) -> Verdict:
@@ -181,19 +204,26 @@ def exchange(motion: Motion) -> Verdict:
             charge = largest_charge(own)
         except DefinitionError:
             ok = False
-            says.append(f"header {number} ({header['m2']:.0f} kg) none")
+            says.append(said("header {number} ({mass}) none", number=number, mass=show(header["m2"], "kg", ".0f")))
         else:
             ok = ok and charge <= float(motion.inputs["pump"])
-            says.append(f"header {number} ({header['m2']:.0f} kg) {kgf_cm2_text(charge)}")
-    alone = "a header is changed by the pressure alone, without touching the linkage"
-    rest = alone if ok else "not every header can be balanced on this line"
-    return Verdict("change of header", ok, f"at the most, slow: {', '.join(says)}; {rest}.")
+            mass, limit = show(header["m2"], "kg", ".0f"), kgf_cm2_text(charge)
+            says.append(said("header {number} ({mass}) {charge}", number=number, mass=mass, charge=limit))
+    rest = said("not every header can be balanced on this line")
+    if ok:
+        rest = said("a header is changed by the pressure alone, without touching the linkage")
+    return Verdict("change of header", ok, said("at the most, slow: {charges}; {rest}.", charges=", ".join(says), rest=rest))
 
 
 def _kgf(force: float) -> str:
-    return f"{force / kgf:z.0f}"
+    return shown_number(float(force), "kgf", "z.0f")
+
+
+def _ends(values: FloatArray, unit: str, digits: str) -> tuple[str, str]:
+    """Return the first and the last of some values as numbers without their unit."""
+    return shown_number(float(values[0]), unit, digits), shown_number(float(values[-1]), unit, digits)
 
 
 def _span(force: FloatArray) -> str:
     low, high = float(np.min(force)), float(np.max(force))
-    return _kgf(low) if _kgf(low) == _kgf(high) else f"{_kgf(low)} to {_kgf(high)}"
+    return _kgf(low) if _kgf(low) == _kgf(high) else said("{low} to {high}", low=_kgf(low), high=_kgf(high))

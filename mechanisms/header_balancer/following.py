@@ -11,6 +11,7 @@ import numpy as np
 from hydraulics import Cylinder, FloatCircuit, pressure
 from linkage import Column, DefinitionError, ForceElement, GuideFriction, Motion, ref
 from linkage.errors import cited
+from linkage.language import noted
 from linkage.loads import PinFriction, Support
 from linkage.loads.element import Formulas
 from linkage.motion import greatest, require_motion
@@ -18,7 +19,7 @@ from linkage.program import FloatArray
 from linkage.quantities import Coordinate, Distance, is_number, is_whole
 from linkage.statics import driving_force, reaction
 from linkage.statics.acting import SENSES
-from linkage.units import kgf_cm2, mm
+from linkage.units import mm, show
 
 AB = Distance("A", "B")  # one for all, so that its ratio is worked out once
 
@@ -232,20 +233,21 @@ class HeaderState:
 def reaction_columns(motion: Motion) -> list[Column]:
     """Return the table of a motion in the paper's units."""
     balance, shoes = HeaderState(motion), motion.inputs["shoes"]
-    force = {"up": balance.up, "down": balance.down}
     return [
         Column("h", motion.strokes["h"], "mm", 1, "h"),
         Column("R_y", balance.height, "mm", 1, Coordinate("R", "y")),
         Column("H", balance.arm, "mm", 2),
         Column("P", balance.pressure, "kgf/cm2", 2, pressure("lift")),
         Column("P_req", balance.required, "kgf/cm2", 2),
-        *(Column(f"F_R {way}", value, "kgf", 1) for way, value in force.items()),
-        Column("F_R free", balance.free, "kgf", 1),
-        *(Column(f"per shoe {way}", value / shoes, "kgf", 1) for way, value in force.items()),
-        Column("hysteresis", balance.hysteresis, "kgf", 1),
-        Column("of seals", balance.of_seals, "kgf", 1),
-        Column("of pin O", balance.of_pin, "kgf", 1),
-        *([Column("of other pins", balance.of_others, "kgf", 1)] if balance.others else []),
+        Column(noted("F_R up"), balance.up, "kgf", 1),
+        Column(noted("F_R down"), balance.down, "kgf", 1),
+        Column(noted("F_R free"), balance.free, "kgf", 1),
+        Column(noted("per shoe up"), balance.up / shoes, "kgf", 1),
+        Column(noted("per shoe down"), balance.down / shoes, "kgf", 1),
+        Column(noted("hysteresis"), balance.hysteresis, "kgf", 1),
+        Column(noted("of seals"), balance.of_seals, "kgf", 1),
+        Column(noted("of pin O"), balance.of_pin, "kgf", 1),
+        *([Column(noted("of other pins"), balance.of_others, "kgf", 1)] if balance.others else []),
     ]
 
 
@@ -267,4 +269,4 @@ def relief(motion: Motion) -> Relief:
 
 def kgf_cm2_text(pressure: float, digits: int = 2) -> str:
     """Return a pressure [Pa] in kgf/cm2."""
-    return f"{pressure / kgf_cm2:.{digits}f} kgf/cm2"
+    return show(float(pressure), "kgf/cm2", f".{digits}f")

@@ -131,7 +131,7 @@ class HeaderBalancer(Mechanism):
     def verdicts(self, motion: Motion) -> list[str]:
         """Return the paper's five criteria in words, over the following range of one design."""
         if motion._design_shape:
-            return ["The criteria are judged for one design at a time; this motion has a batch of them."]
+            return [said("The criteria are judged for one design at a time; this motion has a batch of them.")]
         return [*criteria(motion)]
 
 

@@ -13,8 +13,9 @@ import numpy as np
 from linkage import DefinitionError, FileError, Motion
 from linkage.disk import read
 from linkage.errors import cited
+from linkage.language import said, said_of
 from linkage.program import FloatArray
-from linkage.units import UNITS, mm
+from linkage.units import UNITS, show
 from linkage.verdict import Verdict
 
 from .following import HeaderState, stroke_of
@@ -50,9 +51,16 @@ class Deviation:
         worst = int(np.argmax(np.abs(self.percent)))
         largest = float(self.percent[worst])
         ok = abs(largest) <= ALLOWED
-        where = f"at R_y = {self.height[worst] / mm:+.0f} mm, of {len(self.percent)} points"
-        says = f"{self.curve} deviates by up to {largest:+.1f} %, {where}"
-        return Verdict(f"measured {self.curve}", ok, f"{says}; {'within' if ok else 'above'} the paper's {ALLOWED:g} %.")
+        says = said_of(
+            len(self.percent),
+            "{curve} deviates by up to {largest:+.1f} %, at R_y = {height}, of {n} points",
+            "{curve} deviates by up to {largest:+.1f} %, at R_y = {height}, of {n} points",
+            curve=self.curve, largest=largest, height=show(float(self.height[worst]), "mm", "+.0f"),
+        )  # fmt: skip
+        rule, named = f"measured {self.curve}", said("measured {curve}", curve=self.curve)
+        if ok:
+            return Verdict(rule, True, said("{says}; within the paper's {allowed:g} %.", says=says, allowed=ALLOWED), named)
+        return Verdict(rule, False, said("{says}; above the paper's {allowed:g} %.", says=says, allowed=ALLOWED), named)
 
 
 def read_measured(path: str | Path) -> Mapping[str, FloatArray]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from linkage import Column, DefinitionError
 from linkage.errors import cited
+from linkage.language import noted
 from linkage.quantities import is_whole, real
 
 from .charge import HEADERS, SLOW, Way, charge_for, largest_charge
@@ -39,7 +40,7 @@ def setting_table(wanted: Sequence[float], changes: Mapping[str, Any] | None = N
         raise DefinitionError(f"wanted={cited(wanted)}: a list of finite reactions [N] is expected, such as [0.0, 100 * kgf].")
     design = HeaderBalancer(**changed)
     shoes, way = float(design["shoes"]), SLOW if design["n"] == 1.0 else Way(f"n = {design['n']:g}", exponent=float(design["n"]))
-    columns = [Column("F_R", forces, "kgf", 0), Column("per shoe", forces / shoes, "kgf", 0)]
+    columns = [Column("F_R", forces, "kgf", 0), Column(noted("per shoe"), forces / shoes, "kgf", 0)]
     for number in HEADERS:
         machine = with_header(number, **changed)
         motion = machine.at(h=0.0)
@@ -47,9 +48,9 @@ def setting_table(wanted: Sequence[float], changes: Mapping[str, Any] | None = N
         charges = np.array([_charge(motion, force) for force in forces])
         least = np.array([np.nan if np.isnan(charge) else _least(machine, charge) for charge in charges])
         columns += [
-            Column(f"charge {number}", charges, "kgf/cm2", 2),
-            Column(f"least {number}", least, "kgf", 0),
-            Column(f"safe {number}", np.where(np.isnan(least), np.nan, charges <= limit), "", 0),
+            Column(f"{noted('charge')} {number}", charges, "kgf/cm2", 2),
+            Column(f"{noted('least')} {number}", least, "kgf", 0),
+            Column(f"{noted('safe')} {number}", np.where(np.isnan(least), np.nan, charges <= limit), "", 0),
         ]
     return columns
 

@@ -15,6 +15,7 @@ from hydraulics import LiftCircuit
 from hydraulics.member import found_in
 from linkage import DefinitionError, Force, ForceElement, Motion, angle
 from linkage.errors import cited, unwarned
+from linkage.language import noted, said, translated
 from linkage.loads.element import Formulas
 from linkage.motion import greatest, lowest, require_motion
 from linkage.plan import Plan
@@ -22,7 +23,7 @@ from linkage.program import FloatArray
 from linkage.quantities import Distance, is_number
 from linkage.reports import closely
 from linkage.statics import AnyMotion, LawRequest
-from linkage.units import deg, g0, kN, mm
+from linkage.units import deg, g0, mm, show, unit_sign
 
 BEHIND = 610 * mm
 """Distance from the hitch points to the centre of the load at which tractors are tested (OECD Code 2)."""
@@ -130,7 +131,10 @@ STILL = 1e-12  # a factor this small moves nothing
 DIMENSIONS = ("OB", "OC", "ED", "CD", "EF", "MK", "A.x", "A.y", "O.x", "O.y", "E.x", "E.y", "M.x", "M.y")
 """Dimensions of the tractor's side that a designer may change."""
 
-CHANGES = {"": ("longer", "shorter"), "x": ("farther back", "farther forward"), "y": ("higher", "lower")}
+CHANGES = {
+    "": (noted("longer"), noted("shorter")), "x": (noted("farther back"), noted("farther forward")),
+    "y": (noted("higher"), noted("lower")),
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -150,11 +154,13 @@ class Weakest:
     @property
     def sentence(self) -> str:
         """The weakest point and what limits it."""
-        return (
-            f"least at S = {self.stroke:.4f} m, F {self.height / mm:.0f} mm high: {self.capacity / kN:.2f} kN "
-            f"({self.capacity / g0:.0f} kg). There the pressure limits it: G rises {self.ratio:.3f} mm for 1 mm of the cylinder, "
-            f"{self.stage}. {self.remedy}"
-        )
+        text = said(
+            "least at S = {stroke}, F {height} high: {capacity} ({mass}). There the pressure limits it: G rises {ratio:.3f} {unit} "
+            "for 1 {unit} of the cylinder, {stage}.",
+            stroke=show(self.stroke, "m", ".4f"), height=show(self.height, "mm", ".0f"), capacity=show(self.capacity, "kN", ".2f"),
+            mass=show(self.capacity / g0, "kg", ".0f"), ratio=self.ratio, unit=unit_sign("mm"), stage=self.stage,
+        )  # fmt: skip
+        return f"{text} {self.remedy}"
 
 
 def weakest(motion: Motion) -> Weakest | None:
@@ -170,13 +176,19 @@ def weakest(motion: Motion) -> Weakest | None:
         return Weakest(S, float(there.y("F")[0]), force, ratio, stage(there, best), remedy(motion))
 
 
-def stages(motion: Motion) -> dict[str, tuple[float, str]]:
-    """Return the factors of I at one pose, each with its words: arm turned by the cylinder, F lifted by the arm, G by F."""
+def stages(motion: Motion) -> dict[str, tuple[float, str, str]]:
+    """Return the factors of I at one pose: arm turned by the cylinder, F lifted by the arm, G by F.
+
+    Each by its name, with what it amounts to in words, in whole and as it stands beside another.
+    """
     turn, rise, ratio = (float(each) for each in (motion.ratio(angle("O", "B"))[0], motion.ratio("F")[1, 0], motion.ratio("G")[1, 0]))
+    lever = show(1.0 / abs(turn), "mm", ".0f")
+    by_arm = said("F rises {height} for {angle} of the lift arm", height=show(rise / turn * deg, "mm", ".2f"), angle=show(deg, "deg"))
+    by_link = said("G rises {ratio:.3f} times as fast as F", ratio=ratio / rise)
     return {
-        "the cylinder's lever": (turn, f"its lever about O {1.0 / abs(turn) / mm:.0f} mm"),
-        "lift arm, lift rod and lower link": (rise / turn, f"F rises {rise / turn * deg / mm:.2f} mm for 1 deg of the lift arm"),
-        "the upper link, which turns the implement": (ratio / rise, f"G rises {ratio / rise:.3f} times as fast as F"),
+        said("the cylinder's lever"): (turn, said("its lever about O {lever}", lever=lever), lever),
+        said("lift arm, lift rod and lower link"): (rise / turn, by_arm, by_arm),
+        said("the upper link, which turns the implement"): (ratio / rise, by_link, by_link),
     }
 
 
@@ -185,9 +197,12 @@ def stage(there: Motion, best: Motion) -> str:
     now, then = stages(there), stages(best)
     name = max(now, key=lambda each: abs(now[each][0]) / max(abs(then[each][0]), STILL))
     if now[name][0] == then[name][0]:
-        return "the same at all poses of this motion"
+        return said("the same at all poses of this motion")
     (S,) = best.strokes.values()
-    return f"mostly by {name}: {now[name][1]}, at the best point, S = {S[0]:.4f} m, {then[name][1].removeprefix('its lever about O ')}"
+    return said(
+        "mostly by {name}: {now}, at the best point, S = {stroke}, {then}",
+        name=name, now=now[name][1], stroke=show(float(S[0]), "m", ".4f"), then=then[name][2],
+    )  # fmt: skip
 
 
 def remedy(motion: Motion) -> str:
@@ -203,7 +218,9 @@ def remedy(motion: Motion) -> str:
     place = int(np.argmin(np.where(np.isfinite(burden), burden, np.inf)))
     gain = float(np.nanmax(stroke_per_newton(fine))) / burden[place] - 1.0
     if not 0.0 < gain < np.inf:
-        return "No single dimension of the tractor's side, changed by 10 mm, helps."
+        return said("No single dimension of the tractor's side, changed by {change}, helps.", change=show(CHANGE, "mm", ".0f"))
     name, _, axis = names[place].partition(".")
-    change = CHANGES[axis][int(steps[place] < 0.0)]
-    return f"Of the tractor's dimensions {name} {CHANGE / mm:.0f} mm {change} helps most: {100.0 * gain:+.1f} %."
+    return said(
+        "Of the tractor's dimensions {name} {change} {way} helps most: {gain:+.1f} %.",
+        name=name, change=show(CHANGE, "mm", ".0f"), way=translated(CHANGES[axis][int(steps[place] < 0.0)]), gain=100.0 * gain,
+    )  # fmt: skip

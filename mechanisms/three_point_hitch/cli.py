@@ -1,4 +1,4 @@
-"""`hydrolinkage capacity three_point_hitch`: what a hitch lifts over its stroke, its zones, its verdicts and figures."""
+"""`hydrolinkage hitch`: what a hitch lifts over its stroke, its zones, its verdicts and figures."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from argparse import ArgumentParser, Namespace
 from linkage import Column, DefinitionError, Motion, max_table, pin_forces
 from linkage.cli.command import Command, figure_path, machine_arguments, motion_arguments, picture_argument
 from linkage.cli.machines import find_like
-from linkage.cli.settings import design, motion_at
+from linkage.cli.settings import check_argument, design, judged_code, motion_at
 from linkage.cli.table import csv_argument, write_table
 from linkage.statics import table_text
 
@@ -22,14 +22,14 @@ front: front axle's load; max: largest implement that leaves the front axle its 
 uphill: the slope that does."""
 
 
-class Capacity(Command):
+class Hitch(Command):
     """Prints what a hitch lifts and what limits it."""
 
-    name = "capacity"
+    name = "hitch"
     help = "a three-point hitch: lifting capacity, zones, upper link, front axle, figures"
 
     def add(self, parser: ArgumentParser) -> None:
-        machine_arguments(parser)
+        machine_arguments(parser, default="three_point_hitch")
         parser.add_argument("--category", type=int, choices=sorted(CATEGORIES), help="a hitch of these proportions (ISO 730) instead")
         parser.add_argument("--zones", action="store_true", help="the zones over all admissible settings instead (figure 2)")
         parser.add_argument("--vertical", action="store_true", help="the upper link's length for a vertical mast at every stroke too")
@@ -38,6 +38,7 @@ class Capacity(Command):
         picture_argument(parser, "the figure")
         parser.add_argument("--figure", choices=FIGURES, help="which figure (default: capacity, with --zones zones)")
         motion_arguments(parser, 11)
+        check_argument(parser)
 
     def run(self, options: Namespace) -> int:
         machine = hitch_of(options)
@@ -57,12 +58,12 @@ class Capacity(Command):
         if options.vertical:
             print("", *(f"S = {S:.4f} m: {mast_words(machine, float(S))}" for S in over.strokes["S"].ravel()), sep="\n")
         print()
-        for sentence in machine.verdicts(over):
-            print(sentence)
+        verdicts = machine.verdicts(over)
+        print(*verdicts, sep="\n")
         if path is not None:
             figure(options.figure or ("zones" if options.zones else "capacity"), machine).savefig(path)
             print(path)
-        return 0
+        return judged_code(verdicts, options)
 
 
 def hitch_of(options: Namespace) -> ThreePointHitch:

@@ -30,7 +30,7 @@ from linkage import (
     ratio,
     y,
 )
-from linkage.language import said
+from linkage.language import noted, said
 from linkage.loads.element import Formulas
 from linkage.units import MPa, deg, g0, kg, litre, minute, mm
 
@@ -98,9 +98,9 @@ class ThreePointHitch(Mechanism):
     def columns(self, motion: Motion) -> list[Column]:
         """Return the stroke, the moving points, the ratio I = dG_y/dS (27), the lifting capacity (28) and the upright's tilt."""
         points = [each for each in super().columns(motion) if each.name != "tilt"]
-        lifted = Column("capacity", capacity(motion), "kN", 3, Lifted())
+        lifted = Column(noted("capacity"), capacity(motion), "kN", 3, Lifted())
         growth = Column("I", motion.ratio("G")[1], "", 4, ratio(y("G")))
-        return [*points, growth, lifted, Column("tilt", motion["tilt"], "deg", 3, "tilt")]
+        return [*points, growth, lifted, Column(noted("tilt"), motion["tilt"], "deg", 3, "tilt")]
 
     def formulas(self, written: Formulas) -> None:
         """Write, after what its elements say, F_cyl = p_max area (29) and the lifting capacity G_g = F_cyl eta / I_G (28)."""
@@ -115,7 +115,7 @@ class ThreePointHitch(Mechanism):
 
     def verdicts(self, motion: Motion) -> list[str]:
         """Return what an engineer should know: capacity and its weakest point, pressure, oil, upper link, mast, front axle."""
-        return verdicts(self, motion)
+        return [*verdicts(self, motion)]
 
 
 # Hitch categories 1 to 3: the dimensions that ISO 730 fixes, and hitches of such proportions.

@@ -6,14 +6,15 @@ import numpy as np
 
 from hydraulics import lift_verdicts
 from linkage import Column, ForceElement, Mechanism, Motion, pin_forces
+from linkage.language import noted, said
 from linkage.motion import out_of_reach
 from linkage.program import FloatArray
 from linkage.reports import closely, ranges_below_zero, spans_in_words
 from linkage.statics.acting import Case
-from linkage.units import deg, g0, kN
+from linkage.units import g0, show, shown_number
 from linkage.verdict import Verdict
 
-from .capacity import SHARE, at_hitch_points, behind, capacity, circuit_of, weakest
+from .capacity import BEHIND, SHARE, at_hitch_points, behind, capacity, circuit_of, weakest
 from .tractor import balance_verdict, front_axle, largest_mass, tipping_mass, tipping_slope
 from .zones import mast_words
 
@@ -24,22 +25,22 @@ def capacity_columns(motion: Motion) -> list[Column]:
         Column("S", motion.strokes["S"], "mm", 1),
         Column("F_y", motion.y("F"), "mm", 1),
         Column("I", motion.ratio("G")[1], "", 4),
-        Column("capacity", capacity(motion), "kN", 2),
+        Column(noted("capacity"), capacity(motion), "kN", 2),
         Column("F 90%", at_hitch_points(motion), "kN", 2),
         Column("610 90%", behind(motion), "kN", 2),
-        Column("tilt", motion["tilt"], "deg", 3),
+        Column(noted("tilt"), motion["tilt"], "deg", 3),
         Column("MK", upper_link_force(motion), "kN", 2),
-        Column("front", front_axle(motion), "kN", 2),
-        Column("max", largest_mass(motion), "kg", 0),
-        Column("tips", tipping_mass(motion), "kg", 0),
-        Column("uphill", tipping_slope(motion), "deg", 1),
+        Column(noted("front"), front_axle(motion), "kN", 2),
+        Column(noted("max"), largest_mass(motion), "kg", 0),
+        Column(noted("tips"), tipping_mass(motion), "kg", 0),
+        Column(noted("uphill"), tipping_slope(motion), "deg", 1),
     ]
 
 
-def verdicts(hitch: Mechanism, motion: Motion) -> list[str]:
-    """Return the sentences on a motion; of a batch, how many designs fall short."""
+def verdicts(hitch: Mechanism, motion: Motion) -> list[Verdict]:
+    """Return the verdicts on a motion; of a batch, how many designs fall short."""
     if not motion.reached.any():
-        return ["No pose of this motion can be assembled; there is nothing to lift."]
+        return [Verdict("reach", False, said("No pose of this motion can be assembled; there is nothing to lift."))]
     if motion._design_shape:
         return [batch_verdict(motion)]
     circuit = circuit_of(motion)
@@ -47,15 +48,17 @@ def verdicts(hitch: Mechanism, motion: Motion) -> list[str]:
         weakest_verdict(motion), limit_verdict(motion), *lift_verdicts(circuit, motion, unit="MPa"), *circuit.ram(motion).checks(motion),
         test_verdict(motion), upper_link_verdict(motion), balance_verdict(motion), mast_verdict(hitch, motion),
     ]  # fmt: skip
-    apart = [] if motion.reached.all() else [Verdict("reach", False, f"poses out of reach are left out of this. {out_of_reach(motion)}")]
-    return [*found, *apart]
+    if motion.reached.all():
+        return [*found]
+    text = said("poses out of reach are left out of this. {which}", which=out_of_reach(motion))
+    return [*found, Verdict("reach", False, text)]
 
 
 def weakest_verdict(motion: Motion) -> Verdict:
     """Return the weakest point with what limits it, against the implement's weight."""
     found = weakest(motion)
     if found is None:
-        return Verdict("capacity", True, "the ratio is not above zero anywhere: the load is not limited by this cylinder.")
+        return Verdict("capacity", True, said("the ratio is not above zero anywhere: the load is not limited by this cylinder."))
     weight = float(motion.inputs["load.mass"]) * g0
     return Verdict("capacity", found.capacity >= weight, found.sentence)
 
@@ -64,14 +67,17 @@ def limit_verdict(motion: Motion) -> Verdict:
     """Return which limit comes first over the motion: pressure, the front axle's share, or tipping."""
     fine = closely(motion)
     steer, tip = largest_mass(fine), tipping_mass(fine)
-    limits = {"the pressure": capacity(fine) / g0, "the front axle's least load": steer, "tipping": tip}
+    limits = {said("the pressure"): capacity(fine) / g0, said("the front axle's least load"): steer, said("tipping"): tip}
     least_of = {name: float(np.nanmin(values)) for name, values in limits.items() if np.isfinite(values).any()}
     if not least_of:
-        return Verdict("largest implement", True, "nothing limits it over this motion.")
+        return Verdict("largest implement", True, said("nothing limits it over this motion."))
     first = min(least_of, key=lambda name: least_of[name])
     mass = float(motion.inputs["load.mass"])
-    says = "; ".join(f"{name} {value:.0f} kg" for name, value in least_of.items())
-    text = f"{first} comes first; over this motion: {says}; the implement has {mass:.0f} kg."
+    text = said(
+        "{first} comes first; over this motion: {limits}; the implement has {mass}.",
+        first=first, limits="; ".join(f"{name} {show(value, 'kg', '.0f')}" for name, value in least_of.items()),
+        mass=show(mass, "kg", ".0f"),
+    )  # fmt: skip
     return Verdict("largest implement", mass <= least_of[first], text)
 
 
@@ -79,10 +85,14 @@ def test_verdict(motion: Motion) -> Verdict:
     """Return what can be lifted through the whole range at 90 % of the pressure, the way tractors are tested."""
     fine = closely(motion)
     parts = []
-    for where, lifted in (("at the hitch points", at_hitch_points(fine)), ("610 mm behind them", behind(fine))):
-        least = f"{np.nanmin(lifted) / kN:.2f} kN" if np.isfinite(lifted).any() else "not limited by the cylinders"
-        parts.append(f"{where} {least}")
-    return Verdict("test", True, f"through the whole range at {100 * SHARE:.0f} % of the pressure (as OECD Code 2): {', '.join(parts)}.")
+    behind_them = said("{distance} behind them", distance=show(BEHIND, "mm", ".0f"))
+    for where, lifted in ((said("at the hitch points"), at_hitch_points(fine)), (behind_them, behind(fine))):
+        is_limited = bool(np.isfinite(lifted).any())
+        parts.append(f"{where} {show(float(np.nanmin(lifted)), 'kN', '.2f') if is_limited else said('not limited by the cylinders')}")
+    text = said(
+        "through the whole range at {share:.0f} % of the pressure (as OECD Code 2): {parts}.", share=100 * SHARE, parts=", ".join(parts)
+    )  # fmt: skip
+    return Verdict("test", True, text)
 
 
 def upper_link_verdict(motion: Motion) -> Verdict:
@@ -90,22 +100,33 @@ def upper_link_verdict(motion: Motion) -> Verdict:
     force = upper_link_force(closely(motion))
     low, high = float(np.nanmin(force)), float(np.nanmax(force))
     if low >= 0.0 or high <= 0.0:
-        kind, small, large = ("tension", low, high) if low >= 0.0 else ("compression", -high, -low)
-        return Verdict("upper link", True, f"in {kind} over this motion, {small / kN:.2f} to {large / kN:.2f} kN.")
-    pressed = spans_in_words(ranges_below_zero(motion, upper_link_force), "S")
-    says = f"up to {high / kN:.2f} kN of tension and {-low / kN:.2f} kN of compression, which acts {pressed}"
-    return Verdict("upper link", True, f"{says}: the force changes its sense, so that play is felt.")
+        small, large = sorted((abs(low), abs(high)))
+        ends = {"low": shown_number(small, "kN", ".2f"), "high": show(large, "kN", ".2f")}
+        if low >= 0.0:
+            return Verdict("upper link", True, said("in tension over this motion, {low} to {high}.", **ends))
+        return Verdict("upper link", True, said("in compression over this motion, {low} to {high}.", **ends))
+    text = said(
+        "up to {tension} of tension and {compression} of compression, which acts {where}: the force changes its sense, "
+        "so that play is felt.",
+        tension=show(high, "kN", ".2f"), compression=show(-low, "kN", ".2f"),
+        where=spans_in_words(ranges_below_zero(motion, upper_link_force), "S"),
+    )  # fmt: skip
+    return Verdict("upper link", True, text)
 
 
 def mast_verdict(hitch: Mechanism, motion: Motion) -> Verdict:
     """Return the tilt over the motion, and the upper link that makes the mast vertical at its start."""
     fine = closely(motion)
     tilt, start = fine["tilt"], float(np.min(motion.strokes["S"][motion.reached]))
-    says = f"tilt {np.nanmin(tilt) / deg:.2f} to {np.nanmax(tilt) / deg:.2f} deg over this motion"
-    return Verdict("mast", True, f"{says}. At S = {start:.4f} m {mast_words(hitch, start)}")
+    text = said(
+        "tilt {low} to {high} over this motion. At S = {start} {words}",
+        low=shown_number(float(np.nanmin(tilt)), "deg", ".2f"), high=show(float(np.nanmax(tilt)), "deg", ".2f"),
+        start=show(start, "m", ".4f"), words=mast_words(hitch, start),
+    )  # fmt: skip
+    return Verdict("mast", True, text)
 
 
-def batch_verdict(motion: Motion) -> str:
+def batch_verdict(motion: Motion) -> Verdict:
     """Return how many designs of a batch cannot lift their implement or lose the front axle, and the extremes."""
     poses = tuple(range(len(motion._design_shape), len(motion.shape)))
     lifted = np.min(np.where(np.isnan(capacity(motion)), np.inf, capacity(motion)), axis=poses)
@@ -113,17 +134,21 @@ def batch_verdict(motion: Motion) -> str:
     front = front_axle(motion) / (motion.inputs["vehicle_mass"] * g0) - motion.inputs["least_front"]
     light = np.min(np.where(np.isnan(front), np.inf, front), axis=poses) < 0.0
     whole = motion.reached.all(axis=poses)
-    return (
-        f"{int((lifted < weight).sum())} of {lifted.size} designs are too weak for their implement, {int(light.sum())} leave too little "
-        f"on the front axle, {int((~whole).sum())} do not reach all poses; the least capacity is {lifted.min() / kN:.2f} kN in the worst "
-        f"design and {lifted.max() / kN:.2f} kN in the best. Take one design for its sentences."
-    )
+    weak = lifted < weight
+    text = said(
+        "{weak} of {total} designs are too weak for their implement, {light} leave too little on the front axle, {short} do not reach "
+        "all poses; the least capacity is {worst} in the worst design and {best} in the best. Take one design for its sentences.",
+        weak=int(weak.sum()), total=lifted.size, light=int(light.sum()), short=int((~whole).sum()),
+        worst=show(float(lifted.min()), "kN", ".2f"), best=show(float(lifted.max()), "kN", ".2f"),
+    )  # fmt: skip
+    return Verdict("designs", not (weak.any() or light.any() or (~whole).any()), text)
 
 
 def pressure_words(motion: Motion) -> str:
     """Return the pump's pressure and the cylinders in words."""
     circuit = circuit_of(motion)
-    return f"{circuit.rams(motion)[0].sized(motion)} at {float(circuit.supply(motion)) / 1e6:.4g} MPa"
+    pressure = show(float(circuit.supply(motion)), "MPa", 4)
+    return said("{size} at {pressure}", size=circuit.rams(motion)[0].sized(motion), pressure=pressure)
 
 
 # The force in the upper link, from the equilibrium of every body.

@@ -10,9 +10,10 @@ from __future__ import annotations
 import numpy as np
 
 from linkage import ForceElement, Motion
+from linkage.language import said
 from linkage.program import FloatArray
 from linkage.reports import closely
-from linkage.units import deg, g0, kN, mm
+from linkage.units import g0, show
 from linkage.verdict import Verdict
 
 from .capacity import own_loads
@@ -108,18 +109,28 @@ def balance_verdict(motion: Motion) -> Verdict:
     load, given = front_axle(fine), motion.inputs
     worst, weight = int(np.nanargmin(load)), float(given["vehicle_mass"]) * g0
     share, least = float(load[worst]) / weight, float(given["least_front"])
-    where = f"at S = {S[worst]:.4f} m, F {fine.y('F')[worst] / mm:.0f} mm high"
+    height = show(float(fine.y("F")[worst]), "mm", ".0f")
+    where = said("at S = {stroke}, F {height} high", stroke=show(float(S[worst]), "m", ".4f"), height=height)
     tip = tipping_mass(fine)
-    mass = f"It tips with {np.nanmin(tip):.0f} kg" if np.isfinite(tip).any() else "No implement tips it"
-    steep = float(np.nanmin(tipping_slope(fine))) / deg
+    mass = said("No implement tips it")
+    if np.isfinite(tip).any():
+        mass = said("It tips with {mass}", mass=show(float(np.nanmin(tip)), "kg", ".0f"))
     if load[worst] <= 0.0:
-        spare = f"the tractor tips over backwards {where}. {mass}: take a lighter implement or ballast in front."
-        return Verdict("front axle", False, spare)
-    says = f"least load {load[worst] / kN:.2f} kN, {100 * share:.0f} % of the tractor's weight, {where}; steering needs {100 * least:.0f} %"
-    uphill = f"{mass}, and with this one uphill at {steep:.1f} deg."
+        text = said(
+            "the tractor tips over backwards {where}. {mass}: take a lighter implement or ballast in front.", where=where, mass=mass
+        )  # fmt: skip
+        return Verdict("front axle", False, text)
+    says = said(
+        "least load {load}, {share:.0f} % of the tractor's weight, {where}; steering needs {least:.0f} %",
+        load=show(float(load[worst]), "kN", ".2f"), share=100 * share, where=where, least=100 * least,
+    )  # fmt: skip
+    steep = show(float(np.nanmin(tipping_slope(fine))), "deg", ".1f")
+    uphill = said("{mass}, and with this one uphill at {slope}.", mass=mass, slope=steep)
     if share >= least:
         return Verdict("front axle", True, f"{says}. {uphill}")
-    most = float(np.nanmin(largest_mass(fine)))
     ballast = (least - share) * float(given["vehicle_mass"]) / np.cos(float(given["slope"]))
-    remedy = f"At most {most:.0f} kg, or {ballast:.0f} kg of ballast over the front axle. "
-    return Verdict("front axle", False, f"{says}. {remedy}{uphill}")
+    remedy = said(
+        "At most {most}, or {ballast} of ballast over the front axle.",
+        most=show(float(np.nanmin(largest_mass(fine))), "kg", ".0f"), ballast=show(ballast, "kg", ".0f"),
+    )  # fmt: skip
+    return Verdict("front axle", False, f"{says}. {remedy} {uphill}")

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from linkage import Column, Mechanism
+from linkage.language import noted, said
 from linkage.mechanism import require_mechanism
 from linkage.study import Settings, Zone, settings_for, zone
-from linkage.units import mm
+from linkage.units import show, shown_number
 
 from .capacity import from_stroke_per_newton, stroke_per_newton
 
@@ -46,11 +47,11 @@ def zone_columns(capacity: Zone, tilt: Zone) -> list[Column]:
     """Return both zones as a table over the stroke."""
     return [
         Column("S", capacity.strokes["S"], "mm", 1),
-        Column("capacity_min", capacity.low, "kN", 2),
-        Column("capacity_max", capacity.high, "kN", 2),
-        Column("tilt_min", tilt.low, "deg", 3),
-        Column("tilt_max", tilt.high, "deg", 3),
-        Column("assembled", tilt.reached, "", 3),
+        Column(noted("capacity_min"), capacity.low, "kN", 2),
+        Column(noted("capacity_max"), capacity.high, "kN", 2),
+        Column(noted("tilt_min"), tilt.low, "deg", 3),
+        Column(noted("tilt_max"), tilt.high, "deg", 3),
+        Column(noted("assembled"), tilt.reached, "", 3),
     ]
 
 
@@ -74,5 +75,7 @@ def mast_words(hitch: Mechanism, S: float) -> str:
     """Return the upper link for a vertical mast at a stroke [m] in words, and whether its admissible range holds it."""
     found, (low, high) = vertical_mast(hitch, S), admissible(hitch).get("MK", (0.0, float("inf")))
     apart = [value for value in found.values if not low <= value <= high]
-    range_words = f" That is outside the admissible {low / mm:.0f} to {high / mm:.0f} mm."
-    return found.sentence + (range_words if apart else "")
+    if not apart:
+        return found.sentence
+    admitted = said("That is outside the admissible {low} to {high}.", low=shown_number(low, "mm", ".0f"), high=show(high, "mm", ".0f"))
+    return f"{found.sentence} {admitted}"

@@ -76,8 +76,8 @@ def test_dead_points_and_poses_out_of_reach_are_gaps():
 def test_several_cylinders_have_their_names():
     motion = Digger().sweep(phi=3, psi=4)
     columns = shown(Digger(), motion)
-    names = ["torque phi", "torque psi", "thrust lift", "pressure lift", "thrust arm", "pressure arm"]
-    assert sorted(list(columns)[-6:]) == sorted(names)
+    names = ["torque phi", "torque psi", "thrust lift", "pressure lift", "thrust arm", "pressure arm", "reserve arm"]
+    assert sorted(list(columns)[-7:]) == sorted(names)  # only the one on a pump has a reserve
     for name in ("lift", "arm"):
         cylinder = Digger.plan.members[name]
         assert_allclose(columns[f"thrust {name}"].values, cylinder.thrust(motion))
@@ -122,7 +122,7 @@ def test_without_loads_and_with_a_table_of_its_own_nothing_is_added():
     hitch = ThreePointHitch()
     assert [each.name for each in results(hitch, hitch.sweep(3))] == [each.name for each in hitch.columns(hitch.sweep(3))]
     again = load(to_toml(ThreePointHitch))()
-    assert [each.name for each in results(again, again.sweep(3))][-3:] == ["drive force", "thrust", "pressure"]
+    assert [each.name for each in results(again, again.sweep(3))][-4:] == ["drive force", "thrust", "pressure", "reserve"]
 
 
 def test_any_member_may_have_columns():

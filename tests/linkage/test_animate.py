@@ -1,6 +1,5 @@
 """Animations: the frames that were asked for, a page that stands alone, and errors in words."""
 
-import json
 import re
 import sys
 from math import pi
@@ -13,7 +12,6 @@ from PIL import Image
 from linkage import (
     LEFT,
     AssemblyError,
-    Column,
     Crank,
     DefinitionError,
     Dyad,
@@ -29,7 +27,6 @@ from linkage.pictures import animate, page_html, style
 from linkage.pictures.film import Stage, palette_of
 from linkage.pictures.strokes import playback
 from mechanisms.classics.front_loader import FrontLoader
-from mechanisms.classics.slider_crank import SliderCrank
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 
@@ -134,14 +131,6 @@ def test_names_keep_close_to_their_points():
             assert np.hypot(*part.text.xyann) < 1.7 * style.LABEL
 
 
-def test_a_page_has_the_rail_and_the_block():
-    motion = SliderCrank().sweep(9)
-    scene = data_of(page_html(motion, Column("d", motion["d"], "m")))["scene"]
-    assert len(scene["rails"]) == 1
-    assert [scene["names"][each["rider"]] for each in scene["blocks"]] == ["B"]
-    assert {len(pose) for pose in scene["poses"]} == {len(scene["names"]) + 2}
-
-
 # -- files -------------------------------------------------------------------------------------------------
 
 
@@ -183,58 +172,8 @@ def test_what_cannot_be_written_is_said_in_words(tmp_path):
         animate(MowerLift(OB=[0.17, 0.18]), tmp_path / "lift.gif")
 
 
-# -- the page ----------------------------------------------------------------------------------------------
-
-
-def data_of(text):
-    (found,) = re.findall(r'<script id="data" type="application/json">(.*?)</script>', text, re.DOTALL)
-    return json.loads(found)
-
-
-def test_a_page_holds_the_poses_and_the_curve(tmp_path):
-    text = animate(MowerLift(), tmp_path / "lift.html", count=11, column="kz", trace=["G"]).read_text(encoding="utf-8")
-    data = data_of(text)
-    scene, chart = data["scene"], data["chart"]
-    motion = MowerLift().sweep(31)
-    assert data["reached"] == list(range(31))
-    assert not data["turn"]
-    assert scene["names"] == ["A", "O", "B", "G"]
-    places = np.array(scene["poses"])
-    expected = np.stack([motion[name] for name in "AOBG"]).transpose(2, 0, 1) * [1, -1]
-    scale = np.ptp(places[..., 0]) / np.ptp(expected[..., 0])
-    shift = places[0, 0] - scale * expected[0, 0]
-    assert_allclose(places, scale * expected + shift, atol=0.4)
-    assert places.min() > 0 and (places.max(axis=(0, 1)) < [scene["width"], scene["height"]]).all()
-    assert_allclose(chart["column"]["values"], MowerLift().columns(motion)[-1].shown, rtol=1e-6)
-    assert_allclose(chart["stroke"]["values"], np.linspace(550, 800, 31))
-
-
-def test_a_page_needs_no_network_and_no_template_is_left(tmp_path):
-    text = animate(FourBar(), tmp_path / "bars.html", count=5).read_text(encoding="utf-8")
-    assert set(re.findall(r"https?://[^\"'\s]+", text)) == {"http://www.w3.org/2000/svg"}
-    assert not re.search(r"\b(src|href)=\"(?!data:)", text)
-    assert not re.search(r"\{\{\w+\}\}", text)
-    assert "default-src 'none'" in text
-    assert data_of(text)["turn"]
-
-
-def test_a_page_escapes_what_it_shows():
-    class Sly(FourBar):
-        pass
-
-    Sly.plan.title = "</script><b>{{JS}}&"
-    motion = Sly().sweep(3)
-    text = page_html(motion, Column("a<b", motion["psi"], "deg"), limit=(1.0, "</script>"))
-    assert text.count("</script>") == 2
-    assert "<b>" not in text
-    assert "<h1>&lt;/script&gt;&lt;b&gt;{{js}}&amp;</h1>" in text
-    assert data_of(text)["title"] == "</script><b>{{js}}&"
-    assert data_of(text)["chart"]["column"]["heading"] == "a<b, deg"
-
-
-def test_a_page_has_no_pose_out_of_reach():
-    motion = TooLong().sweep(unreachable="nan", S=40)
-    data = data_of(page_html(motion, Column("G_y", motion.y("G"), "m")))
-    assert data["reached"] == np.flatnonzero(motion.reached).tolist()
-    assert all(None not in data["scene"]["poses"][pose] for pose in data["reached"])
-    assert data["chart"]["column"]["values"][-1] is None
+def test_an_html_file_is_the_live_page(tmp_path):
+    heard = []
+    file = animate(MowerLift(), tmp_path / "lift.html", column="kz", trace=["G"], progress=lambda *each: heard.append(each))
+    assert file.read_text(encoding="utf-8") == page_html(MowerLift(), column="kz", trace=["G"], at={})
+    assert heard == [(1, 2), (2, 2)]

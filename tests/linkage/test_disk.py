@@ -12,12 +12,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from linkage import FileError, LinkageError
+from linkage import FileError, LinkageError, page
 from linkage.cli import main
 from linkage.disk import check_place, read, replacing, replacing_text
 from linkage.files import load, save
 from linkage.pictures import animate, draw, plot
-from linkage.pictures.film import html, write_gif, write_mp4
+from linkage.pictures.film import write_gif, write_mp4
 from linkage.pictures.strokes import playback
 from mechanisms.classics.four_bar import FourBar
 from mechanisms.header_balancer.measured import read_measured
@@ -63,7 +63,7 @@ def run():
 
 
 def paged(path):
-    html(run(), path, (), None, lambda done, total: None)
+    page(FourBar(), path, count=5)
 
 
 WRITERS = [

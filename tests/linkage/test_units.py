@@ -2,12 +2,14 @@
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from linkage import DefinitionError, units
-from linkage.units import UNITS, parse, show
+from linkage import Column, DefinitionError, units
+from linkage.reports import text_table
+from linkage.units import SYSTEMS, UNITS, current_system, decimals, parse, show, shown_in, shown_number, unit_system
 
 
 @pytest.mark.parametrize(
@@ -58,3 +60,92 @@ def test_unknown_unit_is_named():
 )
 def test_units_agree_with_each_other(left, right):
     assert left == pytest.approx(right, rel=1e-15)
+
+
+# -- systems of units --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("3000 psi", 3000 * 6894.757293168361),
+        ("1 lbf", 4.4482216152605),
+        ("12 in", 0.3048),
+        ("1 ft", 0.3048),
+        ("1 lb", 0.45359237),
+        ("1 lbf ft", 1.3558179483314004),
+        ("1 kgf m", 9.80665),
+        ("1 gal", 3.785411784e-3),
+        ("10 gal/min", 10 * 3.785411784e-3 / 60),
+        ("60 l/min", 1e-3),
+        ("1 lbf/in", 175.12683524647636),
+        ("1 hp", 745.6998715822702),
+    ],
+)
+def test_units_of_pounds_and_inches_are_read(text, value):
+    """The factors as NIST SP 811, appendix B.8, prints them."""
+    assert parse(text) == pytest.approx(value, rel=1e-12)
+
+
+def test_a_system_has_one_known_unit_for_every_measure():
+    for name, system in SYSTEMS.items():
+        assert {UNITS[unit][1] for unit in system.values()} == set(system), name
+        assert set(system) == set(SYSTEMS["si"])
+
+
+def test_without_a_system_everything_keeps_its_unit():
+    assert [show(0.18, unit) for unit in ("mm", "m", "inch")] == ["180 mm", "0.18 m", "7.08661 inch"]
+    with unit_system("us"), unit_system(None):
+        assert show(0.18, "mm") == "180 mm" and current_system() == ""
+
+
+@pytest.mark.parametrize(
+    ("system", "value", "unit", "digits", "text"),
+    [
+        ("si", 155 * units.kgf_cm2, "kgf/cm2", 4, "15.2 MPa"),
+        ("bar-mm", 155 * units.kgf_cm2, "kgf/cm2", ".1f", "152.0 bar"),
+        ("us", 155 * units.kgf_cm2, "kgf/cm2", ".1f", "2205 psi"),
+        ("us", 1e9, "bar", 4, "145038 psi"),
+        ("kgf", 9.0e3, "kN", ".2f", "918 kgf"),
+        ("si", 0.5660, "m", ".4f", "566.0 mm"),
+        ("us", 0.5660, "m", ".4f", "22.283 in"),
+        ("us", 0.0123, "mm", "+.0f", "+0.48 in"),
+        ("si", -1e-9, "mm", "z.0f", "0 mm"),
+        ("us", 1.5, "", ".2f", "1.50"),
+        ("us", 2.0, "s", ".1f", "2.0 s"),
+    ],
+)
+def test_a_number_is_shown_in_the_system_as_fine_as_before(system, value, unit, digits, text):
+    with unit_system(system):
+        assert show(value, unit, digits) == text
+        assert shown_number(value, unit, digits) == text.split()[0]
+
+
+@given(st.sampled_from([*UNITS]), st.sampled_from([*SYSTEMS]), st.integers(0, 6), st.floats(-1e4, 1e4))
+def test_what_is_shown_is_what_it_was_within_its_digits(unit, system, digits, number):
+    """Read back, a shown number differs by less than half of its last digit, and that digit is not coarser than asked for by half."""
+    value = number * UNITS[unit][0]
+    with unit_system(system):
+        text, name, places = show(value, unit, f".{digits}f"), shown_in(unit), decimals(digits, unit)
+    number_text, sign = text.split(" ", 1)
+    assert sign == name and UNITS[name][1] == UNITS[unit][1]
+    last = 10.0**-places * UNITS[name][0]
+    assert abs(float(number_text) * UNITS[name][0] - value) <= 0.5 * last * (1 + 1e-9) + 1e-12 * abs(value)
+    assert last <= 10**0.15 * 10.0**-digits * UNITS[unit][0] * (1 + 1e-9)
+
+
+def test_an_unknown_system_is_refused_with_those_there_are():
+    with pytest.raises(DefinitionError, match="si, bar-mm, kgf, us"), unit_system("cgs"):
+        pass
+    assert current_system() == ""
+
+
+def test_a_column_follows_the_system():
+    column = Column("pd", np.array([155.0, 100.0]) * units.kgf_cm2, "kgf/cm2", 1)
+    assert (column.heading, column.shown_digits) == ("pd, kgf/cm2", 1)
+    with unit_system("us"):
+        assert (column.heading, column.shown_unit, column.shown_digits) == ("pd, psi", "psi", 0)
+        assert column.shown == pytest.approx([2204.62, 1422.33], abs=0.01)
+        assert [*text_table([column])] == ["pd, psi", "   2205", "   1422"]
+    with unit_system("si"):
+        assert [*text_table([column])] == ["pd, MPa", "  15.20", "   9.81"]

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from linkage import DefinitionError, Featured, Weight, page, plot
+from linkage import DefinitionError, Featured, FileError, Weight, page, plot
+from linkage.files import load, save
 from linkage.pictures.strokes import playback
 from linkage.reports import results
 from mechanisms.classics.front_loader import FrontLoader
@@ -69,6 +70,23 @@ def test_an_implement_without_weight_has_no_limit():
         load = Weight("G", mass=0)
 
     assert not Unloaded().featured().limits
+
+
+@pytest.mark.parametrize("machine", [MowerLift(), FrontLoader(), ThreePointHitch(OB=0.31)])
+def test_a_file_says_what_the_machine_is_about(machine, tmp_path):
+    for name in ("machine.toml", "machine.json"):
+        save(machine, tmp_path / name)
+        found, own = load(tmp_path / name)().featured(), machine.featured()
+        assert (found.column, list(found.path)) == (own.column, list(own.path))
+        assert {key: tuple(limit) for key, limit in found.limits.items()} == dict(own.limits)
+
+
+@pytest.mark.parametrize(
+    "text", ["column = 3", 'path = "G"', 'limits = { t = "high" }', "limits = { t = [0.1, 2] }", 'colum = "t"', "limits = { t = [] }"]
+)
+def test_what_a_file_says_wrongly_of_it_comes_with_its_line(text):
+    with pytest.raises(FileError, match=r"(?s)line 2.*featured"):
+        load(f'name = "Own"\n[featured]\n{text}\n')
 
 
 def test_a_machine_of_ones_own_says_what_it_is_about(tmp_path):

@@ -109,8 +109,8 @@ def run(tmp_path, monkeypatch, capsys):
 @pytest.mark.parametrize(
     ("command", "name", "machine"),
     [
-        (("capacity", "--count", "3", "--pins"), "hitch.toml", "three_point_hitch"),
-        (("capacity", "--count", "4"), "small.json", "mechanisms.three_point_hitch:HitchCategory1"),
+        (("hitch", "--count", "3", "--pins"), "hitch.toml", "three_point_hitch"),
+        (("hitch", "--count", "4"), "small.json", "mechanisms.three_point_hitch:HitchCategory1"),
         (("balance", "--count", "3"), "balancer.toml", "header_balancer"),
         (("balance", "--header", "1", "--reaction", "300kgf", "--set", "n=1.4"), "balancer.toml", "header_balancer"),
     ],
@@ -134,12 +134,12 @@ def test_plain_commands_take_the_files(run):
 @pytest.mark.parametrize(
     ("command", "words"),
     [
-        (("capacity", "balancer.toml"), "balancer.toml is no three-point hitch: it has no S, L0, E, M, C and 33 more; take a"),
+        (("hitch", "balancer.toml"), "balancer.toml is no three-point hitch: it has no S, L0, E, M, C and 33 more; take a"),
         (("balance", "hitch.toml"), "hitch.toml is no balanced header: it has no h, "),
-        (("capacity", "small.json", "--zones"), "a file holds no admissible settings"),
-        (("capacity", "small.json", "--figure", "zones"), "a file holds no admissible settings"),
+        (("hitch", "small.json", "--zones"), "a file holds no admissible settings"),
+        (("hitch", "small.json", "--figure", "zones"), "a file holds no admissible settings"),
         (("balance", "balancer.toml", "--table"), "--table goes with header_balancer and its headers"),
-        (("capacity", "hitch.toml", "--category", "1"), "hitch.toml has dimensions of its own"),
+        (("hitch", "hitch.toml", "--category", "1"), "hitch.toml has dimensions of its own"),
     ],
 )
 def test_what_a_file_cannot_give_is_said(run, command, words):
@@ -151,7 +151,7 @@ def test_what_a_file_cannot_give_is_said(run, command, words):
 def test_file_that_lacks_a_dimension_is_no_hitch(run, tmp_path):
     text = (tmp_path / "hitch.toml").read_text(encoding="utf-8")
     (tmp_path / "hitch.toml").write_text(text.replace("mass = 2000", 'mass = "vehicle_mass / 4"'), encoding="utf-8")
-    assert "it has no load.mass; take a" in run("capacity", "hitch.toml")[2]
+    assert "it has no load.mass; take a" in run("hitch", "hitch.toml")[2]
 
 
 def test_save_says_what_is_left_out(run):

@@ -180,10 +180,10 @@ def verdict(count=11, **dimensions):
 def test_verdict_as_printed():
     lift = MowerLift()
     assert lift.verdicts(lift.sweep(101)) == [
-        "The section cannot be lifted from its lowest position at 155 kgf/cm2: the least reserve kz is 0.963, at S = 0.5500 m, "
-        "and kz is below 1 from S = 0.5500 to 0.5660 m.",
+        "FAIL lifting: The section cannot be lifted from its lowest position at 155 kgf/cm2: the least reserve kz is 0.963, "
+        "at S = 0.5500 m, and kz is below 1 from S = 0.5500 to 0.5660 m. "
         "It needs 161.0 kgf/cm2, or the next standard bore: 90 mm gives kz = 1.22.",
-        "Lifting from S = 0.5500 to 0.8000 m takes 1.26 l of oil; time and flow follow from the pump.",
+        "ok   oil: Lifting from S = 0.5500 to 0.8000 m takes 1.26 l of oil; time and flow follow from the pump.",
     ]
 
 
@@ -210,9 +210,9 @@ def test_verdict_stays_where_the_motion_starts_higher():
     lift = MowerLift()
     assert "lifted from S = 0.5600 m at" in lift.verdicts(lift.at(S=[0.56, 0.70]))[0]
     assert lift.verdicts(lift.at(S=0.70)) == [
-        "The section can be lifted at S = 0.7000 m at 155 kgf/cm2: the least reserve kz is 1.227, at S = 0.7000 m."
+        "ok   lifting: The section can be lifted at S = 0.7000 m at 155 kgf/cm2: the least reserve kz is 1.227, at S = 0.7000 m."
     ]
-    assert lift.verdicts(lift.at(S=0.55))[0].startswith("The section cannot be lifted here at 155 kgf/cm2")
+    assert lift.verdicts(lift.at(S=0.55))[0].startswith("FAIL lifting: The section cannot be lifted here at 155 kgf/cm2")
 
 
 def test_verdict_with_reserve():
@@ -257,24 +257,25 @@ def test_verdict_where_the_weight_drives():
 
 def test_verdict_where_the_weight_drives_everywhere():
     text = verdict(BOG=4.5)
-    assert text.startswith("The load drives the lift from S = 0.5500 to 0.8000 m")
+    assert text.startswith("ok   driven: The load drives the lift from S = 0.5500 to 0.8000 m")
 
 
 def test_verdict_of_a_batch_counts_designs():
     lift = MowerLift(bore=np.array([70, 80, 90, 100]) * mm)
     (text,) = lift.verdicts(lift.sweep(5))
-    assert text.startswith("2 of 4 designs fall short of kz = 1")
+    assert not text and text.startswith("FAIL lifting: 2 of 4 designs fall short of kz = 1")
     assert "0.737 in the worst design and 1.504 in the best" in text
 
 
 def test_verdict_where_poses_are_out_of_reach():
     lift = MowerLift()
     text = lift.verdicts(lift.at(S=[0.3, 0.6, 0.7], unreachable="nan"))
-    assert text[-1] == "The poses out of reach are left out of this."
+    assert text[-1] == "FAIL reach: The poses out of reach are left out of this."
     assert "kz is below 1 from S = 0.4829 to" in text[0]  # from the dead point at AO - OB, between the poses asked for
-    assert "grows without bounds at S = 0.4829 m" in text[0] and "keep away from that pose" in text[1]
-    assert "Lifting from S = 0.4829 to 0.7000 m" in text[2]
-    assert lift.verdicts(lift.at(S=[0.1, 0.2], unreachable="nan")) == ["No pose of this motion can be assembled; there is nothing to lift."]
+    assert "grows without bounds at S = 0.4829 m" in text[0] and "keep away from that pose" in text[0]
+    assert "Lifting from S = 0.4829 to 0.7000 m" in text[1]
+    (nowhere,) = lift.verdicts(lift.at(S=[0.1, 0.2], unreachable="nan"))
+    assert nowhere == "FAIL reach: No pose of this motion can be assembled; there is nothing to lift." and not nowhere
 
 
 def test_oil_is_area_times_travel():

@@ -4,7 +4,7 @@ USES = [
     (
         "@",
         "shw; tabel mower_lift; plots; capacty",
-        ("hydrolinkage: Command", "is unknown. Did you mean", "Known: list, show, table, plot, animate, save, optimise, study, "),
+        ("hydrolinkage: Command", "is unknown. Did you mean", "Known: list, show, table, limits, forces, plot, "),
     ),
     ("@", "--verbos", ("hydrolinkage: unrecognized arguments: --verbos; see hydrolinkage --help.",)),
     (
@@ -146,13 +146,13 @@ USES = [
     ("table lever.py --at @", "S; S=; S=x; S=nan; S=0.6,x; =0.6", ("hydrolinkage: --at",)),
     ("table lever.py --at @", "S=700", ("hydrolinkage: Lever: S = 700 m, and", "declare the stroke as long as that.")),
     ("table lever.py --at @", "Q=0.6", ("hydrolinkage: Stroke 'Q' is unknown in Lever. Known: S.",)),
-    ("table lever.py --at @", "S=0.6kg", ("hydrolinkage: --at S: '0.6kg' is a mass where", "wanted; use one of: m, mm, cm, inch.")),
+    ("table lever.py --at @", "S=0.6kg", ("hydrolinkage: --at S: '0.6kg' is a mass where", "wanted; use one of: m, mm, cm, inch, in, ft.")),
     ("table lever.py --at @", "S=0.1", ("hydrolinkage: B = Dyad(A, O) cannot be", "Start the stroke later or lengthen OB.")),
     ("table lever.py --set @", "OB; OB=; OB=x; OB=nan", ("hydrolinkage: --set",)),
     ("table lever.py --set @", "OB=0; OB=-0.2", ("hydrolinkage: B = Dyad(A, O): the length", "give a positive one.")),
     ("table lever.py --set @", "QB=0.2", ("hydrolinkage: Dimension 'QB' is unknown in Lever. Did you mean OB? Known: A, O, OB.",)),
     ("table lever.py --set @", "S=0.6", ("Lever, not a dimension; `table` takes --at S=0.6.",)),
-    ("table lever.py --set @", "OB=20deg", ("hydrolinkage: --set OB: '20deg' is an angle", "use one of: m, mm, cm, inch.")),
+    ("table lever.py --set @", "OB=20deg", ("hydrolinkage: --set OB: '20deg' is an angle", "use one of: m, mm, cm, inch, in, ft.")),
     (
         "table lever.py --set @",
         "O=0.6",
@@ -167,7 +167,7 @@ USES = [
         "nothing; S_x; turn nothing",
         ("hydrolinkage: Column", "is unknown in the table of Lever.", "Known: S, B_x, B_y, turn."),
     ),
-    ("table lever.py @", "--nothing", ("hydrolinkage: unrecognized arguments: --nothing; see hydrolinkage --help.",)),
+    ("table lever.py @", "--nothing", ("hydrolinkage: unrecognized arguments: --nothing; see hydrolinkage table --help.",)),
     ("table lever.py @", "--csv", ("hydrolinkage: argument --csv: expected one argument; see hydrolinkage table --help.",)),
     ("table lever.py @", "--csv nowhere/a.csv", ("hydrolinkage: nowhere/a.csv: the folder nowhere is not there; make it first",)),
     ("plot lever.py @", "-o a.txt", ("hydrolinkage: -o a.txt: the file's name ends in", "of .png, .svg, .pdf, which chooses the format.")),
@@ -198,7 +198,7 @@ USES = [
     ("save lever.py @", "nowhere/a.toml", ("hydrolinkage: nowhere/a.toml: the folder nowhere is not there; make it first",)),
     ("save lever.py @", "a.toml --set QB=3", ("hydrolinkage: Dimension 'QB' is unknown in Lever. Did you mean OB? Known: A, O, OB.",)),
     (
-        "capacity @",
+        "hitch @",
         "lever.py; mower_lift",
         (
             "hydrolinkage:",
@@ -208,18 +208,18 @@ USES = [
         ),
     ),
     (
-        "capacity @",
+        "hitch @",
         "three_point_hitch --category 9; three_point_hitch --category x; three_point_hitch --figure nothing",
-        ("hydrolinkage: argument", "see hydrolinkage capacity --help."),
+        ("hydrolinkage: argument", "see hydrolinkage hitch --help."),
     ),
     (
-        "capacity @",
+        "hitch @",
         "three_point_hitch --set OB=-1",
         ("hydrolinkage: B = Dyad(A, O): the length OB=-1 m is negative; give a positive one.",),
     ),
-    ("capacity @", "three_point_hitch --at S=x", ("hydrolinkage: --at S: 'x' is not a value;", "and a unit, such as 180mm or -75deg.")),
+    ("hitch @", "three_point_hitch --at S=x", ("hydrolinkage: --at S: 'x' is not a value;", "and a unit, such as 180mm or -75deg.")),
     (
-        "capacity @",
+        "hitch @",
         "three_point_hitch -o a.txt",
         ("hydrolinkage: -o a.txt: the file's name ends in", "of .png, .svg, .pdf, which chooses the format."),
     ),
@@ -238,7 +238,7 @@ USES = [
     (
         "balance @",
         "header_balancer --pressure 40kg",
-        ("hydrolinkage: --pressure: '40kg' is a mass where", "of: Pa, kPa, MPa, bar, kgf_cm2, kgf/cm2."),
+        ("hydrolinkage: --pressure: '40kg' is a mass where", "of: Pa, kPa, MPa, bar, kgf_cm2, kgf/cm2, psi."),
     ),
     (
         "balance @",
@@ -246,7 +246,7 @@ USES = [
         ("hydrolinkage: A reaction of 1e+09 kgf is above the weights', 1143 kgf; ask for less.",),
     ),
     ("balance @", "header_balancer --measured nowhere.csv", ("hydrolinkage: nowhere.csv: there is no such file; look at its name",)),
-    ("balance @", "header_balancer --measured values.csv", ("is one of m, mm, cm, inch.",)),
+    ("balance @", "header_balancer --measured values.csv", ("is one of m, mm, cm, inch, in, ft.",)),
     (
         "balance @",
         "header_balancer --figure nothing",
@@ -272,7 +272,7 @@ USES = [
         "header_balancer -o a.txt",
         ("hydrolinkage: -o a.txt: the file's name ends in", "of .png, .svg, .pdf, which chooses the format."),
     ),
-    ("list @", "nothing; --nothing", ("hydrolinkage: unrecognized arguments:", "see hydrolinkage --help.")),
-    ("show lever.py @", "--equation; nothing", ("hydrolinkage: unrecognized arguments:", "see hydrolinkage --help.")),
-    ("show lever.py @", "--set OB=2kg", ("hydrolinkage: --set OB: '2kg' is a mass where", "wanted; use one of: m, mm, cm, inch.")),
+    ("list @", "nothing; --nothing", ("hydrolinkage: unrecognized arguments:", "see hydrolinkage list --help.")),
+    ("show lever.py @", "--equation; nothing", ("hydrolinkage: unrecognized arguments:", "see hydrolinkage show --help.")),
+    ("show lever.py @", "--set OB=2kg", ("hydrolinkage: --set OB: '2kg' is a mass where", "wanted; use one of: m, mm, cm, inch, in, ft.")),
 ]

@@ -1,0 +1,155 @@
+"""`hydrolinkage capacity NAME`: the largest load that a pump lifts at a point of any machine with a cylinder, over its stroke."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from collections.abc import Callable, Iterator
+from typing import final
+
+import numpy as np
+
+from linkage.cli.command import Command, machine_arguments, motion_arguments
+from linkage.cli.machines import find
+from linkage.cli.settings import check_argument, design, judged_code, motion_at, si_value
+from linkage.cli.table import csv_argument, write_table
+from linkage.errors import DefinitionError, known_name
+from linkage.language import said
+from linkage.loads import ForceElement, LoadCase
+from linkage.mechanism import Mechanism
+from linkage.motion import Column, Motion, columns_of, lowest
+from linkage.statics import elements_of, same
+from linkage.units import g0, show
+from linkage.verdict import Verdict
+
+from .inputs import Array
+from .judged import line_verdicts
+from .lift import LiftCircuit, direction_of, proper_share
+from .member import Cylinder, found_in
+
+
+@final
+class CapacityCommand(Command):
+    """Prints what a machine lifts at a point, and what limits it."""
+
+    name = "capacity"
+    help = "the largest load that the pump lifts at a point of a machine, beside its own, and what limits it"
+
+    def add(self, parser: ArgumentParser) -> None:
+        machine_arguments(parser)
+        parser.add_argument("--at-point", metavar="G", help="where the load hangs (default: where the machine's own load does)")
+        parser.add_argument("--along", metavar="0,1", default="0,1", help="the direction it is lifted in, x and y (default 0,1, upwards)")
+        parser.add_argument("--cylinder", metavar="LIFT", help="the cylinder that lifts, where there are several")
+        parser.add_argument("--circuit", metavar="CIRCUIT", help="the circuit that feeds it, where several do")
+        parser.add_argument("--pressure", metavar="180bar", help="this pressure without losses instead of a circuit's, gauge")
+        parser.add_argument("--share", metavar="0.9", type=float, default=1.0, help="share of the pressure (default 1)")
+        parser.add_argument("--case", metavar="CASE", help="the machine's own load in this load case")
+        csv_argument(parser)
+        motion_arguments(parser, 11)
+        check_argument(parser)
+
+    def run(self, options: Namespace) -> int:
+        machine = design(find(options.machine), options.settings)
+        ram = cylinder_of(machine, options.cylinder)
+        circuit, point = circuit_of(machine, ram, options), point_of(machine, options.at_point)
+        along, share = along_of(options.along), options.share
+        proper_share(share)
+        case = None if options.case is None else known_name("Load case", options.case, machine.plan.of_kind(LoadCase), machine.plan.title)
+        over = motion_at(machine, options.strokes, options.count)
+
+        def capacity(motion: Motion) -> Array:
+            """Return it along the stroke."""
+            return circuit.capacity(motion, point, along=along, share=share, cylinder=ram, case=case)
+
+        whole = over.moved(over.strokes)
+        columns = [*strokes_and_point(over, point), *ram.columns_in(whole, case), Column("capacity", capacity(whole), "kN", 3)]
+        if options.csv != "-":
+            way = f"along ({along[0]:g}, {along[1]:g}){at_pressure(circuit, over, share)}"
+            print(f"{machine.plan.title}: {ram.name} lifts at {point} {way}, beside the machine's own loads. Pressures are gauge.\n")
+        write_table(columns, over.reached.size, options.csv)
+        found = [capacity_verdict(over, capacity, point), *line_verdicts(circuit, over, case), *ram.verdicts(over)]
+        if options.csv != "-":
+            print("", *found, sep="\n")
+        return judged_code(found, options)
+
+
+def cylinder_of(machine: Mechanism, name: str | None) -> Cylinder:
+    """Return the cylinder that lifts: the one named, else the only one that no gas feeds; DefinitionError where that leaves a choice."""
+    plan = machine.plan
+    if name is not None:
+        return found_in(plan.members, name, plan.title)
+    fed = [ram for each in plan.of_kind(ForceElement).values() for ram in each.feeds(plan.members)]
+    lifting = {key: each for key, each in plan.of_kind(Cylinder).items() if not any(same(each, ram) for ram in fed)}
+    if len(lifting) == 1:
+        return next(iter(lifting.values()))
+    if lifting:
+        raise DefinitionError(f"{plan.title} has the cylinders {', '.join(lifting)}; say --cylinder one of them.")
+    remedy = "declare one, lift = Cylinder(A, B, bore=0.08, rod=0.045)"
+    raise DefinitionError(f"{plan.title} has no cylinder {'but those that gas feeds' if fed else 'that could lift'}; {remedy}.")
+
+
+def circuit_of(machine: Mechanism, ram: Cylinder, options: Namespace) -> LiftCircuit:
+    """Return what feeds a cylinder: a pressure that is given, the circuit named, else its only one."""
+    plan = machine.plan
+    if options.pressure is not None:
+        if options.circuit is not None:
+            raise DefinitionError("--pressure and --circuit both say what feeds the cylinder; give one of them.")
+        return LiftCircuit(ram.name, pressure=si_value(options.pressure, "pressure", "--pressure"))
+    circuits = {name: each for name, each in plan.of_kind(LiftCircuit).items() if any(same(ram, one) for one in each.members(plan.members))}
+    if options.circuit is not None:
+        return circuits[known_name("LiftCircuit", options.circuit, circuits, f"{plan.title} with {ram.name}")]
+    if len(circuits) == 1:
+        return next(iter(circuits.values()))
+    if circuits:
+        raise DefinitionError(f"{plan.title}: {ram.name} is on {len(circuits)} circuits; say --circuit one of {', '.join(circuits)}.")
+    raise DefinitionError(f"{plan.title}: no LiftCircuit has {ram.name}, whose pump counts; declare one, or say --pressure 180bar.")
+
+
+def point_of(machine: Mechanism, name: str | None) -> str:
+    """Return where the load hangs: the point named, else where all loads of the machine act; DefinitionError where these are several."""
+    plan = machine.plan
+    if name is not None:
+        return known_name("Point", name, plan.points, plan.title)
+    pose = machine.at(unreachable="nan", **plan.sketch_strokes)
+    points = dict.fromkeys(load.point for _, each in elements_of(plan, None) for load in each.loads(pose) if load.point in plan.moving)
+    if len(points) == 1:
+        return next(iter(points))
+    said = f"its loads act at {', '.join(points)}" if points else "it declares no load"
+    raise DefinitionError(f"{plan.title}: {said}; say where the load hangs, --at-point {next(iter(points), plan.moving[-1])}.")
+
+
+def along_of(text: str) -> tuple[float, float]:
+    """Return a direction; DefinitionError for what is none."""
+    parts = text.split(",")
+    try:
+        x, y = (float(each) for each in parts)
+    except ValueError:
+        raise DefinitionError(f"--along {text}: two numbers are expected, x and y, such as 0,1 for upwards.") from None
+    direction_of((x, y))
+    return x, y
+
+
+def strokes_and_point(motion: Motion, point: str) -> Iterator[Column]:
+    """Yield the strokes, and where the load hangs."""
+    yield from (column for column in columns_of(motion) if column.name in (*motion.strokes, f"{point}_x", f"{point}_y"))
+
+
+def at_pressure(circuit: LiftCircuit, motion: Motion, share: float) -> str:
+    """Return at which pressure it lifts, in words."""
+    supply = show(float(np.ravel(circuit.supply(motion))[0]), "bar", 4)
+    return f" at {share:g} of {supply}" if share != 1.0 else f" at {supply}"
+
+
+def capacity_verdict(motion: Motion, capacity: Callable[[Motion], Array], point: str) -> Verdict:
+    """Return the least capacity over a motion, and where."""
+    found = lowest(motion, capacity)
+    if np.isnan(found.value):
+        text = said("the load at {point} drives, or does nothing: it is not limited by this cylinder.", point=point)
+        return Verdict("capacity", True, text)
+    if found.value <= 0.0:
+        text = said("nothing more is lifted at {point} {where}: the machine alone is too heavy there.", point=point, where=found.where)
+        return Verdict("capacity", False, text)
+    text = said(
+        "{force} ({mass}) are lifted at {point} everywhere, the least {where}.",
+        force=show(found.value, "kN", 4), mass=show(found.value / g0, "kg", 4), point=point, where=found.where,
+    )  # fmt: skip
+    return Verdict("capacity", True, text)

@@ -1,0 +1,154 @@
+"""What lifts by cylinders of one line, as whoever judges it needs it: who is meant, what is to be done, what the line can give.
+
+Pressures are gauge [Pa]. Forces count in the working direction: the side that works pushes, or pulls, with positive force.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass
+from typing import TypedDict, Unpack, final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from linkage.frozen import refuses_changes
+from linkage.loads import Parameter, Poses
+from linkage.motion import Motion
+from linkage.plan import Mask
+from linkage.quantities import Reference
+from linkage.statics import AnyMotion, Case, Loads
+
+from .cylinder import CylinderSize
+from .inputs import Array
+from .member import Circuit, Cylinder
+
+
+class Choice(TypedDict, total=False):
+    """Which cylinder of a line is meant, in which load case, in which direction of its own."""
+
+    cylinder: Reference | None
+    case: Case
+    direction: str | None
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Work:
+    """A cylinder's thrust [N] while it grows (`sense` 1) or shrinks (-1), its size, and the mechanical efficiency."""
+
+    thrust: Array
+    sense: Array
+    size: CylinderSize
+    k_m: Array
+
+    @property
+    def pulls(self) -> Mask:
+        """Where the rod side works: of both sides where the thrust pulls."""
+        if self.size.works == "both":
+            return np.asarray(self.thrust < 0.0)[()]
+        return np.full(np.shape(self.thrust), self.size.works == "rod")
+
+    @property
+    def area(self) -> Array:
+        """The area of the side that works [m2]."""
+        return np.asarray(np.where(self.pulls, self.size.pull_area, self.size.push_area))[()]
+
+    @property
+    def other_area(self) -> Array:
+        """The area of the other side [m2]."""
+        return np.asarray(np.where(self.pulls, self.size.push_area, self.size.pull_area))[()]
+
+    @property
+    def along(self) -> Array:
+        """The thrust in the direction in which the working side pushes or pulls [N]."""
+        return np.where(self.pulls, -self.thrust, self.thrust)
+
+    @property
+    def supplied(self) -> Mask:
+        """Where the working side is filled by the pump: it moves the way it pushes or pulls."""
+        return np.asarray(self.sense * np.where(self.pulls, -1.0, 1.0) >= 0.0)[()]
+
+    @property
+    def force(self) -> Array:
+        """The rod force in the working direction [N]: over k_m where the load resists the motion, times k_m where it drives."""
+        resists = self.along * np.where(self.supplied, 1.0, -1.0) > 0.0
+        return np.where(resists, self.along / self.k_m, self.along * self.k_m)
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Holding:
+    """Gauge pressures [Pa] that hold a load: on the working side, and on the other one where the load drives on."""
+
+    working: Array
+    other: Array
+
+
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class Lowering:
+    """Going back against a load, gauge pressures [Pa].
+
+    `working` is what the load alone makes in the working side, `push` what the other side must give where that does not do,
+    `by_itself` whether it sinks without it (a mask).
+    """
+
+    working: Array
+    push: Array
+    by_itself: Array
+
+
+class LiftLine(Circuit):
+    """The base of what lifts by cylinders of one line: pressures [Pa gauge], forces [N] in the working direction, oil [m3], time [s]."""
+
+    relief: Parameter | None
+
+    @abstractmethod
+    def rams(self, motion: Poses) -> tuple[Cylinder, ...]:
+        """Return its cylinders, as the motion's class has them."""
+
+    @abstractmethod
+    def supply(self, motion: Poses) -> Array:
+        """Return the highest pressure that lifts."""
+
+    @abstractmethod
+    def held(self, motion: Poses) -> Array:
+        """Return the pressure up to which it holds."""
+
+    @abstractmethod
+    def work(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Work:
+        """Return what a cylinder has to do while it moves in its working direction, or in the one named."""
+
+    @abstractmethod
+    def rod_force(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
+        """Return the rod force that is needed, shape (...)."""
+
+    @abstractmethod
+    def most(self, motion: AnyMotion, work: Work, share: float = 1.0) -> Array:
+        """Return the greatest rod force with the areas of a work, at a share of the pressure."""
+
+    @abstractmethod
+    def pressure_for(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
+        """Return the pressure that is needed on the side that works, shape (...)."""
+
+    @abstractmethod
+    def holding(self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None) -> Holding:
+        """Return the pressures that hold the thrust with the pump off."""
+
+    @abstractmethod
+    def lowering(
+        self, motion: Motion, loads: Loads = None, *, resistance: ArrayLike = 0.0, cylinder: Reference | None = None, case: Case = None
+    ) -> Lowering:
+        """Return how it goes back against its working direction, the oil flowing out against a `resistance`."""
+
+    @abstractmethod
+    def oil(self, motion: Motion) -> Array:
+        """Return the oil that a motion takes, one value a design."""
+
+    @abstractmethod
+    def time(self, motion: Motion) -> Array:
+        """Return the time that the pump's flow takes for it, one value a design."""

@@ -1,0 +1,168 @@
+"""`hydrolinkage doctor`: what is installed, what each part is for, and what is broken."""
+
+from __future__ import annotations
+
+import platform
+import re
+import sys
+from argparse import ArgumentParser, Namespace
+from collections.abc import Iterator, Mapping
+from importlib.metadata import Distribution, EntryPoint, PackageNotFoundError, distribution, entry_points, version
+from importlib.util import find_spec
+from pathlib import Path
+from types import MappingProxyType
+from typing import final
+
+from ..errors import DefinitionError
+from ..files.callables import REQUESTS_GROUP
+from ..files.registry import GROUP as FILES_GROUP
+from ..program.cache import cache_folder
+from .command import Command, lined_up
+from .entry import GROUP as COMMANDS_GROUP
+from .entry import PROGRAM, installed_version
+from .listing import GROUP as MACHINES_GROUP
+from .listing import guarded
+
+EXTRAS: Mapping[str, str] = MappingProxyType(
+    {
+        "fast": "kernels compiled by Numba, for many poses and searches",
+        "video": "animations as .mp4",
+        "scale": "surveys over several computers",
+        "pareto": "fronts of several objectives",
+        "xlsx": "sheets with live formulas",
+        "cad": "drawings as DXF",
+        "docs": "building the documentation",
+        "test": "running the tests",
+    }
+)
+"""What each extra is for."""
+GROUPS: Mapping[str, str] = MappingProxyType(
+    {
+        "machines": MACHINES_GROUP,
+        "commands": COMMANDS_GROUP,
+        "requests in files": REQUESTS_GROUP,
+        "members in files": FILES_GROUP,
+    }
+)
+BROKEN = 1
+_NAME = re.compile(r"[A-Za-z0-9][\w.-]*")
+_EXTRA = re.compile(r"""extra\s*==\s*['"]([^'"]+)['"]""")
+
+
+@final
+class DoctorCommand(Command):
+    """Prints what is installed and what is broken."""
+
+    name = "doctor"
+    help = "versions, back ends, extras and what they are for, what is loaded from where, what is broken"
+
+    def add(self, parser: ArgumentParser) -> None:
+        """Declare nothing."""
+
+    def run(self, options: Namespace) -> int:
+        print(*lined_up(list(places())), sep="\n")
+        print("\nBack ends", *(f"  {line}" for line in lined_up(list(backends()))), sep="\n")
+        print("\nPackages", *(f"  {line}" for line in lined_up(list(packages()))), sep="\n")
+        print("\nEntry points", *(f"  {line}" for line in lined_up(list(entry_rows()))), sep="\n")
+        faults = list(broken())
+        print("\nBroken", *(f"  {line}" for line in faults or ["nothing"]), sep="\n")
+        return BROKEN if faults else 0
+
+
+def places() -> Iterator[tuple[str, str]]:
+    """Yield versions and places."""
+    yield PROGRAM, f"{installed_version()} in {Path(__file__).parents[2]}"
+    yield "Python", f"{platform.python_version()} ({platform.python_implementation()}) in {sys.executable}"
+    yield "system", platform.platform()
+    try:
+        folder = cache_folder()
+        kept = f"{sum(1 for each in folder.rglob('*') if each.is_file())} files" if folder.is_dir() else "not there yet"
+        yield "kernels are kept in", f"{folder} ({kept})"
+    except (OSError, RuntimeError) as error:
+        yield "kernels are kept in", f"nowhere: {error}"
+    yield "letters in pictures", font()
+    yield "ffmpeg", ffmpeg()
+
+
+def font() -> str:
+    """Return the font of pictures."""
+    if find_spec("matplotlib") is None:
+        return "none: matplotlib is not there"
+    from matplotlib import rcParams
+    from matplotlib.font_manager import FontProperties, findfont
+
+    family = rcParams["font.family"]
+    return f"{', '.join(rcParams['font.sans-serif'][:1] if family == ['sans-serif'] else family)}, {findfont(FontProperties())}"
+
+
+def ffmpeg() -> str:
+    """Return where ffmpeg is."""
+    if find_spec("imageio_ffmpeg") is None:
+        return "not there: no .mp4; pip install 'hydrolinkage[video]'"
+    import imageio_ffmpeg
+
+    try:
+        return str(imageio_ffmpeg.get_ffmpeg_exe())
+    except RuntimeError as error:
+        return f"not there: {' '.join(str(error).split())}"
+
+
+def backends() -> Iterator[tuple[str, str]]:
+    """Yield the back ends, and what each is for."""
+    yield "floats", "a handful of poses"
+    yield "numpy", f"{version('numpy')}, the default"
+    yield "numba", f"{installed('numba') or 'not there, pip install hydrolinkage[fast]'}, where the work is worth the compile"
+
+
+def installed(name: str) -> str:
+    """Return the version of a package; "" where it is not installed."""
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return ""
+
+
+def packages() -> Iterator[tuple[str, str, str]]:
+    """Yield what is required, then every extra: what it brings, in which version, and what for."""
+    try:
+        wanted = distribution(PROGRAM).requires or []
+    except PackageNotFoundError:
+        yield "nothing", "", f"{PROGRAM} is not installed here; pip install -e ."
+        return
+    by_extra: dict[str, list[str]] = {"": []}  # what is required stands first
+    for text in wanted:
+        name, of = _NAME.match(text), _EXTRA.search(text)
+        by_extra.setdefault(of[1] if of else "", []).append(name[0] if name else text)
+    for extra, names in by_extra.items():
+        there = ", ".join(f"{name} {installed(name) or '(not there)'}" for name in names)
+        what = f"for {EXTRAS[extra]}" if extra in EXTRAS else ""
+        yield extra or "required", what, there
+
+
+def entry_rows() -> Iterator[tuple[str, str, str]]:
+    """Yield what packages bring, group by group: how many, from which distribution, from where."""
+    for what, group in GROUPS.items():
+        homes: dict[tuple[str, str], int] = {}
+        for entry in entry_points(group=group):
+            home = home_of(entry)
+            homes[home] = homes.get(home, 0) + 1
+        for (name, where), count in homes.items():
+            yield f"{count} {what}", f"of {name}", where
+
+
+def home_of(entry: EntryPoint) -> tuple[str, str]:
+    """Return the distribution that brings something, with its version, and the folder of its code."""
+    found: Distribution | None = entry.dist
+    spec = find_spec(entry.module.partition(".")[0])
+    where = str(Path(spec.origin).parents[1]) if spec and spec.origin else "not found"
+    return f"{found.metadata['Name']} {found.version}" if found else "an unknown package", where
+
+
+def broken() -> Iterator[str]:
+    """Yield what cannot be loaded, with its reason."""
+    for what, group in GROUPS.items():
+        for entry in entry_points(group=group):
+            try:
+                guarded(entry.load, f"{entry.name} of the {what} ({entry.value})")
+            except DefinitionError as error:
+                yield " ".join(str(error).split())

@@ -1,0 +1,127 @@
+"""`hydrolinkage forces NAME` and `limits NAME`: what drives and pins carry, and how far a machine goes."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from collections.abc import Iterator
+from typing import final
+
+import numpy as np
+
+from ..errors import DefinitionError
+from ..loads import LoadCase
+from ..mechanism import Mechanism
+from ..motion import Column, Motion, columns_of, geometry_verdicts
+from ..reports import force_columns, is_loaded
+from ..statics import PinForces
+from .command import Command, machine_arguments, motion_arguments
+from .machines import find
+from .settings import (
+    DIRECTIONS,
+    Acting,
+    acting_of,
+    check_argument,
+    design,
+    force_arguments,
+    judged_code,
+    motion_at,
+    verdicts_of,
+)
+from .table import csv_argument, pins_of, worst_pins, write_table
+
+
+@final
+class ForcesCommand(Command):
+    """Prints what a machine's drives, cylinders and pins carry."""
+
+    name = "forces"
+    help = "what drives, cylinders and pins carry over the stroke, in a load case, and the worst of every pin"
+
+    def add(self, parser: ArgumentParser) -> None:
+        machine_arguments(parser)
+        csv_argument(parser)
+        motion_arguments(parser, 11)
+        force_arguments(parser)
+        parser.add_argument("--all", action="store_true", help="the worst of every pin over all load cases and directions")
+        parser.add_argument("--poses", action="store_true", help="the force of every pin at every pose too")
+        parser.add_argument("--on", metavar="BODY", help="all forces on this body at every pose, which balance, instead: for FEM")
+        check_argument(parser)
+
+    def run(self, options: Namespace) -> int:
+        machine = design(find(options.machine), options.settings)
+        over, acting = motion_at(machine, options.strokes, options.count), acting_of(machine, options)
+        if not is_loaded(over):
+            what = f"{machine.plan.title} declares no load, so that there is no force; declare one, load = Weight(G, mass=100)"
+            raise DefinitionError(f'{what}, or in a file: load = {{ Weight = "G", mass = 100 }}.')
+        if options.all and (options.case, options.direction) != (None, None):
+            raise DefinitionError("--all takes every load case and direction; leave out --case and --direction, or --all.")
+        pins = pins_of(over, acting)
+        columns = list(force_table(over, pins, acting, options))
+        if options.csv != "-":
+            signs = "Drive forces are positive the way the stroke grows, thrusts in a push."
+            print(f"{machine.plan.title}, {pins.case}, {pins.direction}. {signs}\n")
+        write_table(columns, over.reached.size, options.csv)
+        if options.csv == "-":
+            return 0
+        print(f"\n{worst_pins(over, *(every_acting(machine, acting) if options.all else [acting]))}\n")
+        print(f"residual of equilibrium {pins.residual:.0e}", *pins.remarks, sep="\n")
+        if not options.check:
+            return 0
+        verdicts = verdicts_of(machine, over)
+        print("", *verdicts, sep="\n")
+        return judged_code(verdicts, options)
+
+
+def force_table(motion: Motion, pins: PinForces, acting: Acting, options: Namespace) -> Iterator[Column]:
+    """Yield the strokes, and the forces over them that are asked for."""
+    yield from (column for column in columns_of(motion) if column.name in motion.strokes)
+    if options.on is not None:
+        for point, (x, y) in pins.on_body(options.on).items():
+            yield Column(f"{point}_x", x, "kN", 3)
+            yield Column(f"{point}_y", y, "kN", 3)
+        return
+    yield from force_columns(motion, acting.case, acting.direction)
+    if options.poses:
+        points = [joint.point for joint in pins.joints]
+        for joint in pins.joints:
+            name = joint.point if points.count(joint.point) == 1 else f"{joint.point} on {joint.on} from {joint.by}"
+            yield Column(name, joint.size, "kN", 3) if joint.has_force else Column(f"{name} couple", np.asarray(joint.couple), "Nm", 3)
+
+
+def every_acting(machine: Mechanism, acting: Acting) -> list[Acting]:
+    """Return all load cases, the plain loads first, each in every direction."""
+    cases = [None, *machine.plan.of_kind(LoadCase)]
+    return [Acting(case, direction, acting.drive) for case in cases for direction in DIRECTIONS]
+
+
+@final
+class LimitsCommand(Command):
+    """Prints how far a machine goes."""
+
+    name = "limits"
+    help = "how far each stroke goes, what stops it, dead points, transmission angles, freedom"
+
+    def add(self, parser: ArgumentParser) -> None:
+        machine_arguments(parser)
+        parser.add_argument(
+            "--at", dest="strokes", metavar="S=0.6", action="append", default=[], help="where other strokes are held; repeatable"
+        )
+        check_argument(parser)
+
+    def run(self, options: Namespace) -> int:
+        machine = design(find(options.machine), options.settings)
+        if not machine.strokes:
+            raise DefinitionError(f"{machine.plan.title} has no stroke, so there is nothing that goes; declare one, S = Stroke(0, 0.25).")
+        over = motion_at(machine, options.strokes, POSES, unreachable="nan")
+        print(over.limits())
+        print(f"mobility {machine.mobility}; Gruebler count {machine.gruebler}")
+        for each in machine.four_bars:
+            print(each)
+        if not options.check:
+            return 0
+        verdicts = geometry_verdicts(over)
+        print("", *verdicts, sep="\n")
+        return judged_code(verdicts, options)
+
+
+POSES = 21

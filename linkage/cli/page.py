@@ -1,0 +1,65 @@
+"""`hydrolinkage page NAME -o FILE`: a machine as a live page, one file that works offline."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from typing import final
+
+from ..errors import DefinitionError
+from ..plan import Plan, plan_measure
+from ..units import parse
+from .command import Command, machine_arguments, picture, pose_count
+from .machines import find
+from .settings import design, motion_along, stroke_values
+
+SUFFIXES = (".html",)
+
+
+@final
+class PageCommand(Command):
+    """Writes a live page into a file."""
+
+    name = "page"
+    help = "a live page, .html: the machine moved and its dimensions changed in a browser, offline"
+
+    def add(self, parser: ArgumentParser) -> None:
+        machine_arguments(parser)
+        parser.add_argument("-o", "--output", metavar="FILE", help="the page, .html (default: NAME.html)")
+        parser.add_argument(
+            "--vary", metavar="OB=280mm,340mm", action="append", default=[],
+            help="a dimension with a slider, and its range if it is given; a point has two; repeatable (default: the first lengths)",
+        )  # fmt: skip
+        parser.add_argument("--column", metavar="I", help="the column of `table` that is shown first")
+        parser.add_argument("--path", metavar="G", action="append", help="draw this point's path; repeatable")
+        parser.add_argument("--count", metavar="N", type=pose_count, default=101, help="poses of the curve (default 101)")
+        parser.add_argument("--language", choices=("en", "ru"), default="en", help="the language it begins with (default en)")
+        parser.add_argument(
+            "--at", dest="strokes", metavar="S=0.6", action="append", default=[],
+            help="hold a stroke at a value, or run between two: S=0.1,650mm; without it the first runs, others stand in their middle",
+        )  # fmt: skip
+
+    def run(self, options: Namespace) -> int:
+        found = find(options.machine)
+        path = picture(options.output, found, options.machine, SUFFIXES)
+        machine = design(found, options.settings)
+        at = dict(stroke_values(machine.plan, text) for text in options.strokes)
+        motion_along(machine, options.count, at)
+        vary = dict(slider_range(machine.plan, text) for text in options.vary) or None
+        from ..pictures import page
+
+        page(machine, path, vary=vary, column=options.column, trace=options.path, at=at, count=options.count, language=options.language)
+        print(path)
+        return 0
+
+
+def slider_range(plan: Plan, text: str) -> tuple[str, tuple[float, float] | None]:
+    """Return a dimension and its range [SI], None where none is given, from `OB` or `OB=280mm,340mm`; DefinitionError for anything else."""
+    name, equals, ends = text.partition("=")
+    name = name.strip()
+    if not equals:
+        return name, None
+    owner = plan.table.spellings.get(name, ("", 1))[0]
+    values = [parse(each, plan_measure(plan, owner) if owner else "") for each in ends.split(",")]
+    if len(values) != 2:
+        raise DefinitionError(f"--vary {text}: the least and the greatest value are expected, --vary {name or 'OB'}=280mm,340mm.")
+    return name, (values[0], values[1])

@@ -1,0 +1,52 @@
+"""`hydrolinkage report NAME -o FILE`: the report of a machine's calculation, as HTML, PDF or Markdown."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+from typing import final
+
+from ..disk import check_place
+from ..errors import DefinitionError
+from .command import Command, machine_arguments, motion_arguments, path_argument
+from .machines import find
+from .settings import design, pair, stroke_values
+
+KINDS = (".html", ".pdf", ".md")
+
+
+@final
+class ReportCommand(Command):
+    """Writes a report."""
+
+    name = "report"
+    help = "a machine's calculation report: inputs, drawings, equations with numbers, forces, checks, verdicts"
+
+    def add(self, parser: ArgumentParser) -> None:
+        machine_arguments(parser)
+        parser.add_argument("columns", metavar="COLUMN", nargs="*", default=[], help="only these results (default: all)")
+        parser.add_argument("-o", "--output", metavar="FILE", help=f"{', '.join(KINDS)} (default: the machine's name with .html)")
+        motion_arguments(parser, 11)
+        path_argument(parser)
+        parser.add_argument("--case", metavar="CASE", help="this load case alone (default: all)")
+        parser.add_argument("--start", metavar="N", type=int, default=1, help="the first equation's number (default 1)")
+        parser.add_argument(
+            "--row", dest="rows", metavar="NAME=TEXT", action="append", default=[], help="a row of the title block; repeatable"
+        )
+
+    def run(self, options: Namespace) -> int:
+        from ..documents import report
+
+        cls = find(options.machine)
+        path = Path(options.output or f"{cls.__name__}.html")
+        if path.suffix.lower() not in KINDS:
+            raise DefinitionError(f"-o {path}: a report's name ends in one of {', '.join(KINDS)}, which chooses the format.")
+        check_place(path)
+        machine = design(cls, options.settings)
+        at = dict(stroke_values(machine.plan, text) for text in options.strokes)
+        rows = dict(pair(text, "--row", '"Checked by=N. N."') for text in options.rows)
+        print(report(
+            machine, path, case=options.case, at=at, count=options.count, columns=options.columns or None, trace=options.path,
+            title_block=rows, start=options.start,
+        ))  # fmt: skip
+        return 0

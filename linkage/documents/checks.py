@@ -1,0 +1,180 @@
+"""What proves the numbers: each check with its measured figure and its bound, by a way that the calculation did not take."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import final
+
+import numpy as np
+
+from ..errors import LinkageError, unwarned
+from ..formulas.numbered import Equations
+from ..language import said
+from ..motion import Motion
+from ..program import FloatArray
+from ..quantities import Dimension, Quantity, Stroke, distance
+from .content import Cell, Mark, Section, TableBlock
+from .run import Looked
+
+EXACT = 1e-9
+"""The bound of what rounding alone may leave, relative."""
+NUMERIC = 1e-6
+"""The bound of a comparison with numerical derivatives, relative."""
+
+
+@final
+@dataclass(frozen=True)
+class Check:
+    """A check: its name, what is compared, the largest relative difference found, its bound; NaN where it could not be made."""
+
+    name: str
+    what: str
+    measured: float
+    bound: float
+
+    @property
+    def ok(self) -> bool | None:
+        """Whether the bound is kept; None where nothing was measured."""
+        return None if np.isnan(self.measured) else self.measured <= self.bound
+
+
+def checks_section(looked: Looked, listing: Equations) -> Section:
+    """Return the section of checks."""
+    found = checks(looked, listing)
+    rows: list[tuple[Cell, ...]] = [
+        (each.name, each.what, figure_text(each.measured), figure_text(each.bound), kept_mark(each.ok)) for each in found
+    ]
+    heads = (said("check"), said("what is compared"), said("measured"), said("bound"), said("result"))
+    return Section(
+        said("Checks of the calculation"),
+        (TableBlock(said("Largest relative differences over the poses of the table"), heads, tuple(rows), "lmrrl"),),
+    )
+
+
+def figure_text(value: float) -> str:
+    """Return a relative difference as text."""
+    return "–" if np.isnan(value) else f"{value:.1e}" if value else "0"
+
+
+def kept_mark(ok: bool | None) -> Mark:
+    """Return the mark of a rule."""
+    return Mark(ok, said("not made") if ok is None else said("kept") if ok else said("not kept"))
+
+
+def checks(looked: Looked, listing: Equations) -> list[Check]:
+    """Return all checks of a design along its run."""
+    with unwarned():
+        found = [lengths_kept(looked.table), *loops_closed(looked.table), *equations_against(looked, listing), derivatives(looked)]
+        return [*found, *forces_balanced(looked)]
+
+
+# -- positions ---------------------------------------------------------------------------------------------
+
+
+def lengths_kept(motion: Motion) -> Check:
+    """Return how well the distances of the placed pins are the lengths that were given."""
+    what = said("distances of the pins as placed, against the given lengths: {n} of them", n=len(motion.plan.table.lengths))
+    worst, longest = 0.0 if motion.plan.table.lengths else np.nan, 0.0
+    for pair, quantity in motion.plan.table.lengths.items():
+        P, Q = sorted(pair)
+        given = np.broadcast_to(motion.value(quantity), motion.shape)
+        worst = max(worst, greatest_of(np.abs(motion.distance(P, Q) - given)))
+        longest = max(longest, greatest_of(np.abs(given)))
+    return Check(said("lengths kept"), what, worst / (longest or 1.0), EXACT)
+
+
+def greatest_of(values: FloatArray) -> float:
+    """Return the greatest of some values, 0 where none is finite."""
+    return float(np.nanmax(values, initial=0.0))
+
+
+def loops_closed(motion: Motion) -> Iterator[Check]:
+    """Yield how well the links close their loops, each as its given length in the direction that it has; nothing without a loop."""
+    import networkx as nx
+
+    plan, graph = motion.plan, nx.Graph()
+    given: dict[frozenset[str], Quantity] = dict(plan.table.lengths)
+    ground = list(plan.ground)
+    given |= {frozenset(pair): distance(*pair) for pair in pairwise(ground) if frozenset(pair) not in given}
+    graph.add_edges_from(tuple(sorted(pair)) for pair in given if len(pair) == 2)
+    loops = nx.minimum_cycle_basis(graph) if graph.number_of_edges() < 40 else nx.cycle_basis(graph)
+    worst, longest = 0.0, 0.0
+    for loop in loops:
+        sides = loop_sides(graph.subgraph(loop), loop)
+        vectors = [link_vector(motion, given[frozenset(side)], *side) for side in sides]
+        worst = max(worst, greatest_of(np.hypot(*np.sum(vectors, axis=0))))
+        longest = max(longest, *(greatest_of(np.hypot(*each)) for each in vectors))
+    if loops:
+        what = said("given lengths in the directions of the links, summed round {n} closed loops", n=len(loops))
+        yield Check(said("loops closed"), what, worst / (longest or 1.0), EXACT)
+
+
+def loop_sides(graph: object, loop: list[str]) -> list[tuple[str, str]]:
+    """Return the sides of a loop in order round it."""
+    import networkx as nx
+
+    return [(P, Q) for P, Q, *_ in nx.find_cycle(graph, source=loop[0])]
+
+
+def link_vector(motion: Motion, length: Quantity, P: str, Q: str) -> FloatArray:
+    """Return a link as its given length in its direction, shape (2, ...)."""
+    angle = motion.angle(P, Q)
+    return np.asarray(motion.value(length) * np.array([np.cos(angle), np.sin(angle)]))
+
+
+def equations_against(looked: Looked, listing: Equations) -> Iterator[Check]:
+    """Yield how far the equations, evaluated with 30 digits, are from the machine's own numbers at the pose of the calculation."""
+    pose = looked.machine.at(unreachable="nan", **looked.pose)
+    try:
+        values = listing.values(looked.pose, digits=30)
+    except LinkageError:
+        return
+    worst, size = 0.0, max((float(np.abs(pose[name]).max()) for name in pose.plan.points), default=1.0) or 1.0
+    points = [name for name in pose.plan.moving if name in values and name in pose.plan.points]
+    for name in points:
+        worst = max(worst, float(np.abs(np.array([float(each) for each in values[name]]) - pose[name]).max()) / size)
+    for name, member in pose.plan.of_kind(Quantity).items():
+        if name in values and not isinstance(member, (Stroke, Dimension)):
+            own = float(pose[name])
+            worst = max(worst, abs(float(values[name]) - own) / max(abs(own), 1.0))
+    what = said("the equations above with 30 digits, against the positions and outputs of the program")
+    yield Check(said("equations evaluated again"), what, worst if points else np.nan, EXACT)
+
+
+# -- derivatives and forces --------------------------------------------------------------------------------
+
+
+def derivatives(looked: Looked) -> Check:
+    """Return how far exact transfer ratios are from central differences, over their greatest value."""
+    motion, stroke = looked.table, looked.stroke
+    outputs = [name for name, each in motion.plan.of_kind(Quantity).items() if not isinstance(each, (Stroke, Dimension))]
+    found: list[tuple[float, float]] = []
+    for name in (*motion.plan.moving, *outputs):
+        try:
+            exact, central = (motion.ratio(name, wrt=stroke, method=way) for way in ("exact", "central"))
+        except LinkageError:
+            continue
+        found.append((greatest_of(np.abs(exact - central)), greatest_of(np.abs(exact))))
+    least = 1e-6 * max((size for _, size in found), default=0.0) or 1.0  # what does not move at all is compared with what does
+    worst, targets = max((miss / max(size, least) for miss, size in found), default=0.0), len(found)
+    what = said(
+        "exact transfer ratios of points and outputs by {stroke}, against central differences: {n} of them", stroke=stroke, n=targets
+    )
+    return Check(said("transfer ratios"), what, worst if targets else np.nan, NUMERIC)
+
+
+def forces_balanced(looked: Looked) -> Iterator[Check]:
+    """Yield how well every body balances, and how far its drives are from virtual work; nothing where there are no forces."""
+    try:
+        found = looked.forces
+    except LinkageError:
+        return
+    if not any(one.joints for one in found):
+        return
+    residual = max((one.residual for one in found), default=np.nan)
+    yield Check(said("equilibrium"), said("forces and moments on every body, over the largest force"), residual, EXACT)
+    gaps = [one.gap for one in found if not np.isnan(one.gap)]
+    what = said("driving forces by equilibrium of the bodies, against those by virtual work")
+    yield Check(said("virtual work"), what, max(gaps, default=np.nan), EXACT)

@@ -1,0 +1,123 @@
+"""What a document is made of, whatever it is written as: sections of text, tables, equations, pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeAlias, final
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+@final
+@dataclass(frozen=True)
+class Formula:
+    """A formula in LaTeX, as part of a text or a table."""
+
+    latex: str
+
+
+@final
+@dataclass(frozen=True)
+class Mark:
+    """Whether a rule is kept: its word, and whether that is good; None where it is neither."""
+
+    ok: bool | None
+    word: str
+
+
+Cell: TypeAlias = str | Formula | Mark
+
+
+@final
+@dataclass(frozen=True)
+class Paragraph:
+    """Some sentences."""
+
+    text: str
+
+
+@final
+@dataclass(frozen=True)
+class TermBlock:
+    """A table of two columns without headings: names and what they are."""
+
+    rows: tuple[tuple[str, str], ...]
+
+
+@final
+@dataclass(frozen=True)
+class TableBlock:
+    """A table: headings, rows, and how each column stands, "l" to the left, "r" as numbers do, "m" for long text."""
+
+    caption: str
+    headings: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    columns: str
+
+
+@final
+@dataclass(frozen=True)
+class Equality:
+    """An equation in LaTeX: its number, 0 for none, and what stands between its signs of equality."""
+
+    number: int
+    steps: tuple[str, ...]
+
+
+@final
+@dataclass(frozen=True)
+class Illustration:
+    """A picture: its name, its size [inch], the room beside its axes [inch: left, right, bottom, top], and what paints it on them."""
+
+    name: str
+    caption: str
+    size: tuple[float, float]
+    room: tuple[float, float, float, float]
+    paint: Callable[[Axes], None]
+
+
+Block: TypeAlias = Paragraph | TermBlock | TableBlock | Equality | Illustration
+
+
+@final
+@dataclass(frozen=True)
+class Section:
+    """A numbered section."""
+
+    title: str
+    blocks: tuple[Block, ...]
+
+
+@final
+@dataclass(frozen=True)
+class Document:
+    """A whole document: its title, what it says of itself, and its sections."""
+
+    title: str
+    subtitle: str
+    facts: tuple[tuple[str, str], ...]
+    verdict: Mark
+    sections: tuple[Section, ...]
+    language: str
+
+    @property
+    def footer(self) -> str:
+        """What stands at the foot of every page, beside its number."""
+        return f"{self.title} · {self.subtitle}"
+
+
+def numbered_captions(sections: Sequence[Section], table: Callable[[int, str], str], figure: Callable[[int, str], str]) -> dict[int, str]:
+    """Return the captions of tables and pictures with their numbers, by the identity of the block."""
+    found: dict[int, str] = {}
+    tables = figures = 0
+    for section in sections:
+        for block in section.blocks:
+            if isinstance(block, TableBlock) and block.caption:
+                tables += 1
+                found[id(block)] = table(tables, block.caption)
+            elif isinstance(block, Illustration):
+                figures += 1
+                found[id(block)] = figure(figures, block.caption)
+    return found

@@ -1,0 +1,56 @@
+"""What a document was made of: a hash of its inputs that any process finds again, and the version that calculated it."""
+
+from __future__ import annotations
+
+import hashlib
+import inspect
+import json
+import re
+from collections.abc import Mapping
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+from ..mechanism import Mechanism
+from ..plan import printed
+
+DIGITS = 16
+"""Hexadecimal digits of a hash that are shown."""
+
+ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
+
+
+def fingerprint(machine: Mechanism, strokes: Mapping[str, Any]) -> str:
+    """Return the SHA-256 of a design's inputs in hexadecimal: members, dimensions, loads, load cases, and the strokes looked at.
+
+    It is the same in every process; a function among the members counts by its source.
+    """
+    members = printed(machine.plan, machine.dimensions)
+    inputs = {
+        "machine": machine.plan.title,
+        "members": {name: ADDRESS.sub("", text) for name, text in members.items()},
+        "functions": {name: sources for name, member in machine.plan.members.items() if (sources := functions_of(member))},
+        "dimensions": {name: repr(float(value)) for name, value in machine.dimensions.items()},
+        "strokes": {name: [repr(float(each)) for each in values] for name, values in strokes.items()},
+    }
+    return hashlib.sha256(json.dumps(inputs, sort_keys=True, ensure_ascii=True).encode()).hexdigest()
+
+
+def functions_of(member: Any) -> list[str]:
+    """Return the source of the functions that a member is made of; the name of one without source."""
+    return [source_of_function(value) for _, value in sorted(vars(member).items()) if inspect.isfunction(value)]
+
+
+def source_of_function(function: Any) -> str:
+    """Return a function's source, its name where there is none."""
+    try:
+        return inspect.getsource(function)
+    except (OSError, TypeError):
+        return str(function.__qualname__)
+
+
+def own_version() -> str:
+    """Return the version of this package; "" where it runs from a folder without being installed."""
+    try:
+        return version("hydrolinkage")
+    except PackageNotFoundError:
+        return ""

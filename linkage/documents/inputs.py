@@ -1,0 +1,146 @@
+"""What a calculation starts from: strokes, dimensions with their sources, loads, load cases, the definition itself."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import tokenize
+from collections.abc import Iterator, Mapping
+from io import StringIO
+from textwrap import dedent
+
+from ..formulas.numbered import Equations
+from ..language import said
+from ..loads import ForceElement, LoadCase
+from ..mechanism import Mechanism
+from ..motion import stroke_display_unit
+from ..plan import plan_measure, printed
+from ..quantities import Dimension, Stroke
+from ..units import display_unit, shown_in, shown_number, unit_sign
+from .content import Block, Cell, Formula, Paragraph, Section, TableBlock
+
+
+def inputs_section(machine: Mechanism, listing: Equations, held: Mapping[str, float]) -> Section:
+    """Return the section of what is given."""
+    notes = notes_of(type(machine))
+    blocks: list[Block] = [*own_words(machine), stroke_table(machine, listing, held, notes)]
+    if machine.dimensions:
+        blocks.append(dimension_table(machine, listing, notes))
+    elements = machine.plan.of_kind(ForceElement)
+    if elements:
+        rows = member_rows(machine, tuple(elements), notes)
+        heads = (said("name"), said("declared as"), said("source, note"))
+        blocks.append(TableBlock(said("Loads, force elements and hydraulics"), heads, rows, "lmm"))
+    else:
+        blocks.append(Paragraph(said("No load is declared: forces are not calculated.")))
+    cases = machine.plan.of_kind(LoadCase)
+    if cases:
+        heads = (said("name"), said("declared as"), said("source, note"))
+        blocks.append(TableBlock(said("Load cases"), heads, member_rows(machine, tuple(cases), notes), "lmm"))
+    return Section(said("Inputs"), tuple(blocks))
+
+
+def own_words(machine: Mechanism) -> Iterator[Paragraph]:
+    """Yield the paragraphs of the machine's own words, after the first line, which is the subtitle."""
+    text = inspect.cleandoc(type(machine).__doc__ or "")
+    for paragraph in text.split("\n\n")[1:]:
+        yield Paragraph(" ".join(paragraph.split()))
+
+
+def stroke_table(machine: Mechanism, listing: Equations, held: Mapping[str, float], notes: Mapping[str, str]) -> TableBlock:
+    """Return the strokes with their ranges, and where those stand that are held."""
+    rows: list[tuple[Cell, ...]] = []
+    for name, stroke in machine.strokes.items():
+        unit = stroke_display_unit(machine.plan, name, "mm")
+        used = said("held at {value}", value=shown_number(held[name], unit)) if name in held else said("moves")
+        ends = (shown_number(stroke.start, unit), shown_number(stroke.end, unit))
+        rows.append((name, Formula(listing.symbol_latex(name)), *ends, unit_sign(unit), used, notes.get(name, "")))
+    heads = (said("stroke"), said("symbol"), said("start"), said("end"), said("unit"), said("in this report"), said("source, note"))
+    return TableBlock(said("Strokes"), heads, tuple(rows), "llrrllm")
+
+
+def dimension_table(machine: Mechanism, listing: Equations, notes: Mapping[str, str]) -> TableBlock:
+    """Return the design variables: name, symbol, value, unit, where each stands; one that was changed says what it was."""
+    rows: list[tuple[Cell, ...]] = []
+    for name, value in machine.dimensions.items():
+        entry = machine.plan.table.entries[name]
+        unit = entry.unit or display_unit(plan_measure(machine.plan, name), "mm")
+        where = entry.where.partition(" = ")[0] if entry.kind != "number" else ""
+        said_of = notes.get(name) or notes.get(where) or notes.get(name.partition(".")[0], "")
+        changed = said("was {value}", value=shown_number(entry.default, unit)) if float(value) != entry.default else ""
+        note = "; ".join(each for each in (changed, said_of) if each)
+        sign = unit_sign(unit) if unit else ""
+        rows.append((name, Formula(listing.symbol_latex(name)), shown_number(float(value), unit, 7), sign, where, note))
+    heads = (said("dimension"), said("symbol"), said("value"), said("unit"), said("stands in"), said("source, note"))
+    return TableBlock(said("Dimensions"), heads, tuple(rows), "llrllm")
+
+
+def member_rows(machine: Mechanism, names: tuple[str, ...], notes: Mapping[str, str]) -> tuple[tuple[Cell, ...], ...]:
+    """Return members as they are declared."""
+    texts = printed(machine.plan, {name: float(value) for name, value in machine.dimensions.items()})
+    return tuple((name, texts[name], notes.get(name, "")) for name in names)
+
+
+def definition_section(machine: Mechanism) -> Section:
+    """Return the section that has the whole definition, member by member, and the rigid bodies."""
+    left_out = (Dimension, Stroke)
+    names = tuple(name for name, member in machine.plan.members.items() if not isinstance(member, left_out))
+    heads = (said("name"), said("declared as"))
+    rows = tuple(row[:2] for row in member_rows(machine, names, {}))
+    bodies = tuple((str(place), str(body)) for place, body in enumerate(machine.links))
+    bodies += tuple(
+        (str(len(bodies) + place), said("cylinder {P} {Q}", P=bar.P, Q=bar.Q)) for place, bar in enumerate(machine.plan.cylinders)
+    )
+    count = said(
+        "Mobility {rank} by the rank of the constraints, strokes {strokes}; count of Gruebler {count}, a cylinder being two bodies on a "
+        "slide.",
+        rank=machine.mobility, strokes=len(machine.strokes), count=machine.gruebler,
+    )  # fmt: skip
+    return Section(
+        said("Definition of the mechanism"),
+        (
+            Paragraph(said("In the order in which the positions are worked out; lengths in m, angles as marked.")),
+            TableBlock(said("Members"), heads, rows, "lm"),
+            TableBlock(said("Rigid bodies"), (said("No."), said("points")), bodies, "lm"),
+            Paragraph(count),
+        ),
+    )
+
+
+def length_unit() -> str:
+    """Return the unit that lengths are shown in, as it is written."""
+    return unit_sign("mm") if shown_in("mm") else "mm"
+
+
+# Where a number comes from: the comment beside it in the class's source.
+
+
+def notes_of(machine: type[Mechanism]) -> dict[str, str]:
+    """Return the comments that stand beside the members in the source of a class and its bases, by name."""
+    found: dict[str, str] = {}
+    for cls in reversed(machine.__mro__):
+        if issubclass(cls, Mechanism) and cls is not Mechanism:
+            found |= comments_in(cls)
+    return {name: text for name, text in found.items() if name in machine.plan.members}
+
+
+def comments_in(cls: type) -> dict[str, str]:
+    """Return the comments behind the assignments in a class's body, by the names assigned; none where it has no source."""
+    try:
+        source = dedent(inspect.getsource(cls))
+        body = ast.parse(source).body[0]
+        tokens = list(tokenize.generate_tokens(StringIO(source).readline))
+    except (OSError, TypeError, SyntaxError, tokenize.TokenError, IndexError):
+        return {}
+    comments = {token.start[0]: token.string.lstrip("#: ").strip() for token in tokens if token.type == tokenize.COMMENT}
+    found: dict[str, str] = {}
+    for line in getattr(body, "body", []):
+        if (
+            isinstance(line, ast.Assign)
+            and (text := comments.get(line.end_lineno or line.lineno))
+            and not text.startswith(("fmt:", "type:", "noqa"))
+        ):
+            for target in line.targets:
+                names = target.elts if isinstance(target, ast.Tuple) else [target]
+                found |= {name.id: text for name in names if isinstance(name, ast.Name)}
+    return found

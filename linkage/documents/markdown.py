@@ -1,0 +1,127 @@
+"""A document as Markdown with LaTeX formulas, its pictures beside it in the folder FILE_files."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+from secrets import token_hex
+
+from ..disk import check_place, in_words, replacing_text
+from ..errors import FileError
+from ..language import said
+from .content import Block, Cell, Document, Equality, Formula, Illustration, Mark, Paragraph, Section, TableBlock, TermBlock
+from .html import captions_of, footer
+from .pictures import picture_svg
+
+SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|$~])")
+MARKER = "hydrolinkage"
+"""The name of the file that says whose a folder of pictures is."""
+
+
+def write_markdown(document: Document, path: Path) -> None:
+    """Write a document as Markdown and its pictures into the folder beside it, both replaced whole."""
+    folder = path.with_name(f"{path.stem}_files")
+    pictures = {f"{number:02d}_{each.name}.svg": each for number, each in enumerate(illustrations(document), 1)}
+    names = {id(each): f"{folder.name}/{name}" for name, each in pictures.items()}
+    text = markdown(document, names)
+    replace_folder(folder, {name: picture_svg(each) for name, each in pictures.items()})
+    with replacing_text(path) as stream:
+        stream.write(text)
+
+
+def illustrations(document: Document) -> list[Illustration]:
+    """Return the pictures of a document in order."""
+    return [block for section in document.sections for block in section.blocks if isinstance(block, Illustration)]
+
+
+def replace_folder(folder: Path, contents: dict[str, str]) -> None:
+    """Put files into a folder that takes the place of the one before; FileError where something else has its name."""
+    if folder.exists() and not (folder / MARKER).is_file():
+        raise FileError(f"{folder}: something else has this name, and a report's pictures go there; move it, or choose another name.")
+    check_place(folder.with_name(f".{token_hex(8)}.tmp"))
+    fresh = folder.with_name(f".{token_hex(8)}.tmp")
+    with in_words(folder):
+        fresh.mkdir()
+        try:
+            for name, text in {**contents, MARKER: "pictures of a report\n"}.items():
+                (fresh / name).write_text(text, encoding="utf-8")
+            if folder.exists():
+                shutil.rmtree(folder)
+            fresh.rename(folder)
+        except BaseException:
+            with suppress(OSError):
+                shutil.rmtree(fresh)
+            raise
+
+
+def markdown(document: Document, names: dict[int, str]) -> str:
+    """Return a document as Markdown; `names` are the pictures' places by their identity."""
+    captions = captions_of(document.sections)
+    lines = [
+        f"# {escaped_markdown(document.title)}",
+        "",
+        f"{escaped_markdown(said('Calculation report'))}. {escaped_markdown(document.subtitle)}",
+        "",
+        "| | |",
+        "| --- | --- |",
+    ]
+    lines += [f"| {escaped_markdown(name)} | {escaped_markdown(value)} |" for name, value in document.facts]
+    for number, section in enumerate(document.sections, 1):
+        lines += section_text(number, section, captions, names)
+    return "\n".join([*lines, "", "---", "", escaped_markdown(footer(document)), ""])
+
+
+def section_text(number: int, section: Section, captions: dict[int, str], names: dict[int, str]) -> Iterator[str]:
+    """Yield the lines of a section."""
+    yield from ("", f"## {number}. {escaped_markdown(section.title)}")
+    for block in section.blocks:
+        yield ""
+        yield from block_text(block, captions, names)
+
+
+def block_text(block: Block, captions: dict[int, str], names: dict[int, str]) -> Iterator[str]:
+    """Yield the lines of a block."""
+    if isinstance(block, Paragraph):
+        yield escaped_markdown(block.text)
+    elif isinstance(block, TermBlock):
+        yield from ("| | |", "| --- | --- |", *(f"| {escaped_markdown(name)} | {escaped_markdown(value)} |" for name, value in block.rows))
+    elif isinstance(block, TableBlock):
+        yield from table_markdown(block, captions.get(id(block), ""))
+    elif isinstance(block, Equality):
+        yield from ("$$", equality_latex(block), "$$")
+    else:
+        caption = escaped_markdown(captions.get(id(block), block.caption))
+        yield from (f"![{caption}]({names[id(block)]})", "", f"*{caption}*")
+
+
+def table_markdown(grid: TableBlock, caption: str) -> Iterator[str]:
+    """Yield the lines of a table."""
+    if caption:
+        yield from (f"*{escaped_markdown(caption)}*", "")
+    yield f"| {' | '.join(map(escaped_markdown, grid.headings))} |"
+    yield f"| {' | '.join('---:' if kind == 'r' else '---' for kind in grid.columns)} |"
+    for row in grid.rows:
+        yield f"| {' | '.join(map(cell_text, row))} |"
+
+
+def cell_text(value: Cell) -> str:
+    """Return a cell in one line."""
+    if isinstance(value, Formula):
+        return f"${value.latex.replace('|', chr(92) + 'vert ')}$"
+    return f"**{escaped_markdown(value.word)}**" if isinstance(value, Mark) else escaped_markdown(value)
+
+
+def equality_latex(block: Equality) -> str:
+    """Return an equation with its number, aligned at its signs of equality."""
+    first, *others = block.steps
+    lines = " \\\\\n".join(f"&= {each}" for each in others)
+    body = f"\\begin{{aligned}}\n{first} {lines}\n\\end{{aligned}}" if others else first
+    return body + (rf" \tag{{{block.number}}}" if block.number else "")
+
+
+def escaped_markdown(text: str) -> str:
+    """Return a text whose signs mean nothing in Markdown, in one line."""
+    return SPECIAL.sub(r"\\\1", " ".join(text.split()))

@@ -1,0 +1,277 @@
+r"""LaTeX as the equations write it, read into boxes: what a page sets in type without LaTeX, as MathML or by hand.
+
+Only what the printers here and SymPy's own emit is known: scripts, \frac, \sqrt, \vec, \overrightarrow, \left ... \right,
+\operatorname, \mathit, \mathrm, \text, pmatrix and cases. A command that is not known stands as its name.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TypeAlias, final
+
+GREEK = dict(
+    zip(
+        [
+            "alpha",
+            "beta",
+            "gamma",
+            "delta",
+            "epsilon",
+            "zeta",
+            "eta",
+            "theta",
+            "iota",
+            "kappa",
+            "lambda",
+            "mu",
+            "nu",
+            "xi",
+            "pi",
+            "rho",
+            "sigma",
+            "tau",
+            "upsilon",
+            "varphi",
+            "chi",
+            "psi",
+            "omega",
+        ],
+        "αβγδεζηθικλμνξπρστυφχψω",
+        strict=True,
+    )
+) | {"phi": "φ", "varepsilon": "ε", "vartheta": "ϑ", "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ", "Lambda": "Λ", "Xi": "Ξ", "Pi": "Π"}
+GREEK |= {
+    "Sigma": "Σ",
+    "Upsilon": "\u03a5",
+    "Phi": "Φ",
+    "Psi": "Ψ",
+    "Omega": "Ω",
+    "imath": "\u0131",
+    "infty": "∞",
+    "circ": "°",
+    "angle": "∠",
+}
+OPERATORS = {
+    "cdot": "·", "times": "×", "leq": "≤", "le": "≤", "geq": "≥", "ge": "≥", "neq": "≠", "ne": "≠", "wedge": "∧", "vee": "\u2228",
+    "neg": "¬", "pm": "±", "|": "‖",
+}  # fmt: skip
+FUNCTIONS = {"sin", "cos", "tan", "cot", "exp", "log", "ln", "min", "max", "arg", "arccos", "arcsin", "arctan", "sinh", "cosh", "tanh"}
+NAMES = {"operatorname": "name", "mathit": "word", "mathrm": "name", "text": "name", "mathbf": "name", "mathtt": "name"}
+FENCES = {"lvert": "|", "rvert": "|", "{": "{", "}": "}", "lfloor": "⌊", "rfloor": "⌋", "lceil": "⌈", "rceil": "⌉", ".": ""}
+SPACES = {",": 0.17, ":": 0.22, ";": 0.28, "quad": 1.0, " ": 0.3, "!": 0.0}
+
+
+@final
+@dataclass(frozen=True)
+class Sign:
+    """One sign or word: a `variable`, a `word` of several letters in italics, a `name` upright, a `number`, an `operator`, a `space`."""
+
+    kind: str
+    text: str
+
+
+@final
+@dataclass(frozen=True)
+class BoxRow:
+    """Boxes beside each other."""
+
+    parts: tuple[Box, ...]
+
+
+@final
+@dataclass(frozen=True)
+class Fraction:
+    """One box over another."""
+
+    over: Box
+    under: Box
+
+
+@final
+@dataclass(frozen=True)
+class Script:
+    """A box with an index or an exponent, or both."""
+
+    base: Box
+    low: Box | None
+    high: Box | None
+
+
+@final
+@dataclass(frozen=True)
+class Arrowed:
+    """A box under an arrow; a long one as wide as the box."""
+
+    base: Box
+    long: bool
+
+
+@final
+@dataclass(frozen=True)
+class Rooted:
+    """The square root of a box."""
+
+    base: Box
+
+
+@final
+@dataclass(frozen=True)
+class Fenced:
+    """A box between signs as high as it is."""
+
+    left: str
+    body: Box
+    right: str
+
+
+@final
+@dataclass(frozen=True)
+class Lines:
+    """Rows of boxes below each other."""
+
+    rows: tuple[tuple[Box, ...], ...]
+
+
+Box: TypeAlias = Sign | BoxRow | Fraction | Script | Arrowed | Rooted | Fenced | Lines
+
+TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[{}^_&]|\d+(?:\.\d+)?|[^\W\d_]|\S", re.DOTALL)
+
+
+def boxes(latex: str) -> Box:
+    """Return the boxes of a formula in LaTeX."""
+    return _Reader(latex).row(())
+
+
+def breakable(box: Box) -> list[Box]:
+    """Return a row cut in front of its outermost sums, products and comparisons: where a line may break."""
+    if not isinstance(box, BoxRow):
+        return [box]
+    cut: list[list[Box]] = [[]]
+    for place, part in enumerate(box.parts):
+        breaks = isinstance(part, Sign) and part.kind == "operator" and part.text in "+−·=×<>≤≥"
+        if breaks and place and cut[-1] and not (len(cut[-1]) == 1 and is_operator(cut[-1][0])):
+            cut.append([])
+        cut[-1].append(part)
+    return [BoxRow(tuple(parts)) for parts in cut if parts]
+
+
+def is_operator(box: Box) -> bool:
+    """Return whether a box is the sign of an operation."""
+    return isinstance(box, Sign) and box.kind == "operator"
+
+
+@final
+class _Reader:
+    """Reads a formula token by token."""
+
+    def __init__(self, latex: str) -> None:
+        self.text, self.place = latex, 0
+
+    def peek(self) -> str:
+        found = TOKEN.search(self.text, self.place)
+        return found.group() if found else ""
+
+    def take(self) -> str:
+        found = TOKEN.search(self.text, self.place)
+        self.place = found.end() if found else len(self.text)
+        return found.group() if found else ""
+
+    def raw(self) -> str:
+        """Return the text of a group in braces as it is written; of one sign without braces."""
+        start = self.text.find("{", self.place)
+        if self.peek() != "{":
+            return self.take()
+        depth, place = 0, start
+        for place in range(start, len(self.text)):
+            depth += {"{": 1, "}": -1}.get(self.text[place], 0)
+            if not depth:
+                break
+        self.place = place + 1
+        return self.text[start + 1 : place]
+
+    def row(self, ends: tuple[str, ...]) -> Box:
+        """Return the boxes up to one of some tokens, which is not taken."""
+        parts: list[Box] = []
+        while (token := self.peek()) and token not in ends:
+            if token in ("^", "_"):
+                base = parts.pop() if parts else BoxRow(())
+                parts.append(self.scripts(base))
+            else:
+                parts.append(self.one())
+        flat = [each for part in parts for each in (part.parts if isinstance(part, BoxRow) else (part,))]
+        return flat[0] if len(flat) == 1 else BoxRow(tuple(flat))
+
+    def scripts(self, base: Box) -> Box:
+        low = high = None
+        while (token := self.peek()) in ("^", "_"):
+            self.take()
+            found = self.one()
+            low, high = (found, high) if token == "_" else (low, found)
+        if high == Sign("variable", "°") and low is None:
+            return BoxRow((base, Sign("name", "°")))
+        return Script(base, low, high)
+
+    def one(self) -> Box:
+        """Return the next box."""
+        token = self.take()
+        if token == "{":
+            found = self.row(("}",))
+            self.take()
+            return found
+        if token.startswith("\\"):
+            return self.command(token[1:])
+        if token[0].isdigit():
+            return Sign("number", token)
+        if token.isalpha():
+            return Sign("variable", token)
+        return Sign("operator", {"-": "−", "*": "·", "'": "′"}.get(token, token))
+
+    def command(self, name: str) -> Box:
+        """Return the box of a command."""
+        if name in ("frac", "dfrac", "tfrac"):
+            return Fraction(self.one(), self.one())
+        if name == "sqrt":
+            return Rooted(self.one())
+        if name in ("vec", "overrightarrow"):
+            return Arrowed(self.one(), name != "vec")
+        if name == "left":
+            return self.fenced()
+        if name == "begin":
+            return self.lines(self.raw())
+        if name in NAMES:
+            text = self.raw().replace("\\_", "_").replace("\\ ", " ")
+            return Sign("variable" if name == "mathit" and len(text) == 1 else NAMES[name], text)
+        if name in GREEK:
+            return Sign("variable", GREEK[name])
+        if name in FUNCTIONS:
+            return Sign("name", name)
+        if name in SPACES:
+            return Sign("space", str(SPACES[name]))
+        return Sign("operator", OPERATORS[name]) if name in OPERATORS else Sign("name", FENCES.get(name, name))
+
+    def fence(self) -> str:
+        token = self.take()
+        return FENCES.get(token[1:], token[1:]) if token.startswith("\\") else FENCES.get(token, token)
+
+    def fenced(self) -> Box:
+        left = self.fence()
+        body = self.row(("\\right",))
+        self.take()
+        return Fenced(left, body, self.fence())
+
+    def lines(self, kind: str) -> Box:
+        r"""Return the rows of a matrix or of cases, up to the \end."""
+        rows: list[list[Box]] = [[]]
+        while (token := self.peek()) and token != "\\end":
+            rows[-1].append(self.row(("&", "\\\\", "\\end")))
+            if self.peek() == "&":
+                self.take()
+            elif self.peek() == "\\\\":
+                self.take()
+                rows.append([])
+        self.take()
+        self.raw()
+        table = Lines(tuple(tuple(row) for row in rows if row))
+        left, right = {"pmatrix": ("(", ")"), "cases": ("{", "")}.get(kind, ("", ""))
+        return Fenced(left, table, right) if left else table

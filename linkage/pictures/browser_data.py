@@ -1,0 +1,526 @@
+"""What a live page is fed with: what its script asks the program for, and a mechanism as plain data [SI]."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, cast, final
+
+import numpy as np
+
+from ..errors import DefinitionError, LinkageError, cited, known_name, unknown, unwarned
+from ..language import heading_of, language, translated
+from ..loads import TwoPoint
+from ..mechanism import Mechanism
+from ..motion import Column, LiveText, Motion, Request, RequestLike, Tabled, stroke_display_unit, transmission
+from ..plan import Plan, opening, plan_measure
+from ..program import FloatArray
+from ..quantities import is_number
+from ..reports import At, Run, column_requests, run_of
+from ..statics import AnyMotion, JointForce, LawRequest, TracedMotion, pin_force, pin_forces, traced_acting
+from ..statics.acting import AT_REST
+from ..units import UNITS, deg, display_unit, factor, shown_in
+from ..verdict import Verdict
+from . import style
+from .curves import limit_of, typeset
+from .free_space import label_free, props
+from .labels import offsets
+from .poses import named_points
+from .scene import Piece, Plate, Scene, SlideTrack, Straight
+from .shapes import DrawnLine
+from .strokes import ends_where_begun, is_changing, is_turn
+
+FONT = 14.0
+ACROSS = 720.0
+"""The size of the letters and the width of the sheet for which names are placed [px]."""
+SHOWN = 6
+"""How many dimensions a page shows at first."""
+STEPS = ("length", "angle")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class TrackNumber(LawRequest):
+    """A number of a track's line at every pose: the x or y of its origin [m] or of its direction."""
+
+    track: SlideTrack
+    part: str
+    axis: str
+
+    def law(self, motion: AnyMotion) -> FloatArray:
+        vector = getattr(self.track.line(motion._reading), self.part)
+        value = getattr(vector, self.axis)
+        if isinstance(motion, TracedMotion):
+            return motion.number(value)
+        return np.array(np.broadcast_to(np.asarray(value, float), motion.shape))
+
+    def examine(self, plan: Plan) -> None:
+        """Look at nothing: the track is of the plan."""
+
+    def __str__(self) -> str:
+        return f"the {self.part} of {self.track.name}"
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class ActingForce(LawRequest):
+    """A part of one of the machine's own loads at every pose [N], by its place among them."""
+
+    place: int
+    axis: int
+
+    def law(self, motion: AnyMotion) -> FloatArray:
+        assert isinstance(motion, TracedMotion)  # it is asked for by a page alone
+        return cast(FloatArray, traced_acting(motion, None, None, AT_REST).loads[self.place].force[self.axis])
+
+    def examine(self, plan: Plan) -> None:
+        """Look at nothing: the load is of the plan."""
+
+    def __str__(self) -> str:
+        return f"load {self.place}"
+
+
+@final
+class PageRequests:
+    """What a page of a machine shows, and what it asks the program for, by names of its own."""
+
+    def __init__(
+        self,
+        machine: Mechanism,
+        count: int,
+        *,
+        vary: Any = None,
+        columns: Sequence[Column | RequestLike] | None = None,
+        column: str | None = None,
+        trace: Sequence[str] | None = None,
+        limit: Any = None,
+        at: At,
+    ) -> None:
+        self.machine, self.plan, self.count = machine, machine.plan, count
+        self.run = run_of(machine, at)
+        self.ends = one_way(machine, self.run)
+        values: dict[str, Any] = {**self.run.held, self.run.stroke: np.linspace(*self.ends, count)}
+        self.motion = machine.at(unreachable="nan", **values)
+        if not self.motion.reached.any():
+            machine.at(**values)
+        self.scene = Scene(self.motion)
+        self.featured = machine.featured()
+        self.trace = named_points(machine, list(self.featured.path) if trace is None else trace, "trace")
+        self.vary = ranges_given(machine, vary)
+        with unwarned():
+            self.columns = chosen_columns(machine, self.motion, columns)
+        self.column = self._column(column)
+        self.limits = self._limits(limit)
+        self.by_name: dict[str, RequestLike] = {}
+        self._ask()
+
+    def _column(self, name: str | None) -> str:
+        """Return the column that is shown first: the one named, the one that the machine is about, the last that changes."""
+        if name is None and self.featured.column in self.columns:
+            return self.featured.column
+        if name is not None:
+            return known_name("Column", name, self.columns, where=self.plan.title)
+        strokes = self.machine.strokes
+        moving = [each for each, (column, _, why) in self.columns.items() if each not in strokes and is_changing(column.drawn)]
+        alive = [each for each in moving if not self.columns[each][2]]
+        return (alive or moving or list(self.columns))[-1]
+
+    def _limits(self, limit: Any) -> dict[str, tuple[float, str, str]]:
+        """Return the limits by column: (value [SI], words, the side that fails)."""
+        given = dict(limit) if isinstance(limit, Mapping) else {} if limit is None else {self.column: limit}
+        for name in given:
+            if name not in self.columns:
+                raise unknown("Column", name, self.columns, where=f"{self.plan.title}: limit")
+        known = {name: each for name, each in self.featured.limits.items() if name in self.columns}
+        return {name: (float((found := limit_of(each)).value), found.text, found.fails) for name, each in (known | given).items()}
+
+    def _ask(self) -> None:
+        """Note all that is asked of the program."""
+        for name in self.plan.points:
+            self.by_name[f"point {name}"] = name
+        for name, (_, request, why) in self.columns.items():
+            if not why:
+                self.by_name[f"column {name}"] = request
+        for track in self.scene.tracks:
+            for k, (part, axis) in enumerate((part, axis) for part in ("origin", "direction") for axis in "xy"):
+                self.by_name[f"track {track.name} {k}"] = TrackNumber(track, part, axis)
+        for name in self.motion._joints:
+            self.by_name[f"joint {name}"] = transmission(name)
+        for name, member in self.plan.of_kind(Tabled).items():
+            self.by_name |= {f"gauge {name} {what}": request for what, request in member.gauges(self.plan).items()}
+        for k, (_, x, y) in enumerate(self.arrows):
+            self.by_name |= {f"arrow {k} x": x, f"arrow {k} y": y}
+
+    @cached_property
+    def arrows(self) -> list[tuple[str, Request, Request]]:
+        """The forces that can be drawn: their points, and their parts [N]; those at the pins, then the loads. None of what has none."""
+        poses = self.motion.moved({name: value[self.motion.reached][:1] for name, value in self.motion.strokes.items()})
+        try:
+            with unwarned():
+                joints = pin_forces(poses).joints
+        except LinkageError:
+            return []
+        loads = acting_points(self.plan)
+        if not loads:
+            return []
+        found = [(each.point, joint_part(each, joints, "x"), joint_part(each, joints, "y")) for each in joints if each.has_force]
+        return found + [(point, ActingForce(k, 0), ActingForce(k, 1)) for k, point in loads]
+
+
+def joint_part(joint: JointForce, joints: Sequence[JointForce], axis: str) -> Request:
+    """Return what asks for a part of a joint's force on its own body; where several joints of it meet there, by the other body's."""
+    bodies = [body for each in joints if each.point == joint.point for body in (each.on, each.by)]
+    if bodies.count(joint.on) == 1:
+        return pin_force(joint.point, joint.on, axis)
+    found: Request = -1.0 * pin_force(joint.point, joint.by, axis)
+    return found
+
+
+def one_way(machine: Mechanism, run: Run) -> tuple[float, float]:
+    """Return the two ends of the one stroke that runs [m or rad]; DefinitionError where several run, or one turns back."""
+    way = run.ways[run.stroke]
+    if len(run.ways) > 1 or len(way) != 2:
+        said = f"{machine.plan.title}: on a page one stroke runs between two values, and each has a slider"
+        raise DefinitionError(f"{said}; hold the others, at=dict({run.stroke}=({way[0]:.4g}, {way[-1]:.4g})), or animate them as a .gif.")
+    return way[0], way[1]
+
+
+def acting_points(plan: Plan) -> list[tuple[int, str]]:
+    """Return the places of a machine's own loads among all that act, with their points; none where they have no program."""
+    try:
+        kept = plan.made(("traced loads",), lambda twin: twin)
+        acting = traced_acting(TracedMotion(kept, kept.trace.view()), None, None, AT_REST)
+    except LinkageError:
+        return []
+    return [(k, each.load.point) for k, each in enumerate(acting.loads)]
+
+
+def ranges_given(machine: Mechanism, vary: Any) -> dict[str, tuple[float, float] | None] | None:
+    """Return the dimensions chosen with their ranges [SI] where they are given; None where nothing is chosen."""
+    if vary is None:
+        return None
+    if not isinstance(vary, (list, tuple, Mapping)):
+        said = f"{machine.plan.title}: vary={cited(vary)}: dimensions are expected"
+        raise DefinitionError(f'{said}, vary=["OB"] or vary=dict(OB=(0.28, 0.34)).')
+    given = dict(vary) if isinstance(vary, Mapping) else dict.fromkeys(vary)
+    found: dict[str, tuple[float, float] | None] = {}
+    for name, ends in given.items():
+        pair = [f"{name}.{axis}" for axis in "xy"]
+        names = pair if isinstance(name, str) and set(pair) & set(machine.dimensions) else [name]
+        for each in names:
+            owner, sign = machine.plan.table.spellings.get(each, (None, 1)) if isinstance(each, str) else (None, 1)
+            if owner is None:
+                raise unknown("Dimension", str(each), machine.plan.table.names(), where=f"{machine.plan.title}: vary")
+            found[owner] = None if ends is None else slider_ends(machine, owner, ends, sign)
+    return found
+
+
+def slider_ends(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[float, float]:
+    """Return a range with the design's own value in it; DefinitionError for what is none."""
+    if not isinstance(ends, (list, tuple)) or len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
+        said = f"{machine.plan.title}: vary: {name}={cited(ends)}"
+        raise DefinitionError(f"{said}: the least and the greatest value are expected, (0.28, 0.34).")
+    low, high = sorted(sign * float(end) for end in ends)
+    value = float(machine.dimensions[name])
+    return min(low, value), max(high, value)
+
+
+def chosen_columns(machine: Mechanism, motion: Motion, given: Any) -> dict[str, tuple[Column, RequestLike, str]]:
+    """Return the columns of a page by name: each, what asks for it, and why it is not followed in the page, or ""."""
+    if given is None:
+        return column_requests(machine, motion)
+    if not isinstance(given, (list, tuple)) or not given:
+        raise DefinitionError(f'{machine.plan.title}: columns={cited(given)}: a list of columns is expected, such as ["tilt"].')
+    own = column_requests(machine, motion) if any(isinstance(each, (str, Column)) for each in given) else {}
+    found: dict[str, tuple[Column, RequestLike, str]] = {}
+    for each in given:
+        if isinstance(each, str):
+            found[each] = own[known_name("Column", each, own, where=machine.plan.title)]
+        elif isinstance(each, Column):
+            found[each.name] = own.get(each.name, (each, each.name, "its values were given, and not what asks for them"))
+        else:
+            column = Column.of(motion, each)
+            found[column.name] = column, each, ""
+    return found
+
+
+# -- the data ------------------------------------------------------------------------------------------------
+
+
+def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
+    """Return all that the page's script reads, as plain data: lengths in m, angles in rad, forces in N."""
+    machine, plan = requests.machine, requests.plan
+    dims = dimension_data(requests, live)
+    names = [each[0] for each in dims]
+    columns = [column_data(name, each, live, requests.motion) for name, each in requests.columns.items()]
+    run, used = requests.run, {*(each[3] for each in dims), *(str(each[1]) for each in columns)}
+    return {
+        "count": requests.count,
+        "dims": dims,
+        "units": {typeset(unit): factor(unit) for unit in ("", *UNITS) if typeset(unit) in used},
+        "shown": [names.index(name) for name in shown_first(requests, names)],
+        "strokes": [stroke_data(requests, name) for name in machine.strokes],
+        "run": list(machine.strokes).index(run.stroke),
+        "columns": columns,
+        "column": list(requests.columns).index(requests.column),
+        "limits": {typeset(name): [value, typeset(text), fails] for name, (value, text, fails) in requests.limits.items()},
+        "rows": {"points": [row_pair(live, f"point {name}") for name in plan.points]},
+        "scene": scene_data(requests, live),
+        "cylinders": cylinder_data(requests, live),
+        "pressureUnit": unit_data("bar"),
+        "length": unit_data("mm"),
+        "force": unit_data("kN"),
+        "signs": signs({*used, *map(shown_in, ("bar", "mm", "kN"))}),
+        "joints": [{"point": name, "row": live.rows[key][0]} for name in requests.motion._joints if (key := f"joint {name}") in live.rows],
+        "arrows": arrow_data(requests, live),
+        "paths": [list(plan.points).index(name) for name in requests.trace],
+        "grips": grip_data(plan, names),
+        "steps": {name: opening(plan, name) for name in plan.points},
+        "verdicts": verdict_data(machine, requests.motion),
+    }
+
+
+def unit_data(unit: str) -> dict[str, Any]:
+    """Return the unit that values of a unit are shown in, and its factor."""
+    return {"unit": typeset(shown_in(unit)), "factor": factor(shown_in(unit))}
+
+
+def signs(units: set[str]) -> dict[str, str]:
+    """Return how units are written in Russian, those that are written otherwise."""
+    plain = {typeset(unit): unit for unit in UNITS}
+    with language("ru"):
+        found = {unit: typeset(translated(plain.get(unit, unit))) for unit in sorted(units)}
+    return {unit: sign for unit, sign in found.items() if sign != unit}
+
+
+def row_pair(live: LiveText, name: str) -> list[int]:
+    """Return the two rows of a vector."""
+    first, _ = live.rows[name]
+    return [first, first + 1]
+
+
+def dimension_data(requests: PageRequests, live: LiveText) -> list[list[Any]]:
+    """Return the dimensions that anything on the page hangs on."""
+    size = float(np.hypot(*np.diff(np.reshape(requests.scene.extent, (2, 2)), axis=1).ravel()))
+    found = []
+    for name in live.dimensions:
+        entry, value = requests.plan.table.entries[name], float(requests.machine.dimensions[name])
+        measure = plan_measure(requests.plan, name)
+        unit = shown_in(entry.unit or display_unit(measure, "mm"))
+        given = (requests.vary or {}).get(name)
+        ends = list(given) if given else four_digits(usual_reach(value, entry.kind, measure, unit, size))
+        where = entry.where if entry.kind in STEPS else ""
+        found.append([name, value, ends, typeset(unit), int(entry.kind == "length"), where][: None if where else 5])
+    return found
+
+
+def four_digits(value: float) -> float:
+    """Return a number to four digits."""
+    return float(f"{value:.4g}")
+
+
+def usual_reach(value: float, kind: str, measure: str, unit: str, size: float) -> float:
+    """Return how far a slider goes to either side of a value [SI]: a coordinate by the machine's size, others by it."""
+    if kind == "coordinate":
+        return 0.15 * size
+    if measure == "angle":
+        return 20 * deg
+    if value == 0.0:
+        return 0.15 * size if measure == "length" else factor(unit)
+    return (0.25 if measure == "length" else 0.5) * abs(value)
+
+
+def shown_first(requests: PageRequests, names: Sequence[str]) -> list[str]:
+    """Return the dimensions shown at first: those chosen, else the first lengths and angles, a load's mass and a bore among them."""
+    if requests.vary is not None:
+        return [name for name in requests.vary if name in names]
+    entries = requests.plan.table.entries
+    coordinates = [name for name in names if entries[name].kind == "coordinate"]
+    steps = [name for name in names if entries[name].kind in STEPS]
+    measured = [name for name in names if plan_measure(requests.plan, name) in ("length", "angle")]
+    plain = [name for name in measured if name not in steps and name not in coordinates]
+    others = [name for name in names if name.endswith((".mass", ".bore"))][:2]
+    lengths = [name for name in (*steps, *plain) if "." not in name][: SHOWN - len(others)]
+    rest = [name for name in (*coordinates, *names) if name not in (*lengths, *others)]
+    return [*lengths, *others, *rest[: SHOWN - len(lengths) - len(others)]]
+
+
+def stroke_data(requests: PageRequests, name: str) -> dict[str, Any]:
+    """Return a stroke: its range, where it stands, its unit, and whether it goes round."""
+    stroke, run = requests.machine.strokes[name], requests.run
+    unit = shown_in(stroke_display_unit(requests.plan, name, "mm"))
+    runs = name == run.stroke
+    start, end = requests.ends if runs else (stroke.start, stroke.end)
+    turn = runs and is_turn(requests.machine, run) and bool(requests.motion.reached.all()) and ends_where_begun(requests.motion)
+    at = start if runs else run.held[name]
+    return {"name": name, "start": start, "end": end, "at": at, "unit": unit, "factor": factor(unit), "turn": int(turn)}
+
+
+def column_data(name: str, found: tuple[Column, RequestLike, str], live: LiveText, motion: Motion) -> list[Any]:
+    """Return a column: its name, unit and row, -1 for none, its name in Russian; without a row its values, and why it has none."""
+    column, _, why = found
+    with language("ru"):
+        russian = typeset(heading_of(name))
+    shown, key = typeset(name), f"column {name}"
+    start = [shown, typeset(shown_in(column.unit))]
+    if key in live.rows:
+        return [*start, live.rows[key][0], *([russian] if russian != shown else [])]
+    values = np.broadcast_to(np.asarray(column.values, float), motion.shape)
+    return [*start, -1, russian, seven_digits(values), why or live.left_out.get(key, "")]
+
+
+def seven_digits(values: FloatArray) -> list[float | None]:
+    """Return values to seven digits; None for one that is not finite."""
+    return [float(f"{value:.7g}") if np.isfinite(value) else None for value in values.tolist()]
+
+
+def grip_data(plan: Plan, names: Sequence[str]) -> list[dict[str, int]]:
+    """Return the pins on the ground that can be dragged, with their coordinates among the dimensions."""
+    points = list(plan.points)
+    pairs = {name: (f"{name}.x", f"{name}.y") for name in points}
+    free = {name: pair for name, pair in pairs.items() if set(pair) <= set(names)}
+    return [{"point": points.index(name), "x": names.index(x), "y": names.index(y)} for name, (x, y) in free.items()]
+
+
+def arrow_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]]:
+    """Return the arrows whose both parts the program has."""
+    points, found = list(requests.plan.points), []
+    for k, (point, x, _) in enumerate(requests.arrows):
+        keys = f"arrow {k} x", f"arrow {k} y"
+        if all(key in live.rows for key in keys):
+            rows = {axis: live.rows[key][0] for axis, key in zip("xy", keys, strict=True)}
+            found.append({"point": points.index(point), **rows} | ({"load": 1} if isinstance(x, ActingForce) else {}))
+    return found
+
+
+def cylinder_data(requests: PageRequests, live: LiveText) -> list[dict[str, Any]]:
+    """Return the cylinders: where they hang, and the rows of what is read of them."""
+    plan, scene = requests.plan, requests.scene
+    points = list(plan.points)
+    driven = {frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
+    elements = defaultdict(list)
+    for name, element in plan.of_kind(TwoPoint).items():
+        if element.drawn_as == "cylinder":
+            elements[frozenset(element.ends)].append(name)
+    drawn = {(each.P, each.Q, each.aside) for each in scene.hung if not scene._is_telescope(each)}
+    found = []
+    for each in scene.hung:
+        if each.drawn_as != "cylinder":
+            continue
+        pair = frozenset((each.P, each.Q))
+        name = elements[pair].pop(0) if elements[pair] else ""
+        gauges = {what: live.rows[f"gauge {name} {what}"][0] for what in GAUGES if f"gauge {name} {what}" in live.rows}
+        data = {"name": name or each.P + each.Q, "P": points.index(each.P), "Q": points.index(each.Q), "aside": each.aside}
+        data |= {"drawn": 1} if (each.P, each.Q, each.aside) in drawn else {}
+        found.append(data | gauges | ({} if pair in driven else {"beside": 1}))
+    return found
+
+
+GAUGES = ("thrust", "pressure", "most", "reserve", "closed", "stroke")
+"""What is read of a cylinder; see `Tabled.gauges`."""
+
+
+def scene_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
+    """Return what is drawn, by the points' places in `names`."""
+    scene, plan = requests.scene, requests.plan
+    names = list(plan.points)
+    index = {name: place for place, name in enumerate(names)}
+    forms = list(zip(scene.plates, scene.bodies, strict=True))
+    return {
+        "size": scene.size,
+        "names": names,
+        "box": [four_digits(side) for side in scene.box(0.0)],
+        "bodies": [body_data(plate, points, index) | {"colour": k % len(style.BODIES)} for k, (plate, points) in enumerate(forms)],
+        "tracks": [track_data(track, index, live) for track in scene.tracks],
+        "contours": [straight_data(each, index) for each in (*scene.contours, *scene.sections)],
+        "straights": [straight_data(each, index) for each in scene.straights],
+        "pieces": [piece_data(each, index, scene) for each in scene.surroundings],
+        "marks": [piece_data(each, index, scene) for each in scene.marks],
+        "stays": [[index[P], index[X]] for P, X in scene.stays],
+        "pins": [index[name] for name in scene.pins],
+        "dots": [index[name] for name in scene.dots],
+        "grounds": [{"point": index[name], "way": round(way, 4)} for name, way in props(scene).items()],
+        "labels": label_offsets(scene),
+    }
+
+
+def track_data(track: SlideTrack, index: Mapping[str, int], live: LiveText) -> dict[str, Any]:
+    """Return a track: what slides on it, and the rows of its origin and its direction."""
+    rows = [live.rows[f"track {track.name} {k}"][0] for k in range(4)]
+    return {"riders": [index[name] for name in track.riders], "fixed": track.fixed, "line": rows}
+
+
+def body_data(plate: Plate, points: Sequence[str], index: Mapping[str, int]) -> dict[str, Any]:
+    """Return a body: its points, of which it is the hull, or where it has another form its corners' shares of them."""
+    if len(plate.shares) <= len(plate.points) and np.all((plate.shares == 0.0) | (plate.shares == 1.0)):
+        return {"points": [index[name] for name in points]}
+    return {
+        "points": [index[name] for name in plate.points],
+        "shares": [[four_digits(share) for share in row] for row in plate.shares.tolist()],
+    }
+
+
+def line_data(line: DrawnLine, rows: FloatArray) -> dict[str, Any]:
+    """Return a line: its rows, and how it is drawn."""
+    flags = {"fill": line.fill.lower(), "closed": int(line.closed), "bold": int(line.bold)}
+    return {"rows": [[round(part, 4) for part in row] for row in rows.tolist()]} | {name: flag for name, flag in flags.items() if flag}
+
+
+def straight_data(each: Straight, index: Mapping[str, int]) -> dict[str, Any]:
+    """Return lines from P to Q: rows of a share of the distance, and ways along and across [m]."""
+    return {"P": index[each.P], "Q": index[each.Q], "lines": [line_data(line, line.rows) for line in each.lines]}
+
+
+def piece_data(piece: Piece, index: Mapping[str, int], scene: Scene) -> dict[str, Any]:
+    """Return what some points carry, or nothing does: lines in its own axes [m], and whether they are hatched on their right."""
+    lines = [line_data(line, sparse(line.rows[:, 1:], 0.05 * scene.size)) for line in piece.lines]
+    return {"on": [index[name] for name in piece.on], "lines": lines} | ({"hatched": 1} if len(piece.hatched) else {})
+
+
+def sparse(rows: FloatArray, near: float) -> FloatArray:
+    """Return a line's points without those that lie so near to the straight line of their neighbours [m] (Douglas and Peucker, 1973)."""
+    if len(rows) < 3:
+        return rows
+    along = rows[-1] - rows[0]
+    off = rows[1:-1] - rows[0]
+    length = float(np.hypot(*along))
+    gaps = np.abs(off[:, 0] * along[1] - off[:, 1] * along[0]) / length if length > near else np.hypot(*off.T)
+    farthest = 1 + int(np.argmax(gaps))
+    if gaps[farthest - 1] <= near:
+        return rows[[0, -1]]
+    return np.concatenate([sparse(rows[: farthest + 1], near)[:-1], sparse(rows[farthest:], near)])
+
+
+def label_offsets(scene: Scene) -> list[list[float]]:
+    """Return each name's offset from its point [px], in the order of the names."""
+    poses = scene.some(9)
+    left, right, bottom, top = scene.box()
+    scale = min(ACROSS / (right - left), 0.7 * ACROSS / (top - bottom))
+    spots = offsets(list(scene.places), poses, label_free(scene, poses), scale, 1.15 * scene.size * scale + 2.0, FONT)
+    return [[round(float(spots[name][0]), 1), round(-float(spots[name][1]), 1)] for name in scene.places]
+
+
+def verdict_data(machine: Mechanism, motion: Motion) -> list[list[Any]]:
+    """Return the machine's own verdicts on the motion, as they stand for the design that is delivered.
+
+    Each is 1 where it is kept, 0 where it is not, 2 where it is only said; its rule and its sentence, then what differs in Russian.
+    """
+    said = {}
+    for name in ("en", "ru"):
+        with language(name), unwarned():
+            try:
+                said[name] = [verdict_parts(each) for each in machine.verdicts(motion)]
+            except LinkageError as error:
+                said[name] = [(2, "", str(error))]
+    pairs = zip(said["en"], said["ru"], strict=True) if len(said["en"]) == len(said["ru"]) else [(each, each) for each in said["en"]]
+    return [
+        [*english, *(() if russian == english else (russian[1],) if russian[2] == english[2] else russian[1:])]
+        for english, russian in pairs
+    ]
+
+
+def verdict_parts(said: str) -> tuple[int, str, str]:
+    """Return whether a verdict is kept, what it is called and what it says."""
+    return (int(said.ok), said.heading, said.sentence) if isinstance(said, Verdict) else (2, "", str(said))

@@ -1,0 +1,225 @@
+"""A mechanism with its dimensions: lengths between arrows, angles as arcs, each where there is room."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Arc
+from matplotlib.patheffects import withStroke
+
+from ..motion import Motion
+from ..program import FloatArray
+from ..quantities import Quantity, Stroke, spelled
+from ..units import shown_number
+from . import style
+from .drawing import Drawing
+from .free_space import cloud
+from .scene import Bounds, Places, Scene
+from .shapes import segment
+from .sheet import points_a_metre, sheet
+from .style import STRONG
+
+AWAY = (1.7, 2.7, 3.8, 5.0, 6.4, 8.0)
+"""The distances from the link that a dimension line tries, in heights of its letters."""
+LETTERS = 8.0
+"""Their size [points]."""
+RADII = (3.4, 4.6, 6.0, 7.6)
+"""The radii that an arc tries, in heights of letters."""
+SHORT = 1.6
+"""What is shorter, in heights of letters, has no room for arrows."""
+MOST = 14.0
+"""A dimension that would cover so much is left to the table."""
+
+
+def dimensioned(ax: Axes, motion: Motion, pose: int = 0) -> None:
+    """Draw a mechanism on empty axes at a pose of a motion, with the lengths and angles that its links are given.
+
+    Lengths are in millimetres, or in the length of the chosen system of units; what follows a stroke stands as its formula, and what
+    finds no room is left out.
+    Raises DefinitionError for a batch of designs.
+    """
+    scene = Scene(motion)
+    left, right, bottom, top = scene.box()
+    air = 0.09 * max(right - left, top - bottom)
+    sheet(ax, (left - air, right + air, bottom - air, top + air))
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    index = scene.index(pose)
+    at = scene.at(index)
+    drawing = Drawing(ax, scene, STRONG)
+    drawing.ground()
+    placed = list(placed_dimensions(scene, at, index, points_a_metre(ax), (left, right, bottom, top)))
+    drawing.label([at], [each.covered for each in placed])
+    drawing.update(index)
+    for each in placed:
+        each.draw(ax)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class LengthLine:
+    """A dimension line from P to Q, moved aside: its text, its two ends and those of the lines that lead to it, shape (2,) [m]."""
+
+    text: str
+    P: FloatArray
+    Q: FloatArray
+    aside: FloatArray
+    letter: float
+
+    @property
+    def ends(self) -> tuple[FloatArray, FloatArray]:
+        """The ends of the line itself."""
+        return self.P + self.aside, self.Q + self.aside
+
+    @property
+    def covered(self) -> FloatArray:
+        """Points that it covers, shape (m, 2) [m]: its text counts double."""
+        start, end = self.ends
+        middle, along = 0.5 * (start + end), (end - start) / (np.hypot(*(end - start)) or 1.0)
+        half = 0.32 * self.letter * len(self.text)
+        text = segment(middle - half * along, middle + half * along, 0.3 * self.letter)
+        return np.concatenate([segment(start, end, 0.8 * self.letter), text, text])
+
+    def draw(self, ax: Axes) -> None:
+        """Draw it on axes."""
+        start, end = self.ends
+        for pin, tip in ((self.P, start), (self.Q, end)):
+            line = np.array([pin + 0.35 * (tip - pin), tip + 0.35 * self.letter * (tip - pin) / (np.hypot(*(tip - pin)) or 1.0)])
+            ax.add_line(Line2D(*line.T, color=style.MUTED, linewidth=0.5, zorder=20.0))
+        arrow = {"arrowstyle": "<|-|>,head_length=0.35,head_width=0.11", "color": style.INK, "linewidth": 0.6, "shrinkA": 0, "shrinkB": 0}
+        ax.annotate("", tuple(end), tuple(start), arrowprops=arrow, zorder=20.5, annotation_clip=False)
+        way = float(np.degrees(np.arctan2(*(end - start)[::-1])))
+        way = (way + 90.0) % 180.0 - 90.0
+        write_number(ax, self.text, 0.5 * (start + end), way)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class AngleArc:
+    """An arc about a corner from one direction to another [rad], counter-clockwise, with its text."""
+
+    text: str
+    corner: FloatArray
+    start: float
+    end: float
+    radius: float
+    letter: float
+
+    @property
+    def middle(self) -> FloatArray:
+        """Where its text stands."""
+        way = 0.5 * (self.start + self.end)
+        return np.asarray(self.corner + self.radius * np.array([np.cos(way), np.sin(way)]))
+
+    @property
+    def covered(self) -> FloatArray:
+        """Points that it covers, shape (m, 2) [m]."""
+        ways = np.linspace(self.start, self.end, 15)
+        arc = self.corner + self.radius * np.array([np.cos(ways), np.sin(ways)]).T
+        half = np.array([0.32 * self.letter * len(self.text), 0.0])
+        text = segment(self.middle - half, self.middle + half, 0.3 * self.letter)
+        return np.concatenate([arc, text, text])
+
+    def draw(self, ax: Axes) -> None:
+        """Draw it on axes."""
+        x, y = self.corner
+        size, ends = 2.0 * self.radius, np.degrees([self.start, self.end])
+        ax.add_patch(Arc((x, y), size, size, theta1=ends[0], theta2=ends[1], color=style.INK, linewidth=0.7, zorder=20.0))
+        write_number(ax, self.text, self.middle, 0.0)
+
+
+def write_number(ax: Axes, text: str, place: FloatArray, way: float) -> None:
+    """Write a dimension over its line, turned by an angle [deg]."""
+    x, y = place.tolist()
+    ax.text(
+        x, y, text, rotation=way, rotation_mode="anchor", ha="center", va="center", fontsize=LETTERS, color=style.INK, zorder=21.0,
+        path_effects=[withStroke(linewidth=3.0, foreground=style.PAPER)],
+    )  # fmt: skip
+
+
+# Which dimensions there are, and where each stands.
+
+
+def placed_dimensions(scene: Scene, at: Places, pose: int, scale: float, box: Bounds) -> Iterator[LengthLine | AngleArc]:
+    """Yield the dimensions of a pose within a box [m], each clear of the mechanism and of those before it as far as there is room.
+
+    `scale` are printer's points a metre.
+    """
+    letter = LETTERS / scale
+    taken = [cloud(scene, at)]
+    for ends, corner, text in given_dimensions(scene.motion, at, pose):
+        places = line_choices(text, *ends, letter) if corner is None else arc_choices(text, corner, *ends, letter)
+        choices: list[LengthLine | AngleArc] = [each for each in places if is_within(each.covered, box)]
+        points = np.concatenate(taken)
+        costs = [covering(each, points) + 1.2 * (rank // 2) for rank, each in enumerate(choices)]
+        if costs and min(costs) < MOST:
+            best = choices[int(np.argmin(costs))]
+            taken.append(best.covered)
+            yield best
+
+
+def given_dimensions(motion: Motion, at: Places, pose: int) -> Iterator[tuple[tuple[FloatArray, FloatArray], FloatArray | None, str]]:
+    """Yield what is given: the two points of a length, or the two sides of an angle with its corner, and the text; short ones first."""
+    plan = motion.plan
+    lengths = []
+    for pair, quantity in plan.table.lengths.items():
+        P, Q = (at[name] for name in sorted(pair))
+        apart = float(np.hypot(*(Q - P)))
+        if len(pair) == 2 and apart > 0.0:
+            lengths.append((apart, (P, Q), dimension_text(motion, quantity, "mm", pose)))
+    for _, ends, text in sorted(lengths, key=lambda each: each[0]):
+        yield ends, None, text
+    for (corner, sides), quantity in plan.table.angles.items():
+        P, Q = (at[name] for name in sorted(sides))
+        if np.isfinite([P, Q, at[corner]]).all():
+            yield (P, Q), at[corner], dimension_text(motion, quantity, "deg", pose)
+
+
+def dimension_text(motion: Motion, quantity: Quantity, unit: str, pose: int) -> str:
+    """Return a dimension as a drawing has it: its number without the unit of lengths, or the formula that follows a stroke."""
+    strokes = motion.plan.of_kind(Stroke)
+    if motion.plan.terms(quantity) & strokes.keys():
+        return spelled(quantity)
+    value = float(np.broadcast_to(motion.value(quantity), motion.shape).ravel()[pose])
+    if unit == "deg":
+        return f"{shown_number(abs(value), unit, 5)}°"
+    return shown_number(value, unit, 5)
+
+
+def line_choices(text: str, P: FloatArray, Q: FloatArray, letter: float) -> Iterator[LengthLine]:
+    """Yield the places that a length tries: on both sides of its link, the nearer ones first."""
+    if np.hypot(*(Q - P)) < SHORT * letter:
+        return
+    along = (Q - P) / np.hypot(*(Q - P))
+    across = np.array([-along[1], along[0]])
+    for away in AWAY:
+        for side in (across, -across):
+            yield LengthLine(text, P, Q, away * letter * side, letter)
+
+
+def arc_choices(text: str, corner: FloatArray, P: FloatArray, Q: FloatArray, letter: float) -> Iterator[AngleArc]:
+    """Yield the places that an angle tries: arcs of several radii on its smaller side."""
+    start, end = (float(np.arctan2(*(each - corner)[::-1])) for each in (P, Q))
+    if (end - start) % (2.0 * np.pi) > np.pi:
+        start, end = end, start
+    sweep = (end - start) % (2.0 * np.pi)
+    least = min(np.hypot(*(P - corner)), np.hypot(*(Q - corner)))
+    for radius in RADII:
+        if sweep > 1e-6 and least > 0.7 * radius * letter:
+            yield AngleArc(text, corner, start, start + sweep, radius * letter, letter)
+
+
+def is_within(points: FloatArray, box: Bounds) -> bool:
+    """Return whether all points lie in a box."""
+    (x, y), (left, right, bottom, top) = points.T, box
+    return bool(np.all((x > left) & (x < right) & (y > bottom) & (y < top)))
+
+
+def covering(each: LengthLine | AngleArc, taken: FloatArray) -> float:
+    """Return how many of the points that a dimension would cover lie within a letter of one that is taken."""
+    near = np.abs(each.covered[:, None, :] - taken[None, :, :]).max(axis=2) < 0.7 * each.letter
+    return float(np.count_nonzero(near.any(axis=1)))

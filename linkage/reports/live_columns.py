@@ -1,0 +1,90 @@
+"""A machine's own columns as something to ask for: its table, read on the numbers of a program."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Hashable
+from dataclasses import dataclass
+from typing import final
+
+import numpy as np
+
+from ..errors import LinkageError
+from ..mechanism import Mechanism
+from ..motion import Column, Motion, Request, RequestLike, require_motion
+from ..plan import Plan
+from ..program import FloatArray
+from ..quantities import Dimension, Quantity, Stroke, x, y
+from ..statics import AnyMotion, LawRequest, TracedLaw, TracedMotion
+from .results import results
+
+CLOSE = 1e-6
+"""How far a column may lie from the table's own values, compared with its greatest, to count as the same."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class ColumnOf(LawRequest):
+    """A column of a machine's table of results, by its place and its name."""
+
+    machine: Mechanism
+    place: int
+    name: str
+
+    def identity(self, plan: Plan) -> Hashable:
+        return None
+
+    def law(self, motion: AnyMotion) -> FloatArray:
+        values = results(self.machine, require_motion(motion))[self.place].values
+        return np.asarray(np.asarray(values)[()])[()]
+
+    def traced(self, motion: TracedMotion) -> TracedLaw:
+        law = super().traced(motion)
+        claimed = motion.notes.claims.get(self.name, ())
+        motion.notes.gaps = {node: owner for node, owner in motion.notes.gaps.items() if node in claimed}
+        return law
+
+    def examine(self, plan: Plan) -> None:
+        """Look at nothing: it was made of a table of the plan's machine."""
+
+    def __str__(self) -> str:
+        return f"the column {self.name}"
+
+
+def column_requests(machine: Mechanism, motion: Motion) -> dict[str, tuple[Column, RequestLike, str]]:
+    """Return the columns of a motion of one design by their names: each, what asks for it, and why that does not give it, or ""."""
+    plain, names = plain_requests(machine.plan), Counter[str]()
+    found: dict[str, tuple[Column, RequestLike, str]] = {}
+    for place, column in enumerate(results(machine, motion)):
+        names[column.name] += 1
+        name = column.name if names[column.name] == 1 else f"{column.name} ({names[column.name]})"
+        request = plain.get(name)
+        if request is not None and column_agrees(motion, request, column):
+            found[name] = column, request, ""
+        else:
+            own = ColumnOf(machine, place, column.name)
+            found[name] = column, own, not_followed(motion, own, column)
+    return found
+
+
+def plain_requests(plan: Plan) -> dict[str, RequestLike]:
+    """Return what the columns ask for that every machine has: its strokes, the coordinates of its points, its outputs."""
+    points: dict[str, RequestLike] = {f"{name}_{axis}": each(name) for name in plan.moving for axis, each in (("x", x), ("y", y))}
+    outputs = {name: name for name, each in plan.of_kind(Quantity).items() if not isinstance(each, (Stroke, Dimension))}
+    return points | outputs | {name: name for name in plan.strokes}
+
+
+def not_followed(motion: Motion, request: Request, column: Column) -> str:
+    """Return why a program does not give a column, in words; empty where it does."""
+    try:
+        return "" if column_agrees(motion, request, column) else "what its program gives is not what the table says"
+    except LinkageError as error:
+        return str(error)
+
+
+def column_agrees(motion: Motion, request: RequestLike, column: Column) -> bool:
+    """Return whether a request's program gives what a column holds, NaN at the same poses."""
+    own = np.broadcast_to(np.asarray(column.values, float), motion.shape)
+    found = motion._requested(request) if isinstance(request, Request) else motion[request]
+    size = float(np.nanmax(np.abs(own), initial=0.0))
+    return bool(np.allclose(found, own, rtol=CLOSE, atol=CLOSE * size, equal_nan=True))

@@ -59,7 +59,8 @@ def make(folder: Path) -> None:
         pages.append(module.replace(".", "_"))
         (folder / f"{pages[-1]}.md").write_text("\n".join(text), encoding="utf-8")
     listed = "\n".join(pages)
-    head = "# Reference of all names\n\nThe public names with what their docstrings say. Two of them, a design and a motion, are also told on {doc}`/reference`."
+    more = "Two of them, a design and a motion, are also told on {doc}`/reference`."
+    head = f"# Reference of all names\n\nThe public names with what their docstrings say. {more}"
     (folder / "index.md").write_text(f"{head}\n\n```{{toctree}}\n:maxdepth: 2\n\n{listed}\n```\n", encoding="utf-8")
 
 

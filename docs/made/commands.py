@@ -13,7 +13,7 @@ from linkage.cli import main
 WIDTH = 98
 HEAD = """# Commands
 
-`hydrolinkage COMMAND ...`, the same as `python -m linkage`. This page is what the commands say of themselves, `hydrolinkage COMMAND --help`.
+`hydrolinkage COMMAND ...`, the same as `python -m linkage`. These are the words of `hydrolinkage COMMAND --help`.
 
 """
 

@@ -1,4 +1,4 @@
-"""What the examples of a page draw or write: they are run once more, as the tests run them, and what comes out is shown behind its block."""
+"""What the examples of a page draw or write: run once more, as the tests run them, and shown behind their block."""
 
 from __future__ import annotations
 

@@ -115,8 +115,8 @@ def numbers(machine: Mechanism) -> Iterator[str]:
     yield "## Strokes and dimensions\n"
     yield table(("stroke", "range"), stroke_rows(machine))
     yield table(("dimension", "value", "of the step"), design_rows(machine))
-    freedom = f"Mobility {machine.mobility} by rank, {machine.gruebler} by Gruebler's count; {len(machine.links)} bodies, the frame included."
-    yield f"{freedom}\n"
+    bodies = f"{len(machine.links)} bodies, the frame included"
+    yield f"Mobility {machine.mobility} by rank, {machine.gruebler} by Gruebler's count; {bodies}.\n"
 
 
 def table(heads: Iterable[str], rows: Iterable[Iterable[str]]) -> str:

@@ -87,7 +87,7 @@ def of_own_motion(cls: type[Mechanism], method: Callable[[Mechanism, Motion], An
             raise DefinitionError(f"{machine.plan.title}: {said}; give one of {machine.plan.title}.")
         with told(f"{machine.plan.title}.{method.__name__}(motion)"):
             found = method(machine, motion)
-        if method.__name__ != "verdicts" or not isinstance(found, list) or type(machine).owner("verdicts") is not cls:
+        if method.__name__ != "verdicts" or not isinstance(found, list) or type(machine)._owner("verdicts") is not cls:
             return found
         return cast(Answer, ShownList([*found, *added_verdicts(motion, cls.plan.members)]))
 
@@ -151,7 +151,7 @@ class Mechanism(Shown, metaclass=MechanismType):
             member.settle(cls.__name__)
 
     @classmethod
-    def owner(cls, name: str) -> type[Mechanism]:
+    def _owner(cls, name: str) -> type[Mechanism]:
         """Return the class that gives a machine its `columns` or its `verdicts`: itself or the nearest of its bases that has them."""
         return next(base for base in cls.__mro__ if name in vars(base) and issubclass(base, Mechanism))
 

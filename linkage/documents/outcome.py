@@ -90,7 +90,7 @@ def positions(ax: Axes, motion: Motion, path: Sequence[str]) -> None:
 # -- tables and curves -------------------------------------------------------------------------------------
 
 
-def chosen_columns(looked: Looked, names: Sequence[str] | None) -> list[Column]:
+def reported_columns(looked: Looked, names: Sequence[str] | None) -> list[Column]:
     """Return the columns of results at the poses of the tables: those named, else all; DefinitionError for an unknown name."""
     with unwarned():
         found = results(looked.machine, looked.table)
@@ -105,7 +105,7 @@ def chosen_columns(looked: Looked, names: Sequence[str] | None) -> list[Column]:
 
 def results_section(looked: Looked, names: Sequence[str] | None, first: str, limits: Mapping[str, Sequence[Any]]) -> Section:
     """Return the section of the table over the stroke and the curves, the one the machine is about first."""
-    columns = chosen_columns(looked, names)
+    columns = reported_columns(looked, names)
     blocks: list[Block] = []
     shown = [column for column in columns if column.name not in looked.run.held]
     held = looked.words(dict(looked.run.held))

@@ -23,7 +23,7 @@ from ..language import said
 from .content import Block, Cell, Document, Equality, Formula, Illustration, Mark, Paragraph, Section, TableBlock
 from .html import captions_of
 from .pictures import painted
-from .setting import Ink, InkLine, Laid, Letters, face, laid, width, wrapped
+from .setting import Ink, InkLine, Laid, Letters, face, filled_lines, laid, width
 
 WIDE, HIGH = 595.276, 841.89
 LEFT, RIGHT, TOP, BOTTOM = 57.0, 42.0, 48.0, 52.0
@@ -75,7 +75,7 @@ class Page:
             painted(figure, picture, (x / INCH, (HIGH - y) / INCH - picture.size[1]))
         foot, of = HIGH - 30.0, said("page {n} of {all}", n=number, all=count)
         line = InkLine(((LEFT, foot - 11.0), (WIDE - RIGHT, foot - 11.0)), 0.4, RULE)
-        words = [wrapped(f"{document.footer}", ROOM - 90.0, SMALL)[0], of]
+        words = [filled_lines(f"{document.footer}", ROOM - 90.0, SMALL)[0], of]
         places = [LEFT, WIDE - RIGHT - width(of, SMALL)]
         feet = [Letters(x, foot, text, SMALL, "regular", MUTED) for text, x in zip(words, places, strict=True)]
         figure.add_artist(InkArtist([*self.ink, line, *feet]))
@@ -149,7 +149,7 @@ class Flow:
 
     def words(self, text: str, size: float = TEXT, name: str = "regular", colour: str = INK, after: float = 4.0) -> None:
         """Draw a paragraph."""
-        for line in wrapped(text, ROOM, size, name):
+        for line in filled_lines(text, ROOM, size, name):
             y = self.take(1.38 * size)
             self.put(Letters(LEFT, y + size, line, size, name, colour))
         self.y += after
@@ -201,7 +201,7 @@ class Flow:
     def pictures(self, row: Sequence[Illustration]) -> None:
         """Draw one picture, or two beside each other, with their captions."""
         room = ROOM / len(row) if len(row) > 1 else min(ROOM, max(row[0].size[0] * INCH, 0.5 * ROOM))
-        captions = [wrapped(self.captions.get(id(each), each.caption), room - 6.0, SMALL) for each in row]
+        captions = [filled_lines(self.captions.get(id(each), each.caption), room - 6.0, SMALL) for each in row]
         high = max(each.size[1] for each in row) * INCH
         y = self.take(high + 1.4 * SMALL * max(map(len, captions)) + 8.0)
         for place, (each, lines) in enumerate(zip(row, captions, strict=True)):
@@ -238,7 +238,7 @@ class Flow:
         """Draw a table; its head is repeated on every page."""
         widths = column_widths(grid)
         body = [row_lines(row, widths, grid.columns) for row in grid.rows]
-        head = [wrapped(text, wide - 5.0, CELL, "bold") for text, wide in zip(grid.headings, widths, strict=True)]
+        head = [filled_lines(text, wide - 5.0, CELL, "bold") for text, wide in zip(grid.headings, widths, strict=True)]
         head_high = 1.32 * CELL * max(map(len, head)) + 4.0
         if caption:
             y = self.take(1.4 * SMALL + head_high + 30.0)
@@ -345,7 +345,7 @@ def row_lines(row: Sequence[Cell], widths: Sequence[float], columns: str) -> lis
             found.append(laid(boxes(value.latex), CELL))
         else:
             name = "bold" if isinstance(value, Mark) else "regular"
-            found.append(wrapped(value.word if isinstance(value, Mark) else value, wide - 4.9, CELL, name))
+            found.append(filled_lines(value.word if isinstance(value, Mark) else value, wide - 4.9, CELL, name))
     return found
 
 

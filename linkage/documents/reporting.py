@@ -113,7 +113,7 @@ def composed(
     bounds = checked_limits(own if limits is None else limits, names, machine.plan.title)
     path = named_points(machine, trace, "trace") if trace is not None else tuple(featured.path) or machine.plan.moving[-1:]
     found = calculated(machine, looked.pose, start)
-    verdicts, mark = verdicts_of(machine)
+    verdicts, mark = verdict_section(machine)
     sections = (
         inputs_section(machine, found.listing, looked.run.held),
         drawing_section(looked, path),
@@ -170,7 +170,7 @@ def checked_limits(limits: Mapping[str, Sequence[Any]], columns: Sequence[str], 
 # What the machine itself judges.
 
 
-def verdicts_of(machine: Mechanism) -> tuple[Section, Mark]:
+def verdict_section(machine: Mechanism) -> tuple[Section, Mark]:
     """Return the section of a machine's own verdicts over its whole strokes, and how many are kept."""
     title = said("Verdicts")
     poses = POSES.get(len(machine.strokes), MANY_STROKES)

@@ -37,7 +37,7 @@ def width(text: str, size: float, name: str = "regular") -> float:
     return size * sum(advance(letter, name) for letter in text)
 
 
-def wrapped(text: str, room: float, size: float, name: str = "regular") -> list[str]:
+def filled_lines(text: str, room: float, size: float, name: str = "regular") -> list[str]:
     """Return a text in lines that fit a room; a word that is too long is cut."""
     lines = [""]
     for word in text.split():
@@ -154,7 +154,7 @@ def row(parts: Sequence[Box], size: float) -> Laid:
         x += each.width + (0.24 * size if binary else 0.0)
         if isinstance(part, Sign) and part.text == ",":
             x += 0.3 * size
-        elif beside(part, parts[place + 1 : place + 2]):
+        elif is_spaced(part, parts[place + 1 : place + 2]):
             x += 0.17 * size
         height, depth = max(height, each.height), max(depth, each.depth)
     return Laid(x, height, depth, tuple(ink))
@@ -173,7 +173,7 @@ def run_together(ink: list[Ink]) -> list[Ink]:
     return [*ink[:-2], Letters(first.x, first.y, first.text + last.text, first.size, first.face, first.colour)]
 
 
-def beside(part: Box, following: Sequence[Box]) -> bool:
+def is_spaced(part: Box, following: Sequence[Box]) -> bool:
     """Return whether a little space stands between a box and the next: between factors, not between letters of one name."""
     if not following or (isinstance(following[0], Sign) and following[0].kind in ("operator", "space")) or following[0] == DEGREE:
         return False

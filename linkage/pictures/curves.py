@@ -157,7 +157,7 @@ def axis_range(column: Column, limit: Limit | None = None) -> tuple[float, float
     low, high = low - air, high + air
     if limit is None:
         return low, high
-    value, beyond = limit.drawn(column), 0.06 * (high - low)
+    value, beyond = limit.drawn(column), 0.1 * (high - low)
     return min(low, value - beyond), max(high, value + beyond)
 
 

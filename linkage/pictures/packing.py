@@ -106,14 +106,14 @@ def tokens_of(text: str) -> Iterator[Token]:
         place = found.end()
 
 
-def beside(tokens: Sequence[Token], place: int) -> tuple[str, str]:
+def tokens_beside(tokens: Sequence[Token], place: int) -> tuple[str, str]:
     """Return the tokens before and behind one."""
     return tokens[place - 1][1] if place else "", tokens[place + 1][1] if place + 1 < len(tokens) else ""
 
 
 def is_property(tokens: Sequence[Token], place: int) -> bool:
     """Return whether the word at a place names a property: behind a point, or before a colon in an object."""
-    before, behind = beside(tokens, place)
+    before, behind = tokens_beside(tokens, place)
     return before in (".", "?.") or (behind == ":" and before in ("{", ","))
 
 
@@ -125,7 +125,7 @@ def in_short(tokens: Sequence[Token]) -> set[int]:
     """Return the places of the words that stand for a property and its value at once, `{ low, high }`."""
     found, brackets = set[int](), list[str]()
     for place, (kind, said) in enumerate(tokens):
-        before, behind = beside(tokens, place)
+        before, behind = tokens_beside(tokens, place)
         if kind == "sign" and said in "{[(":
             brackets.append("object" if said == "{" and before in OBJECT else said)
         elif kind == "text" and said[-2:] == "${":

@@ -433,7 +433,7 @@ function range(lists, limit) {
   let air = 0.09 * (high - low);
   if (air <= 1e-9 * max(abs(low), abs(high))) air = 0.1 * max(abs(low), abs(high)) || 1;
   low -= air; high += air;
-  if (limit) { const more = 0.06 * (high - low); low = min(low, limit[0] - more); high = max(high, limit[0] + more); }
+  if (limit) { const more = 0.13 * (high - low); low = min(low, limit[0] - more); high = max(high, limit[0] + more); }
   return [low, high];
 }
 function plotted() {

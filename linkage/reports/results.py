@@ -28,7 +28,7 @@ def results(machine: Mechanism, motion: Motion) -> list[Column]:
         return columns
     whole = motion.moved(motion.strokes)
     taken = {column.name for column in columns}
-    owner = type(machine).owner("columns")
+    owner = type(machine)._owner("columns")
     further = [*drive_columns(whole), *member_columns(whole)] if owner is Mechanism else member_columns(whole, beside=owner.plan.members)
     return columns + [column for column in further if column.name not in taken]
 

@@ -18,7 +18,6 @@ extensions = ["myst_parser", "sphinx.ext.autodoc", "made"]
 myst_enable_extensions = ["amsmath", "attrs_block", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 exclude_patterns = ["_build", "_generated/extra", "_generated/api/extra", "**.ipynb", "**.py"]
-suppress_warnings = ["config.cache"]
 
 default_role = "code"  # docstrings write `names` as Markdown does
 autodoc_member_order = "bysource"

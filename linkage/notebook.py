@@ -175,7 +175,7 @@ def html_equation(number: int, steps: Iterable[str]) -> str:
 
 @html_of.register
 def _(frame: LivePage) -> str:
-    style = f"width:100%;height:{frame.height}px;border:1px solid #ccc"
+    style = f"width:100%;box-sizing:border-box;height:{frame.height}px;border:1px solid #ccc"
     return f'<iframe sandbox="allow-scripts" style="{style}" srcdoc="{escape(frame.html)}"></iframe>'
 
 

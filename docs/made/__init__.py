@@ -43,6 +43,9 @@ def make_all(folder: Path) -> None:
     for name in ("machines", "figures", "api", "images", "extra/live", "extra/thumbs"):
         (folder / name).mkdir(parents=True)
     entries = machines.registered()
+    gallery.make(entries, folder)
+    commands.make(folder / "commands.md")
+    api.make(folder / "api")
     with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn")) as pool:
         waiting = [pool.submit(drawn.draw_all, name, folder / "images") for name in drawn.MAKERS]
         waiting.append(pool.submit(notebook.make, HERE / "notebook.ipynb", folder / "notebook.md"))
@@ -51,9 +54,6 @@ def make_all(folder: Path) -> None:
         for each in waiting:
             each.result()
         found = {page: each.result() for page, each in shown.items()}
-    gallery.make(entries, folder)
-    commands.make(folder / "commands.md")
-    api.make(folder / "api")
     (folder / "examples.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
 
 

@@ -106,7 +106,7 @@ def as_restructured(app: Any, what: str, name: str, thing: Any, options: Any, li
     """Let a docstring, which is plain text with `code`, be read as what it says: signs of markup stand for themselves."""
     text = "\n".join(lines)
     parts = INLINE.split(text)
-    lines[:] = "".join(part if part.startswith("`") else plain(part) for part in parts).splitlines()
+    lines[:] = re.sub(r"(`[^`\n]*`)(?=\w)", r"\1\\ ", "".join(part if part.startswith("`") else plain(part) for part in parts)).splitlines()
 
 
 def plain(text: str) -> str:

@@ -17,7 +17,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-PICTURE = re.compile(r"^<Picture\b.*>$", re.MULTILINE)
+PICTURE = re.compile(r"^<Picture\b.*>\n", re.MULTILINE)
 WRITTEN = re.compile(r"^'[\w.-]+\.(?:html|gif|svg|xlsx|dxf|pdf)'$", re.MULTILINE)
 FENCE = "```"
 
@@ -97,4 +97,4 @@ def with_results(text: str, found: dict[str, list[str]]) -> str:
     lines = text.splitlines()
     for number, markdown in sorted(((int(line), each) for line, each in found.items()), reverse=True):
         lines[number + 1 : number + 1] = ["", *(piece for each in markdown for piece in (each, ""))]
-    return PICTURE.sub("", "\n".join(lines)).replace("\n\n```\n", "\n```\n") + "\n"
+    return PICTURE.sub("", "\n".join(lines) + "\n").replace("\n\n```\n", "\n```\n")

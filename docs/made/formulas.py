@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from html import escape
 from typing import Any
 
@@ -9,9 +10,13 @@ from docutils import nodes
 from latex2mathml.converter import convert
 
 
+PRIMED = re.compile(r"<msup>(<mi>[^<]*</mi>)<mi>(&#x0203[23];)</mi></msup>")
+"""Letters with a prime: as an exponent it would be too small to be seen."""
+
+
 def mathml(latex: str, *, block: bool = False) -> str:
     """Return a formula in LaTeX as a `math` element; on a line of its own as a block."""
-    return convert(latex.strip(), display="block" if block else "inline")
+    return PRIMED.sub(r'<mrow>\1<mo lspace="0" rspace="0">\2</mo></mrow>', convert(latex.strip(), display="block" if block else "inline"))
 
 
 def inline(writer: Any, node: nodes.Element) -> None:

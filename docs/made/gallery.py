@@ -53,7 +53,7 @@ def make(entries: Mapping[str, EntryPoint], folder: Path) -> None:
 
 def tile(name: str, heading: str) -> str:
     """Return a machine's tile: its picture opens its live page, its name its own page."""
-    picture = f'<a href="@live/{name}.html"><img src="@thumbs/{name}.png" alt="{escape(heading)}, live" loading="lazy"></a>'
+    picture = f'<a href="@live/{name}.html"><img src="@thumbs/{name}.png" alt="{escape(heading)}, live"></a>'
     return f'<figure>{picture}<figcaption><a href="@machines/{name}.html">{escape(heading)}</a></figcaption></figure>'
 
 

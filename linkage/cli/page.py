@@ -32,7 +32,6 @@ class PageCommand(Command):
         parser.add_argument("--column", metavar="I", help="the column of `table` that is shown first")
         parser.add_argument("--path", metavar="G", action="append", help="draw this point's path; repeatable")
         parser.add_argument("--count", metavar="N", type=pose_count, default=101, help="poses of the curve (default 101)")
-        parser.add_argument("--language", choices=("en", "ru"), default="en", help="the language it begins with (default en)")
         parser.add_argument(
             "--at", dest="strokes", metavar="S=0.6", action="append", default=[],
             help="hold a stroke at a value, or run between two: S=0.1,650mm; without it the first runs, others stand in their middle",

@@ -1,9 +1,9 @@
 """What a notebook shows: machines, motions and results as HTML, drawings inside as SVG, a live page in a frame of its own.
 
-    >>> from linkage.notebook import live
-    >>> from mechanisms.classics.four_bar import FourBar
-    >>> live(FourBar(), height=500)._repr_html_()[:50]
-    '<iframe sandbox="allow-scripts" style="width:100%;'
+>>> from linkage.notebook import live
+>>> from mechanisms.classics.four_bar import FourBar
+>>> live(FourBar(), height=500)._repr_html_()[:50]
+'<iframe sandbox="allow-scripts" style="width:100%;'
 """
 
 from __future__ import annotations

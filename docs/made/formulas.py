@@ -9,7 +9,6 @@ from typing import Any
 from docutils import nodes
 from latex2mathml.converter import convert
 
-
 PRIMED = re.compile(r"<msup>(<mi>[^<]*</mi>)<mi>(&#x0203[23];)</mi></msup>")
 """Letters with a prime: as an exponent it would be too small to be seen."""
 

@@ -222,7 +222,7 @@ def built(tmp_path_factory):
     """Return the folder of the pages, built anew without a warning."""
     pytest.importorskip("furo", reason="the pages are built by the extra `docs`")
     folder = tmp_path_factory.mktemp("pages")
-    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", str(DOCS), str(folder)]
+    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-j", "auto", str(DOCS), str(folder)]
     run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stderr
     return folder

@@ -105,10 +105,20 @@ def points_a_metre(ax: Axes) -> float:
 
 # A figure that is saved as every file here is: whole, or what stood there is left as it was.
 
+SCREEN = 72
+"""Pixels an inch of a picture takes in a notebook."""
+
 
 @final
 class Picture(Figure):
-    """A matplotlib figure whose `savefig` replaces a file whole; FileError, in words, where it cannot be written."""
+    """A matplotlib figure whose `savefig` replaces a file whole; FileError, in words, where it cannot be written. Notebooks show it."""
+
+    def _repr_png_(self) -> tuple[bytes, dict[str, int]]:
+        """Return the picture for a notebook, and the size it is shown in [pixels]: twice as fine as shown."""
+        drawn = BytesIO()
+        self.savefig(drawn, format="png", dpi=2 * SCREEN)
+        wide, high = (round(SCREEN * inches) for inches in self.get_size_inches())
+        return drawn.getvalue(), {"width": wide, "height": high}
 
     def savefig(self, fname: Any, **options: Any) -> None:
         """Write the picture into a file, in the format that its name's ending says, or into a stream."""

@@ -219,7 +219,7 @@ def test_wrong_questions_are_answered_in_words(tmp_path):
 
 def test_what_a_page_says_is_what_is_translated():
     script, text = page_part("page.js"), page_part("page.html")
-    said = re.findall(r'say\("((?:[^"\\]|\\.)*)"', script) + re.findall(r'data-(?:say|tip|name)="([^"]+)"', text)
+    said = re.findall(r'say\("((?:[^"\\]|\\.)*)"', script) + re.findall(r'"(\{name\} = [^"]*)"', script) + re.findall(r'data-(?:say|tip|name)="([^"]+)"', text)
     assert set(said) <= set(SAID) and len(said) > 50
 
 
@@ -283,6 +283,40 @@ def test_own_columns_cylinders_and_forces_are_followed(chromium, written):
         weight = next(each for each in data["arrows"] if each.get("load"))
         assert_allclose(run["values"][weight["y"]], -1500 * 9.80665, rtol=1e-12)
         assert len(data["arrows"]) == 10
+
+
+@pytest.mark.parametrize(
+    ("typed", "found", "said"),
+    [
+        ("0.31 m", 0.31, ""),
+        ("31cm", 0.31, ""),
+        ("12 in", 0.3048, ""),
+        ("3,1e2", 0.31, ""),
+        ("310 foo", 0.3, "OB = 310 foo: a number in mm is expected"),
+        ("3.1 bar", 0.3, "OB = 3.1 bar: a number in mm is expected"),
+        ("abc", 0.3, "OB = abc: a number in mm is expected"),
+        ("-5", 0.3, "OB = -5: a number above zero is expected"),
+    ],
+)
+def test_what_is_typed_is_read_with_its_unit_or_refused(chromium, written, typed, found, said):
+    with Shown(chromium, written(ThreePointHitch())) as shown:
+        box = shown.tab.get_by_label("OB, mm")
+        box.fill(typed)
+        box.press("Enter")
+        shown.settle()
+        assert shown.state["design"]["OB"] == pytest.approx(found, rel=1e-12)
+        assert shown.text("#message").startswith(said)
+        assert not said or box.input_value() == "300"
+
+
+def test_a_rod_that_is_no_thinner_than_its_bore_is_told(chromium, written):
+    with Shown(chromium, written(ThreePointHitch())) as shown:
+        box = shown.tab.get_by_label("lift.bore, mm")
+        box.fill("60")
+        box.press("Enter")
+        shown.settle()
+        assert "lift: has no pressure with these sizes" in shown.text("#live")
+        assert "fail" in shown.text("#badge") or "does not hold" in shown.text("#badge")
 
 
 def test_a_slider_changes_its_dimension_and_the_verdicts_are_marked_as_of_the_delivered_design(chromium, written):

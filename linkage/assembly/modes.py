@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field
+from itertools import permutations
 from typing import Any, final
 
 import numpy as np
@@ -12,9 +13,9 @@ import numpy as np
 from ..errors import AssemblyError, DefinitionError
 from ..plan import ArrayReading, Plan, as_written
 from ..program import FloatArray
-from ..quantities import Member
+from ..quantities import Member, name_of
 from ..shown import Shown
-from ..steps import Pin, Step
+from ..steps import Link, Pin, Step
 from ..vectors import Side
 from .groups import solve_groups
 from .newton import Newton, at_sketch
@@ -123,7 +124,8 @@ def written_lines(
 ) -> dict[str, str]:
     """Return the lines that are different where some members are: their own, and those of sketch positions that go with them.
 
-    A pin of a parts list has a new rough place; where it is drawn, so that lengths are measured from it, its step is written instead.
+    A pin of a parts list has a new rough place; where it is drawn, so that lengths are measured from it, its step is written instead,
+    and where it is of a group, which is no step, the links with these lengths.
     """
     if not changed:
         return {}
@@ -132,16 +134,30 @@ def written_lines(
     except AssemblyError:
         sketch = {}
     lines = {}
+    is_drawn = any(isinstance(raw := declared.get(name), Pin) and raw.drawn_at is not None for name in pins)
     for name in plan.points:
         raw, follows = declared.get(name), bool(plan.reaches(name) & changed)
         if name not in changed and not (follows and is_sketched(raw)):
             continue
         place = pins.get(name, sketch.get(name))
-        if isinstance(raw, Pin) and raw.near is not None and place is not None:
+        if isinstance(raw, Pin) and (raw.near is not None or is_drawn) and place is not None:
             lines[name] = as_written(Pin(near=(rounded_to(place[0]), rounded_to(place[1]))), plan.turning)
         elif isinstance(step := chosen[name], Step):
             lines[name] = as_written(sided_as(step, step.settled_side) if step.modes() else step, plan.turning).partition(", near=")[0]
             lines[name] += ")" * (lines[name].count("(") - lines[name].count(")"))
+    return lines | measured_links(plan, declared, pins) if is_drawn else lines
+
+
+def measured_links(plan: Plan, declared: Mapping[str, Member], pins: Mapping[str, tuple[float, float]]) -> dict[str, str]:
+    """Return the lines of links that some pins are on, with the lengths and angles that were measured from the drawing."""
+    lines = {}
+    for name, link in declared.items():
+        if isinstance(link, Link) and not pins.keys().isdisjoint(points := [name_of(point) for point in link.points]):
+            spelled = {"".join(several) for count in (2, 3) for several in permutations(points, count)}
+            given = {plan.table.spellings[label][0] for label in link.labels if label in plan.table.spellings}
+            measured = {label: plan.defaults[label] for label in plan.table.entries if label in spelled - given}
+            if measured:
+                lines[name] = as_written(Link(" ".join(points), **{**link.labels, **measured}), plan.turning)
     return lines
 
 

@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import linkage
-from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, OnLink, Pin, Stroke, deg, draw
+from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, OnLink, Pin, Stroke, deg, draw, drawn
 from linkage.cli import main
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
@@ -47,6 +47,19 @@ class Sketched(Mechanism):
     Q = Dyad(P, E, PQ=0.45, EQ=0.30, near=(0.75, 0.40))
 
 
+class DrawnGrab(Mechanism):
+    """A cylinder between two jaws that a crossed rod keeps equal: a group whose lengths are measured from the drawing."""
+
+    S = Stroke(0.0, 0.30)
+    P, Q = Ground(-0.25, 0.0), Ground(0.25, 0.0)
+    ram = Link("A B", AB=0.70 + S)
+    left, right, sync = Link("P A U L"), Link("Q B V R"), Link("U V")
+    A, B = Pin(at=(-0.35, 0.4)), Pin(at=(0.35, 0.4))
+    U, V = Pin(at=(-0.25, 0.12)), Pin(at=(0.25, -0.12))
+    L, R = Pin(at=(-0.75, -0.8)), Pin(at=(0.75, -0.8))
+    sketch = drawn(S=0.0)
+
+
 def strokes_inside(machine):
     """Return one value of each stroke inside its range."""
     return {name: each.start + 0.37 * (each.end - each.start) for name, each in machine.plan.strokes.items()}
@@ -60,7 +73,10 @@ def pasted(machine, code):
     return names["Other"]
 
 
-@pytest.mark.parametrize("machine", [*SHIPPED.values(), Listed, Sketched, GearShift, Plough], ids=lambda machine: machine.__name__)
+MACHINES = [*SHIPPED.values(), Listed, Sketched, GearShift, Plough, DrawnGrab]
+
+
+@pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.__name__)
 def test_pasted_code_gives_the_mode(machine):
     at = strokes_inside(machine)
     modes = machine().assemblies(**at)

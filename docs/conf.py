@@ -1,19 +1,36 @@
-"""Sphinx settings; `./run docs` builds the pages into docs/_build."""
+"""Sphinx settings; `./run docs` builds the pages into docs/_build, with every picture, live page and machine's page made anew."""
 
+import sys
 import tomllib
 from pathlib import Path
 
-_project = tomllib.loads((Path(__file__).parents[1] / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+HERE = Path(__file__).parent
+sys.path[:0] = [each for each in (str(HERE), str(HERE.parent)) if each not in sys.path]
+
+_project = tomllib.loads((HERE.parent / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 
 project = _project["name"]
 author = "the hydrolinkage developers"
 copyright = f"2026 {author}"
 version = release = _project["version"]
 
-extensions = ["myst_parser"]
-myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "made"]
+myst_enable_extensions = ["amsmath", "attrs_block", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
-exclude_patterns = ["_build"]
+exclude_patterns = ["_build", "_generated/extra", "_generated/api/extra", "**.ipynb", "**.py"]
 
-html_theme = "alabaster"
-html_theme_options = {"description": _project["description"], "page_width": "1100px"}
+default_role = "code"  # docstrings write `names` as Markdown does
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"  # the first lines say shapes and units; types are for checkers
+autodoc_preserve_defaults = True
+python_maximum_signature_line_length = 88
+
+html_theme = "furo"
+html_title = project
+html_math_renderer = "mathml"  # browsers set formulas themselves: nothing is fetched, and they are there without a network
+html_copy_source = False
+html_extra_path = ["_generated/extra"]
+html_static_path = ["static"]
+html_css_files = ["pages.css"]
+html_theme_options = {"navigation_with_keys": True}
+linkcheck_ignore = [r"http://localhost.*"]

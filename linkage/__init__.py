@@ -7,9 +7,13 @@ import re
 from importlib import import_module
 from pathlib import Path
 
+from . import shown as _shown
+
 _LINES = Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8")
 _ROOMS = {name: room for room, name in re.findall(r"^from (\.\w+) import (\w+)", _LINES, re.MULTILINE)}
 __all__ = [*_ROOMS]
+
+_shown.load_writer = lambda: import_module(".notebook", __name__).html_of  # type: ignore[no-any-return]
 
 
 def __getattr__(name: str) -> object:

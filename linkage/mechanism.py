@@ -37,6 +37,7 @@ from .motion import (
 from .plan import Body, Plan
 from .program import FloatArray, Way
 from .quantities import Member, Stroke
+from .shown import Shown, ShownList
 from .steps import Drawn
 from .vectors import Numbers
 
@@ -88,7 +89,7 @@ def of_own_motion(cls: type[Mechanism], method: Callable[[Mechanism, Motion], An
             found = method(machine, motion)
         if method.__name__ != "verdicts" or not isinstance(found, list) or type(machine)._owner("verdicts") is not cls:
             return found
-        return cast(Answer, [*found, *added_verdicts(motion, cls.plan.members)])
+        return cast(Answer, ShownList([*found, *added_verdicts(motion, cls.plan.members)]))
 
     return checked
 
@@ -119,7 +120,7 @@ class MechanismType(ABCMeta):
         return DefinitionError(f"{cls.__name__}.{name} {what}: {cls.__name__} is worked out already and would not follow; {remedy}.")
 
 
-class Mechanism(metaclass=MechanismType):
+class Mechanism(Shown, metaclass=MechanismType):
     """The base of every mechanism. A subclass declares points, links and strokes, one line each, in any order.
 
     An instance is a design: `ThreePointHitch(OB=0.32)`; every keyword is a dimension by its name [SI], a float or
@@ -303,7 +304,7 @@ class Mechanism(metaclass=MechanismType):
         Without its own it is whether it is assembled, its dead points, and what its members say, such as cylinders and circuits; of a
         batch, how many designs fail.
         """
-        return motion_verdicts(require_motion(motion))
+        return ShownList(motion_verdicts(require_motion(motion)))
 
     @of_a_design
     def featured(self) -> Featured:
@@ -332,7 +333,7 @@ class Mechanism(metaclass=MechanismType):
         pose = self.at(unreachable="nan", **{name: stroke.start for name, stroke in self.strokes.items()} | strokes)
         if pose.shape:
             raise DefinitionError(f"{self.plan.title}: assembly modes are listed for one design at one pose.")
-        return assemblies(self.plan, pose.inputs, declared(type(self)))
+        return ShownList(assemblies(self.plan, pose.inputs, declared(type(self))))
 
     @property
     def four_bars(self) -> list[FourBar]:

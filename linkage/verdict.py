@@ -6,10 +6,11 @@ from typing import Self, final
 
 from .errors import DefinitionError, cited
 from .language import heading_of, said
+from .shown import Shown
 
 
 @final
-class Verdict(str):
+class Verdict(str, Shown):
     """One rule: its name, whether it is kept, and a sentence with the numbers and, where it is not kept, the remedy.
 
     As text it is one line, `ok   lifting: ...` or `FAIL lifting: ...`; it counts as true where the rule is kept, so that

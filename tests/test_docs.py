@@ -1,30 +1,32 @@
 """The pages: what they link is there, and what is drawn for them is what they show. Their examples run as doctests."""
 
 import re
-from importlib.util import module_from_spec, spec_from_file_location
+import subprocess
+import sys
+from html.parser import HTMLParser
 from pathlib import Path
+from urllib.parse import unquote, urldefrag
 
 import numpy as np
 import pytest
 from matplotlib.image import imread
 
 ROOT = Path(__file__).parents[1]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+DOCS = ROOT / "docs"
+sys.path.insert(0, str(DOCS))
+from made import drawn, examples, gallery  # noqa: E402
+
+PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("howto/*.md"))]
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
-
-
-def script(name):
-    """Return a script that draws pictures of the pages."""
-    spec = spec_from_file_location(f"{name}_pictures", ROOT / "docs" / "pictures" / f"{name}.py")
-    module = module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-CONVENTIONS, OTHERS = script("conventions"), [script(name) for name in ("way", "search", "redesigns")]
-DRAWN = {f"conventions_{name}": draw for name, draw in CONVENTIONS.PICTURES.items()} | {
-    name: draw for each in OTHERS for name, draw in each.PICTURES.items()
+SCRIPTS = {name: drawn.script(name) for name in drawn.MAKERS}
+QUICK = ("conventions", "way", "search", "redesigns")
+DRAWN = {
+    picture: pytest.param(make, id=picture, marks=() if name in QUICK else pytest.mark.slow)
+    for name, script in SCRIPTS.items()
+    for picture, make in script.PICTURES.items()
 }
+WIDE = 100
+"""The characters of code that the column has room for."""
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
@@ -33,19 +35,226 @@ def test_what_a_page_links_is_there(page):
     assert [link for link in links if not (page.parent / link).exists()] == []
 
 
+def listed(page):
+    """Return the entries of a page's contents."""
+    blocks = re.findall(r"```\{toctree\}\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+    return [line for block in blocks for line in block.splitlines() if line and not line.startswith(":")]
+
+
 def test_every_page_is_in_the_contents():
-    listed = (ROOT / "docs" / "index.md").read_text(encoding="utf-8")
-    assert [page.stem for page in PAGES[1:] if page.stem != "index" and f"{page.stem}*" not in listed] == []
+    there = [*listed(DOCS / "index.md"), *(f"howto/{name}" for name in listed(DOCS / "howto" / "index.md")), "index"]
+    pages = [page.relative_to(DOCS).with_suffix("").as_posix() for page in PAGES[1:]]
+    assert [page for page in pages if page not in there] == []
+    assert [name for name in there if not name.startswith("_generated") and name not in pages] == []
+
+
+def code_lines(text):
+    """Yield the lines inside the fences of a page."""
+    inside = False
+    for line in text.splitlines():
+        if line.startswith("```"):
+            inside = not inside
+        elif inside:
+            yield line
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_no_code_is_wider_than_its_column(page):
+    assert [line for line in code_lines(page.read_text(encoding="utf-8")) if len(line) > WIDE] == []
 
 
 def test_every_drawn_picture_is_shown():
-    text = (ROOT / "docs" / "conventions.md").read_text(encoding="utf-8")
-    assert set(re.findall(r"images/conventions_(\w+)\.png", text)) == set(CONVENTIONS.PICTURES)
+    text = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
+    assert set(re.findall(r"images/(\w+)\.png", text)) == set(DRAWN)
+    assert set(re.findall(r"images/(\w+\.gif)", text)) == {film for script in SCRIPTS.values() for film in getattr(script, "FILMS", {})}
+    kept = {path.name for path in (DOCS / "images").iterdir()}
+    assert kept == set(re.findall(r"images/(\w+\.\w+)", text))
 
 
-@pytest.mark.parametrize("name", DRAWN)
-def test_the_picture_shown_is_the_one_drawn(name, tmp_path):
-    DRAWN[name]().savefig(tmp_path / "drawn.png")
-    drawn, shown = imread(tmp_path / "drawn.png"), imread(ROOT / "docs" / "images" / f"{name}.png")
-    assert drawn.shape == shown.shape
-    assert np.mean(np.abs(drawn - shown).max(axis=2) > 0.5) < 2e-3  # other versions of the library set letters a little differently
+@pytest.mark.parametrize(("name", "make"), [pytest.param(name, *each.values, id=each.id, marks=each.marks) for name, each in DRAWN.items()])
+def test_the_picture_shown_is_the_one_drawn(name, make, tmp_path):
+    make().savefig(tmp_path / "drawn.png")
+    drawn_now, shown = imread(tmp_path / "drawn.png"), imread(DOCS / "images" / f"{name}.png")
+    assert drawn_now.shape == shown.shape
+    far = np.abs(drawn_now - shown).max(axis=2) > 0.5
+    assert np.mean(far) < 2e-3  # other versions of the library set letters a little differently
+
+
+# -- what is made when the pages are built -----------------------------------------------------------------
+
+
+def test_every_machine_has_its_place_in_the_gallery():
+    from made import machines
+
+    names = [name for group in gallery.GROUPS.values() for name in group]
+    assert sorted(names) == sorted(machines.registered())
+    assert gallery.OTHERS not in gallery.groups(machines.registered())
+
+
+PAGE = """
+```python
+>>> from linkage import draw
+>>> from mechanisms.classics.four_bar import FourBar
+>>> draw(FourBar())
+<Picture size ...>
+>>> 1 / 0
+Traceback (most recent call last):
+    ...
+ZeroDivisionError: division by zero
+>>> draw(FourBar()).savefig("four.svg"); "four.svg"
+'four.svg'
+```
+
+```text
+nothing
+```
+"""
+
+
+def test_a_page_shows_what_its_examples_draw(tmp_path):
+    (tmp_path / "figures").mkdir()
+    (tmp_path / "page.md").write_text(PAGE, encoding="utf-8")
+    before = Path.cwd()
+    found = examples.make("page", tmp_path, tmp_path)
+    assert Path.cwd() == before
+    assert {path.name for path in (tmp_path / "figures").iterdir()} == {"page_1.png", "page_2.svg"}
+    assert imread(tmp_path / "figures" / "page_1.png").std() > 0.01
+    text = examples.with_results(PAGE, found)
+    assert "<Picture" not in text and "ZeroDivisionError" in text
+    assert text.index("```\n") < text.index("page_1.png") < text.index("page_2.svg") < text.index("```text")
+
+
+@pytest.mark.parametrize("name", ["three_point_hitch", "slider_crank"])
+def test_a_machine_has_a_page(name, tmp_path):
+    from made import machines
+
+    for folder in ("machines", "extra/live", "extra/thumbs"):
+        (tmp_path / folder).mkdir(parents=True)
+    machines.make(name, tmp_path)
+    machine = machines.registered()[name].load()()
+    text = (tmp_path / "machines" / f"{name}.md").read_text(encoding="utf-8")
+    for dimension in machine.dimensions:
+        assert f"| {dimension} |" in text
+    steps = re.search(r"## Construction.*?```python\n(.*?)```", text, re.DOTALL)[1]
+    assert "".join(steps.split()) == "".join(str(machine.plan).split())
+    assert all(verdict[:20] in text for verdict in machine.verdicts(machines.middle(machine, 31)))
+    assert text.count("<math") > 5 and "\\frac" not in text
+    assert max(map(len, code_lines(text.partition("## Source")[0]))) <= WIDE
+    for picture in (f"machines/{name}.png", f"machines/{name}_curve.png", f"extra/thumbs/{name}.png"):
+        assert imread(tmp_path / picture).std() > 0.01
+    assert "<script" in (tmp_path / "extra" / "live" / f"{name}.html").read_text(encoding="utf-8")
+
+
+def test_commands_tell_of_themselves(tmp_path):
+    from made import commands
+
+    commands.make(tmp_path / "commands.md")
+    text = (tmp_path / "commands.md").read_text(encoding="utf-8")
+    assert {"list", "show", "table", "plot", "page", "export", "report", "capacity"} <= set(re.findall(r"^## (\w+)$", text, re.MULTILINE))
+    assert text.count("usage: hydrolinkage") == text.count("\n## ") + 1
+    assert max(map(len, code_lines(text))) <= WIDE
+
+
+def test_docstrings_stand_for_themselves():
+    from made import api
+
+    lines = ["Take *args and `a*b` of | ref_ here.", "", "* a bullet", "  x * y"]
+    api.as_restructured(None, "function", "f", None, None, lines)
+    assert lines == [r"Take \*args and `a*b` of \| ref\_ here.", "", "* a bullet", r"  x \* y"]
+
+
+def test_formulas_of_the_theory_are_set():
+    pytest.importorskip("latex2mathml", reason="formulas are set by the extra `docs`")
+    from made import formulas
+
+    text = (DOCS / "theory.md").read_text(encoding="utf-8")
+    found = re.findall(r"\$\$\n(.*?)\$\$", text, re.DOTALL) + re.findall(r"(?<!\$)\$([^$\n]+)\$(?!\$)", text)
+    assert len(found) > 40
+    for each in found:
+        written = formulas.mathml(each)
+        assert written.startswith("<math") and "\\" not in written, each
+
+
+def test_the_notebook_runs():
+    pytest.importorskip("nbclient", reason="notebooks are run by nbclient, of the extra `test`")
+    from made import notebook
+
+    cells = [cell for cell in notebook.executed(DOCS / "notebook.ipynb").cells if cell.cell_type == "code"]
+    shown = [output.data for cell in cells for output in cell.outputs if "data" in output]
+    assert len(shown) == len(cells)
+    assert sum("text/html" in data for data in shown) >= 8
+    assert sum("image/png" in data for data in shown) == 2
+    assert any("<iframe sandbox=" in data.get("text/html", "") for data in shown)
+
+
+# -- the built pages ---------------------------------------------------------------------------------------
+
+
+class Links(HTMLParser):
+    """The addresses that a page refers to, and the names of its places."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.addresses, self.names = [], set()
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        given = dict(attributes)
+        self.names.update(filter(None, (given.get("id"), given.get("name"))))
+        self.addresses += filter(None, (given.get("href"), given.get("src")))
+
+
+def broken_links(folder):
+    """Yield what the pages of a folder refer to inside of it and is not there."""
+    pages = {path: Links(path.read_text(encoding="utf-8")) for path in folder.rglob("*.html") if "live" not in path.parts}
+    for path, page in pages.items():
+        for address in page.addresses:
+            place, name = urldefrag(address)
+            if re.match(r"[a-z]+:", place):
+                continue
+            target = (path.parent / unquote(place)).resolve() if place else path
+            if not target.exists() or (name and target in pages and unquote(name) not in pages[target].names):
+                yield path.name, address
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    """Return the folder of the pages, built anew without a warning."""
+    pytest.importorskip("furo", reason="the pages are built by the extra `docs`")
+    folder = tmp_path_factory.mktemp("pages")
+    command = [sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-j", "auto", str(DOCS), str(folder)]
+    run = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stderr
+    return folder
+
+
+@pytest.mark.slow
+def test_what_the_built_pages_link_is_there(built):
+    assert list(broken_links(built)) == []
+    assert len(list((built / "live").glob("*.html"))) >= 35
+    front = Links((built / "index.html").read_text(encoding="utf-8")).addresses
+    assert sum(address.startswith("live/") for address in front) == 35
+
+
+@pytest.mark.slow
+def test_the_built_pages_fit_their_screen(built):
+    playwright = pytest.importorskip("playwright.sync_api", reason="a browser opens the pages by playwright")
+    if not Path("/usr/bin/chromium").exists():
+        pytest.skip("Debian's chromium is not installed")
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path="/usr/bin/chromium", args=["--no-sandbox", "--disable-gpu", "--disable-quic"])
+        tab = browser.new_page(viewport={"width": 1366, "height": 657})
+        shown = "[...document.querySelectorAll('pre')].filter(e => e.offsetParent)"
+        wide = f"{shown}.filter(e => e.scrollWidth > e.clientWidth + 1).map(e => e.innerText)"
+        faults = []
+        for path in sorted(built.rglob("*.html")):
+            if "live" in path.parts or "_static" in path.parts:
+                continue
+            tab.set_viewport_size({"width": 1366, "height": 657})
+            tab.goto(path.as_uri(), wait_until="domcontentloaded")
+            faults += [(path.name, "pre", text[:80]) for text in tab.evaluate(wide)]
+            tab.set_viewport_size({"width": 390, "height": 760})
+            if tab.evaluate("document.documentElement.scrollWidth") > 390:
+                faults.append((path.name, "page", ""))
+        browser.close()
+    assert faults == []

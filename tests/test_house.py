@@ -14,7 +14,7 @@ from linkage import steps
 ROOT = Path(__file__).parents[1]
 
 FLOORS = (
-    ("errors", "units", "vectors", "disk", "frozen", "language", "verdict"),
+    ("errors", "units", "vectors", "disk", "frozen", "language", "shown", "verdict"),
     ("quantities",),
     ("steps", "loads", "surroundings"),
     ("program",),
@@ -25,7 +25,7 @@ FLOORS = (
     ("statics",),
     ("formulas", "study", "files"),
     ("pictures", "reports"),
-    ("documents", "exports"),
+    ("documents", "exports", "notebook"),
     ("cli",),
 )
 FLOOR = {room: number for number, rooms in enumerate(FLOORS) for room in rooms}
@@ -295,5 +295,5 @@ def test_no_room_bears_the_name_of_a_public_function():
     import linkage
 
     rooms = {path.parent.name for path in (ROOT / "linkage").glob("*/__init__.py")}
-    assert rooms == set(FLOOR) - {"errors", "units", "vectors", "disk", "frozen", "language", "verdict", "mechanism"}
+    assert rooms == set(FLOOR) - {"errors", "units", "vectors", "disk", "frozen", "language", "shown", "verdict", "mechanism", "notebook"}
     assert not rooms & {name for name in linkage.__all__ if callable(getattr(linkage, name))}

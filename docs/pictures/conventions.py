@@ -436,17 +436,17 @@ def gauge_and_absolute() -> Figure:
 
 
 PICTURES: dict[str, Callable[[], Figure]] = {
-    "axes": axes_and_gravity,
-    "thrust": thrust,
-    "sides": sides,
-    "labels": labels,
-    "pins": pin_force,
-    "cranks": cranks,
-    "carriage": carriage,
-    "strokes": strokes,
-    "pressure": gauge_and_absolute,
+    "conventions_axes": axes_and_gravity,
+    "conventions_thrust": thrust,
+    "conventions_sides": sides,
+    "conventions_labels": labels,
+    "conventions_pins": pin_force,
+    "conventions_cranks": cranks,
+    "conventions_carriage": carriage,
+    "conventions_strokes": strokes,
+    "conventions_pressure": gauge_and_absolute,
 }
 
 if __name__ == "__main__":
     for name, draw in PICTURES.items():
-        draw().savefig(IMAGES / f"conventions_{name}.png", metadata={"Software": None})
+        draw().savefig(IMAGES / f"{name}.png", metadata={"Software": None})

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+
+from matplotlib.figure import Figure
 
 from linkage import drive_force, kN, mm
 from linkage.pictures import plot_bands, plot_tornado
@@ -13,13 +16,20 @@ IMAGES = Path(__file__).parents[1] / "images"
 TOLERANCES = {"OB": 0.5 * mm, "CD": 1 * mm, "MK": (-0.5 * mm, 1 * mm), "M": Tolerance(1 * mm, "uniform")}
 
 
-def main() -> None:
-    """Draw both."""
-    hitch, force = ThreePointHitch(), drive_force()
-    found = monte_carlo(hitch, ["tilt", force], TOLERANCES | {"load.mass": 20.0}, subject_to=[most(force) <= 71.5 * kN])
-    plot_bands(found, units={found[force].quantity: "kN"}).savefig(IMAGES / "tolerance_bands.png")
-    plot_tornado(tornado(hitch, "tilt", TOLERANCES, S=0.1)).savefig(IMAGES / "tolerance_tornado.png")
+def bands() -> Figure:
+    """Return the bands of the tilt and of the drive's force."""
+    force = drive_force()
+    found = monte_carlo(ThreePointHitch(), ["tilt", force], TOLERANCES | {"load.mass": 20.0}, subject_to=[most(force) <= 71.5 * kN])
+    return plot_bands(found, units={found[force].quantity: "kN"})
 
+
+def bars() -> Figure:
+    """Return what each tolerance does to the tilt."""
+    return plot_tornado(tornado(ThreePointHitch(), "tilt", TOLERANCES, S=0.1))
+
+
+PICTURES: dict[str, Callable[[], Figure]] = {"tolerance_bands": bands, "tolerance_tornado": bars}
 
 if __name__ == "__main__":
-    main()
+    for name, picture in PICTURES.items():
+        picture().savefig(IMAGES / f"{name}.png", metadata={"Software": None})

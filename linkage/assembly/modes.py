@@ -13,6 +13,7 @@ from ..errors import AssemblyError, DefinitionError
 from ..plan import ArrayReading, Plan, as_written
 from ..program import FloatArray
 from ..quantities import Member
+from ..shown import Shown
 from ..steps import Pin, Step
 from ..vectors import Side
 from .groups import solve_groups
@@ -28,7 +29,7 @@ SAME = 1e-6
 
 @final
 @dataclass(frozen=True)
-class Assembly:
+class Assembly(Shown):
     """One way to put a mechanism together: the side of each dyad, and where the points are then [m].
 
     `lines` are the lines of the class that are different for it, by member; none for the mode that is declared. `pins` are the rough

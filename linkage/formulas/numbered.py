@@ -18,6 +18,7 @@ from ..language import translated
 from ..mechanism import Mechanism, declared, require_mechanism
 from ..motion.requests import stroke_of
 from ..quantities import is_whole
+from ..shown import Shown
 from .forces import WORDS, ForceLines, GivenNumber
 from .listing import X_AXIS, Listing, Written
 from .printing import Latex, Text, number_latex, plain_number
@@ -196,7 +197,7 @@ def value_shown(value: Any, unit: Unit) -> str:
 
 
 @final
-class Equations(Sequence[Equation]):
+class Equations(Sequence[Equation], Shown):
     """The equations of one design, in the vector method's order; `print` shows them numbered.
 
     Index by place or by name: `equations(hitch)["OAB"].rhs`.

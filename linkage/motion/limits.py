@@ -13,6 +13,7 @@ from ..frozen import FrozenDict, refuses_changes
 from ..language import said, said_of
 from ..plan import ArrayReading, Mask, Plan, failures, missing_words, opening
 from ..program import FloatArray
+from ..shown import Shown
 from ..units import UNITS, deg, display_unit, show, shown_number, unit_sign
 from .peaks import last_holding
 
@@ -85,7 +86,7 @@ class StrokeLimits:
 
 
 @final
-class Limits(FrozenDict[str, StrokeLimits]):
+class Limits(FrozenDict[str, StrokeLimits], Shown):
     """The limits of every stroke by name; printed as sentences."""
 
     def __str__(self) -> str:

@@ -13,6 +13,7 @@ from ..errors import AssemblyError, DefinitionError, SingularError, SingularWarn
 from ..plan import ArrayReading, Mask, Plan, failures, negative
 from ..program import FloatArray, Kernel
 from ..quantities import Angle, Distance, Member, Quantity, needs
+from ..shown import Shown
 from ..steps import Arrow, Point
 from ..vectors import Vec
 from . import conditions, differences, scan
@@ -43,7 +44,7 @@ from .strokes import checked_name, method_of, order_of, rates_of
 Target: TypeAlias = str | Member
 
 
-class Motion:
+class Motion(Shown):
     """The poses of a mechanism: all positions, worked out at once; ratios and outputs when asked.
 
     Arrays are component-first, designs before strokes: a position has the shape (2, *designs, *strokes).

@@ -1,4 +1,4 @@
-"""What a live page says, in English; its script says each by its number here. `{gap}` and the like are filled in there."""
+"""What a live page says, in English, as its script and its text have it. `{gap}` and the like are filled in there."""
 
 from __future__ import annotations
 
@@ -38,6 +38,9 @@ SAID = (
     noted("{count} verdicts fail"),
     noted("Hide {name}"),
     noted("{name} = {text}: a number is expected"),
+    noted("{name} = {text}: a number in {unit} is expected"),
+    noted("{name} = {text}: a number above zero is expected"),
+    noted("has no pressure with these sizes; is the rod thinner than the bore?"),
     noted("Add a dimension …"),
     noted("Copied"),
     noted("Copy link"),
@@ -67,7 +70,7 @@ SAID = (
 )
 
 
-def words_in(name: str) -> list[str]:
-    """Return what a page says, in a language."""
+def words_in(name: str) -> dict[str, str]:
+    """Return what a page says, in a language, by the English."""
     with language(name):
-        return [translated(each) for each in SAID]
+        return {each: translated(each) for each in SAID}

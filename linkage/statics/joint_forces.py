@@ -16,6 +16,7 @@ from ..motion.limits import where_words
 from ..motion.requests import stroke_of
 from ..plan import Mask
 from ..program import FloatArray
+from ..shown import Shown
 from ..units import kN
 from .acting import ActingLoad, ActingLoads, Case, Loads, acting_loads, movement_of
 from .bodies import FRAME_NAME
@@ -61,7 +62,7 @@ def pin_forces(
 
 @final
 @dataclass(frozen=True, eq=False)
-class PinForces:
+class PinForces(Shown):
     """All joint forces of a motion in one load case and one direction of motion; shapes (2, ...) and (...).
 
     `drives` are the generalised forces of the strokes [N or Nm], `thrusts` what each driven length and each two-point element carries

@@ -18,6 +18,7 @@ from ..mechanism import Mechanism
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number
+from ..shown import Shown
 from ..units import deg, display_unit, mm, show
 from .box import unit_points
 from .checks import unit_of
@@ -101,7 +102,7 @@ class AtBound:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Optimum:
+class Optimum(Shown):
     """The best design found, assembled over the whole stroke.
 
     `machine` is the design, `value` its objective [SI], `start_value` that of the design it began with (NaN where that cannot be

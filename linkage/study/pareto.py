@@ -16,6 +16,7 @@ import numpy as np
 from ..errors import AssemblyError, DefinitionError, LinkageError
 from ..mechanism import Mechanism
 from ..program import FloatArray
+from ..shown import Shown
 from ..units import show
 from .batching import Progress
 from .infeasible import infeasible_error
@@ -40,7 +41,7 @@ class FrontPoint:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Front:
+class Front(Shown):
     """The designs of which none is better in all objectives, in the order of the first: `front.points[0].machine`."""
 
     title: str

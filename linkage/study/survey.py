@@ -11,6 +11,7 @@ from ..errors import DefinitionError, cited, known_name, one_word
 from ..frozen import FrozenDict, read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..quantities import is_whole
+from ..shown import Shown
 from .batching import Executor, LocalExecutor, Progress, SurveyRun, progress_told
 from .checkpoint import Checkpoint
 from .checks import check_one_design
@@ -22,7 +23,7 @@ SMALLEST, LARGEST, PARTS = 64, 2048, 64
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class Survey(Mapping[str, Array]):
+class Survey(Mapping[str, Array], Shown):
     """What was measured: `found["travel"]`, shape (m,), for each name that `measure` gave.
 
     `batches` are the batches in the order in which they came: start, stop, seconds, cpu, and kept for those from the folder.

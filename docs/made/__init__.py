@@ -1,0 +1,82 @@
+"""What the pages show is made here before they are read: pictures, live pages, machines' pages, the command's and the reference's.
+
+All of it goes into docs/_generated, which is not kept; `made` is also the Sphinx extension that has it made and sets formulas.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+from . import api, commands, drawn, examples, formulas, gallery, machines, notebook
+
+HERE = Path(__file__).parents[1]
+GENERATED = HERE / "_generated"
+
+
+def setup(app: Any) -> dict[str, bool]:
+    """Have everything made before the sources are read, show what their examples draw, and set formulas as MathML."""
+    app.add_config_value("keep_generated", False, "", [bool, str])
+    app.connect("builder-inited", make_unless_kept)
+    app.connect("source-read", show_examples)
+    app.connect("html-page-context", put_paths)
+    app.connect("autodoc-process-docstring", api.as_restructured)
+    app.add_html_math_renderer("mathml", (formulas.inline, None), (formulas.block, None))
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def make_unless_kept(app: Any) -> None:
+    """Make all that is generated; with `./run docs -D keep_generated=1` only where nothing is there, for one who writes texts."""
+    if app.config.keep_generated in (False, "0", "") or not (GENERATED / "examples.json").exists():
+        make_all(GENERATED)
+
+
+def make_all(folder: Path) -> None:
+    """Make all that is generated into a folder, anew, on as many processes as there are processors."""
+    shutil.rmtree(folder, ignore_errors=True)
+    for name in ("machines", "figures", "api", "images", "extra/live", "extra/thumbs"):
+        (folder / name).mkdir(parents=True)
+    entries = machines.registered()
+    gallery.make(entries, folder)
+    commands.make(folder / "commands.md")
+    api.make(folder / "api")
+    with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn")) as pool:
+        waiting = [pool.submit(drawn.draw_all, name, folder / "images") for name in drawn.MAKERS]
+        waiting.append(pool.submit(notebook.make, HERE / "notebook.ipynb", folder / "notebook.md"))
+        waiting += [pool.submit(machines.make, name, folder) for name in entries]
+        shown = {page: pool.submit(examples.make, page, HERE, folder) for page in drawing_pages()}
+        for each in waiting:
+            each.result()
+        found = {page: each.result() for page, each in shown.items()}
+    (folder / "examples.json").write_text(json.dumps(found, indent=1), encoding="utf-8")
+
+
+def drawing_pages() -> Iterator[str]:
+    """Yield the pages, by their names without .md, whose examples draw or write something."""
+    for path in sorted([*HERE.glob("*.md"), *HERE.glob("howto/*.md")]):
+        if examples.shows(path.read_text(encoding="utf-8")):
+            yield path.relative_to(HERE).with_suffix("").as_posix()
+
+
+def show_examples(app: Any, page: str, source: list[str]) -> None:
+    """Put behind each block of examples what it drew, and pictures made by this build in the place of those that are kept."""
+    found = json.loads((GENERATED / "examples.json").read_text(encoding="utf-8"))
+    text = examples.with_results(source[0], found.get(page, {}))
+    if "/" not in page:
+        made = {path.name for path in (GENERATED / "images").iterdir()}
+        text = drawn.IMAGE.sub(lambda each: f"](/_generated/images/{each[1]})" if each[1] in made else each[0], text)
+    source[0] = text
+
+
+def put_paths(app: Any, page: str, template: str, context: dict[str, Any], doctree: Any) -> None:
+    """Put the way from a page to live pages, thumbnails and machines in the place of its short form, `@live/`."""
+    if "body" in context:
+        up = "../" * page.count("/")
+        for short, place in (("@live/", "live/"), ("@thumbs/", "thumbs/"), ("@machines/", "_generated/machines/")):
+            context["body"] = context["body"].replace(f'"{short}', f'"{up}{place}')

@@ -1,0 +1,64 @@
+"""The gallery of the front page, and the list of the machines' pages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from html import escape
+from importlib.metadata import EntryPoint
+from pathlib import Path
+
+from .machines import doc, title
+
+GROUPS = {
+    "Hitches, lifts and headers": ("three_point_hitch", "mower_lift", "header_balancer", "front_loader", "scissor_lift"),
+    "Cranes and grapples": ("crane", "boom_drive", "arm_drive", "grapple"),
+    "Four-bars": ("four_bar", "drag_link", "double_rocker", "triple_rocker", "parallelogram"),
+    "Sliders and presses": ("slider_crank", "inverted_slider_crank", "scotch_yoke", "trammel", "toggle_press"),
+    "Straight lines and copies": (
+        "chebyshev", "hart", "hoeken", "pantograph", "peaucellier", "roberts", "roberts_cognates",
+    ),
+    "Six-bars": (
+        "watt_one", "watt_two", "stephenson_one", "stephenson_two", "stephenson_two_far", "stephenson_three", "stephenson_three_far",
+    ),
+    "Walking legs": ("jansen", "klann"),
+}  # fmt: skip
+OTHERS = "Others"
+
+
+def groups(names: Iterable[str]) -> dict[str, list[str]]:
+    """Return machines by group, those that none names at the end."""
+    there = list(names)
+    found = {group: [name for name in wanted if name in there] for group, wanted in GROUPS.items()}
+    grouped = {name for each in found.values() for name in each}
+    found[OTHERS] = [name for name in there if name not in grouped]
+    return {group: each for group, each in found.items() if each}
+
+
+def make(entries: Mapping[str, EntryPoint], folder: Path) -> None:
+    """Write the gallery and the list."""
+    found = groups(entries)
+    machines = {name: entry.load()() for name, entry in entries.items()}
+    tiles, listed = [], ["# Machines\n", "Each page is made from the machine's own code when these pages are built.\n"]
+    for group, names in found.items():
+        tiles.append(f'<p class="gallery-group"><strong>{escape(group)}</strong></p>\n<div class="gallery">')
+        tiles += [tile(name, title(machines[name])) for name in names]
+        tiles.append("</div>\n")
+        listed.append(f"\n## {group}\n")
+        listed += [f"* {{doc}}`{title(machines[name])} </_generated/machines/{name}>`: {first_line(doc(machines[name]))}" for name in names]
+    toctree = "\n".join(f"/_generated/machines/{name}" for names in found.values() for name in names)
+    listed.append(f"\n```{{toctree}}\n:hidden:\n\n{toctree}\n```\n")
+    (folder / "gallery.md").write_text("\n".join(tiles), encoding="utf-8")
+    (folder / "machines.md").write_text("\n".join(listed), encoding="utf-8")
+
+
+def tile(name: str, heading: str) -> str:
+    """Return a machine's tile: its picture opens its live page, its name its own page."""
+    picture = f'<a href="@live/{name}.html"><img src="@thumbs/{name}.png" alt="{escape(heading)}, live"></a>'
+    return f'<figure>{picture}<figcaption><a href="@machines/{name}.html">{escape(heading)}</a></figcaption></figure>'
+
+
+def first_line(text: str) -> str:
+    """Return the first line of a docstring, as Markdown."""
+    from .machines import as_markdown
+
+    return as_markdown(text.partition("\n")[0])

@@ -1,0 +1,41 @@
+"""Draw the pictures of the machines' own pages and of the read-me: `python docs/pictures/machines.py`, into docs/images."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from linkage import animate
+from mechanisms import demo
+from mechanisms.crane import ArmDrive, BoomDrive
+from mechanisms.crane.drive_figures import drive_figure
+from mechanisms.crane.figures import crane_figure
+from mechanisms.grapple import figures as grapple
+from mechanisms.mower_lift import MowerLift
+from mechanisms.three_point_hitch import figures as hitch
+
+IMAGES = Path(__file__).parents[1] / "images"
+
+
+def lift_film(path: Path) -> None:
+    """Write the mower's lift in motion."""
+    animate(MowerLift(), path, column="kz", trace=["G"], limit=demo.RESERVE)
+
+
+PICTURES: dict[str, Callable[[], Figure]] = {
+    **{f"crane_{name}": partial(crane_figure, name) for name in ("positions", "map", "reach")},
+    **{f"crane_boom_{name}": partial(drive_figure, name, BoomDrive()) for name in ("moments", "positions")},
+    **{f"crane_arm_{name}": partial(drive_figure, name, ArmDrive()) for name in ("moments", "positions")},
+    **{f"grapple_{name}": partial(grapple.figure, name) for name in ("moments", "stems")},
+    **{f"three_point_hitch_{name}": partial(hitch.figure, name) for name in ("capacity", "lift", "zones")},
+}
+FILMS: dict[str, Callable[[Path], None]] = {"mower_lift.gif": lift_film}
+
+if __name__ == "__main__":
+    for name, picture in PICTURES.items():
+        picture().savefig(IMAGES / f"{name}.png", metadata={"Software": None})
+    for name, film in FILMS.items():
+        film(IMAGES / name)

@@ -1,0 +1,34 @@
+"""What shows itself in a notebook: the base of its classes. How, in HTML, is written on the top floor, which the front door names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Protocol, TypeVar
+
+Item = TypeVar("Item")
+
+
+class HtmlWriter(Protocol):
+    """Returns anything that is `Shown` as HTML."""
+
+    def __call__(self, what: object, /) -> str: ...
+
+
+load_writer: Callable[[], HtmlWriter] | None = None
+"""Loads the function that writes HTML, when it is first needed; set by the front door."""
+
+
+class Shown:
+    """The base of what a notebook shows as HTML: drawings, tables, sentences."""
+
+    __slots__ = ()
+
+    def _repr_html_(self) -> str | None:
+        """Return it as HTML for a notebook."""
+        return None if load_writer is None else load_writer()(self)
+
+
+class ShownList(list[Item], Shown):
+    """A list that a notebook shows as HTML."""
+
+    __slots__ = ()

@@ -220,7 +220,11 @@ def test_wrong_questions_are_answered_in_words(tmp_path):
 
 def test_what_a_page_says_is_what_is_translated():
     script, text = page_part("page.js"), page_part("page.html")
-    said = re.findall(r'say\("((?:[^"\\]|\\.)*)"', script) + re.findall(r'"(\{name\} = [^"]*)"', script) + re.findall(r'data-(?:say|tip|name)="([^"]+)"', text)
+    said = (
+        re.findall(r'say\("((?:[^"\\]|\\.)*)"', script)
+        + re.findall(r'"(\{name\} = [^"]*)"', script)
+        + re.findall(r'data-(?:say|tip|name)="([^"]+)"', text)
+    )
     assert set(said) <= set(SAID) and len(said) > 50
 
 

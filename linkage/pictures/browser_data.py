@@ -238,6 +238,8 @@ def slider_ends(machine: Mechanism, name: str, ends: Any, sign: int) -> tuple[fl
     if not isinstance(ends, (list, tuple)) or len(ends) != 2 or not all(map(is_number, ends)) or not ends[0] < ends[1]:
         said = f"{machine.plan.title}: vary: {name}={cited(ends)}"
         raise DefinitionError(f"{said}: the least and the greatest value are expected, (0.28, 0.34).")
+    if machine.plan.table.entries[name].kind == "length" and ends[0] <= 0.0:
+        raise DefinitionError(f"{machine.plan.title}: vary: {name}={cited(ends)}: a length is above zero; give a least value that is.")
     low, high = sorted(sign * float(end) for end in ends)
     value = float(machine.dimensions[name])
     return min(low, value), max(high, value)

@@ -2,14 +2,17 @@
 
 import csv
 import io
+import json
 import os
 import re
 import signal
 import subprocess
 import sys
 import textwrap
+from base64 import b64decode
 from functools import partial
 from importlib.metadata import EntryPoint
+from zlib import decompress
 
 import numpy as np
 import pytest
@@ -251,8 +254,10 @@ def test_an_animation_holds_a_stroke_or_runs_between_two_values(said, own):
         code, out, _ = said("animate", "front_loader", "-o", "loader.html", "--count", "3", "--at", at)
         assert (code, out) == (0, "loader.html\n")
         text = (own / "loader.html").read_text(encoding="utf-8")
-        assert ("tilt = 100 mm" in text) == ("tilt" in at)
-        assert ('"values":[100.0,' in text) == ("lift" in at)
+        (data,) = re.findall(r'<script id="data" type="text/plain">(.*?)</script>', text, re.DOTALL)
+        strokes = {each["name"]: each for each in json.loads(decompress(b64decode(data)))["strokes"]}
+        assert (strokes["tilt"]["at"] == 0.1) == ("tilt" in at)
+        assert ((strokes["lift"]["start"], strokes["lift"]["end"]) == (0.1, 0.3)) == ("lift" in at)
 
 
 def test_a_curve_is_drawn_over_one_stroke_the_others_held(said, own):

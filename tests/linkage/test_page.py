@@ -199,6 +199,7 @@ def test_wrong_questions_are_answered_in_words(tmp_path):
         ({"vary": ["OX"]}, r"Dimension 'OX' is unknown in FourBar: vary"),
         ({"vary": "OA"}, r"vary='OA': dimensions are expected"),
         ({"vary": {"OA": (0.2, 0.1)}}, r"the least and the greatest value"),
+        ({"vary": {"OA": (-0.1, 0.2)}}, r"a length is above zero"),
         ({"columns": []}, r"a list of columns"),
         ({"columns": ["p"]}, r"Column 'p' is unknown"),
         ({"column": "p"}, r"Column 'p' is unknown"),

@@ -75,7 +75,8 @@ def draw(
     """Return a figure of a mechanism at chosen strokes, the last one bold and the others faint; or a motion at one of its poses.
 
     Of a mechanism, `at` are values of the first stroke [m or rad], or a mapping `dict(S=[0.0, 0.25])` for another or for
-    several; without it, the two ends of the first stroke (of a full turn its middle and its start), the others in their middle.
+    several; without it, the two ends of the first stroke, the others in their middle. A full turn is drawn where its
+    pins stand apart, with what the machine is about at its least and greatest, faint.
     `path` names points whose paths are drawn over that stroke, at `count` poses. Poses out of reach are left out, and the
     picture says so; where none is in reach this raises AssemblyError.
 

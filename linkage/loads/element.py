@@ -45,13 +45,15 @@ class Glyph:
     """What pictures show of an element: a word for the form, the points it hangs on, how many there are of it, a direction [rad].
 
     Between two points: `strut`, `spring`, `damper`, `cylinder`, `accumulator` (`count` of them, on the cylinder there). At one point:
-    `weight`, `force`, `support`.
+    `weight`, `force`, `support`. On a body of some points: `mass`, `moment`; `away` is where from the first point, in the body's axes
+    [m], without it in the middle of the points.
     """
 
     drawn_as: str
     points: tuple[str, ...]
     count: int = 1
     way: float = 0.0
+    away: tuple[float, float] | None = None
 
 
 class TwoPinned(Protocol):

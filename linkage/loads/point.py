@@ -238,6 +238,9 @@ class Moment(OnBody):
     M: Parameter
     parameters: ClassVar[Mapping[str, str]] = MappingProxyType({"M": "Nm"})
 
+    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+        return (Glyph("moment", self.points(members, "")),)
+
     def loads(self, motion: Poses) -> list[Load]:
         return couple(*self.axis(motion), self.number(motion, "M"))
 
@@ -266,6 +269,9 @@ class LinkMass(OnBody):
         if self.at is not None and not all(map(is_number, two_parts(self.at, "LinkMass(at=...)"))):
             raise DefinitionError(f"LinkMass: at={cited(self.at)} is not a place; write (along, across) in m.")
         object.__setattr__(self, "gravity", gravity_vector(self.gravity, "LinkMass"))
+
+    def glyphs(self, members: Mapping[str, Member]) -> tuple[Glyph, ...]:
+        return (Glyph("mass", self.points(members, ""), away=self.at),)
 
     def loads(self, motion: Poses) -> list[Load]:
         P, Q, arm = self.axis(motion)

@@ -16,7 +16,9 @@ from matplotlib.patches import Circle, Polygon
 from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
 
+from ..language import translated
 from ..program import FloatArray
+from ..units import current_system, factor, shown_in
 from . import style
 from .scene import Bounds
 from .symbols import added
@@ -69,15 +71,29 @@ class TurningArrow:
 @final
 @dataclass(frozen=True, eq=False)
 class ArrowLayer:
-    """Arrows to one scale, in a unit whose factor is in SI; `keys` says what each colour means, `sense` which way they count."""
+    """Arrows to one scale, in a unit; `keys` says what each colour means, `sense` which way they count."""
 
     arrows: tuple[VectorArrow, ...]
     unit: str
-    factor: float
     keys: tuple[tuple[str, str], ...]
     turning: tuple[TurningArrow, ...] = ()
     notes: tuple[str, ...] = ()
     sense: str = ""
+
+    @property
+    def factor(self) -> float:
+        """How much of SI the unit is."""
+        return factor(self.unit)
+
+    @property
+    def sign(self) -> str:
+        """How the unit is written in the language that is spoken."""
+        return translated(self.unit)
+
+    def moment_words(self, moment: float) -> str:
+        """Return a moment's size in words [Nm]: in the unit of the forces times m, in a chosen system in its own."""
+        unit = shown_in("kNm") if current_system() else {"N": "Nm", "kN": "kNm"}[self.unit]
+        return f"{significant(abs(moment) / factor(unit))} {translated(unit)}"
 
     @property
     def largest(self) -> float:
@@ -95,7 +111,7 @@ class ArrowLayer:
 
     def words(self, arrow: VectorArrow) -> str:
         """Return what stands at an arrow."""
-        value = f"{self.value(arrow.length)} {self.unit}" if arrow.shows_value else ""
+        value = f"{self.value(arrow.length)} {self.sign}" if arrow.shows_value else ""
         return " ".join(part for part in (value, arrow.text) if part)
 
     def tips(self, scale: float) -> FloatArray:
@@ -196,7 +212,7 @@ def wordings(layer: ArrowLayer, scale: float, size: float) -> list[Wording]:
                 Wording(layer.words(each), each.at + scale * each.vector, way, style.mixed(each.colour, style.INK, 0.4), each.name)
             )
     for turn in layer.turning:
-        text = f"{significant(abs(turn.moment) / layer.factor)} {layer.unit} m {turn.text}".strip()
+        text = f"{layer.moment_words(turn.moment)} {turn.text}".strip()
         at = turn.at + np.array([0.0, turn.radius * size])
         found.append(Wording(text, at, np.array([0.0, 1.0]), style.mixed(turn.colour, style.INK, 0.4), turn.name))
     return found
@@ -285,7 +301,7 @@ def scale_bar(ax: Axes, layer: ArrowLayer, scale: float, covered: FloatArray, pl
     bar = ax.plot(across, up, color=colour, linewidth=1.6, zorder=19.0, solid_joinstyle="miter")
     bar[0].set_gid(f"scale {layer.unit}")
     text = ax.text(
-        x + 0.5 * length, y + 0.25 * pad, f"{value:g} {layer.unit}", fontsize=style.SMALL, color=style.INK, ha="center", va="bottom",
+        x + 0.5 * length, y + 0.25 * pad, f"{value:g} {layer.sign}", fontsize=style.SMALL, color=style.INK, ha="center", va="bottom",
         zorder=20.0, path_effects=[withStroke(linewidth=2.2, foreground=style.PAPER)],
     )  # fmt: skip
     text.set_gid(f"scale {layer.unit} value")

@@ -20,8 +20,7 @@ from ..motion import Column, RequestLike, live_text
 from ..reports import NOTHING, At
 from . import style
 from .browser_data import PageRequests, page_data
-from .browser_words import SAID, words_in
-from .packing import compact_script, compact_style, numbered
+from .browser_words import words_in
 from .strokes import frame_count
 
 COLOURS = ("INK", "MUTED", "RULE", "GRID", "PAPER", "CURVE", "ACCENT", "BARREL", "ROD", "PISTON")
@@ -64,19 +63,21 @@ def page_html(machine: Mechanism, *, count: int = COUNT, language: str = "en", p
     if place is not None:
         check_place(place)
     live = live_text(machine.plan, requests.by_name, name="engine")
-    data = page_data(requests, live) | {"language": language, "words": {name: words_in(name) for name in LANGUAGES}}
-    script = f'"use strict";{live.text}\n{compact_script(numbered(page_part("page.js"), SAID))}'
-    styles = f":root{{{colours()}}}{compact_style(page_part('page.css'))}"
+    data = page_data(requests, live) | {"language": language, "words": {name: words_in(name) for name in LANGUAGES[1:]}}
+    program, loader = f'"use strict";{live.text}\n{page_part("page.js")}', page_part("loader.js")
+    styles = f":root {{ {colours()} }}\n{page_part('page.css')}"
     parts = {
         "LANGUAGE": language,
         "TITLE": escape(machine.plan.heading),
         "STYLE": styles,
         "STYLE_HASH": source_hash(styles),
-        "SCRIPT": script,
-        "SCRIPT_HASH": source_hash(script),
-        "DATA": packed(data),
+        "LOADER": loader,
+        "LOADER_HASH": source_hash(loader),
+        "PROGRAM": packed(program),
+        "PROGRAM_HASH": source_hash(program),
+        "DATA": packed(json.dumps(data, ensure_ascii=False, separators=(",", ":"), allow_nan=False)),
     }
-    return filled(numbered(page_part("page.html"), SAID), parts)
+    return filled(page_part("page.html"), parts)
 
 
 def colours() -> str:
@@ -95,10 +96,9 @@ def source_hash(text: str) -> str:
     return f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'"
 
 
-def packed(data: Any) -> str:
-    """Return data as JSON, compressed by zlib and written in base64: a third of what it is, and nothing in it can end an element."""
-    plain = json.dumps(data, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    return b64encode(compress(plain.encode(), 9)).decode()
+def packed(text: str) -> str:
+    """Return a text compressed by zlib and written in base64: half of what it is or less, and nothing in it can end an element."""
+    return b64encode(compress(text.encode(), 9)).decode()
 
 
 def filled(template: str, parts: dict[str, str]) -> str:

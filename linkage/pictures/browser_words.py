@@ -1,4 +1,4 @@
-"""What a live page says, in English; its script says each by its number here. `{gap}` and the like are filled in there."""
+"""What a live page says, in English, as its script and its text have it. `{gap}` and the like are filled in there."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ SAID = (
 )
 
 
-def words_in(name: str) -> list[str]:
-    """Return what a page says, in a language."""
+def words_in(name: str) -> dict[str, str]:
+    """Return what a page says, in a language, by the English."""
     with language(name):
-        return [translated(each) for each in SAID]
+        return {each: translated(each) for each in SAID}

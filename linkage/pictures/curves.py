@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..errors import DefinitionError, cited, unknown
-from ..language import translated
+from ..language import said, translated
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of
 from ..program import FloatArray
@@ -40,7 +40,7 @@ def plot(motion: Motion, columns: Sequence[Column | RequestLike], *, limits: Map
     if not shown:
         raise DefinitionError(f"{motion.plan.title}: there is no column to draw over {along.name}; name a result, not a stroke.")
     figure, cells = panel_grid(len(shown))
-    title = motion.plan.heading + (f" at {along.held}" if along.held else "")
+    title = motion.plan.heading + (" " + said("at {place}", place=along.held) if along.held else "")
     figure.suptitle(title, fontsize=style.TITLE + 2, fontweight="bold", color=style.INK, x=0.012, ha="left")
     for ax, column in zip(cells, shown, strict=True):
         panel(ax, motion, column, given.get(column.name))

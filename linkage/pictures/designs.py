@@ -13,10 +13,11 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
 from ..errors import DefinitionError
+from ..language import said
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion
 from ..plan import plan_measure
-from ..reports import stroke_middles
+from ..reports import Run, first_stroke, stroke_middles
 from ..units import display_unit, show
 from . import style
 from .drawing import Drawing
@@ -25,8 +26,9 @@ from .overlays import sheet_note
 from .paper import empty_page, legend_row, title
 from .poses import motions, named_points, trace
 from .scene import Scene
-from .strokes import stroke_words
+from .strokes import is_turn, stroke_words
 from .style import FAINT, STRONG, Look
+from .telling import telling_angles
 
 MOST_DESIGNS = 12
 MOST_NAMED = 3
@@ -46,7 +48,7 @@ def draw_designs(machines: Sequence[Mechanism], at: Any, path: Sequence[str], co
     """
     designs = separated(machines)
     first = designs[0]
-    values = stroke_middles(first) if at is None else at
+    values = usual_pose(first) if at is None else at
     path = named_points(first, path, "path")
     moved = [motions(machine, values, count) for machine in designs]
     shown, swept = [each for _, each, _ in moved], [each for _, _, each in moved]
@@ -75,8 +77,17 @@ def draw_designs(machines: Sequence[Mechanism], at: Any, path: Sequence[str], co
     legend_row(ax, keys, texts, columns)
     title(figure, first.plan.heading, at_words(shown[0]))
     lost = [text for text, scene in zip(texts, scenes, strict=True) if not scene.reached]
-    sheet_note(ax, [f"Cannot be assembled here: {'; '.join(lost)}."] if lost else [])
+    sheet_note(ax, [said("Cannot be assembled here: {designs}.", designs="; ".join(lost))] if lost else [])
     return figure
+
+
+def usual_pose(machine: Mechanism) -> Mapping[str, Any]:
+    """Return where designs are compared unless it is said: every stroke in its middle, one that goes round where the first is open."""
+    middles, moving = stroke_middles(machine), first_stroke(machine)
+    stroke = machine.strokes[moving]
+    if not is_turn(machine, Run({moving: (stroke.start, stroke.end)}, {})):
+        return middles
+    return {**middles, moving: float(telling_angles(machine, moving, middles)[-1])}
 
 
 def let_through(drawing: Drawing) -> None:
@@ -137,8 +148,8 @@ def what_differs(designs: Sequence[Mechanism]) -> list[str]:
     for machine, heading in zip(designs, titles, strict=True):
         words = [heading] if len(set(titles)) > 1 else []
         words += [f"{name} = {shown_value(machine, name)}" for name in names[:MOST_NAMED]]
-        words += [f"and {len(names) - MOST_NAMED} more"] if len(names) > MOST_NAMED else []
-        found.append(", ".join(words) or "the same design")
+        words += [said("and {n} more", n=len(names) - MOST_NAMED)] if len(names) > MOST_NAMED else []
+        found.append(", ".join(words) or said("the same design"))
     return found
 
 
@@ -152,6 +163,6 @@ def at_words(motion: Motion) -> str:
     """Return the strokes of a motion in words; of several values that they are so many."""
     values: Mapping[str, Any] = {name: np.unique(np.ravel(value)) for name, value in motion.strokes.items()}
     return ", ".join(
-        stroke_words(motion.plan, name, float(each[0])) if each.size == 1 else f"{name}: {each.size} values"
+        stroke_words(motion.plan, name, float(each[0])) if each.size == 1 else said("{name}: {n} values", name=name, n=each.size)
         for name, each in values.items()
     )

@@ -65,7 +65,7 @@ class Drawing:
             *(StayPart(ax, ends, look) for ends in scene.stays),
             *(PiecePart(ax, each, look, 0.7 if each.on[0] in scene.pins else 0.9) for each in scene.marks),
             *(pin(ax, name, scene.size, look) for name in scene.pins),
-            *(dot(ax, name, scene.size, look) for name in scene.dots),
+            *(dot(ax, name, scene.size * (0.7 if name in scene.minor else 1.0), look) for name in scene.dots),
         ]
 
     def ground(self) -> None:
@@ -78,13 +78,17 @@ class Drawing:
         for name, way in props(self.scene).items():
             ground(self.ax, at[name], way, self.scene.size, self.look)
 
-    def label(self, poses: Sequence[Places], keep_clear: Sequence[FloatArray] = ()) -> None:
-        """Name the points; the names keep clear of the mechanism at all `poses` and of further points [m]."""
+    def label(
+        self, poses: Sequence[Places], keep_clear: Sequence[FloatArray] = (), *, all_points: bool = True, font: float = style.LABEL
+    ) -> None:
+        """Name the points, or those alone that are no construction; names keep clear of the mechanism at all `poses` and of points [m]."""
         size, scale = self.scene.size, points_a_metre(self.ax)
         clouds = [np.concatenate([points, *keep_clear]) for points in label_free(self.scene, poses)]
         gap = 1.15 * size * scale + 1.5
-        spots = offsets(list(self.scene.places), poses, clouds, scale, gap)
-        self.parts += [LabelPart(self.ax, name, spot, gap, self.look) for name, spot in spots.items()]
+        minor = self.scene.minor
+        names = [name for name in self.scene.places if all_points or name not in minor]
+        spots = offsets(names, poses, clouds, scale, gap, font, minor=minor)
+        self.parts += [LabelPart(self.ax, name, spot, gap, self.look, name in minor, font) for name, spot in spots.items()]
 
     def update(self, pose: int) -> None:
         """Move to a pose, a flat index."""
@@ -162,7 +166,7 @@ class PiecePart(MovingPart):
 
     def __init__(self, ax: Axes, piece: Piece, look: Look, above: float) -> None:
         self.piece, self.points = piece, piece.on
-        level, ink = look.level + above, look.colour(style.MUTED if above < 0.0 else style.INK)
+        level, ink = look.level + above, look.colour(style.AROUND if above < 0.0 else style.INK)
         self.lines = tuple(
             polygon(
                 ax, level + 0.001 * layer, closed=each.closed, fill=bool(each.fill), edgecolor=ink, joinstyle="round", capstyle="round",

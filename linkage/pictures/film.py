@@ -19,6 +19,7 @@ from PIL import Image
 
 from ..disk import check_place, replacing, spoken
 from ..errors import DefinitionError, FileError, LinkageError, cited
+from ..language import said
 from ..mechanism import Mechanism, require_mechanism
 from ..program import FloatArray
 from ..reports import NOTHING, At
@@ -162,7 +163,7 @@ class Stage:
         """Write under the title the strokes that are held, and what is not reached."""
         held = self.along.held
         texts = (
-            (SHEET[0], f"at {held}" if held else "", style.MUTED, "left"),
+            (SHEET[0], said("at {place}", place=held) if held else "", style.MUTED, "left"),
             (SHEET[0] + SHEET[2], unreached_words(self.playback.motion, self.along.name), style.ACCENT, "right"),
         )
         for x, text, colour, side in texts:

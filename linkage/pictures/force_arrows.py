@@ -9,10 +9,12 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, cited, unknown, unwarned
+from ..language import noted, said, translated
+from ..loads import ForceElement
 from ..motion import Motion
 from ..program import FloatArray
 from ..statics import PinForces, pin_forces
-from ..units import kN
+from ..units import current_system, shown_in
 from .arrows import NOTHING_THERE, ArrowLayer, TurningArrow, VectorArrow
 
 PIN, LOAD, MEMBER = "#0072b2", "#d55e00", "#007f5c"
@@ -20,7 +22,7 @@ PIN, LOAD, MEMBER = "#0072b2", "#d55e00", "#007f5c"
 
 FRAME = "frame"
 
-SENSE = "A pin force is drawn as it acts on the body named; where none is named, from the frame on what it holds."
+SENSE = noted("A pin force is drawn as it acts on the body named; where none is named, from the frame on what it holds.")
 
 
 @final
@@ -83,7 +85,7 @@ def forces_at_pose(motion: Motion, pose: int, question: ForceQuestion) -> Forces
             found = ForcesAt(question.asked(alone), 0)
     if all(np.isfinite(found.one(joint.force)).all() for joint in found.found.joints):
         return found
-    words = refusal(motion, pose, question) or next(iter(found.found.remarks), "the forces are not known here")
+    words = refusal(motion, pose, question) or next(iter(found.found.remarks), said("the forces are not known here"))
     if motion.unreachable != "nan":
         raise SingularError(words, motion=motion)
     return ForcesAt(found.found, found.pose, words)
@@ -112,7 +114,7 @@ def force_layer(forces: ForcesAt) -> ArrowLayer:
             on, by, sign = by, on, -1.0
         members = [each for each in (on, by) if each in found.thrusts]
         colour = MEMBER if members else PIN
-        text = " ".join([*members[:1], *([] if by == FRAME else [f"on {short_name(forces, on)}"])])
+        text = " ".join([*members[:1], *([] if by == FRAME else [said("on {body}", body=short_name(forces, on))])])
         name = f"force {joint.point} {place} on {on} from {by}"
         force, couple = sign * forces.one(joint.force), sign * float(forces.one(joint.couple))
         if joint.has_force:
@@ -122,8 +124,8 @@ def force_layer(forces: ForcesAt) -> ArrowLayer:
         arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, LOAD, element))
         turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, LOAD, element))
     has_members = any(arrow.colour == MEMBER for arrow in arrows)
-    keys = [(LOAD, "load"), (PIN, "pin force"), *([(MEMBER, "of a cylinder or spring")] * has_members)]
-    return layer_of(arrows, turning, keys, SENSE)
+    keys = [(LOAD, said("load")), (PIN, said("pin force")), *([(MEMBER, said("of a cylinder or spring"))] * has_members)]
+    return layer_of(arrows, turning, keys, translated(SENSE))
 
 
 def short_name(forces: ForcesAt, body: str) -> str:
@@ -132,13 +134,18 @@ def short_name(forces: ForcesAt, body: str) -> str:
     return body if len(body) <= 8 or len(points) < 3 else f"{points[0]}{points[1]}\N{HORIZONTAL ELLIPSIS}"
 
 
+def from_words(forces: ForcesAt, body: str) -> str:
+    """Return where a force comes from, in words."""
+    return said("from the frame") if body == FRAME else said("from {body}", body=short_name(forces, body))
+
+
 def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
     """Return all forces on one body as arrows, with what each comes from."""
     found, arrows, turning = forces.found, [], []
     for place, joint in enumerate(found.joints):
         if body in (joint.on, joint.by):
             other, sign = (joint.by, 1.0) if joint.on == body else (joint.on, -1.0)
-            colour, from_other = MEMBER if other in found.thrusts else PIN, f"from {short_name(forces, other)}"
+            colour, from_other = MEMBER if other in found.thrusts else PIN, from_words(forces, other)
             force, couple = sign * forces.one(joint.force), sign * float(forces.one(joint.couple))
             if joint.has_force:
                 arrows.append(
@@ -150,12 +157,15 @@ def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
             arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, LOAD, element))
             turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, LOAD, element))
     used = {each.colour for each in arrows} | {each.colour for each in turning}
-    keys = [(LOAD, "load"), (PIN, "from a body or the frame"), (MEMBER, "from a cylinder or spring")]
+    keys = [(LOAD, said("load")), (PIN, said("from a body or the frame")), (MEMBER, said("from a cylinder or spring"))]
     return layer_of(arrows, turning, [key for key in keys if key[0] in used])
 
 
 def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], keys: list[tuple[str, str]], sense: str = "") -> ArrowLayer:
-    """Return forces and moments as a layer: in kN, or in N where the largest is less than 100 N; loads and moments of zero are left out."""
+    """Return forces and moments as a layer; loads and moments of zero are left out.
+
+    It is in kN, or in N where the largest is less than 100 N, or in the unit of a chosen system.
+    """
     largest = max((each.length for each in arrows), default=0.0)
     shown = tuple(each for each in arrows if each.length > NOTHING_THERE * largest or (each.colour != LOAD and largest > 0.0))
     most = max((abs(each.moment) for each in turning), default=0.0)
@@ -164,8 +174,8 @@ def layer_of(arrows: list[VectorArrow], turning: list[TurningArrow], keys: list[
         if abs(each.moment) > NOTHING_THERE * most:
             here = sum(1 for other in turns if np.allclose(other.at, each.at))
             turns.append(replace(each, radius=each.radius + 1.4 * here))
-    unit = ("kN", kN) if largest >= 100.0 or most >= 100.0 else ("N", 1.0)
-    return ArrowLayer(shown, *unit, tuple(keys), tuple(turns), sense=sense)
+    unit = "kN" if current_system() or largest >= 100.0 or most >= 100.0 else "N"
+    return ArrowLayer(shown, shown_in(unit), tuple(keys), tuple(turns), sense=sense)
 
 
 def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatArray, float]]:
@@ -185,7 +195,21 @@ def load_groups(forces: ForcesAt) -> Iterator[tuple[str, str, FloatArray, FloatA
         if square <= 1e-18 * float((each_of**2).sum()):
             yield element, body, middle, np.zeros(2), moment
         else:
-            yield element, body, middle + moment * np.array([-force[1], force[0]]) / -square, force, 0.0
+            place = middle + moment * np.array([-force[1], force[0]]) / -square
+            centre = mass_centre(forces, element)
+            yield element, body, place + force * float((centre - place) @ force) / square if centre is not None else place, force, 0.0
+
+
+def mass_centre(forces: ForcesAt, element: str) -> FloatArray | None:
+    """Return the centre of a body's own mass that is declared beside its points, shape (2,) [m]; None for any other element."""
+    plan = forces.found.motion.plan
+    found = plan.of_kind(ForceElement).get(element)
+    for glyph in found.glyphs(plan.members) if found is not None else ():
+        if glyph.away is not None:
+            P, Q = (forces.place(name) for name in glyph.points[:2])
+            along = (Q - P) / np.hypot(*(Q - P))
+            return np.asarray(P + glyph.away[0] * along + glyph.away[1] * np.array([-along[1], along[0]]))
+    return None
 
 
 def drawn_body(found: PinForces, name: str) -> str:

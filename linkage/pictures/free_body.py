@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from ..language import said
 from ..motion import Motion
 from ..program import FloatArray
 from . import style
@@ -50,15 +51,17 @@ def draw_free_body(motion: Motion, pose: int, question: ForceQuestion) -> Figure
     scene = Scene(motion)
     forces = forces_at_pose(motion, pose, question)
     body = drawn_body(forces.found, question.body)
-    layer = body_layer(forces, body) if not forces.refusal else ArrowLayer((), "kN", 1e3, ())
+    layer = body_layer(forces, body) if not forces.refusal else ArrowLayer((), "kN", ())
     at = scene.at(pose)
     free = FreeBodyPicture(body, points_on(forces, body), scene, at, layer)
     figure, ax, beside = free_page(free.box())
     free.draw(ax)
     draw_polygon(beside, layer)
-    sheet_note(ax, [f"No forces here: {forces.refusal}"] if forces.refusal else forces.found.remarks)
+    sheet_note(ax, [said("No forces here: {why}", why=forces.refusal)] if forces.refusal else forces.found.remarks)
     where = [stroke_words(motion.plan, name, float(values.ravel()[pose])) for name, values in motion.strokes.items()]
-    title(figure, f"{motion.plan.heading}: forces on {body}", ", ".join(where))
+    heading = motion.plan.heading
+    on_body = said("{machine}: forces on {body}", machine=heading, body=body)
+    title(figure, said("{machine}: forces on the frame", machine=heading) if body == FRAME else on_body, ", ".join(where))
     legend_row(ax, *ax.get_legend_handles_labels())
     footnote(figure, closing_words(layer, body))
     return figure
@@ -81,9 +84,9 @@ def closing_words(layer: ArrowLayer, body: str) -> str:
     force, arm = float(np.hypot(*total)), max(float(np.hypot(*(each.at - layer.arrows[0].at))) for each in layer.arrows)
     if body == FRAME:
         value = significant(force / layer.factor)
-        return f"The ground holds the frame: what is left over, {value} {layer.unit}, is the sum of all loads."
+        return said("The ground holds the frame: what is left over, {force}, is the sum of all loads.", force=f"{value} {layer.sign}")
     parts = force / layer.largest, abs(moment) / (layer.largest * (arm or 1.0))
-    return f"Sum of the forces 0 {layer.unit}, of their moments 0 {layer.unit} m (to {max(*parts, 1e-17):.0e} of the largest)"
+    return said("The forces balance, and their moments, to {share} of the largest.", share=f"{max(*parts, 1e-17):.0e}")
 
 
 def free_page(box: Bounds) -> tuple[Figure, Axes, Axes]:
@@ -191,7 +194,7 @@ def draw_polygon(ax: Axes, layer: ArrowLayer) -> None:
         across = np.array([tip[1] - tail[1], tail[0] - tip[0]]) / float(np.hypot(*(tip - tail)))
         texts.append(Wording(layer.words(each), 0.5 * (tail + tip), across, edge, f"polygon {each.name}"))
     place_wordings(ax, texts, np.concatenate(covered))
-    ax.text(0.5, 1.0, "head to tail", transform=ax.transAxes, fontsize=style.TEXT, color=style.MUTED, ha="center", va="bottom")
+    ax.text(0.5, 1.0, said("head to tail"), transform=ax.transAxes, fontsize=style.TEXT, color=style.MUTED, ha="center", va="bottom")
 
 
 def direction(arrow: VectorArrow) -> float:

@@ -30,10 +30,22 @@ def cloud(scene: Scene, at: Places) -> FloatArray:
     lines += [(segment(at[P], at[Q], 0.8 * scene.size), half) for P, Q, half in pairs if np.isfinite([at[P], at[Q]]).all()]
     wide = [line + offset * half * scene.size * _normal(line) for line, half in lines for offset in (-1.0, 0.0, 1.0)]
     fed = [Piece("", (each.P, each.Q), each.lines) for each in scene.fed if np.isfinite([at[each.P], at[each.Q]]).all()]
-    marks = [each for each in scene.marks if np.isfinite(at[each.on[0]]).all()]
+    marks = [each for each in scene.marks if np.isfinite([at[name] for name in each.on]).all()]
     beside = [each.placed(each.corners, at) for each in (*fed, *marks)]
     points = [place[None] for place in at.values() if np.isfinite(place).all()]
     return np.concatenate([np.empty((0, 2)), *wide, *beside, *points])
+
+
+def surrounding_points(scene: Scene, at: Places) -> FloatArray:
+    """Return points along the lines of the surroundings at a pose, shape (n, 2) [m]."""
+    found = [np.empty((0, 2))]
+    for piece in scene.surroundings:
+        if np.isfinite([at[name] for name in piece.on]).all():
+            for line in piece.lines:
+                corners = piece.placed(line.rows[:, 1:], at)
+                ends = [*corners[1:], *corners[: int(line.closed)]]
+                found += [segment(P, Q, 1.5 * scene.size) for P, Q in zip(corners, ends, strict=False) if not np.array_equal(P, Q)]
+    return np.concatenate(found)
 
 
 def _normal(line: FloatArray) -> FloatArray:

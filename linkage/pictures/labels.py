@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import final
 
 import numpy as np
@@ -26,19 +26,25 @@ TOGETHER = 0.7
 OVERLAP, STRAY = 400.0, 150.0
 """What it costs to cover another label, and to stand nearer to another point than to the own one, in covered points."""
 ROUNDS = 4
+MINOR = 0.75
+"""The size of the letters of a point of a construction, as a share of the others'."""
 
 
 @final
 class LabelPart(MovingPart):
     """A point's name at an offset [points], joined to the point by a thin line where it stands away from it."""
 
-    def __init__(self, ax: Axes, name: str, offset: FloatArray, gap: float, look: Look) -> None:
+    def __init__(
+        self, ax: Axes, name: str, offset: FloatArray, gap: float, look: Look, minor: bool = False, font: float = style.LABEL
+    ) -> None:
         self.points = (name,)
+        font = font * (MINOR if minor else 1.0)
         leader = {"arrowstyle": "-", "color": look.colour(style.MUTED), "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.6 * gap}
-        self.is_led = bool(distance_to_box(offset, half_of(name, style.LABEL)) > LED * gap)
+        self.is_led = bool(distance_to_box(offset, half_of(name, font)) > LED * gap)
         self.text = ax.annotate(
             name, (0, 0), xytext=(float(offset[0]), float(offset[1])), textcoords="offset points", ha="center", va="center_baseline",
-            fontsize=style.LABEL, fontstyle="italic", color=look.colour(style.INK), zorder=look.level + 1.0, annotation_clip=False,
+            fontsize=font, fontstyle="italic", color=look.colour(style.MUTED if minor else style.INK), zorder=look.level + 1.0,
+            annotation_clip=False,
             path_effects=[withStroke(linewidth=2.5, foreground=style.PAPER)], arrowprops=leader if self.is_led else None,
             bbox={"boxstyle": "square,pad=0.05", "facecolor": "none", "edgecolor": "none"},
         )  # fmt: skip
@@ -50,18 +56,25 @@ class LabelPart(MovingPart):
 
 
 def offsets(
-    names: Sequence[str], poses: Sequence[Places], clouds: Sequence[FloatArray], scale: float, gap: float, font: float = style.LABEL
+    names: Sequence[str],
+    poses: Sequence[Places],
+    clouds: Sequence[FloatArray],
+    scale: float,
+    gap: float,
+    font: float = style.LABEL,
+    minor: Collection[str] = (),
 ) -> dict[str, FloatArray]:
     """Return where each name stands, from its point, shape (2,) each, in the unit of `font`.
 
     One offset serves all `poses`; where there are several it stays short, so that each name keeps to its pin.
     `clouds` are the points to keep clear at each [m]; `scale` is that unit per metre and `gap` the distance from the point's centre at
-    which a label may begin. Crowded points choose first; then each chooses again, some rounds long, as the others stand.
+    which a label may begin; the names in `minor` are smaller. Crowded points choose first; then each chooses again, some rounds long, as
+    the others stand.
     """
     far = max(gap, 0.9 * font) if len(poses) > 1 else np.inf
     taken = [cloud * scale for cloud in clouds]
     anchors = {name: np.array([at[name] for at in poses]).reshape(-1, 2) * scale for name in names}
-    halves = {name: half_of(name, font) for name in names}
+    halves = {name: half_of(name, font * (MINOR if name in minor else 1.0)) for name in names}
     tried = {name: np.array(candidates(halves[name], gap, far)) for name in names}
     alone = {name: own_costs(name, tried[name], halves[name], anchors, taken, gap) for name in names}
     spots: dict[str, FloatArray] = {}

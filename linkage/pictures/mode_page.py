@@ -13,6 +13,7 @@ from matplotlib.patches import Rectangle
 
 from ..assembly import Assembly
 from ..errors import DefinitionError
+from ..language import said, said_of
 from ..motion import Motion
 from . import style
 from .drawing import Drawing
@@ -26,8 +27,8 @@ MOST_MODES = 24
 """The modes on a page; of more, these first ones."""
 ACROSS, PANEL, GAP, HEAD_ROOM, LINE = 4, 3.1, 0.18, 0.72, 0.135
 """Panels in a row, a panel's width, the gap between two, the room for the title, and the height of a line of code [inch]."""
-CODE = 6.6
-"""The size of the letters of code [points]."""
+CODE, NAMES = 6.6, 8.0
+"""The sizes of the letters of code and of points' names [points]."""
 
 
 def draw_modes(modes: Sequence[Assembly]) -> Figure:
@@ -57,10 +58,13 @@ def draw_modes(modes: Sequence[Assembly]) -> Figure:
         written.set_gid(f"code {place}")
     plan, motion = motions[0].plan, motions[0]
     where = ", ".join(stroke_words(plan, name, float(np.ravel(value)[0])) for name, value in motion.strokes.items())
-    count = f"{len(shown)} of {len(modes)}" if len(modes) > len(shown) else f"{len(modes)}"
-    title(figure, f"{plan.heading}: {count} assembly mode{'s' if len(modes) != 1 else ''}", where)
-    groups = "; modes of pins found together are looked for from places at random, one may be missing" if plan.groups else ""
-    footnote(figure, f"Each line stands in the class in place of the one that is there{groups}.")
+    count = said_of(len(modes), "{n} assembly mode", "{n} assembly modes")
+    if len(modes) > len(shown):
+        count = said("{modes}, the first {number} of them", modes=count, number=len(shown))
+    title(figure, f"{plan.heading}: {count}", where)
+    notes = [said("Each line stands in the class in place of the one that is there.")]
+    notes += [said("Modes of pins found together are looked for from places at random, one may be missing.")] if plan.groups else []
+    footnote(figure, " ".join(notes))
     return figure
 
 
@@ -93,17 +97,19 @@ def draw_mode(ax: Axes, mode: Assembly, scene: Scene, extent: tuple[float, float
     if mode.is_declared:
         ax.add_patch(Rectangle((0, 0), 1, 1, transform=ax.transAxes, facecolor=style.CURVE, alpha=0.06, zorder=-10))
     if not scene.reached:
-        ax.text(0.5, 0.5, "stands at a change point here", transform=ax.transAxes, ha="center", color=style.ACCENT, fontsize=style.SMALL)
+        ax.text(
+            0.5, 0.5, said("stands at a change point here"), transform=ax.transAxes, ha="center", color=style.ACCENT, fontsize=style.SMALL
+        )
         return
     drawing = Drawing(ax, scene, STRONG)
     drawing.ground()
-    drawing.label([scene.at(scene.reached[0])])
+    drawing.label([scene.at(scene.reached[0])], all_points=False, font=NAMES)
     drawing.update(scene.reached[0])
 
 
 def code_lines(mode: Assembly) -> list[str]:
     """Return what is written below a mode: its code, wrapped; for the declared one that it is that."""
     if mode.is_declared:
-        return ["as declared", *([f"# {mode}"] if str(mode) else [])]
+        return [said("as declared"), *([f"# {mode}"] if str(mode) else [])]
     wide = int(PANEL * 72.0 / (0.602 * CODE))
     return [line for each in mode.code.splitlines() for line in textwrap.wrap(each, wide, subsequent_indent="    ")]

@@ -11,8 +11,10 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..errors import DefinitionError, SingularError, cited, unwarned
+from ..language import said, translated
 from ..motion import Motion, rates_of, whole_body
 from ..program import FloatArray
+from ..units import factor, show, shown_in
 from . import style
 from .arrows import (
     ArrowLayer,
@@ -62,7 +64,7 @@ class Overlays:
         if self.forces is not None:
             forces = forces_at_pose(motion, pose, self.forces)
             if forces.refusal:
-                notes.append(f"No forces here: {forces.refusal}")
+                notes.append(said("No forces here: {why}", why=forces.refusal))
             else:
                 layers.append(force_layer(forces))
                 notes += [remark.replace("rates=dict(", "velocities=dict(") for remark in forces.found.remarks]
@@ -185,15 +187,15 @@ def velocity_layer(motion: Motion, pose: int, rates: Mapping[str, Any]) -> Arrow
         except SingularError as error:
             if motion.unreachable != "nan":
                 raise
-            notes = (f"No velocities here: {error}",)
+            notes = (said("No velocities here: {why}", why=error),)
             continue
         if np.isfinite(v).all():
             arrows.append(VectorArrow(f"velocity {name}", at[name], v, VELOCITY))
     most = max((each.length for each in arrows), default=0.0)
     shown = tuple(each for each in arrows if each.length > 1e-9 * most)
-    unit = ("m/s", 1.0) if most >= 0.1 else ("mm/s", 1e-3)
+    unit = shown_in("m/s" if most >= 0.1 else "mm/s")
     words = ", ".join(f"{name} {rate_words(motion, name, rate)}" for name, rate in rates.items())
-    return ArrowLayer(shown, *unit, ((VELOCITY, f"velocity at {words}"),), notes=notes)
+    return ArrowLayer(shown, unit, ((VELOCITY, said("velocity at {rates}", rates=words)),), notes=notes)
 
 
 def velocity_at(motion: Motion, at: Motion, pose: int, name: str, rates: Mapping[str, Any]) -> FloatArray:
@@ -206,9 +208,11 @@ def velocity_at(motion: Motion, at: Motion, pose: int, name: str, rates: Mapping
 def rate_words(motion: Motion, stroke: str, rate: Any) -> str:
     """Return a stroke's rate in words."""
     if np.ndim(rate):
-        return "as given"
+        return said("as given")
     turns = motion.plan.strokes[stroke].name in motion.plan.turning
-    return f"{float(rate):.3g} {'rad' if turns else 'm'}/s"
+    if turns:
+        return f"{float(rate):.3g} {translated('rad')}/{translated('s')}"
+    return show(float(rate), "m/s", 3)
 
 
 def one_pose(motion: Motion, pose: int) -> Motion:
@@ -262,12 +266,13 @@ def mark_of(at: Motion, body: str, other: str, rates: Mapping[str, Any] | None, 
         names = ", ".join(f"{name}=..." for name in at.strokes)
         raise DefinitionError(f"{at.plan.title}: several strokes move its bodies; say how, velocities=dict({names}).")
     place = at.pole(body, other, rates=rates)
-    against = "" if other == "frame" else f" against {other}"
-    name = f"pole of {body}{against}"
+    alone = other == "frame"
+    name = said("pole of {body}", body=body) if alone else said("pole of {body} against {other}", body=body, other=other)
     if np.isinf(place).any():
-        return PoleMark(name, place, (), f"{body} only translates{against} here: its pole is at infinity, square to its velocity.")
+        words = said("{name}: at infinity, square to the velocity, since the body only translates here.", name=name)
+        return PoleMark(name, place, (), words)
     if np.isnan(place).any():
-        return PoleMark(name, place, (), f"{body} stands still{against} here: each of its points is a pole.")
+        return PoleMark(name, place, (), said("{name}: every point, since the body stands still here.", name=name))
     return PoleMark(name, place, ends)
 
 
@@ -294,9 +299,19 @@ def far_words(mark: PoleMark, sheet: Bounds) -> list[str]:
         return []
     left, right, bottom, top = sheet
     away = mark.at - np.array([0.5 * (left + right), 0.5 * (bottom + top)])
-    x, y = (significant(part, 4).replace("-", "\N{MINUS SIGN}") for part in mark.at.tolist())
+    far, x, y = (length_words(part) for part in (float(np.hypot(*away)), *mark.at.tolist()))
     degrees = f"{float(np.degrees(np.arctan2(away[1], away[0]))):.0f}".replace("-", "\N{MINUS SIGN}")
-    return [f"The {mark.name} is off the sheet, {significant(float(np.hypot(*away)))} m away towards {degrees}°: x = {x} m, y = {y} m."]
+    return [
+        said(
+            "{name}: off the sheet, {far} away towards {degrees}°, at x = {x}, y = {y}.", name=mark.name, far=far, degrees=degrees, x=x, y=y
+        )
+    ]
+
+
+def length_words(value: float) -> str:
+    """Return a length [m] with four digits, in m or in the unit of a chosen system."""
+    unit = shown_in("m")
+    return f"{significant(value / factor(unit), 4)} {translated(unit)}".replace("-", "\N{MINUS SIGN}")
 
 
 def centrode(ax: Axes, swept: Motion, body: str, other: str, rates: Mapping[str, Any] | None) -> None:

@@ -1,7 +1,5 @@
 (async () => {
-/* The data come packed, and are JSON. */
-const packed = new Blob([Uint8Array.from(atob(document.getElementById("data").textContent), (letter) => letter.charCodeAt(0))]).stream();
-const data = await new Response(packed.pipeThrough(new DecompressionStream("deflate"))).json();
+const data = JSON.parse(await unpacked("data"));
 const byId = (id) => document.getElementById(id);
 const css = (name) => `var(--${name})`;
 const { scene, strokes, units } = data, { abs, acos, atan2, ceil, cos, floor, hypot, log10, max, min, round, PI } = Math;
@@ -16,9 +14,9 @@ const rows = data.rows;
 /* ---- words and numbers ---- */
 
 let language = data.language;
-/* Return a sentence in the language chosen; what is told in words here comes by its number in the page. */
-function say(number, given) {
-  const said = data.words[language][number];
+/* Return a sentence in the language chosen; all that are said here stand in browser_words.py. */
+function say(text, given) {
+  const said = data.words[language]?.[text] ?? text;
   return given ? said.replace(/\{(\w+)\}/g, (_, name) => given[name]) : said;
 }
 const minus = (text) => (/^-[0.]*$/.test(text) ? text.slice(1) : text).replace("-", "\u2212");

@@ -19,6 +19,8 @@ LEAST, MOST = 4.2, 10.0
 LEFT, RIGHT, BOTTOM, TOP = 0.75, 0.2, 0.6, 0.7
 """The figure's width, the range of its height, and the room around the sheet [inch]."""
 
+LETTERS = (style.TEXT, 9.0, style.SMALL, 7.5, 6.5)
+"""The sizes of a legend's letters, the usual one first."""
 ROW = 0.215
 """The height of a further row of a legend [inch]."""
 
@@ -60,9 +62,15 @@ def footnote(figure: Figure, text: str) -> None:
 
 
 def legend_row(ax: Axes, keys: Sequence[Any], texts: Sequence[str], columns: int = 6) -> None:
-    """Write what lines mean in a row above the sheet; what does not fit into so many columns stands in further rows."""
-    ax.legend(
-        keys, texts, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, frameon=False,
-        borderaxespad=0.0, borderpad=0.25, fontsize=style.TEXT, labelcolor=style.INK,
-        handlelength=1.6, columnspacing=1.8, handletextpad=0.6,
-    )  # fmt: skip
+    """Write what lines mean in a row above the sheet, in letters so small that it fits; further rows are for more than so many columns."""
+    figure = ax.figure.figure
+    assert figure is not None
+    canvas: Any = FigureCanvasAgg(figure)  # matplotlib declares no types for its methods
+    for size in LETTERS:
+        legend = ax.legend(
+            keys, texts, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, frameon=False,
+            borderaxespad=0.0, borderpad=0.25, fontsize=size, labelcolor=style.INK,
+            handlelength=1.6, columnspacing=1.8, handletextpad=0.6,
+        )  # fmt: skip
+        if legend.get_window_extent(canvas.get_renderer()).x1 <= figure.bbox.width:
+            break

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..errors import DefinitionError, cited, known_name
+from ..language import said, said_of
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import Motion
 from ..program import FloatArray
@@ -20,12 +21,13 @@ from . import style
 from .drawing import Drawing, mechanism
 from .force_arrows import force_question
 from .free_body import draw_free_body
-from .free_space import cloud
+from .free_space import cloud, surrounding_points
 from .overlays import NO_OVERLAYS, Overlays
 from .paper import empty_page, legend_row, remark, title
 from .scene import Scene
 from .strokes import is_turn, stroke_words, unreached_words
 from .style import FAINT, STRONG
+from .telling import telling_angles
 
 MANY = 1_000_000
 """Poses of a path: more do not fit into a picture."""
@@ -96,12 +98,17 @@ def draw_strokes(machine: Mechanism, at: Any, path: Sequence[str], count: int, o
     laid = overlays.over(shown, last, whole.box()) if overlays else None
     figure, ax = empty_page(laid.box(whole.size) if laid else whole.box())
     for name in path:
-        trace(ax, whole.places[name], f"path{'s' if len(path) > 1 else ''} of {', '.join(path)}" if name == path[0] else "")
+        trace(
+            ax,
+            whole.places[name],
+            said_of(len(path), "path of {points}", "paths of {points}", points=", ".join(path)) if name == path[0] else "",
+        )
     clear = [whole.places[name].T for name in path] + ([laid.covered()] if laid else [])
     draw_poses(ax, shown, swept, clear)
     if laid:
         overlays.centrodes(ax, swept)
-        laid.draw(ax, whole.size, cloud(whole, Scene(shown).at(last)))
+        at = Scene(shown).at(last)
+        laid.draw(ax, whole.size, np.concatenate([cloud(whole, at), surrounding_points(whole, at)]))
     heading(figure, ax, shown, moving)
     remark(figure, ax, unreached_words(swept, moving[0]) if len(moving) == 1 else unreached_on_the_way(swept))
     return figure
@@ -118,7 +125,8 @@ def draw_laid_over(motion: Motion, swept: Motion, pose: int, overlays: Overlays)
         drawing.label([scene.at(pose)], [laid.covered()])
     drawing.update(pose)
     overlays.centrodes(ax, swept)
-    laid.draw(ax, scene.size, cloud(scene, scene.at(pose)))
+    at = scene.at(pose)
+    laid.draw(ax, scene.size, np.concatenate([cloud(scene, at), surrounding_points(scene, at)]))
     legend_row(ax, *ax.get_legend_handles_labels())
     return figure
 
@@ -133,9 +141,11 @@ def motions(machine: Mechanism, at: Any, count: int) -> tuple[tuple[str, ...], M
         return joint_motions(machine, given, several, count)
     moving = max(given, key=lambda name: np.size(given[name])) if given else first_stroke(machine)
     start, end = machine.strokes[moving].start, machine.strokes[moving].end
-    usual = (0.5 * (start + end), start) if is_turn(machine, Run({moving: (start, end)}, {})) else (start, end)
-    given_values = {name: np.atleast_1d(chosen_values(machine, name, usual if value is None else value)) for name, value in given.items()}
-    at_values: dict[str, Any] = stroke_middles(machine) | given_values
+    others = {name: np.atleast_1d(chosen_values(machine, name, value)) for name, value in given.items() if value is not None}
+    at_values: dict[str, Any] = stroke_middles(machine) | others
+    if moving not in others:
+        is_round = is_turn(machine, Run({moving: (start, end)}, {}))
+        at_values[moving] = telling_angles(machine, moving, at_values) if is_round else np.array([start, end])
     shown = machine.at(unreachable="nan", **at_values)
     if not shown.reached.any():
         machine.at(**at_values)
@@ -195,14 +205,15 @@ def draw_poses(ax: Axes, shown: Motion, swept: Motion, keep_clear: Sequence[Floa
 def unreached_on_the_way(swept: Motion) -> str:
     """Return how much of a way along several strokes is not reached, in words; empty where all of it is."""
     lost = int(np.count_nonzero(~swept.reached))
-    return f"not reached at {lost} of {swept.reached.size} poses on the way" if lost else ""
+    return said("not reached at {lost} of {all} poses on the way", lost=lost, all=swept.reached.size) if lost else ""
 
 
 def heading(figure: Figure, ax: Axes, shown: Motion, moving: Sequence[str]) -> None:
     """Write the title, and which pose is which."""
     scene = Scene(shown)
     held = {name: float(np.ravel(value)[0]) for name, value in shown.strokes.items() if name not in moving}
-    title(figure, shown.plan.heading, f"at {', '.join(stroke_words(shown.plan, name, value) for name, value in held.items())}" * bool(held))
+    where = ", ".join(stroke_words(shown.plan, name, value) for name, value in held.items())
+    title(figure, shown.plan.heading, said("at {place}", place=where) if held else "")
     looks = [FAINT] * (len(scene.reached) - 1) + [STRONG]
     keys = [Line2D([], [], color=look.colour(style.INK), linewidth=4.0, solid_capstyle="round") for look in looks]
     texts = [

@@ -15,14 +15,15 @@ from ..errors import DefinitionError
 from ..loads import ForceElement, Glyph
 from ..motion import Motion, require_motion
 from ..program import FloatArray
-from ..quantities import Joint, Quantity, Where
-from ..steps import Guide
+from ..quantities import Joint, Quantity, Where, needs
+from ..steps import Arrow, Guide, Point
 from ..surroundings import Outline
 from ..vectors import Line
 from .shapes import (
     APART,
     HALF,
     MARKS,
+    ON_BODIES,
     OUTLINES,
     DrawnLine,
     accumulators,
@@ -183,6 +184,12 @@ class Piece:
         along = at[self.on[1]] - origin
         along = along / (np.hypot(*along) or 1.0)
         return np.asarray(origin + points @ np.array([along, [-along[1], along[0]]]))
+
+    def seen(self, place: FloatArray, at: Places) -> FloatArray:
+        """Return where a place (2,) [m] of the plane stands in the axes of its two points."""
+        along = at[self.on[1]] - at[self.on[0]]
+        along = along / (np.hypot(*along) or 1.0)
+        return np.asarray(np.array([along, [-along[1], along[0]]]) @ (place - at[self.on[0]]))
 
     @property
     def corners(self) -> FloatArray:
@@ -402,7 +409,20 @@ class Scene:
     def marks(self) -> tuple[Piece, ...]:
         """The signs of weights, forces and supports at their points, each kind once a point."""
         kinds = dict.fromkeys((glyph.drawn_as, glyph.points, glyph.way) for _, glyph in self.glyphs if glyph.drawn_as in MARKS)
-        return tuple(Piece(points[0], points, MARKS[kind](self.size, way)) for kind, points, way in kinds)
+        at_points = [Piece(points[0], points, MARKS[kind](self.size, way)) for kind, points, way in kinds]
+        return (*at_points, *self._on_bodies())
+
+    def _on_bodies(self) -> Iterator[Piece]:
+        """Yield the signs of masses and moments of rigid bodies, each at its place in the body's axes."""
+        shown = self._whole.some(3)
+        given = [each for _, each in self.glyphs if each.drawn_as in ON_BODIES]
+        for kind, points, away in dict.fromkeys((each.drawn_as, each.points, each.away) for each in given):
+            frame = Piece(points[0], points[:2], ())
+            ways = np.array([[frame.seen(at[name], at) for name in points] for at in shown]) if len(points) > 1 else np.empty(0)
+            if ways.size and np.isfinite(ways).all() and np.ptp(ways, axis=0).max() < 1e-6 * self.size:
+                place = np.append(0.0, ways[0].mean(axis=0) if away is None else away)
+                lines = (DrawnLine(line.rows + place, line.fill, line.closed, line.bold) for line in ON_BODIES[kind](0.8 * self.size, 0.0))
+                yield Piece(points[0], points[:2], tuple(lines))
 
     @cached_property
     def surroundings(self) -> tuple[Piece, ...]:
@@ -512,6 +532,14 @@ class Scene:
     def dots(self) -> tuple[str, ...]:
         """The other points."""
         return tuple(name for name in self.places if name not in self.pins)
+
+    @cached_property
+    def minor(self) -> frozenset[str]:
+        """The points within a body that are only centres of mass or help to construct others: their names are small."""
+        inner = {name for points in self.bodies for name in points} - {name for points in self.hulls for name in points}
+        heavy = {glyph.points[0] for _, glyph in self.glyphs if glyph.drawn_as == "weight"}
+        base = {name for each in self.motion.plan.members.values() if isinstance(each, (Point, Arrow, Quantity)) for name in needs(each)}
+        return frozenset(name for name in self.dots if name in inner and name in heavy | base)
 
     # -- sizes -----------------------------------------------------------------------------------------
 

@@ -304,6 +304,18 @@ def force_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
     return (DrawnLine(np.column_stack([np.zeros(len(ring)), ring]), fill="ACCENT", closed=True),)
 
 
+def moment_mark(size: float, way: float) -> tuple[DrawnLine, ...]:
+    """Return a curved arrow about the place where a moment is written; it says no sense."""
+    ways = np.radians(np.linspace(-140.0, 100.0, 25))
+    arc = 1.5 * size * np.column_stack([np.zeros(25), np.cos(ways), np.sin(ways)])
+    out, along = arc[-1] / (1.5 * size), np.array([0.0, -np.sin(ways[-1]), np.cos(ways[-1])])
+    head = np.array([arc[-1] + 0.9 * size * along, arc[-1] + 0.5 * size * out, arc[-1] - 0.5 * size * out])
+    return DrawnLine(arc, bold=True), DrawnLine(head, fill="INK", closed=True)
+
+
+ON_BODIES: Mapping[str, Callable[[float, float], tuple[DrawnLine, ...]]] = MappingProxyType({"mass": weight_mark, "moment": moment_mark})
+"""What is drawn on a body of some points -> its lines about its place."""
+
 MARKS: Mapping[str, Callable[[float, float], tuple[DrawnLine, ...]]] = MappingProxyType(
     {"weight": weight_mark, "support": support_mark, "force": force_mark}
 )

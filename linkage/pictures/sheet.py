@@ -15,6 +15,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator, ScalarFormatter
 
 from ..disk import check_place, replacing
+from ..language import translated
+from ..units import factor, shown_in
 from . import style
 from .scene import Bounds
 
@@ -22,13 +24,15 @@ from .scene import Bounds
 def sheet(ax: Axes, box: Bounds) -> None:
     """Set up axes for a mechanism within a box [m]; they show more of the plane where their shape is another."""
     left, right, bottom, top = fitted_to(ax, box)
-    in_metres = max(right - left, top - bottom) > 1.0
+    unit = shown_in("mm")
+    if unit == "mm" and max(right - left, top - bottom) > 1.0:
+        unit = "m"
     ax.set(xlim=(left, right), ylim=(bottom, top))
     ax.set_aspect("equal", adjustable="box")
     for axis, name in ((ax.xaxis, "x"), (ax.yaxis, "y")):
-        axis.set_major_locator(MaxNLocator(11, steps=[1, 2, 5, 10]))
-        axis.set_major_formatter(ScalarFormatter(useOffset=False) if in_metres else FuncFormatter(millimetres))
-        axis.set_label_text(f"{name}, {'m' if in_metres else 'mm'}", fontsize=style.TEXT, color=style.MUTED)
+        axis.set_major_locator(RoundValues(factor(unit)))
+        axis.set_major_formatter(ScalarFormatter(useOffset=False) if unit == "m" else length_text(factor(unit)))
+        axis.set_label_text(f"{name}, {translated(unit)}", fontsize=style.TEXT, color=style.MUTED)
     quiet(ax)
     for side in ("top", "right"):
         ax.spines[side].set_visible(True)
@@ -48,9 +52,22 @@ def panels(size: tuple[float, float], across: int, down: int = 1, count: int | N
     return figure, axes
 
 
-def millimetres(value: float, _: int | None = None) -> str:
-    """Return a length [m] as text in mm."""
-    return f"{value * 1e3:.6g}".replace("-", "\N{MINUS SIGN}")
+@final
+class RoundValues(MaxNLocator):
+    """Ticks at round values of a unit that is so much of SI."""
+
+    def __init__(self, unit: float) -> None:
+        super().__init__(11, steps=[1, 2, 5, 10])
+        self.unit = unit
+
+    def tick_values(self, vmin: float, vmax: float) -> Any:
+        """Return the ticks between two values [SI]."""
+        return np.asarray(super().tick_values(vmin / self.unit, vmax / self.unit)) * self.unit
+
+
+def length_text(unit: float) -> FuncFormatter:
+    """Return what writes a length [m] in a unit that is so much of SI."""
+    return FuncFormatter(lambda value, _: f"{value / unit:.6g}".replace("-", "\N{MINUS SIGN}"))
 
 
 def fitted_to(ax: Axes, box: Bounds) -> Bounds:

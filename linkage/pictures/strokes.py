@@ -8,7 +8,7 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError, cited, known_name
-from ..language import translated
+from ..language import said, translated
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, check_any, last_holding, require_motion, stroke_display_unit
 from ..plan import Plan
@@ -47,7 +47,7 @@ class StrokeAxis:
         onward = [name for name, values in moving.items() if (np.diff(values) > 0.0).all() or (np.diff(values) < 0.0).all()]
         if len(moving) > 1 and not onward:
             steps = np.array([np.abs(np.diff(values)) * (shares[name] / np.ptp(values)) for name, values in moving.items()]).max(axis=0)
-            return cls("way", "%", 100.0 * np.append(0.0, np.cumsum(steps) / steps.sum()), others_in_words(motion, ""))
+            return cls(said("way"), "%", 100.0 * np.append(0.0, np.cumsum(steps) / steps.sum()), others_in_words(motion, ""))
         name = max(onward or moving or plan.strokes, key=lambda name: shares.get(name, 0.0))
         unit = shown_in(stroke_display_unit(plan, name, "mm"))
         return cls(name, unit, np.asarray(motion.strokes[name] / factor(unit)), others_in_words(motion, name))
@@ -86,7 +86,9 @@ def way_words(motion: Motion, name: str) -> str:
     """Return the value of a stroke in a motion as text, or its first, its last, and those where it turns back between."""
     values = np.ravel(motion.strokes[name])
     first, *others = (stroke_words(motion.plan, name, float(values[index])) for index in turning_points(values))
-    return " to ".join([first, *(text.removeprefix(f"{name} = ") for text in others)])
+    for text in others:
+        first = said("{low} to {high}", low=first, high=text.removeprefix(f"{name} = "))
+    return first
 
 
 def turning_points(values: FloatArray) -> list[int]:
@@ -104,13 +106,16 @@ def unreached_words(motion: Motion, moving: str) -> str:
     if reached.all() or not reached.any():
         return ""
     if moving not in motion.strokes:
-        return f"not reached over {100.0 * (1.0 - reached.mean()):.2g} % of the way"
-    said = []
+        return said("not reached over {share} % of the way", share=f"{100.0 * (1.0 - reached.mean()):.2g}")
+    found = []
     for edge in np.flatnonzero(reached[1:] != reached[:-1]).tolist():
         inside, outside = (edge, edge + 1) if reached[edge] else (edge + 1, edge)
         last = _last_reached(motion, moving, inside, outside)
-        said.append(f"{'beyond' if outside > inside else 'before'} {stroke_words(motion.plan, moving, last)}")
-    return "not reached " + " and ".join(said)
+        place = stroke_words(motion.plan, moving, last)
+        found.append(
+            said("not reached beyond {place}", place=place) if outside > inside else said("not reached before {place}", place=place)
+        )
+    return ", ".join(found)
 
 
 def _last_reached(motion: Motion, moving: str, inside: int, outside: int) -> float:

@@ -10,6 +10,8 @@ MUTED = "#67737f"
 RULE = "#c3cbd3"
 GRID = "#e9edf0"
 PAPER = "#ffffff"
+AROUND = "#98a2ac"
+"""The lines of what stands around a mechanism; they do not outshine it."""
 CURVE = "#0072b2"  # Okabe and Ito's blue
 ACCENT = "#d55e00"  # Okabe and Ito's vermilion: paths, limits, what falls short
 BODIES = (

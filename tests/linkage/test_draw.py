@@ -320,7 +320,7 @@ def test_the_legend_says_which_pose_is_which():
     assert legend(draw(MowerLift(), path=["G"])) == ["S = 550 mm", "S = 800 mm", "path of G"]
     assert legend(draw(ThreePointHitch(), path=["F", "G"]))[2:] == ["paths of F, G"]
     assert legend(draw(ThreePointHitch(), at=[0.0, 0.1, 0.25])) == ["S = 0 mm", "S = 100 mm", "S = 250 mm"]
-    assert legend(draw(FourBar())) == ["phi = 180°", "phi = 0°"]
+    assert legend(draw(FourBar())) == ["phi = 270°", "phi = 100°"]
     assert legend(draw(Crane(), at={"S2": [0.9, 1.2]})) == ["S2 = 900 mm", "S2 = 1200 mm"]
     assert legend(draw(TooLong())) == ["S = 550 mm"]
 

@@ -1,5 +1,7 @@
 """What stands around a mechanism: declared, drawn with what carries it, kept in files, and without any effect on what is computed."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from matplotlib import image
@@ -9,7 +11,7 @@ from numpy.testing import assert_allclose
 from linkage import LEFT, Crank, DefinitionError, Dimension, FileError, Ground, Link, Mechanism, OnLink, Outline, Stroke, Weight, deg, draw
 from linkage.files import from_dict, load, to_dict, to_toml
 from linkage.pictures import mechanism
-from linkage.pictures.browser import Pixels, scenery
+from linkage.pictures.browser_data import piece_data
 from linkage.pictures.drawing import PiecePart
 from linkage.pictures.scene import Scene
 from linkage.statics import driving_force
@@ -203,16 +205,20 @@ def test_a_large_wheel_is_clipped_rather_than_the_linkage_shrunk():
 
 def test_a_page_has_the_same_lines():
     scene = Scene(Placed().sweep(5))
-    data, pixels = scenery(scene, ()), Pixels(scene)
-    assert [each["name"] for each in data["pieces"]] == [each.name for each in scene.surroundings]
-    pose = 2
-    at = scene.at(pose)
-    for each, given in zip(data["pieces"], scene.surroundings, strict=True):
-        places = [np.array(data["poses"][pose][number]) for number in each["on"]] or [np.array(each["origin"])]
-        along = (places[1] - places[0]) / np.hypot(*(places[1] - places[0])) if len(places) > 1 else np.array([1.0, 0.0])
-        for line, own in zip(each["lines"], given.lines, strict=True):
-            seen = places[0] + np.array(line["rows"]) @ np.array([along, [-along[1], along[0]]])
-            assert_allclose(seen, pixels.of(given.placed(own.rows[:, 1:], at)), atol=0.35)
+    names = list(scene.places)
+    for each in scene.surroundings:
+        data = piece_data(each, {name: place for place, name in enumerate(names)}, scene)
+        assert tuple(names[number] for number in data["on"]) == each.on
+        for line, own in zip(data["lines"], each.lines, strict=True):
+            seen, corners = np.array(line["rows"]), own.rows[:, 1:]
+            assert_allclose(seen[[0, -1]], corners[[0, -1]], atol=1e-4)
+            away = np.min([distances_to_segment(corners, P, Q) for P, Q in pairwise(seen)], axis=0)
+            assert away.max() <= 0.1 * scene.size
+
+
+def distances_to_segment(points, P, Q):
+    share = np.clip((points - P) @ (Q - P) / max((Q - P) @ (Q - P), 1e-30), 0.0, 1.0)
+    return np.hypot(*(points - P - share[:, None] * (Q - P)).T)
 
 
 # -- from files --------------------------------------------------------------------------------------------

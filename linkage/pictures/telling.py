@@ -1,0 +1,135 @@
+"""The angles at which a machine that turns round is drawn: where its picture is open, and where what it is about has its ends."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from ..errors import LinkageError, unwarned
+from ..mechanism import Mechanism
+from ..motion import Motion
+from ..program import FloatArray
+from .scene import Scene
+from .strokes import column_shown, is_changing
+
+STEP, FINE = 10, 10
+"""Degrees between the angles that are tried, and steps into which each is divided to find where something turns back."""
+CLEAR = 10.0
+"""Degrees that the bold pose keeps from a dead point."""
+ROOM = 6.0
+"""Pins that stand so many sizes apart, or as far as the machine allows, have room for their names."""
+SEPARATE = 30.0
+"""Degrees that the poses stand apart from each other."""
+FEW = 4
+"""Of more moving bodies one faint pose is drawn, not two."""
+
+
+def telling_angles(machine: Mechanism, stroke: str, values: Mapping[str, Any]) -> FloatArray:
+    """Return the angles of a stroke that goes round at which the machine is drawn, the bold pose last [rad].
+
+    That one is the most open of those a step apart that keep clear of dead points. The others are where what the machine is about is
+    least and greatest; where that does not change or stands too near, the opposite pose. `values` hold the other strokes [SI].
+    """
+    start, end = machine.strokes[stroke].start, machine.strokes[stroke].end
+    steps = max(1, round(abs(end - start) / np.radians(STEP)))
+    still = {name: float(np.ravel(value)[-1]) for name, value in values.items() if name != stroke}
+    finely = machine.at(unreachable="nan", **still | {stroke: np.linspace(start, end, steps * FINE + 1)})
+    if finely.reached.sum() < 2:
+        return np.array([0.5 * (start + end), start])
+    tried = machine.at(unreachable="nan", **still | {stroke: np.linspace(start, end, steps + 1)[:-1]})
+    scene = Scene(tried, finely)
+    bold = most_open(tried, scene, turning_back(finely))
+    others = faint_poses(machine, tried, bold)
+    shown = others if len(scene.bodies) <= FEW else others[-1:]
+    return np.asarray(np.ravel(tried.strokes[stroke])[[*shown, bold]])
+
+
+def faint_poses(machine: Mechanism, tried: Motion, bold: int) -> list[int]:
+    """Return up to two poses beside the bold one: the ends of what the machine is about, the farther one last, else the opposite one."""
+    steps, reached = tried.reached.size, tried.reached.ravel()
+    found: list[int] = []
+    for pose in sorted(ends_of_featured(machine, tried), key=lambda pose: -int(way_round(pose, bold, steps))):
+        if min(STEP * way_round(pose, other, steps) for other in [bold, *found]) >= SEPARATE:
+            found.append(pose)
+    opposite = (bold + steps // 2) % steps
+    return found[::-1] or [opposite] * bool(reached[opposite])
+
+
+def way_round(one: Any, other: Any, steps: float) -> Any:
+    """Return how many steps two poses of a round of so many are apart, the shorter way."""
+    return np.minimum(np.abs(one - other), steps - np.abs(one - other))
+
+
+def turning_back(finely: Motion) -> FloatArray:
+    """Return where pins stand still because they turn back, as shares of the round: the dead points of what rocks and slides."""
+    poses = finely.reached.size - 1
+    found: list[float] = []
+    for name in finely.plan.points:
+        path = finely[name].reshape(2, -1)
+        going = np.diff(path, axis=1)
+        going = np.concatenate([going, going[:, :1]], axis=1)
+        is_back = (going[:, 1:] * going[:, :-1]).sum(axis=0) < 0.0
+        if np.nanmax(np.ptp(path, axis=1), initial=0.0) > 0.0:
+            found += ((np.flatnonzero(is_back) + 1.0) / poses).tolist()
+    return np.unique(found)
+
+
+def most_open(tried: Motion, scene: Scene, dead: FloatArray) -> int:
+    """Return the pose, among those that keep clear of dead points [shares of the round] and of crowded pins, that is most open."""
+    poses = tried.reached.size
+    shares = np.arange(poses) / poses
+    degrees = STEP * poses * np.min([way_round(shares, each, 1.0) for each in dead] or [np.ones(poses)], axis=0)
+    nearest = least_distances(scene)
+    best = float(np.nanmax(np.where(tried.reached.ravel(), nearest, np.nan)))
+    is_roomy = nearest >= min(ROOM * scene.size, 0.8 * best) * (1.0 - 1e-9)
+    is_clear = degrees > CLEAR
+    for allowed in (is_roomy & is_clear, is_clear, is_roomy, np.ones(poses, bool)):
+        allowed = allowed & tried.reached.ravel()
+        if allowed.any():
+            break
+    open_by = openness(scene) * (np.minimum(nearest / best, 1.0) if 0.0 < best < np.inf else 1.0)
+    return int(np.argmax(np.where(allowed, open_by, -np.inf)))
+
+
+def least_distances(scene: Scene) -> FloatArray:
+    """Return how near the two nearest pins are at every pose, shape (n,) [m], of those whose distance changes or is not zero."""
+    places = [scene.places[name] for name in (*scene.pins, *scene.dots)]
+    apart = np.array([np.hypot(*(P - Q)) for P, Q in combinations(places, 2)])
+    apart = apart[np.nanmax(np.ptp(apart, axis=1, keepdims=True), axis=1) > 1e-9 * np.nanmax(apart)]
+    return np.asarray(np.min(apart, axis=0, initial=np.inf) if apart.size else np.full(scene.motion.reached.size, np.inf))
+
+
+def openness(scene: Scene) -> FloatArray:
+    """Return how open the angles at the joints are at every pose, shape (n,): the sine of the least open one that changes, and of all."""
+    sines = []
+    for one, other in angle_arms(scene):
+        long = np.hypot(*one) * np.hypot(*other)
+        across = np.abs(one[0] * other[1] - one[1] * other[0]) / np.where(long > 0.0, long, np.inf)
+        if np.ptp(across[np.isfinite(across)]) > 1e-6:
+            sines.append(np.nan_to_num(across))
+    return np.min(sines, axis=0) + 0.3 * np.mean(sines, axis=0) if sines else np.zeros(scene.motion.reached.size)
+
+
+def angle_arms(scene: Scene) -> Iterator[tuple[FloatArray, FloatArray]]:
+    """Yield the arms of every angle between two bodies at a pin that they share, or one of them and the frame or a track."""
+    at = scene.places | scene.rims
+    bodies = [*scene.bodies, *({each.P, each.Q} for each in scene.hung), scene.grounds]
+    bodies += [(rider, track.ends[1]) for track in scene.tracks for rider in track.riders]
+    for one, other in combinations(bodies, 2):
+        for pin in set(one) & set(other):
+            yield from ((at[P] - at[pin], at[Q] - at[pin]) for P in set(one) - {pin} for Q in set(other) - {pin})
+
+
+def ends_of_featured(machine: Mechanism, tried: Motion) -> list[int]:
+    """Return the poses at which what the machine is about is least and greatest; none where it does not change or is not to be had."""
+    try:
+        with unwarned():
+            values = column_shown(machine, tried, None).drawn
+    except LinkageError:
+        return []
+    if not is_changing(values):
+        return []
+    return [int(np.nanargmin(values)), int(np.nanargmax(values))]

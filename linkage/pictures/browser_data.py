@@ -106,7 +106,8 @@ class PageRequests:
         if not self.motion.reached.any():
             machine.at(**values)
         self.scene = Scene(self.motion)
-        self.featured = machine.featured()
+        with language("en"):  # what is said otherwise in Russian is asked for apart
+            self.featured = machine.featured()
         self.trace = named_points(machine, list(self.featured.path) if trace is None else trace, "trace")
         self.vary = ranges_given(machine, vary)
         with unwarned():
@@ -135,6 +136,14 @@ class PageRequests:
                 raise unknown("Column", name, self.columns, where=f"{self.plan.title}: limit")
         known = {name: each for name, each in self.featured.limits.items() if name in self.columns}
         return {name: (float((found := limit_of(each)).value), found.text, found.fails) for name, each in (known | given).items()}
+
+    def said_otherwise(self, name: str) -> str:
+        """Return in Russian what a limit says, where the machine has said it; a limit that was given says what it says."""
+        with language("ru"):
+            known = self.machine.featured().limits.get(name)
+        plain = self.featured.limits.get(name)
+        own = plain is not None and known is not None and limit_of(plain).text == self.limits[name][1]
+        return limit_of(known).text if own and known is not None else self.limits[name][1]
 
     def _ask(self) -> None:
         """Note all that is asked of the program."""
@@ -165,16 +174,23 @@ class PageRequests:
         loads = acting_points(self.plan)
         if not loads:
             return []
-        found = [(each.point, joint_part(each, joints, "x"), joint_part(each, joints, "y")) for each in joints if each.has_force]
+        forces = [each for each in joints if each.has_force]
+        told = [each for each in forces if alone_on(each, forces)]
+        found = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y")) for each in told]
         return found + [(point, ActingForce(k, 0), ActingForce(k, 1)) for k, point in loads]
+
+
+def alone_on(joint: JointForce, joints: Sequence[JointForce]) -> str:
+    """Return the body, its own or else the other, on which a joint's force is the only one at its point; "" where there is none."""
+    bodies = [body for each in joints if each.point == joint.point for body in (each.on, each.by)]
+    return next((body for body in (joint.on, joint.by) if bodies.count(body) == 1), "")
 
 
 def joint_part(joint: JointForce, joints: Sequence[JointForce], axis: str) -> Request:
     """Return what asks for a part of a joint's force on its own body; where several joints of it meet there, by the other body's."""
-    bodies = [body for each in joints if each.point == joint.point for body in (each.on, each.by)]
-    if bodies.count(joint.on) == 1:
-        return pin_force(joint.point, joint.on, axis)
-    found: Request = -1.0 * pin_force(joint.point, joint.by, axis)
+    body = alone_on(joint, joints)
+    asked = pin_force(joint.point, body, axis)
+    found: Request = asked if body == joint.on else -1.0 * asked
     return found
 
 
@@ -265,7 +281,7 @@ def page_data(requests: PageRequests, live: LiveText) -> dict[str, Any]:
         "run": list(machine.strokes).index(run.stroke),
         "columns": columns,
         "column": list(requests.columns).index(requests.column),
-        "limits": {typeset(name): [value, typeset(text), fails] for name, (value, text, fails) in requests.limits.items()},
+        "limits": {typeset(name): limit_data(requests, name) for name in requests.limits},
         "rows": {"points": [row_pair(live, f"point {name}") for name in plan.points]},
         "scene": scene_data(requests, live),
         "cylinders": cylinder_data(requests, live),
@@ -374,6 +390,13 @@ def column_data(name: str, found: tuple[Column, RequestLike, str], live: LiveTex
 def seven_digits(values: FloatArray) -> list[float | None]:
     """Return values to seven digits; None for one that is not finite."""
     return [float(f"{value:.7g}") if np.isfinite(value) else None for value in values.tolist()]
+
+
+def limit_data(requests: PageRequests, name: str) -> list[Any]:
+    """Return a column's limit [SI], its words, the side that fails, and its words in Russian where they are others."""
+    value, text, fails = requests.limits[name]
+    russian = requests.said_otherwise(name)
+    return [value, typeset(text), fails, *([typeset(russian)] if russian != text else [])]
 
 
 def grip_data(plan: Plan, names: Sequence[str]) -> list[dict[str, int]]:

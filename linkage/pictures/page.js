@@ -438,7 +438,7 @@ function plotted() {
   const box = plot.getBoundingClientRect(), W = box.width || 400, H = box.height || 200, one = columns[column], two = columns[second];
   plot.replaceChildren();
   set(plot, { viewBox: `0 0 ${W} ${H}` });
-  const stroke = strokes[runs], given = one && data.limits[one.name], limit = given ? [given[0] / one.factor, given[1], given[2]] : null;
+  const stroke = strokes[runs], given = one && data.limits[one.name], limit = given ? [given[0] / one.factor, limitText(given), given[2]] : null;
   const values = inUnit(one, now), others = two ? inUnit(two, now) : null, was = isChanged() || isMoved() ? inUnit(one, base) : null;
   const same = two && two.unit === one.unit, T = 10, B = 40;
   const [low, high] = range([values, isMoved() ? null : was, same ? others : null], limit), [low2, high2] = same ? [low, high] : range([others]);
@@ -462,8 +462,9 @@ function plotted() {
     rule(x(s), T, x(s), H - B, "grid"); write(x(s), H - B + 15, text, { anchor: x(s) > W - R - 10 ? "end" : "middle" });
   }
   rule(L, T, L, H - B, "rule"); rule(L, H - B, W - R, H - B, "rule");
-  write(0.5 * (L + W - R), H - 6, `${stroke.name}, ${signed(stroke.unit)}`, { anchor: "middle" });
-  if (was && !isMoved()) line(was, y, "muted", 2, { dash: "3 4" });
+  const compares = was && !isMoved();
+  write(compares ? L : 0.5 * (L + W - R), H - 6, `${stroke.name}, ${signed(stroke.unit)}`, { anchor: compares ? "start" : "middle" });
+  if (compares) line(was, y, "muted", 2, { dash: "3 4" });
   if (others) line(others, same ? y : y2, "other", 2.2, {});
   chart = { one, two, values, others, along, x, y, y2: same ? y : y2 };
   if (values) {
@@ -485,7 +486,7 @@ function plotted() {
   const reason = one && one.row === undefined && one.why ? one.why : "";
   if (!values && one) write(L + 8, T + 18, say("as delivered only: this column is not followed in the page"), { class: "note halo" });
   byId("column").title = reason;
-  if (was && !isMoved()) write(W - R, H - 6, say("dashed: as delivered"), { anchor: "end" });
+  if (compares) write(W - R, H - 6, say("dashed: as delivered"), { anchor: "end" });
   chart.second = draw(plot, "circle", { r: 4.5, w: 2, fill: css("other"), stroke: css("paper") });
   chart.marker = draw(plot, "circle", { r: 6, w: 2, fill: css("curve"), stroke: css("paper") });
 }
@@ -553,7 +554,9 @@ function ends(lost) {
   }
   return said;
 }
-function judged(each, [value, text, side], add) {
+const limitText = ([, text, , ru]) => (language === "ru" && ru) || text;
+function judged(each, limit, add) {
+  const [value, , side] = limit, text = limitText(limit);
   const ext = extremes(series(each, now));
   if (!ext) return;
   const worst = side === "below" ? ext.low : ext.high, ok = side === "below" ? worst.value >= value : worst.value <= value;
@@ -581,12 +584,14 @@ function cylinder(each, add) {
     if (k > 0) add(null, each.name, say("its length stands still at about {where}, where its thrust moves nothing", { where: strokeText(now.along[now.reached[k]]) }));
   }
   const pressed = each.pressure === undefined ? null : extremes(now.values[each.pressure]);
-  const judges = !data.verdicts.length || !base.reached.some((i) => base.values[each.pressure][i] > (each.most === undefined ? Infinity : base.values[each.most][i]));
+  const row = (name) => base.values[each[name]] || [], exceeds = (i) => row("pressure")[i] > row("most")[i] || row("reserve")[i] < 1;
+  /* A machine that has verdicts and is content with the delivered design though it exceeds these has a rule of its own for them. */
+  const judges = !data.verdicts.length || data.verdicts.some(([ok]) => ok === 0) || !base.reached.some(exceeds);
   if (pressed) {
     const unit = data.pressureUnit, most = at(each.most), given = { pressure: shown(pressed.high.value, unit, 4), where: strokeText(pressed.high.at), most: shown(most, unit, 4) };
     if (most > 0) add(judges ? pressed.high.value <= most : null, each.name, say("needs up to {pressure} at {where}; {most} are allowed", given));
     else add(null, each.name, say("needs up to {pressure} at {where}", given));
-  }
+  } else if (now.reached.length && row("pressure").some(isNumber)) add(false, each.name, say("has no pressure with these sizes; is the rod thinner than the bore?"));
   const spare = each.reserve === undefined ? null : extremes(now.values[each.reserve]);
   if (spare) add(judges ? spare.low.value >= 1 : null, each.name, say("least reserve {reserve} at {where}", { reserve: fixed(spare.low.value, 2), where: strokeText(spare.low.at) }));
 }
@@ -635,6 +640,15 @@ function strokeSliders() {
   }));
 }
 const nice = (each) => { const wide = (each.high - each.low) / each.factor / 400, power = 10 ** floor(log10(wide)); return [1, 2, 5, 10].map((k) => k * power).find((k) => k >= wide) * each.factor; };
+const LENGTHS = { mm: 1e-3, cm: 1e-2, m: 1, in: 0.0254, ft: 0.3048 };
+/* Return the value [SI] that is typed for a dimension, without a unit in its own, a length in others too; not a number for anything else. */
+function typed(text, each) {
+  const plain = text.trim().replace(/\u2212/g, "-").replace(/[\u202f\u2009\s](?=\d)/g, "").replace(",", ".");
+  const [, number, unit] = /^([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(\D*)$/i.exec(plain) ?? [];
+  if (!unit || unit === each.unit || unit === signed(each.unit)) return number === undefined ? NaN : Number(number) * each.factor;
+  return Number(number) * ((each.unit in LENGTHS && LENGTHS[unit]) || NaN);
+}
+const unexpected = (each) => (each.unit ? "{name} = {text}: a number in {unit} is expected" : "{name} = {text}: a number is expected");
 function listSizes() {
   const parent = byId("dimensions");
   sizeRows.clear();
@@ -656,8 +670,11 @@ function listSizes() {
       put(i, abs(raw - each.value) < 0.006 * (each.high - each.low) ? each.value : min(max(value, each.low), each.high));
     });
     on(box, "change", () => {
-      const value = Number(box.value.replace(/\u2212/g, "-").replace(",", ".").replace(/[^\d.eE+-]/g, "")) * each.factor;
-      if (box.value.trim() && isNumber(value) && (!each.positive || value > 0)) put(i, value, true); else { warn(say("{name} = {text}: a number is expected", { name: each.name, text: box.value })); soon("size"); }
+      const value = typed(box.value, each), wrong = !isNumber(value) ? unexpected(each) : each.positive && !(value > 0) ? "{name} = {text}: a number above zero is expected" : "";
+      if (!wrong) return put(i, value, true);
+      warn(say(wrong, { name: each.name, text: box.value, unit: signed(each.unit) }));
+      box.dataset.value = "";
+      soon("size");
     });
     on(label, "dblclick", () => put(i, each.value));
     on(drop, "click", () => { chosen = chosen.filter((other) => other !== i); listSizes(); remember(); });

@@ -9,14 +9,14 @@ from typing import final
 
 import numpy as np
 
-from ..errors import LinkageError
+from ..errors import LinkageError, UntracedError
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, require_motion
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import Dimension, Quantity, Stroke, x, y
 from ..statics import AnyMotion, LawRequest, TracedLaw, TracedMotion
-from .results import results
+from .results import columns_by, results
 
 CLOSE = 1e-6
 """How far a column may lie from the table's own values, compared with its greatest, to count as the same."""
@@ -35,8 +35,15 @@ class ColumnOf(LawRequest):
         return None
 
     def law(self, motion: AnyMotion) -> FloatArray:
-        values = results(self.machine, require_motion(motion))[self.place].values
-        return np.asarray(np.asarray(values)[()])[()]
+        given = require_motion(motion)
+        found = columns_by(self.machine, given)
+        if self.place >= len(found):
+            if isinstance(motion, TracedMotion):
+                raise UntracedError(
+                    f"{given.plan.title}: the column {self.name} is a member's, and the member does not say what asks for it."
+                )
+            found = results(self.machine, given)
+        return np.asarray(np.asarray(found[self.place].values)[()])[()]
 
     def traced(self, motion: TracedMotion) -> TracedLaw:
         law = super().traced(motion)
@@ -58,12 +65,13 @@ def column_requests(machine: Mechanism, motion: Motion) -> dict[str, tuple[Colum
     for place, column in enumerate(results(machine, motion)):
         names[column.name] += 1
         name = column.name if names[column.name] == 1 else f"{column.name} ({names[column.name]})"
-        request = plain.get(name)
-        if request is not None and column_agrees(motion, request, column):
-            found[name] = column, request, ""
-        else:
-            own = ColumnOf(machine, place, column.name)
-            found[name] = column, own, not_followed(motion, own, column)
+        own = ColumnOf(machine, place, column.name)
+        for request in (plain.get(name), column.request, own):
+            if request is not None:
+                reason = not_followed(motion, request, column)
+                found[name] = column, request, reason
+                if not reason:
+                    break
     return found
 
 
@@ -74,7 +82,7 @@ def plain_requests(plan: Plan) -> dict[str, RequestLike]:
     return points | outputs | {name: name for name in plan.strokes}
 
 
-def not_followed(motion: Motion, request: Request, column: Column) -> str:
+def not_followed(motion: Motion, request: RequestLike, column: Column) -> str:
     """Return why a program does not give a column, in words; empty where it does."""
     try:
         return "" if column_agrees(motion, request, column) else "what its program gives is not what the table says"

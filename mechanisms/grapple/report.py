@@ -25,7 +25,7 @@ MET = 1e-9
 def require_grapple(motion: Motion) -> Motion:
     """Return a motion of a grapple; DefinitionError for anything else."""
     require_motion(motion)
-    if "closing_angle" not in motion or "theta" not in motion.strokes:
+    if "closing_angle" not in motion.plan.members or "theta" not in motion.strokes:
         raise DefinitionError(f"{motion.plan.title} is no grapple; give a motion of a Grapple.")
     return motion
 
@@ -53,9 +53,10 @@ def _over(motion: Motion, start: FloatArray, end: FloatArray, count: int) -> Mot
 
 def unplaced_words(motion: Motion) -> str:
     """Return why the pin E has no place in a design of a motion, and what gives it one; empty where all have."""
-    lost = ~np.isfinite(motion["E"]).all(axis=0)
-    if not lost.any():
+    x, y = motion["E"]
+    if np.all(np.isfinite(x)) and np.all(np.isfinite(y)):
         return ""
+    lost = ~(np.isfinite(x) & np.isfinite(y))
     opened, shut, rho, swing = (
         float(np.broadcast_to(each, motion.shape)[lost][0])
         for each in (motion["open_length"], motion["shut_length"], motion.inputs["rho"], motion["closing_angle"] + motion["opening_angle"])
@@ -118,9 +119,8 @@ def grapple_columns(motion: Motion) -> list[Column]:
     state = GrappleState(require_placed(motion))
     held = motion.strokes["theta"] <= MET
     of_stems = [np.where(held, each, np.nan) for each in (state.D, state.needed, state.given / state.needed)]
-    theta = np.broadcast_to(motion.strokes["theta"], motion.shape)
     return [
-        Column("theta", theta, "deg", 2, "theta"), Column("D", of_stems[0], "mm", 1), Column("EC", motion["EC"], "mm", 1, "EC"),
+        Column("theta", motion["theta"], "deg", 2, "theta"), Column("D", of_stems[0], "mm", 1), Column("EC", motion["EC"], "mm", 1, "EC"),
         Column("H", state.H, "mm", 2), Column("M_g", state.given, "Nm", 1), Column("M_1", of_stems[1], "Nm", 1),
         Column("M_g/M_1", of_stems[2], "", 4),
     ]  # fmt: skip

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 
 from hydraulics import Cylinder, FloatCircuit, pressure
-from linkage import Column, DefinitionError, ForceElement, GuideFriction, Motion, ref
+from linkage import Column, DefinitionError, ForceElement, GuideFriction, Motion, drive_force, ratio, ref
 from linkage.errors import cited
 from linkage.language import noted
 from linkage.loads import PinFriction, Support
 from linkage.loads.element import Formulas
-from linkage.motion import greatest, require_motion
+from linkage.motion import Request, greatest, require_motion
 from linkage.program import FloatArray
-from linkage.quantities import Coordinate, Distance, is_number, is_whole
+from linkage.quantities import Coordinate, Distance, Quantity, is_number, is_whole
 from linkage.statics import driving_force, reaction
 from linkage.statics.acting import SENSES
 from linkage.units import mm, show
@@ -230,18 +230,30 @@ class HeaderState:
         return [name for name in dry_frictions(self.motion) if name != BEARING]
 
 
+def asked_arm() -> Quantity:
+    """Return the arm H of the cylinder's force about O as something to ask for [m]. (34)"""
+    OBx, OBy, ABx, ABy = (Coordinate("B", axis) - Coordinate(name, axis) for name in "OA" for axis in "xy")
+    return (OBx * ABy - OBy * ABx) / AB
+
+
+def asked_reaction(motion: Motion) -> Request:
+    """Return the reaction without friction as something to ask for [N]: the other loads' need on the stroke over the shoe's way."""
+    found: Request = drive_force("h", own_loads(motion, SHOE)) / ratio(Coordinate("R", "y"))
+    return found
+
+
 def reaction_columns(motion: Motion) -> list[Column]:
     """Return the table of a motion in the paper's units."""
     balance, shoes = HeaderState(motion), motion.inputs["shoes"]
     return [
         Column("h", motion.strokes["h"], "mm", 1, "h"),
         Column("R_y", balance.height, "mm", 1, Coordinate("R", "y")),
-        Column("H", balance.arm, "mm", 2),
+        Column("H", balance.arm, "mm", 2, asked_arm()),
         Column("P", balance.pressure, "kgf/cm2", 2, pressure("lift")),
         Column("P_req", balance.required, "kgf/cm2", 2),
         Column(noted("F_R up"), balance.up, "kgf", 1),
         Column(noted("F_R down"), balance.down, "kgf", 1),
-        Column(noted("F_R free"), balance.free, "kgf", 1),
+        Column(noted("F_R free"), balance.free, "kgf", 1, asked_reaction(motion)),
         Column(noted("per shoe up"), balance.up / shoes, "kgf", 1),
         Column(noted("per shoe down"), balance.down / shoes, "kgf", 1),
         Column(noted("hysteresis"), balance.hysteresis, "kgf", 1),

@@ -531,3 +531,21 @@ def test_table_on_a_terminal_fits_it(monkeypatch):
     screen.seek(screen.truncate(0))
     assert main(["table", "mower_lift", "--count", "501"]) == 0
     assert max(map(len, screen.getvalue().splitlines())) <= 60
+
+
+def test_every_command_can_be_asked_for_its_options(said):
+    """No two options of a command have one name; those of every command stand before and after it."""
+    for name in commands.BUILT_IN:
+        code, out, error = said(name, "--help")
+        assert (code, error) == (0, "") and out.startswith(f"usage: hydrolinkage {name}")
+
+
+def test_a_page_is_written_in_the_language_asked_for(said, tmp_path):
+    for place, options in enumerate((("--language", "ru", "page"), ("page", "--language", "ru"))):
+        file = tmp_path / f"{place}.html"
+        code, out, _ = said(*options, "mower_lift", "--count", "5", "--vary", "OB", "-o", str(file))
+        assert code == 0 and out == f"{file}\n"
+        assert '<html lang="ru"' in file.read_text(encoding="utf-8")
+    code, _, error = said("page", "mower_lift", "--vary", "OX", "-o", str(file))
+    assert code != 0 and "Dimension 'OX' is unknown" in error
+    assert '<html lang="ru"' in file.read_text(encoding="utf-8")

@@ -10,17 +10,22 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from hydraulics import Cylinder, LiftCircuit
 from linkage import (
     LEFT,
     Column,
     Crank,
+    Damper,
     DefinitionError,
     Dyad,
     Ground,
+    Guide,
     Link,
     Mechanism,
     OnLink,
+    SliderDyad,
     Stroke,
+    Verdict,
     Weight,
     angle,
     deg,
@@ -33,8 +38,12 @@ from linkage.files import load
 from linkage.pictures import page_html
 from linkage.pictures.browser import page_part
 from linkage.pictures.browser_words import SAID
+from linkage.reports import results
+from linkage.units import MPa, mm
 from mechanisms.classics.jansen import Jansen
 from mechanisms.classics.stephenson_three import StephensonThree
+from mechanisms.grapple import Grapple
+from mechanisms.header_balancer import HeaderBalancer
 from mechanisms.mower_lift import MowerLift
 from mechanisms.three_point_hitch import ThreePointHitch
 
@@ -210,7 +219,7 @@ def test_wrong_questions_are_answered_in_words(tmp_path):
 
 def test_what_a_page_says_is_what_is_translated():
     script, text = page_part("page.js"), page_part("page.html")
-    said = re.findall(r'say\("((?:[^"\\]|\\.)*)"', script) + re.findall(r'data-(?:say|tip|name)="([^"]+)"', text)
+    said = re.findall(r'say\("((?:[^"\\]|\\.)*)"', script) + re.findall(r'"(\{name\} = [^"]*)"', script) + re.findall(r'data-(?:say|tip|name)="([^"]+)"', text)
     assert set(said) <= set(SAID) and len(said) > 50
 
 
@@ -274,6 +283,40 @@ def test_own_columns_cylinders_and_forces_are_followed(chromium, written):
         weight = next(each for each in data["arrows"] if each.get("load"))
         assert_allclose(run["values"][weight["y"]], -1500 * 9.80665, rtol=1e-12)
         assert len(data["arrows"]) == 10
+
+
+@pytest.mark.parametrize(
+    ("typed", "found", "said"),
+    [
+        ("0.31 m", 0.31, ""),
+        ("31cm", 0.31, ""),
+        ("12 in", 0.3048, ""),
+        ("3,1e2", 0.31, ""),
+        ("310 foo", 0.3, "OB = 310 foo: a number in mm is expected"),
+        ("3.1 bar", 0.3, "OB = 3.1 bar: a number in mm is expected"),
+        ("abc", 0.3, "OB = abc: a number in mm is expected"),
+        ("-5", 0.3, "OB = -5: a number above zero is expected"),
+    ],
+)
+def test_what_is_typed_is_read_with_its_unit_or_refused(chromium, written, typed, found, said):
+    with Shown(chromium, written(ThreePointHitch())) as shown:
+        box = shown.tab.get_by_label("OB, mm")
+        box.fill(typed)
+        box.press("Enter")
+        shown.settle()
+        assert shown.state["design"]["OB"] == pytest.approx(found, rel=1e-12)
+        assert shown.text("#message").startswith(said)
+        assert not said or box.input_value() == "300"
+
+
+def test_a_rod_that_is_no_thinner_than_its_bore_is_told(chromium, written):
+    with Shown(chromium, written(ThreePointHitch())) as shown:
+        box = shown.tab.get_by_label("lift.bore, mm")
+        box.fill("60")
+        box.press("Enter")
+        shown.settle()
+        assert "lift: has no pressure with these sizes" in shown.text("#live")
+        assert "fail" in shown.text("#badge") or "does not hold" in shown.text("#badge")
 
 
 def test_a_slider_changes_its_dimension_and_the_verdicts_are_marked_as_of_the_delivered_design(chromium, written):
@@ -508,6 +551,81 @@ def test_a_machine_of_a_file_and_requests_as_columns(chromium, written):
         row = shown("hydrolinkage.data.columns[0][2]")
         torque = FourBar().sweep(101)[drive_force()]
         assert_allclose(shown("hydrolinkage.sweep()")["values"][row], torque, rtol=1e-10, atol=1e-9)
+
+
+class Lifting(Mechanism):
+    """A weight on an arm that a cylinder holds, and one of another make beside it; nothing of its own is said about it."""
+
+    S = Stroke(0.0, 0.2)
+    O, P = Ground(0, 0), Ground(0.5, -0.4)
+    B = Dyad(O, P, OB=0.6, PB=0.55 + S, side=LEFT)
+    C = OnLink(O, B, OC=1.5)
+    load = Weight(C, mass=1000)
+    lift = Cylinder(P, B, bore=63 * mm, rod=36 * mm, closed=0.5, stroke=0.3)
+    line = LiftCircuit(lift, pressure=20 * MPa)
+
+
+class Held(Lifting):
+    """The same, whose cylinder is only drawn."""
+
+    line = None
+    lift = None
+    load = None
+
+
+class Shared(Mechanism):
+    """A crank and a slider with a damper from the crank's axle, where a torque is carried over too."""
+
+    phi = Stroke(0.2, 1.2)
+    O = Ground(0, 0)
+    A = Crank(O, OA=0.2, angle=phi)
+    rail = Guide((0.0, 0.05), angle=0.0)
+    B = SliderDyad(A, rail, AB=0.6, side=LEFT)
+    brush = Damper(O, B, coefficient=400.0)
+    mass = Weight(A, mass=10)
+
+
+def test_what_every_machine_is_given_is_followed(chromium, written):
+    """Its drive's force, thrust, pressure and reserve, at another design too."""
+    design = {"OB": 0.58, "load.mass": 1100.0}
+    with Shown(chromium, written(Lifting())) as shown:
+        assert shown("(given) => hydrolinkage.set(given)", {"design": design})
+        run = shown("hydrolinkage.sweep()")
+        mine = {each.name: np.asarray(each.values) for each in results(Lifting(**design), Lifting(**design).sweep(101))}
+        rows = {name: row for name, _, row, *_ in shown("hydrolinkage.data.columns")}
+        assert {"drive force", "thrust", "pressure", "reserve"} < rows.keys() and min(rows.values()) >= 0
+        for name, row in rows.items():
+            assert_allclose(np.array(run["values"][row], float), np.broadcast_to(mine[name], (101,)), rtol=1e-10, atol=1e-12)
+
+
+def test_a_delivered_design_that_asks_too_much_is_told_so(chromium, written, tmp_path):
+    heavy = Lifting(**{"load.mass": 9000.0})
+    assert any(each.ok is False for each in heavy.verdicts(heavy.sweep(101)) if isinstance(each, Verdict))
+    with Shown(chromium, page(heavy, tmp_path / "heavy.html")) as shown:
+        failing = [each["text"] for each in shown("hydrolinkage.verdicts()") if each["ok"] is False]
+        assert any("are allowed" in each for each in failing) and any("least reserve" in each for each in failing)
+        assert shown("document.getElementById('badge').dataset.fails") != "0"
+
+
+def test_a_cylinder_of_which_nothing_is_known_is_drawn(chromium, written):
+    with Shown(chromium, written(Held())) as shown:
+        assert shown.said == []
+        (ram,) = shown("hydrolinkage.data.cylinders")
+        assert "pressure" not in ram
+
+
+def test_a_pin_with_several_joints_and_a_torque_has_the_arrows_that_can_be_told_apart(chromium, written):
+    with Shown(chromium, written(Shared())) as shown:
+        assert shown.said == [] and len(shown("hydrolinkage.data.arrows")) >= 4
+
+
+def test_what_a_balancer_and_a_grapple_are_about_is_followed(tmp_path):
+    for machine, names in ((HeaderBalancer(), {"H", "P", "F_R free"}), (Grapple(), {"D", "H", "M_g", "M_1", "M_g/M_1"})):
+        data = data_of(page_html(machine, at={}))
+        rows = {name: row for name, _, row, *_ in data["columns"]}
+        assert names <= {name for name, row in rows.items() if row >= 0}
+        limits = list(data["limits"].values())
+        assert limits and all(re.search("[\u0430-\u044f]", each[3]) for each in limits)
 
 
 # -- all machines ------------------------------------------------------------------------------------------

@@ -212,7 +212,7 @@ def broken_links(folder):
             place, name = urldefrag(address)
             if re.match(r"[a-z]+:", place):
                 continue
-            target = (path.parent / unquote(place)).resolve() if place else path
+            target = (path.parent / unquote(place.partition("?")[0])).resolve() if place else path
             if not target.exists() or (name and target in pages and unquote(name) not in pages[target].names):
                 yield path.name, address
 

@@ -1,8 +1,8 @@
 """Which column of a calculation gives which column of a machine's table of results.
 
 A machine makes its table by functions of its own, which no formula can be read from. So a column is live where an equation gives its
-numbers to the last digits: for this design, and for others whose dimensions all differ a little. Where that holds only as long as some
-dimensions are 0 or 1 (a friction, an efficiency that no equation has), the formula says so.
+numbers to the last digits: of this design at every pose, and at some poses of others whose dimensions all differ a little. Where that
+holds only as long as some dimensions are 0 or 1 (a friction, an efficiency that no equation has), the formula says so.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ class FormulaSearch:
 
     def found(self) -> list[LiveResult]:
         """Return each column with the first formula that gives it everywhere."""
-        self.here = self._trial(self.calculation.design)
+        self.here = self._trial(self.calculation.design, self.calculation.stroke_values)
         self.changed = self._first(self._changes(all_of=True))
         self.beside = self._first(self._changes(all_of=False))
         found = [self._live(place, self._named(place)) for place in range(len(self.table))]
@@ -153,15 +153,15 @@ class FormulaSearch:
 
     def _trial_of(self, change: Mapping[str, float]) -> Trial | None:
         try:
-            return self._trial(self.calculation.design.replaced(**change))
+            return self._trial(self.calculation.design.replaced(**change), self.poses)
         except LinkageError:
             return None
 
-    def _trial(self, design: Mechanism) -> Trial | None:
+    def _trial(self, design: Mechanism, poses: Mapping[str, Any]) -> Trial | None:
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore", SingularWarning)
-                motion, known = self.calculation.at_design(design, self.poses)
+                motion, known = self.calculation.at_design(design, poses)
                 table = results(design, motion)
         except LinkageError:
             return None

@@ -219,6 +219,17 @@ def test_a_friction_that_no_equation_has_is_a_condition():
     assert found["F_R up"] is None and found["F_R free"] is not None
 
 
+def test_a_formula_gives_its_column_at_every_pose_or_is_none():
+    """Where the load drives the cylinder the equations, which are those of lifting, do not hold."""
+    lift = MowerLift()
+    whole, beyond = (
+        {each.column.name: each.expr for each in live_results(Calculation(lift, run_of(lift, {"S": ends}), 101))}
+        for ends in ((0.55, 0.80), (0.55, 0.825))
+    )
+    assert all(whole[name] is not None for name in ("PI/k_m", "F", "pd", "kz"))
+    assert [name for name in whole if whole[name] is not None and beyond[name] is None] == ["PI/k_m", "F", "pd", "kz"]
+
+
 def test_texts_are_no_formulas(tmp_path):
     class Sly(Turned):
         """=HYPERLINK("http://example.org", "click")"""

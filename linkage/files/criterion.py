@@ -22,8 +22,9 @@ import numpy as np
 from ..errors import DefinitionError, unknown
 from ..mechanism import Mechanism
 from ..motion import Request
+from ..motion.requests import Combined
 from ..plan import plan_measure
-from ..quantities import Quantity, angle, distance, is_number, x, y
+from ..quantities import Number, Quantity, angle, distance, is_number, x, y
 from ..steps import Point
 from ..study.measures import (
     CombinedMeasure,
@@ -124,6 +125,11 @@ def check_measures(machine: Mechanism, measures: list[Measure], constraints: lis
 
 
 @final
+class Amount(float):
+    """A number that was written with a unit [SI]."""
+
+
+@final
 class CriterionParser(Grammar):
     """Reads one measure, quantity or condition of a machine."""
 
@@ -188,6 +194,8 @@ class CriterionParser(Grammar):
     # -- parts -----------------------------------------------------------------------------------------
 
     def joined(self, sign: str, a: Any, b: Any) -> Any:
+        if sign in ("*", "/") and isinstance(a, Request) and isinstance(b, Amount):
+            return Combined("multiply" if sign == "*" else "divide", (a, Number(float(b))))  # measures something else
         try:
             found = BINARY[sign](a, b)
         except ArithmeticError:
@@ -220,7 +228,7 @@ class CriterionParser(Grammar):
         self.place += 1
         if token.kind == "number":
             self.kinds += [UNITS[token.unit][1]] if token.unit else []
-            return token.value
+            return Amount(token.value) if token.unit else token.value
         if token.kind == "name" and self.next.text == "(":
             return self.called(token.text)
         return self.named(token.text.strip("'\""))

@@ -121,6 +121,14 @@ def test_a_load_case_and_a_direction_reach_every_force(said):
     np.testing.assert_allclose(numbers(out)["pressure(lift), bar"], lift.pressure(motion, case="transport") / bar, rtol=1e-12)
 
 
+def test_what_is_divided_by_its_own_kind_is_a_plain_number(said):
+    _, out, _ = said("table", "loader.py", "pressure(lift)/(180 bar)", "pressure(lift)/2", "--count", "3", "--csv", "-")
+    found, motion = numbers(out), loader().sweep(3)
+    pressure = loader().plan.members["lift"].pressure(motion)
+    np.testing.assert_allclose(found["pressure(lift)/(180 bar)"], pressure / (180 * bar), rtol=1e-12)
+    np.testing.assert_allclose(found["pressure(lift)/2, bar"], pressure / 2 / bar, rtol=1e-12)
+
+
 def test_pins_and_limits_follow_the_table(said):
     code, out, _ = said("table", "loader.py", "rise", "--pins", "--limits", "--count", "3")
     assert code == 0 and str(loader().sweep(3).limits()) in out

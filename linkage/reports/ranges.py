@@ -93,9 +93,12 @@ class Run:
         steps = np.array([np.abs(np.diff(way)) / (np.ptp(way) or 1.0) for way in self.ways.values()]).max(axis=0)
         return np.concatenate([[0.0], np.cumsum(steps) / steps.sum()])
 
-    def over(self, shares: Any) -> dict[str, Any]:
-        """Return all strokes at shares of the way, 0 to 1: what `at` takes."""
-        return {**self.held, **{name: np.interp(shares, self.marks, way) for name, way in self.ways.items()}}
+    def over(self, shares: FloatArray) -> dict[str, Any]:
+        """Return all strokes at shares of the way, shape (n,), 0 to 1: what `at` takes; the values passed are among them."""
+        passed = np.array(shares, float)
+        for mark in self.marks[1:-1]:
+            passed[np.argmin(np.abs(passed - mark))] = mark
+        return {**self.held, **{name: np.interp(passed, self.marks, way) for name, way in self.ways.items()}}
 
 
 def run_of(machine: Mechanism, at: At = NOTHING) -> Run:

@@ -73,6 +73,11 @@ def test_several_strokes_run_together_from_value_to_value():
     assert_allclose(over["tilt"], [0.1, 0.1, 0.1, 0.15, 0.2])
 
 
+def test_values_that_are_passed_are_among_the_poses():
+    run = playback(FrontLoader(), 24, at=dict(lift=(0.0, 0.5, 0.1), tilt=(0.0, 0.0, 0.3)))
+    assert 0.5 in run.motion.strokes["lift"] and len(run.motion.strokes["lift"]) == 24
+
+
 @pytest.mark.parametrize(
     ("at", "axis", "held"),
     [

@@ -8,7 +8,7 @@ from numpy.testing import assert_allclose
 
 from linkage import LEFT, RIGHT, Column, Crank, DefinitionError, Dyad, Ground, Guide, Mechanism, OnGuide, OnLink, Stroke, Weight
 from linkage.pictures import animate, plot
-from linkage.pictures.browser import chart
+from linkage.pictures.curves import axis_range
 from linkage.pictures.film import Stage
 from linkage.pictures.strokes import StrokeAxis, playback, unreached_words
 from linkage.reports import results, run_of
@@ -210,7 +210,7 @@ def test_a_yoke_in_the_middle_stands_at_zero():
     stage.frame(2)
     assert stage.value.get_text() == "\N{MINUS SIGN}0.05000"
     flat = playback(ScotchYoke(), 9, "X_y")
-    assert chart(flat.motion, flat.column, None)["range"] == [-1.0, 1.0]
+    assert axis_range(flat.column) == (-1.0, 1.0)
     (ax,) = plot(flat.motion, [flat.column]).axes
     assert ax.get_ylim() == (-1.0, 1.0)
 

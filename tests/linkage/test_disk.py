@@ -44,7 +44,7 @@ def written_csv(path):
         raise FileError("the command failed")
 
 
-FRAMES = [np.full((32, 32, 3), shade, np.uint8) for shade in (0, 90, 180)]
+FRAMES = [np.full((32, 32, 4), shade, np.uint8) for shade in (0, 90, 180)]
 
 
 def moving(path):

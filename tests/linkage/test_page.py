@@ -338,7 +338,7 @@ def test_a_slider_changes_its_dimension_and_the_verdicts_are_marked_as_of_the_de
         box.fill("much")
         box.press("Enter")
         shown.settle()
-        assert "OB = much: a number is expected" in shown.text("#message")
+        assert "OB = much: a number in mm is expected" in shown.text("#message")
 
 
 def test_a_value_goes_as_far_as_can_be_assembled_and_says_why_no_farther(chromium, written):

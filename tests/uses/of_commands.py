@@ -191,8 +191,8 @@ USES = [
     ("animate lever.py -o @", "a.gif --at S=0.6", ("nothing moves; give S two values, its run.",)),
     (
         "animate lever.py -o @",
-        "a.gif --at S=0.5,0.6,0.7",
-        ("hydrolinkage: Lever: S=array([0.5, 0.6, 0.7]): one number", "ones are the ends of its run."),
+        "a.gif --at S=0.5,0.5",
+        ("hydrolinkage: Lever: S=array([0.5, 0.5]): one number", "ones are the ends of its run"),
     ),
     ("save lever.py @", "a.txt; a", ("hydrolinkage:", "the name of a mechanism's file ends in .toml or .json.")),
     ("save lever.py @", "nowhere/a.toml", ("hydrolinkage: nowhere/a.toml: the folder nowhere is not there; make it first",)),

@@ -187,8 +187,8 @@ USES = [
         '"ell"; 3; None; []; {}; masked',
         (
             "is unknown in Dimension(0.6, unit=...).",
-            "Known: m, mm, cm, inch, rad, deg, °,",
-            "kgf/cm2, l, litre, cm3, m3, cm2, m2, rad/m.",
+            "Known: m, mm, cm, inch, in, ft, rad, deg, °,",
+            "kgf/cm2, psi, l, litre, cm3, m3,",
         ),
     ),
     ("made(w=@)", "Weight; Dyad", ("Made.w =", "is the class, no member; write w =")),
@@ -800,7 +800,7 @@ USES = [
     (
         'study.settings_for(lifting, "OB", "tilt", 1.0, between=(0.25, 0.35), unit=@, S=0.1)',
         '"ell"; 3; None; []',
-        ("is unknown in settings_for(unit=...).", "Known: m, mm, cm, inch, rad, deg, °,", "kgf/cm2, l, litre, cm3, m3, cm2, m2, rad/m."),
+        ("is unknown in settings_for(unit=...).", "Known: m, mm, cm, inch, in, ft, rad, deg, °,", "kgf/cm2, psi, l, litre, cm3, m3,"),
     ),
     (
         'study.settings_for(lifting, {"OB": (0.25, 0.35)}, @)',
@@ -982,7 +982,7 @@ USES = [
     (
         "Column(@)",
         '"a", np.ones(2), "ell"; "a", np.ones(2), 3',
-        ("is unknown in the column a.", "Known: m, mm, cm, inch, rad, deg, °,", "kgf/cm2, l, litre, cm3, m3, cm2, m2, rad/m."),
+        ("is unknown in the column a.", "Known: m, mm, cm, inch, in, ft, rad, deg, °,", "kgf/cm2, psi, l, litre, cm3, m3,"),
     ),
     ("draw(@)", "None; 3", ("is no mechanism; give a design such as FourBar().",)),
     ("draw(@)", "Lift", ("Lift is a class, the structure; give a design of it, Lift().",)),
@@ -994,7 +994,7 @@ USES = [
         '0; 1; -1; 1.5; "a"; None; 10**20; True',
         ("a path is drawn through 2 poses or more; give a whole number such as 101.",),
     ),
-    ('plot(@, ["tilt"])', "None; 3; lifting", ("is no motion; give machine.sweep(...) or machine.at(...).",)),
+    ('plot(@, ["tilt"])', "None; 3", ("is no motion; give machine.sweep(...) or machine.at(...).",)),
     ('plot(@, ["tilt"])', "many", ("Lift: curves over a stroke need one", "and give every other a value: S.")),
     ('plot(motion, ["tilt"], limits=@)', '3; "a"', ("a limit for each column by its name is expected, dict(tilt=(0.1, 'max')).",)),
     ('plot(motion, ["tilt"], limits=@)', '{"Q": (1.0, "a")}', ("Column 'Q' is unknown in limits. Known: tilt.",)),
@@ -1028,12 +1028,12 @@ USES = [
     ("parse(@)", '3; None; "3mm", 4', ("is no text; write a number and a unit in quotes, '180mm'.",)),
     ("parse(@)", '""; "a"; "nan"', ("is not a value; write a number and a unit, such as 180mm or -75deg.",)),
     ("parse(@)", '"1,5 mm"', ("'1,5 mm': decimals are written with a point, '1.5 mm'.",)),
-    ("parse(@)", '"3 ell"', ("Unit 'ell' is unknown in '3 ell'.", "l, litre, cm3, m3, cm2, m2, rad/m.")),
+    ("parse(@)", '"3 ell"', ("Unit 'ell' is unknown in '3 ell'.", "psi, l, litre, cm3, m3,")),
     ("parse(@)", '"3mm", "angle"', ("'3mm' is a length where a value of kind angle is wanted; use one of: rad, deg, °.",)),
     ("show(@)", 'None, "mm"; "a", "mm"; 0.3, "mm", 0; 0.3, "mm", "a"; [1.0], "mm"', ("a number and its digits are expected.",)),
     (
         "show(@)",
         '0.3, "ell"; 0.3, 3; 0.3, None',
-        ("is unknown.", "Known: m, mm, cm, inch, rad, deg, °,", "kgf/cm2, l, litre, cm3, m3, cm2, m2, rad/m."),
+        ("is unknown.", "Known: m, mm, cm, inch, in, ft, rad, deg, °,", "kgf/cm2, psi, l, litre, cm3, m3,"),
     ),
 ]

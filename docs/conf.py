@@ -30,6 +30,7 @@ html_title = project
 html_math_renderer = "mathml"  # browsers set formulas themselves: nothing is fetched, and they are there without a network
 html_copy_source = False
 html_extra_path = ["_generated/extra"]
+(HERE / "_generated" / "extra").mkdir(parents=True, exist_ok=True)  # Sphinx looks for it before the pages are made
 html_static_path = ["static"]
 html_css_files = ["pages.css"]
 html_theme_options = {"navigation_with_keys": True}

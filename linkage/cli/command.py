@@ -53,6 +53,15 @@ def path_argument(parser: ArgumentParser) -> None:
     parser.add_argument("--path", metavar="G", action="append", help="draw this point's path (default: what it is about); repeatable")
 
 
+def run_arguments(parser: ArgumentParser, count: int, what: str) -> None:
+    """Declare the arguments that choose what runs, and at how many poses."""
+    parser.add_argument("--count", metavar="N", type=pose_count, default=count, help=f"{what} (default {count})")
+    parser.add_argument(
+        "--at", dest="strokes", metavar="S=0.6", action="append", default=[],
+        help="hold a stroke at a value, or run between two: S=0.1,650mm; without it the first runs, others stand in their middle",
+    )  # fmt: skip
+
+
 def motion_arguments(parser: ArgumentParser, count: int) -> None:
     """Declare the arguments that choose the poses."""
     parser.add_argument("--count", metavar="N", type=pose_count, default=count, help=f"poses over each stroke (default {count})")

@@ -8,7 +8,7 @@ from typing import final
 from ..errors import DefinitionError
 from ..plan import Plan, plan_measure
 from ..units import parse
-from .command import Command, machine_arguments, picture, pose_count
+from .command import Command, machine_arguments, picture, run_arguments
 from .machines import find
 from .settings import design, motion_along, stroke_values
 
@@ -31,11 +31,7 @@ class PageCommand(Command):
         )  # fmt: skip
         parser.add_argument("--column", metavar="I", help="the column of `table` that is shown first")
         parser.add_argument("--path", metavar="G", action="append", help="draw this point's path; repeatable")
-        parser.add_argument("--count", metavar="N", type=pose_count, default=101, help="poses of the curve (default 101)")
-        parser.add_argument(
-            "--at", dest="strokes", metavar="S=0.6", action="append", default=[],
-            help="hold a stroke at a value, or run between two: S=0.1,650mm; without it the first runs, others stand in their middle",
-        )  # fmt: skip
+        run_arguments(parser, 101, "poses of the curve")
 
     def run(self, options: Namespace) -> int:
         found = find(options.machine)

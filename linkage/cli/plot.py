@@ -10,7 +10,7 @@ from ..errors import DefinitionError
 from ..mechanism import Mechanism
 from ..motion import Column
 from ..reports import results
-from .command import Command, machine_arguments, motion_arguments, path_argument, picture, picture_argument, pose_count, progress_bar
+from .command import Command, machine_arguments, motion_arguments, path_argument, picture, picture_argument, progress_bar, run_arguments
 from .machines import find
 from .settings import (
     acting_of,
@@ -98,11 +98,7 @@ class AnimateCommand(Command):
         parser.add_argument("--column", metavar="I", help="the column of `table` whose curve runs along (default: what it is about)")
         path_argument(parser)
         limit_argument(parser)
-        parser.add_argument("--count", metavar="N", type=pose_count, default=60, help="poses over the stroke (default 60)")
-        parser.add_argument(
-            "--at", dest="strokes", metavar="S=0.6", action="append", default=[],
-            help="hold a stroke at a value, or run between two: S=0.1,650mm; without it the first runs, others stand in their middle",
-        )  # fmt: skip
+        run_arguments(parser, 60, "poses over the stroke")
 
     def run(self, options: Namespace) -> int:
         found = find(options.machine)

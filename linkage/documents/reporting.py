@@ -38,30 +38,13 @@ POSES = {1: 101, 2: 21}
 MANY_STROKES = 7
 
 
-def report(
-    machine: Mechanism,
-    path: str | Path,
-    *,
-    language: str | None = None,
-    units: str | None = None,
-    case: Any = None,
-    at: At = NOTHING,
-    count: int = 11,
-    columns: Sequence[str] | None = None,
-    trace: Sequence[str] | None = None,
-    limits: Mapping[str, Sequence[Any]] | None = None,
-    title_block: Mapping[str, str] = NOTHING,
-    start: int = 1,
-) -> Path:
-    """Return the path of the report it wrote, .html, .pdf or .md; see `linkage.report`."""
+def report(machine: Mechanism, path: str | Path, *, language: str | None = None, units: str | None = None, **given: Any) -> Path:
+    """Return the path of the report it wrote, .html, .pdf or .md; `given` are the other arguments of `linkage.report`."""
     place = Path(path)
     if place.suffix.lower() not in WRITERS:
         raise DefinitionError(f"{cited(str(path))}: a report's name ends in one of {', '.join(WRITERS)}, which chooses the format.")
     check_place(place)
-    document = report_document(
-        machine, language=language, units=units, case=case, at=at, count=count, columns=columns, trace=trace, limits=limits,
-        title_block=title_block, start=start,
-    )  # fmt: skip
+    document = report_document(machine, language=language, units=units, **given)
     with speaking(language, units):
         WRITERS[place.suffix.lower()](document, place)
     return place

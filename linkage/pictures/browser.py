@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 from base64 import b64encode
-from collections.abc import Mapping, Sequence
 from hashlib import sha256
 from html import escape
 from importlib.resources import files
@@ -16,8 +15,7 @@ from zlib import compress
 from ..disk import check_place, replacing_text
 from ..errors import DefinitionError, cited, known_name
 from ..mechanism import Mechanism, require_mechanism
-from ..motion import Column, RequestLike, live_text
-from ..reports import NOTHING, At
+from ..motion import live_text
 from . import style
 from .browser_data import PageRequests, page_data
 from .browser_words import words_in
@@ -29,27 +27,13 @@ COUNT = 101
 """Poses of the curve."""
 
 
-def page(
-    machine: Mechanism,
-    path: str | Path,
-    *,
-    vary: Sequence[str] | Mapping[str, Sequence[float] | None] | None = None,
-    columns: Sequence[Column | RequestLike] | None = None,
-    column: str | None = None,
-    trace: Sequence[str] | None = None,
-    limit: Sequence[Any] | Mapping[str, Sequence[Any]] | None = None,
-    at: At = NOTHING,
-    count: int = COUNT,
-    language: str = "en",
-) -> Path:
-    """Return the path of the live page it wrote; see `linkage.page`."""
+def page(machine: Mechanism, path: str | Path, **given: Any) -> Path:
+    """Return the path of the live page it wrote; `given` are the other arguments of `linkage.page`."""
     require_mechanism(machine)
     if not isinstance(path, (str, os.PathLike)) or Path(path).suffix.lower() != ".html":
         raise DefinitionError(f"{cited(path)} is no name of a page; give one that ends in .html.")
     target = Path(path)
-    text = page_html(
-        machine, vary=vary, columns=columns, column=column, trace=trace, limit=limit, at=at, count=count, language=language, place=target
-    )
+    text = page_html(machine, place=target, **given)
     with replacing_text(target) as stream:
         stream.write(text)
     return target

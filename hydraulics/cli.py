@@ -14,7 +14,7 @@ from linkage.cli.settings import check_argument, design, judged_code, motion_at,
 from linkage.cli.table import csv_argument, write_table
 from linkage.errors import DefinitionError, known_name
 from linkage.language import said
-from linkage.loads import ForceElement, LoadCase
+from linkage.loads import Acting, ForceElement, LoadCase
 from linkage.mechanism import Mechanism
 from linkage.motion import Column, Motion, columns_of, lowest
 from linkage.statics import elements_of, same

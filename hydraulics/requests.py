@@ -207,8 +207,8 @@ def side_of(direction: str | None) -> str:
 class GoingBack(CircuitRequest):
     """What the other side must give while a cylinder goes back against a resistance [Pa]; below zero where the load does it by itself.
 
-    `tells="load"` is instead the pressure that the load alone makes in the side it leaves. Friction acts against the movement: the load brings
-    T k_m where it drives and takes T / k_m where it resists.
+    `tells="load"` is the pressure that the load alone makes in the side it leaves. Friction acts against the movement: the load
+    brings T k_m where it drives and takes T / k_m where it resists.
     """
 
     way: str = "retracting"

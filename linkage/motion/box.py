@@ -177,61 +177,87 @@ def stencil_of(k: int) -> FloatArray:
     return np.array([np.zeros(k), *axes, *pairs, *corners])
 
 
-def shifted(cube: FloatArray, axis: int, by: int) -> FloatArray:
-    """Return the values so many places on along an axis, NaN beyond the ends."""
-    found = np.full(cube.shape, np.nan)
-    into, out = [slice(None)] * cube.ndim, [slice(None)] * cube.ndim
-    into[axis], out[axis] = (slice(None, -by), slice(by, None)) if by > 0 else (slice(-by, None), slice(None, by))
-    found[tuple(into)] = cube[tuple(out)]
-    return found
+def neighbours(k: int, side: int) -> tuple[FloatArray, Index]:
+    """Return the steps (n, k) to the neighbours of a grid point, and by how much these are further on in its numbers (n,)."""
+    steps = np.array([each for each in product((-1, 0, 1), repeat=k) if any(each)])
+    return steps, steps @ side ** np.arange(k - 1, -1, -1)
 
 
-def bends(cube: FloatArray, k: int) -> FloatArray:
-    """Return the sum of the absolute second differences along the last k axes, taken to one side at borders and next to missing values."""
-    total = np.zeros(cube.shape)
-    for axis in range(cube.ndim - k, cube.ndim):
-        before, after = shifted(cube, axis, -1), shifted(cube, axis, 1)
-        middle = np.abs(before - 2.0 * cube + after)
-        sides = [np.abs(cube - 2.0 * near + shifted(cube, axis, by)) for near, by in ((before, -2), (after, 2))]
-        total += np.nan_to_num(np.where(np.isnan(middle), np.fmax(*sides), middle), nan=0.0, posinf=LOWEST * -1.0)
+def widened(cube: FloatArray) -> FloatArray:
+    """Return the highest of each point of a grid and its neighbours."""
+    for axis in range(cube.ndim):
+        ahead, behind = np.moveaxis(cube, axis, 0)[1:], np.moveaxis(cube, axis, 0)[:-1]
+        found = cube.copy()
+        into = np.moveaxis(found, axis, 0)
+        np.maximum(into[:-1], ahead, out=into[:-1])
+        np.maximum(into[1:], behind, out=into[1:])
+        cube = found
+    return cube
+
+
+def firsts(values: FloatArray, point: Index, k: int, side: int) -> Index:
+    """Return those of some tops of a grid, values (side^k,), that are the first ones of a level part."""
+    steps, by = neighbours(k, side)
+    steps, by = steps[by < 0], by[by < 0]
+    index = np.stack(np.unravel_index(point, [side] * k), axis=-1)[:, None] + steps
+    inside = ((index >= 0) & (index < side)).all(axis=-1)
+    near = np.where(inside, values[np.where(inside, point[:, None] + by, 0)], -np.inf)
+    return np.asarray(point[(near < values[point][:, None]).all(axis=-1)])
+
+
+def bends(seen: FloatArray, point: Index, k: int, side: int) -> FloatArray:
+    """Return the sum of the absolute second differences along the strokes at points of a grid, values (side^k,).
+
+    They are taken to one side at borders and next to missing values, and none where that is not possible.
+    """
+    index = np.unravel_index(point, [side] * k)
+    total = np.zeros(point.shape)
+    for axis in range(k):
+        weight = side ** (k - 1 - axis)
+
+        def at(by: int, axis: int = axis, weight: int = weight) -> FloatArray:
+            there = (index[axis] + by >= 0) & (index[axis] + by < side)
+            return np.where(there, seen[np.where(there, point + by * weight, 0)], np.nan)
+
+        middle = np.abs(at(-1) - 2.0 * seen[point] + at(1))
+        sides = [np.abs(seen[point] - 2.0 * at(by) + at(2 * by)) for by in (-1, 1)]
+        total += np.nan_to_num(np.where(np.isnan(middle), np.fmax(*sides), middle), nan=0.0, posinf=-LOWEST)
     return total
 
 
-def grid_tops(cube: FloatArray, k: int) -> Mask:
-    """Return which points of grids (..., side, ...) no neighbour betters, of a level part the last; missing values are -inf."""
-    padded = np.pad(cube, [(0, 0)] * (cube.ndim - k) + [(1, 1)] * k, constant_values=-np.inf)
-    side = cube.shape[-1]
-    top = cube > -np.inf
-    for offset in product((0, 1, 2), repeat=k):
-        if offset == (1,) * k:
-            continue
-        near = padded[(..., *(slice(each, each + side) for each in offset))]
-        top &= (cube > near) if offset > (1,) * k else (cube >= near)
-    return top
+def hopeful(seen: FloatArray, k: int, side: int) -> tuple[Index, FloatArray]:
+    """Return the tops of a grid, values (side^k,), that may win, the highest first, and the most that each may come to."""
+    values = missing_lowest(seen)
+    cube = values.reshape([side] * k)
+    tops = (cube >= widened(cube)) & (cube > -np.inf)
+    for axis in range(k):  # of a level part one point is enough
+        first, here = (np.moveaxis(each, axis, 0) for each in (tops, cube))
+        first[1:] &= here[1:] > here[:-1]
+    point = np.flatnonzero(tops)
+    if not point.size:
+        return point, np.zeros(0)
+    bound = np.minimum(values[point] + 0.5 * bends(seen, point, k, side), -LOWEST)
+    may_win = bound >= values.max()
+    kept = np.isin(point, firsts(values, point[may_win], k, side))
+    point, bound = point[kept], bound[kept]
+    order = np.lexsort((-bound, values[point] < values.max()))[:STARTS]
+    return point[order], bound[order]
 
 
 def starts_of(box: Box) -> tuple[Climbs, FloatArray]:
     """Return the searches from the grid, and what their first stencils show, (r, n): values that the grid has."""
     K, D, _ = box.seen.shape
-    values = missing_lowest(box.seen)
-    cubes = box.seen.reshape(K, D, *[box.side] * box.k)
-    tops = grid_tops(missing_lowest(cubes), box.k).reshape(K, D, -1)
-    bound = np.where(tops, np.minimum(values + 0.5 * bends(cubes, box.k).reshape(K, D, -1), -LOWEST), -np.inf)
-    highest = values.max(axis=-1, keepdims=True)
-    bound[~(bound >= highest)] = -np.inf
-    np.put_along_axis(bound, np.argmax(np.where(tops, values, -np.inf), axis=-1)[..., None], np.inf, axis=-1)
-    count = min(STARTS, int((bound > -np.inf).sum(axis=-1).max()))
-    place = np.argpartition(-bound, count - 1, axis=-1)[..., :count]
-    function, design, row = np.nonzero(np.take_along_axis(bound, place, axis=-1) > -np.inf)
-    point = place[function, design, row]
+    found = [hopeful(box.seen[row], box.k, box.side) for row in np.ndindex(K, D)]
+    count = [len(point) for point, _ in found]
+    function, design = (np.repeat(each.ravel(), count) for each in np.indices((K, D)))
+    point, bound = (np.concatenate([each[part] for each in found]) for part in (0, 1))
     index = np.stack(np.unravel_index(point, [box.side] * box.k), axis=-1)
     steps = box.side - 1.0
     middle = np.clip(index, 1, box.side - 2)
-    weights = box.side ** np.arange(box.k - 1, -1, -1)
-    stencil = (middle[:, None, :] + stencil_of(box.k).astype(int)) @ weights
+    stencil = (middle[:, None, :] + stencil_of(box.k).astype(int)) @ box.side ** np.arange(box.k - 1, -1, -1)
     full, none = np.full(len(point), 1.0 / steps), np.full(len(point), np.nan)
     climbs = Climbs(
-        function, design, index / steps, values[function, design, point], middle / steps, full, none, bound[function, design, point],
+        function, design, index / steps, box.seen[function, design, point], middle / steps, full, none, bound,
         np.zeros(len(point), int), np.full(len(point), -1),
     )  # fmt: skip
     return climbs, box.seen[function[:, None], design[:, None], stencil]
@@ -263,6 +289,11 @@ class Quadratic:
     def at(self, u: FloatArray) -> FloatArray:
         """Return the values (r,) at places (r, k)."""
         return np.asarray(self.value + (u * (self.slope + 0.5 * np.einsum("rij,rj->ri", self.bend, u))).sum(axis=-1))
+
+    def on(self, stencil: FloatArray) -> FloatArray:
+        """Return the values (r, n) at the places (n, k) of a stencil."""
+        bent = np.einsum("ni,rij,nj->rn", stencil, self.bend, stencil)
+        return np.asarray(self.value[:, None] + self.slope @ stencil.T + 0.5 * bent)
 
     def top(self, low: FloatArray, high: FloatArray, start: FloatArray) -> FloatArray:
         """Return a highest place (r, k) between bounds (r, k): stroke by stroke uphill, and a Newton step in those that are free."""
@@ -324,10 +355,11 @@ def fitted(
     hoped = model.at(u)
     error = np.abs(model.value - climbs.expected)
     spread = np.ptp(np.where(smooth[:, None], seen, 0.0), axis=-1)
-    trusted = smooth & ~(error > 0.25 * spread + least)
+    misfit = np.abs(model.on(stencil) - np.where(smooth[:, None], seen, 0.0)).max(axis=-1)
+    trusted = smooth & ~(error > 0.25 * spread + least) & (misfit <= 0.25 * spread + least)
     outward = np.where(at_wall, np.abs(model.slope + np.einsum("rij,rj->ri", model.bend, u)), 0.0)
-    firm = (fixed | at_wall & (outward > 4.0 * error[:, None] + 0.5 * np.abs(model.bend).sum(axis=-1))).all(axis=-1)
-    done = trusted & (hoped - value <= least) & ((error <= 1e3 * least) | firm | (half[:, 0] <= NARROW))
+    firm = (fixed | at_wall & (outward > 4.0 * np.fmax(error, misfit)[:, None] + 0.5 * np.abs(model.bend).sum(axis=-1))).all(axis=-1)
+    done = trusted & (hoped - value <= least) & (misfit <= 0.05 * spread + least) & ((error <= 1e3 * least) | firm)
     good = smooth & (hoped > value)
     goal = np.where(good[:, None], np.clip(centre + half * u, 0.0, 1.0), unit)
     near = good | (smooth & inside & (np.abs(goal - (centre + half * u)) <= 0.5 * half).all(axis=-1))
@@ -451,94 +483,122 @@ def ridden(box: Box, climbs: Climbs, least: FloatArray) -> Climbs:
 
 # -- the border of what has a value --------------------------------------------------------------------------
 
-EDGES, CUTS = 8, 8  # borders of each function and design; parts of a bisection
-ACROSS = np.linspace(-1.0, 1.0, 17)
+EDGES, BORDERS, CUTS = 4, 4, 8  # borders of each function and design, along each stroke and in all; parts of a bisection
+ACROSS = np.linspace(-1.0, 1.0, 9)
 
 
 def border_starts(box: Box) -> tuple[Climbs, FloatArray]:
     """Return searches at the grid points whose next along a stroke has no value, the best ones; and to which side (r,) that is."""
     K, D, _ = box.seen.shape
-    cube = missing_lowest(box.seen.reshape(K, D, *[box.side] * box.k))
-    parts, sides = [], []
-    for axis, by in product(range(box.k), (-1, 1)):
-        beyond, behind = shifted(cube, 2 + axis, by), shifted(cube, 2 + axis, -by)
-        edge = (cube > -np.inf) & np.isneginf(beyond)
-        if not edge.any():
+    rows: list[tuple[int, int, int, int, int, float]] = []
+    for function, design in np.ndindex(K, D):
+        cube = missing_lowest(box.seen[function, design]).reshape([box.side] * box.k)
+        if not np.isneginf(cube).any():
             continue
-        rise = np.where(np.isfinite(behind) & (behind > LOWEST), np.maximum(cube - behind, 0.0), 0.0)
-        score = np.where(edge, cube + rise, -np.inf)
-        flat = np.where(edge & grid_tops(score, box.k), score, -np.inf).reshape(K, D, -1)
-        count = min(EDGES, flat.shape[-1])
-        place = np.argpartition(-flat, count - 1, axis=-1)[..., :count]
-        function, design, row = np.nonzero(np.take_along_axis(flat, place, axis=-1) > -np.inf)
-        point = place[function, design, row]
-        unit = np.stack(np.unravel_index(point, [box.side] * box.k), axis=-1) / (box.side - 1.0)
-        none = np.full(len(point), np.nan)
-        parts.append(
-            Climbs(
-                function, design, unit, cube.reshape(K, D, -1)[function, design, point], unit, np.full(len(point), 1.0 / (box.side - 1)),
-                none, none, np.zeros(len(point), int), np.full(len(point), axis),
-            )
-        )  # fmt: skip
-        sides.append(np.full(len(point), float(by)))
-    return Climbs.joined(parts), np.concatenate(sides)
+        for axis, by in product(range(box.k), (-1, 1)):
+            beyond, behind = shifted(cube, axis, by), shifted(cube, axis, -by)
+            edge = (cube > -np.inf) & np.isneginf(beyond)
+            score = np.where(edge, cube + np.where(behind > LOWEST, np.maximum(cube - behind, 0.0), 0.0), -np.inf).ravel()
+            tops = np.flatnonzero(edge.ravel() & (score >= widened(score.reshape(cube.shape)).ravel()))
+            rows += [(function, design, int(point), axis, by, score[point]) for point in tops[np.argsort(-score[tops])][:EDGES]]
+    function, design, point, axis, side = np.array([row[:5] for row in rows], int).reshape(-1, 5).T
+    unit = np.stack(np.unravel_index(point, [box.side] * box.k), axis=-1) / (box.side - 1.0)
+    steps, _ = neighbours(box.k, box.side)
+    near = np.clip(np.rint(unit * (box.side - 1)).astype(int)[:, None] + steps, 0, box.side - 1) @ box.side ** np.arange(box.k - 1, -1, -1)
+    value = box.seen[function, design, point]
+    rise = np.fmax.reduce(np.abs(box.seen[function[:, None], design[:, None], near] - value[:, None]), axis=-1, initial=0.0)
+    half, none = np.full(len(point), 1.0 / (box.side - 1)), np.full(len(point), np.nan)
+    return Climbs(function, design, unit, value, unit, half, none, 2.0 * rise, np.zeros(len(point), int), axis), side.astype(float)
 
 
-def on_border(box: Box, climbs: Climbs, side: FloatArray, places: FloatArray) -> tuple[FloatArray, FloatArray]:
+def shifted(cube: FloatArray, axis: int, by: int) -> FloatArray:
+    """Return the values so many places on along an axis, NaN beyond the ends."""
+    found = np.full(cube.shape, np.nan)
+    into, out = [slice(None)] * cube.ndim, [slice(None)] * cube.ndim
+    into[axis], out[axis] = (slice(None, -by), slice(by, None)) if by > 0 else (slice(-by, None), slice(None, by))
+    found[tuple(into)] = cube[tuple(out)]
+    return found
+
+
+def on_border(box: Box, alike: Index, climbs: Climbs, side: FloatArray, places: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the places (r, n, k) on the border next to places (r, n, k), along each search's stroke, and the values (r, n) there.
 
-    The border is looked for within two halves of the stencil; where there is none the value is NaN.
+    The border is looked for within two halves of the stencil; where there is none the value is NaN. Functions that are `alike`
+    (K,) have the same border.
     """
-    r, n, k = places.shape
+    keys = np.column_stack([alike[climbs.function], climbs.design, climbs.axis, side, climbs.half, places.reshape(len(side), -1)])
+    _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    inverse = inverse.reshape(-1)
+    found, there = crossed(box, climbs.where(first), side[first], places[first])
+    seen, _ = box.at(climbs.design[first], found)
+    return found[inverse], np.where(there[inverse], seen[climbs.function, inverse], np.nan)
+
+
+def crossed(box: Box, climbs: Climbs, side: FloatArray, places: FloatArray) -> tuple[FloatArray, Mask]:
+    """Return the last places (r, n, k) with a value along each search's stroke, and whether there is a border (r, n)."""
+    r, _, k = places.shape
     fixed = (np.arange(k) == climbs.axis[:, None])[:, None, None, :]
     middle = np.take_along_axis(places, climbs.axis[:, None, None], axis=-1)[..., 0]
 
-    def values_at(along: FloatArray) -> FloatArray:
+    def missing_at(along: FloatArray) -> Mask:
         at = np.where(fixed, along[..., None], places[:, :, None, :])
-        return own_values(box, climbs, at.reshape(r, -1, k)).reshape(along.shape)
+        return np.isnan(own_values(box, climbs, at.reshape(r, -1, k)).reshape(along.shape))
 
     along = np.clip(middle[..., None] + (2.0 * climbs.half * side)[:, None, None] * ACROSS, 0.0, 1.0)
-    missing = np.isnan(values_at(along))
+    missing = missing_at(along)
     change = ~missing[..., :-1] & missing[..., 1:]
     away = np.where(change, np.abs(np.arange(ACROSS.size - 1) - ACROSS.size // 2 + 0.5), np.inf)
     pick = np.argmin(away, axis=-1)[..., None]
     inside, outside = (np.take_along_axis(along, pick + step, axis=-1)[..., 0] for step in (0, 1))
     outside = np.where(change.any(axis=-1), outside, inside)
     while np.max(np.abs(outside - inside), initial=0.0) > 1e-13:
-        cut = inside[..., None] + (outside - inside)[..., None] * np.linspace(0.0, 1.0, CUTS + 1)[1:]
-        gone = np.isnan(values_at(cut))
-        gone[..., -1] = True
-        first = np.argmax(gone, axis=-1)[..., None]
-        cut = np.concatenate([inside[..., None], cut], axis=-1)
-        new = [np.take_along_axis(cut, first + step, axis=-1)[..., 0] for step in (0, 1)]
+        cut = inside[..., None] + (outside - inside)[..., None] * np.linspace(0.0, 1.0, CUTS + 1)
+        gone = np.concatenate([missing_at(cut[..., 1:-1]), np.ones((*inside.shape, 1), bool)], axis=-1)
+        pick = np.argmax(gone, axis=-1)[..., None]
+        new = [np.take_along_axis(cut, pick + step, axis=-1)[..., 0] for step in (0, 1)]
         if np.array_equal(new, [inside, outside]):
             break
         inside, outside = new
-    found = np.where(fixed[:, :, 0], inside[..., None], places)
-    values = np.where(change.any(axis=-1), values_at(inside[..., None])[..., 0], np.nan)
-    return found, values
+    return np.where(fixed[:, :, 0], inside[..., None], places), np.asarray(change.any(axis=-1))
+
+
+def hopeful_borders(box: Box, alike: Index, known: FloatArray) -> tuple[Climbs, FloatArray]:
+    """Return the searches on borders that may better what is known (K, D), and to which side of each (r,) there is no value."""
+    starts, side = border_starts(box)
+    places, values = on_border(box, alike, starts, side, starts.unit[:, None])
+    found, D = missing_lowest(values[:, 0]), box.seen.shape[1]
+    keys = np.column_stack([starts.function, starts.design, starts.unit])
+    _, point = np.unique(keys, axis=0, return_inverse=True)
+    away = np.where(np.isfinite(found), np.abs(places[:, 0] - starts.unit).sum(axis=-1), np.inf)
+    order = np.lexsort((away, point.reshape(-1)))
+    nearest = np.zeros(len(side), bool)
+    nearest[order[np.flatnonzero(np.diff(point.reshape(-1)[order], prepend=-1))]] = True
+    hope = found + np.abs(found - starts.value) + starts.bound
+    nearest &= (found > -np.inf) & (hope >= known[starts.function, starts.design])
+    going = replace(starts, unit=places[:, 0], centre=places[:, 0], value=found, half=0.5 * starts.half)
+    order = np.flatnonzero(nearest)
+    row = (going.function * D + going.design)[order]
+    order = order[np.lexsort((-found[order], row))]
+    row = np.sort(row)
+    order = order[np.arange(len(row)) - np.searchsorted(row, row) < BORDERS]
+    return going.where(order), side[order]
 
 
 def along_borders(box: Box, known: FloatArray, least: FloatArray) -> Climbs:
     """Return searches along the borders of what has a value, those that may better what is known (K, D)."""
-    going, side = border_starts(box)
-    places, values = on_border(box, going, side, going.unit[:, None])
-    found = missing_lowest(values[:, 0])
-    inner = going.value
-    going = replace(going, unit=places[:, 0], centre=places[:, 0], value=np.maximum(found, inner), half=0.5 * going.half)
-    hopeful = (found > -np.inf) & (found + np.abs(found - inner) >= known[going.function, going.design])
-    going, side = going.where(hopeful), side[hopeful]
+    first: dict[bytes, int] = {}
+    alike = np.array([first.setdefault(np.isnan(row).tobytes(), number) for number, row in enumerate(box.seen)])
+    going, side = hopeful_borders(box, alike, known)
     ended = [going.where(slice(0, 0))]
     for _ in range(ROUNDS):
         if not len(side):
             break
         stencil = np.where((np.arange(box.k) == going.axis[:, None])[:, None], 0.0, stencil_of(box.k))
-        wanted = snapped(going.centre[:, None] + going.half[:, None, None] * stencil)
-        places, values = on_border(box, going, side, wanted)
+        places, values = on_border(box, alike, going, side, snapped(going.centre[:, None] + going.half[:, None, None] * stencil))
         going, done, stuck = fitted(going, values, box.k, least[going.function, going.design], places)
         stuck |= going.half < 1e-6
         ended.append(going.where(done | stuck))
-        best = Climbs.joined([*ended, going]).best(box.seen.shape[1])[-len(side) :]
+        best = np.maximum(Climbs.joined([*ended, going]).best(box.seen.shape[1])[-len(side) :], known[going.function, going.design])
         stay = ~(done | stuck) & ((going.bound >= best) | (going.value >= best))
         going, side = going.where(stay), side[stay]
     return Climbs.joined([*ended, going])

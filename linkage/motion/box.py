@@ -487,10 +487,10 @@ EDGES, BORDERS, CUTS = 4, 4, 8  # borders of each function and design, along eac
 ACROSS = np.linspace(-1.0, 1.0, 9)
 
 
-def border_starts(box: Box) -> tuple[Climbs, FloatArray]:
-    """Return searches at the grid points whose next along a stroke has no value, the best ones; and to which side (r,) that is."""
+def border_starts(box: Box) -> Climbs:
+    """Return searches at the grid points whose next along a stroke has no value, the best ones."""
     K, D, _ = box.seen.shape
-    rows: list[tuple[int, int, int, int, int, float]] = []
+    rows: list[tuple[int, int, int, int]] = []
     for function, design in np.ndindex(K, D):
         cube = missing_lowest(box.seen[function, design]).reshape([box.side] * box.k)
         if not np.isneginf(cube).any():
@@ -500,15 +500,15 @@ def border_starts(box: Box) -> tuple[Climbs, FloatArray]:
             edge = (cube > -np.inf) & np.isneginf(beyond)
             score = np.where(edge, cube + np.where(behind > LOWEST, np.maximum(cube - behind, 0.0), 0.0), -np.inf).ravel()
             tops = np.flatnonzero(edge.ravel() & (score >= widened(score.reshape(cube.shape)).ravel()))
-            rows += [(function, design, int(point), axis, by, score[point]) for point in tops[np.argsort(-score[tops])][:EDGES]]
-    function, design, point, axis, side = np.array([row[:5] for row in rows], int).reshape(-1, 5).T
+            rows += [(function, design, int(point), axis) for point in tops[np.argsort(-score[tops])][:EDGES]]
+    function, design, point, axis = np.array(rows, int).reshape(-1, 4).T
     unit = np.stack(np.unravel_index(point, [box.side] * box.k), axis=-1) / (box.side - 1.0)
     steps, _ = neighbours(box.k, box.side)
     near = np.clip(np.rint(unit * (box.side - 1)).astype(int)[:, None] + steps, 0, box.side - 1) @ box.side ** np.arange(box.k - 1, -1, -1)
     value = box.seen[function, design, point]
     rise = np.fmax.reduce(np.abs(box.seen[function[:, None], design[:, None], near] - value[:, None]), axis=-1, initial=0.0)
     half, none = np.full(len(point), 1.0 / (box.side - 1)), np.full(len(point), np.nan)
-    return Climbs(function, design, unit, value, unit, half, none, 2.0 * rise, np.zeros(len(point), int), axis), side.astype(float)
+    return Climbs(function, design, unit, value, unit, half, none, 2.0 * rise, np.zeros(len(point), int), axis)
 
 
 def shifted(cube: FloatArray, axis: int, by: int) -> FloatArray:
@@ -520,21 +520,21 @@ def shifted(cube: FloatArray, axis: int, by: int) -> FloatArray:
     return found
 
 
-def on_border(box: Box, alike: Index, climbs: Climbs, side: FloatArray, places: FloatArray) -> tuple[FloatArray, FloatArray]:
+def on_border(box: Box, alike: Index, climbs: Climbs, places: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the places (r, n, k) on the border next to places (r, n, k), along each search's stroke, and the values (r, n) there.
 
     The border is looked for within two halves of the stencil; where there is none the value is NaN. Functions that are `alike`
     (K,) have the same border.
     """
-    keys = np.column_stack([alike[climbs.function], climbs.design, climbs.axis, side, climbs.half, places.reshape(len(side), -1)])
+    keys = np.column_stack([alike[climbs.function], climbs.design, climbs.axis, climbs.half, places.reshape(len(places), -1)])
     _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     inverse = inverse.reshape(-1)
-    found, there = crossed(box, climbs.where(first), side[first], places[first])
+    found, there = crossed(box, climbs.where(first), places[first])
     seen, _ = box.at(climbs.design[first], found)
     return found[inverse], np.where(there[inverse], seen[climbs.function, inverse], np.nan)
 
 
-def crossed(box: Box, climbs: Climbs, side: FloatArray, places: FloatArray) -> tuple[FloatArray, Mask]:
+def crossed(box: Box, climbs: Climbs, places: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the last places (r, n, k) with a value along each search's stroke, and whether there is a border (r, n)."""
     r, _, k = places.shape
     fixed = (np.arange(k) == climbs.axis[:, None])[:, None, None, :]
@@ -544,12 +544,14 @@ def crossed(box: Box, climbs: Climbs, side: FloatArray, places: FloatArray) -> t
         at = np.where(fixed, along[..., None], places[:, :, None, :])
         return np.isnan(own_values(box, climbs, at.reshape(r, -1, k)).reshape(along.shape))
 
-    along = np.clip(middle[..., None] + (2.0 * climbs.half * side)[:, None, None] * ACROSS, 0.0, 1.0)
+    along = np.clip(middle[..., None] + (2.0 * climbs.half)[:, None, None] * ACROSS, 0.0, 1.0)
     missing = missing_at(along)
-    change = ~missing[..., :-1] & missing[..., 1:]
+    change = missing[..., :-1] != missing[..., 1:]
     away = np.where(change, np.abs(np.arange(ACROSS.size - 1) - ACROSS.size // 2 + 0.5), np.inf)
     pick = np.argmin(away, axis=-1)[..., None]
-    inside, outside = (np.take_along_axis(along, pick + step, axis=-1)[..., 0] for step in (0, 1))
+    first, last = (np.take_along_axis(along, pick + step, axis=-1)[..., 0] for step in (0, 1))
+    back = np.take_along_axis(missing, pick, axis=-1)[..., 0]
+    inside, outside = np.where(back, last, first), np.where(back, first, last)
     outside = np.where(change.any(axis=-1), outside, inside)
     while np.max(np.abs(outside - inside), initial=0.0) > 1e-13:
         cut = inside[..., None] + (outside - inside)[..., None] * np.linspace(0.0, 1.0, CUTS + 1)
@@ -562,16 +564,16 @@ def crossed(box: Box, climbs: Climbs, side: FloatArray, places: FloatArray) -> t
     return np.where(fixed[:, :, 0], inside[..., None], places), np.asarray(change.any(axis=-1))
 
 
-def hopeful_borders(box: Box, alike: Index, known: FloatArray) -> tuple[Climbs, FloatArray]:
-    """Return the searches on borders that may better what is known (K, D), and to which side of each (r,) there is no value."""
-    starts, side = border_starts(box)
-    places, values = on_border(box, alike, starts, side, starts.unit[:, None])
+def hopeful_borders(box: Box, alike: Index, known: FloatArray) -> Climbs:
+    """Return the searches on borders that may better what is known (K, D)."""
+    starts = border_starts(box)
+    places, values = on_border(box, alike, starts, starts.unit[:, None])
     found, D = missing_lowest(values[:, 0]), box.seen.shape[1]
     keys = np.column_stack([starts.function, starts.design, starts.unit])
     _, point = np.unique(keys, axis=0, return_inverse=True)
     away = np.where(np.isfinite(found), np.abs(places[:, 0] - starts.unit).sum(axis=-1), np.inf)
     order = np.lexsort((away, point.reshape(-1)))
-    nearest = np.zeros(len(side), bool)
+    nearest = np.zeros(len(found), bool)
     nearest[order[np.flatnonzero(np.diff(point.reshape(-1)[order], prepend=-1))]] = True
     hope = found + np.abs(found - starts.value) + starts.bound
     nearest &= (found > -np.inf) & (hope >= known[starts.function, starts.design])
@@ -581,26 +583,28 @@ def hopeful_borders(box: Box, alike: Index, known: FloatArray) -> tuple[Climbs, 
     order = order[np.lexsort((-found[order], row))]
     row = np.sort(row)
     order = order[np.arange(len(row)) - np.searchsorted(row, row) < BORDERS]
-    return going.where(order), side[order]
+    return going.where(order)
 
 
 def along_borders(box: Box, known: FloatArray, least: FloatArray) -> Climbs:
     """Return searches along the borders of what has a value, those that may better what is known (K, D)."""
     first: dict[bytes, int] = {}
     alike = np.array([first.setdefault(np.isnan(row).tobytes(), number) for number, row in enumerate(box.seen)])
-    going, side = hopeful_borders(box, alike, known)
+    going = hopeful_borders(box, alike, known)
     ended = [going.where(slice(0, 0))]
     for _ in range(ROUNDS):
-        if not len(side):
+        if not len(going.value):
             break
         stencil = np.where((np.arange(box.k) == going.axis[:, None])[:, None], 0.0, stencil_of(box.k))
-        places, values = on_border(box, alike, going, side, snapped(going.centre[:, None] + going.half[:, None, None] * stencil))
+        places, values = on_border(box, alike, going, snapped(going.centre[:, None] + going.half[:, None, None] * stencil))
         going, done, stuck = fitted(going, values, box.k, least[going.function, going.design], places)
-        stuck |= going.half < 1e-6
+        stuck = going.half < BORDER
+        lost = ~np.isfinite(values).all(axis=-1)  # the border runs along this stroke: it is followed along another
+        going = replace(going, axis=np.where(lost, (going.axis + 1) % box.k, going.axis), expected=np.where(lost, np.nan, going.expected))
         ended.append(going.where(done | stuck))
-        best = np.maximum(Climbs.joined([*ended, going]).best(box.seen.shape[1])[-len(side) :], known[going.function, going.design])
+        best = np.maximum(Climbs.joined([*ended, going]).best(box.seen.shape[1])[-len(going.value) :], known[going.function, going.design])
         stay = ~(done | stuck) & ((going.bound >= best) | (going.value >= best))
-        going, side = going.where(stay), side[stay]
+        going = going.where(stay)
     return Climbs.joined([*ended, going])
 
 

@@ -73,15 +73,15 @@ def side_of(k: int, designs: int) -> int:
 class InBox:
     """A function of the poses in the box from the least to the greatest value of k strokes that a motion moves; others stand still."""
 
-    def __init__(self, motion: Motion, f: Function, sense: float = 1.0) -> None:
-        self.f, self.sense, self.names = f, sense, moving(motion)
+    def __init__(self, motion: Motion, f: Function, sense: float = 1.0, *, everywhere: bool = False) -> None:
+        self.f, self.sense, self.names, self.everywhere = f, sense, moving(motion), everywhere
         self.low = {name: float(np.min(value)) for name, value in motion.strokes.items()}
         self.high = {name: float(np.max(value)) for name, value in motion.strokes.items()}
         self.k = len(self.names)
         self.side = side_of(self.k, motion._grid.size[0])
         grid = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, self.side)] * self.k, indexing="ij"), axis=-1)
         self.first = Motion(motion.plan, motion.designs, self.strokes(grid), "nan", joining=joined_in_order)
-        seen = sense * values_of(f, self.first)
+        seen = sense * values_of(f, self.first, everywhere=everywhere)
         self.front = seen.shape[: seen.ndim - len(self.first.shape)]
         self.seen = seen.reshape(-1, self.first._grid.size[0], self.side**self.k)
         self._reached = self.first.reached.reshape(-1, self.side**self.k)
@@ -112,7 +112,7 @@ class InBox:
         strokes = {name: value.reshape(shape) for name, value in self.strokes(unit).items()}
         near = self._near(unit).reshape(shape)
         motion = Motion(self.first.plan, self.first.designs, strokes, "nan", per_design=True, joining=JoinedTo(self.first._grid, near))
-        seen = self.sense * values_of(self.f, motion)
+        seen = self.sense * values_of(self.f, motion, everywhere=self.everywhere)
         self.count += motion.reached.size
         return seen.reshape(-1, *unit.shape[:-1]), motion.reached.reshape(unit.shape[:-1])
 

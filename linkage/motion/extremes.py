@@ -79,13 +79,18 @@ def extremum(motion: Motion, f: Function, sense: float) -> Extremum:
     require_function(motion, f)
     if not motion.strokes:
         raise DefinitionError(f"{motion.plan.title} has no stroke, so there is nothing between its poses.")
+    return searched(motion, f, sense)
+
+
+def searched(motion: Motion, f: Function, sense: float, *, everywhere: bool = False) -> Extremum:
+    """Return the same of poses that are reached only, or `everywhere`."""
     units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
     if len(motion._stroke_shape) > 1 and len(moving(motion)) > 1:
-        box = InBox(motion, f, sense)
+        box = InBox(motion, f, sense, everywhere=everywhere)
         top, shape = highest_in(box), (*box.front, *motion._design_shape)
         strokes = {name: in_shape(value, shape) for name, value in box.strokes(top.unit).items()}
         return Extremum(in_shape(sense * top.value, shape), strokes, in_shape(top.unbounded, shape), units)
-    between = OnLegs(motion, f, sense)
+    between = OnLegs(motion, f, sense, everywhere=everywhere)
     found, shape = highest(between.look, between.route.counts), (*between.front, *motion._design_shape)
     strokes = {name: in_shape(value, shape) for name, value in between.route.strokes(found.leg, found.t).items()}
     return Extremum(in_shape(sense * found.value, shape), strokes, in_shape(found.unbounded, shape), units)

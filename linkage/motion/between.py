@@ -100,8 +100,11 @@ def require_function(motion: Any, f: Any) -> None:
         raise DefinitionError(f"{motion.plan.title}: {cited(f)} is no function of a motion; give one, such as lambda each: each.y('G').")
 
 
-def values_of(f: Function, motion: Motion) -> FloatArray:
-    """Return what a function gives at every pose, shape (..., *motion.shape), NaN out of reach. Nearness to a dead point is not told."""
+def values_of(f: Function, motion: Motion, *, everywhere: bool = False) -> FloatArray:
+    """Return what a function gives at every pose, shape (..., *motion.shape); NaN out of reach, unless it is asked for `everywhere`.
+
+    Nearness to a dead point is not told.
+    """
     with unwarned(), np.errstate(all="ignore"), told(f"{motion.plan.title}: a function of a motion"):
         found = np.asarray(f(motion), float)
     axes = len(motion.shape)
@@ -111,7 +114,7 @@ def values_of(f: Function, motion: Motion) -> FloatArray:
         except ValueError:
             what = f"a function of a motion gives the shape {found.shape} where {motion.shape} or (k, *{motion.shape}) is expected"
             raise DefinitionError(f"{motion.plan.title}: {what}; return a number for each pose.") from None
-    return np.where(motion.reached, found, np.nan)
+    return found if everywhere else np.where(motion.reached, found, np.nan)
 
 
 @final
@@ -121,14 +124,14 @@ class OnLegs:
     The samples are worked out once, at the same strokes for all designs; poses between them take their angles from these.
     """
 
-    def __init__(self, motion: Motion, f: Function, sense: float = 1.0) -> None:
-        self.motion, self.f, self.sense = motion, f, sense
+    def __init__(self, motion: Motion, f: Function, sense: float = 1.0, *, everywhere: bool = False) -> None:
+        self.motion, self.f, self.sense, self.everywhere = motion, f, sense, everywhere
         self.route = Legs.of(motion.strokes)
         self.leg, self.t = leg, t = samples(self.route.counts)
         self.first = Motion(
             motion.plan, motion.designs, self.route.strokes(leg, t), "nan", joining=joined_in_order, tangent=self.route.tangent(leg)
         )
-        self.seen = sense * values_of(f, self.first)
+        self.seen = sense * values_of(f, self.first, everywhere=everywhere)
         self.front = self.seen.shape[: self.seen.ndim - len(self.first.shape)]
         self._starts = np.cumsum([0, *(count + 1 for count in self.route.counts[:-1])])
         self._reached = nearest_reached(self.first.reached.reshape(-1, leg.size))
@@ -156,7 +159,7 @@ class OnLegs:
             first.plan, first.designs, strokes, "nan", per_design=True, joining=JoinedTo(first._grid, shaped(near)),
             tangent=tangent and {name: shaped(value) for name, value in tangent.items()},
         )  # fmt: skip
-        return motion, self.sense * values_of(self.f, motion)
+        return motion, self.sense * values_of(self.f, motion, everywhere=self.everywhere)
 
 
 def nearest_reached(reached: Mask) -> Index:

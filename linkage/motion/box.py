@@ -1,0 +1,670 @@
+"""The highest values of functions over a box of two strokes and more; many functions and many designs at once.
+
+A grid with the borders on it gives the starts: of the points that no neighbour betters, those that may still win, by half of what the
+values bend there; the highest always. A part of the box that is higher than all else is found if it holds a box as wide as the grid's
+steps: one of its points is then the highest of all.
+
+From each start a quadratic is fitted on a stencil, which moves to the quadratic's top and contracts; all stencils of all functions are
+one call a round, equal ones once. What is not smooth goes on by sampled gradients: the shortest vector in their hull leads along a ridge
+in any direction. The border of what has a value is followed by bisection along a stroke, as a function of the others.
+Sources: A. R. Conn, K. Scheinberg, L. N. Vicente, Introduction to Derivative-Free Optimization (2009), ch. 10; J. V. Burke, A. S. Lewis,
+M. L. Overton, SIAM J. Optim. 15 (2005) 751-779.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from itertools import combinations, product
+from typing import Protocol, Self, final
+
+import numpy as np
+
+from ..plan import Mask
+from ..program import FloatArray
+from .between import Function, values_of
+from .grid import JoinedTo, joined_in_order
+from .motion import Motion
+from .peaks import LOWEST, Index, is_pole, missing_lowest
+
+SIDES = {2: 129, 3: 33, 4: 13, 5: 8, 6: 6}  # values a stroke, by the number of strokes
+MORE, MOST_POSES = 5, 1 << 20  # values a stroke of more strokes; grid poses of all designs together
+STARTS, ROUGH = 24, 3  # of each function and design; of these, how many go on where it is not smooth
+ROUNDS, PATIENCE = 40, 3  # of stencils; rounds that gain nothing before a start counts as not smooth
+CLOSE, ROUNDED = 1e-12, 16.0 * float(np.finfo(float).eps)  # of the range of the values, and of their size: what is no gain
+NARROW = 1e-9  # of the box: how narrow a stencil gets
+SEEN, BORDER = 1e-7, 1e-8  # how near a value must keep growing to be unbounded, and how near its border is known; of the box
+
+
+class Box(Protocol):
+    """Functions in the unit box: `seen` (K, D, side^k) on the grid, and values and reached poses anywhere else."""
+
+    k: int
+    side: int
+    seen: FloatArray
+
+    def at(self, design: Index, places: FloatArray) -> tuple[FloatArray, Mask]:
+        """Return the values (K, u, n) at places (u, n, k) of a design each (u,), and which poses (u, n) are reached."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class HighestInBox:
+    """The highest value of K functions of D designs, arrays (K, D), NaN where there is none; where (K, D, k); whether it is unbounded."""
+
+    value: FloatArray
+    unit: FloatArray
+    unbounded: Mask
+
+
+def moving(motion: Motion) -> tuple[str, ...]:
+    """Return the strokes that a motion moves."""
+    return tuple(name for name, value in motion.strokes.items() if np.ptp(value) > 0.0)
+
+
+def side_of(k: int, designs: int) -> int:
+    """Return how many values a stroke has on the grid: fewer only where the grids of all designs would be too large."""
+    side = SIDES.get(k, MORE)
+    while side > 3 and designs * side**k > max(MOST_POSES, SIDES[2] ** 2):
+        side -= 1
+    return side
+
+
+@final
+class InBox:
+    """A function of the poses in the box from the least to the greatest value of k strokes that a motion moves; others stand still."""
+
+    def __init__(self, motion: Motion, f: Function, sense: float = 1.0, *, everywhere: bool = False) -> None:
+        self.f, self.sense, self.names, self.everywhere = f, sense, moving(motion), everywhere
+        self.low = {name: float(np.min(value)) for name, value in motion.strokes.items()}
+        self.high = {name: float(np.max(value)) for name, value in motion.strokes.items()}
+        self.k = len(self.names)
+        self.side = side_of(self.k, motion._grid.size[0])
+        grid = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, self.side)] * self.k, indexing="ij"), axis=-1)
+        self.first = Motion(motion.plan, motion.designs, self.strokes(grid), "nan", joining=joined_in_order)
+        seen = sense * values_of(f, self.first, everywhere=everywhere)
+        self.front = seen.shape[: seen.ndim - len(self.first.shape)]
+        self.seen = seen.reshape(-1, self.first._grid.size[0], self.side**self.k)
+        self._reached = self.first.reached.reshape(-1, self.side**self.k)
+        self._all_reached = bool(self._reached.all())
+        self.count = self._reached.size
+
+    def strokes(self, unit: FloatArray) -> dict[str, FloatArray]:
+        """Return the strokes [SI], shape (...), at places (..., k) of the unit box; exact on its borders."""
+        still = np.zeros(unit.shape[:-1])
+        share = {name: unit[..., axis] for axis, name in enumerate(self.names)}
+        found = {name: low + (self.high[name] - low) * share.get(name, still) for name, low in self.low.items()}
+        return {name: np.where(share.get(name, still) == 1.0, self.high[name], value) for name, value in found.items()}
+
+    def at(self, design: Index, places: FloatArray) -> tuple[FloatArray, Mask]:
+        """Return the values (K, u, n) at places (u, n, k) of a design each (u,), and which poses (u, n) are reached."""
+        D, count = len(self._reached), np.bincount(design, minlength=len(self._reached))
+        slot = np.empty(len(design), int)
+        order = np.argsort(design, kind="stable")
+        slot[order] = np.arange(len(design)) - np.repeat(np.cumsum(count) - count, count)
+        unit = np.zeros((D, int(count.max(initial=1)), *places.shape[1:]))
+        unit[design, slot] = places
+        seen, reached = self._look(unit)
+        return seen[:, design, slot], reached[design, slot]
+
+    def _look(self, unit: FloatArray) -> tuple[FloatArray, Mask]:
+        """Return the values (K, D, c, n) at places (D, c, n, k), each design at its own, and which poses (D, c, n) are reached."""
+        shape = (*self.first._design_shape, *unit.shape[1:-1])
+        strokes = {name: value.reshape(shape) for name, value in self.strokes(unit).items()}
+        near = self._near(unit).reshape(shape)
+        motion = Motion(self.first.plan, self.first.designs, strokes, "nan", per_design=True, joining=JoinedTo(self.first._grid, near))
+        seen = self.sense * values_of(self.f, motion, everywhere=self.everywhere)
+        self.count += motion.reached.size
+        return seen.reshape(-1, *unit.shape[:-1]), motion.reached.reshape(unit.shape[:-1])
+
+    def _near(self, unit: FloatArray) -> Index:
+        """Return the nearest reached of the grid points about places (D, c, n, k), by their number; the nearest where none is."""
+        at = unit * (self.side - 1)
+        weights = self.side ** np.arange(self.k - 1, -1, -1)
+        if self._all_reached:
+            return np.asarray(np.rint(at).astype(int) @ weights)
+        low = np.clip(np.floor(at), 0, self.side - 2)
+        best, near = np.full(unit.shape[:-1], np.inf), np.zeros(unit.shape[:-1], int)
+        for corner in product((0.0, 1.0), repeat=self.k):
+            place = ((low + corner) @ weights).astype(int)
+            there = np.take_along_axis(self._reached, place.reshape(len(place), -1), axis=-1).reshape(place.shape)
+            away = np.abs(at - low - corner).max(axis=-1) + np.where(there, 0.0, 10.0)
+            best, near = np.minimum(best, away), np.where(away < best, place, near)
+        return near
+
+
+# -- starts and what is known of them ------------------------------------------------------------------------
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Climbs:
+    """Searches, arrays (r, ...): whose (function and design), the best place and its value, the next stencil, what it should show."""
+
+    function: Index
+    design: Index
+    unit: FloatArray
+    value: FloatArray
+    centre: FloatArray
+    half: FloatArray
+    expected: FloatArray
+    bound: FloatArray
+    idle: Index
+    axis: Index
+    """The stroke along which a border is followed, -1 where the box is searched."""
+
+    def where(self, mask: Mask | Index) -> Self:
+        """Return some of them."""
+        return type(self)(*(getattr(self, each.name)[mask] for each in fields(self)))
+
+    @classmethod
+    def joined(cls, parts: list[Climbs]) -> Climbs:
+        """Return all of several."""
+        return cls(*(np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(cls)))
+
+    def best(self, rows: int) -> FloatArray:
+        """Return the best value known, for each the best of its function and design; `rows` is the number of designs."""
+        row = self.function * rows + self.design
+        found = np.full(int(row.max(initial=0)) + 1, -np.inf)
+        np.maximum.at(found, row, self.value)
+        return found[row]
+
+
+def stencil_of(k: int) -> FloatArray:
+    """Return the places (n, k) of a stencil from -1 to 1: its middle, the axes, the pairs of axes; of up to three strokes all 3^k."""
+    axes = [sign * axis for axis in np.eye(k) for sign in (1.0, -1.0)]
+    pairs = [a * i + b * j for i, j in combinations(np.eye(k), 2) for a, b in product((1.0, -1.0), repeat=2)]
+    corners = [np.array(each) for each in product((1.0, -1.0), repeat=3)] if k == 3 else []
+    return np.array([np.zeros(k), *axes, *pairs, *corners])
+
+
+def neighbours(k: int, side: int) -> tuple[FloatArray, Index]:
+    """Return the steps (n, k) to the neighbours of a grid point, and by how much these are further on in its numbers (n,)."""
+    steps = np.array([each for each in product((-1, 0, 1), repeat=k) if any(each)])
+    return steps, steps @ side ** np.arange(k - 1, -1, -1)
+
+
+def widened(cube: FloatArray) -> FloatArray:
+    """Return the highest of each point of a grid and its neighbours."""
+    for axis in range(cube.ndim):
+        ahead, behind = np.moveaxis(cube, axis, 0)[1:], np.moveaxis(cube, axis, 0)[:-1]
+        found = cube.copy()
+        into = np.moveaxis(found, axis, 0)
+        np.maximum(into[:-1], ahead, out=into[:-1])
+        np.maximum(into[1:], behind, out=into[1:])
+        cube = found
+    return cube
+
+
+def firsts(values: FloatArray, point: Index, k: int, side: int) -> Index:
+    """Return those of some tops of a grid, values (side^k,), that are the first ones of a level part."""
+    steps, by = neighbours(k, side)
+    steps, by = steps[by < 0], by[by < 0]
+    index = np.stack(np.unravel_index(point, [side] * k), axis=-1)[:, None] + steps
+    inside = ((index >= 0) & (index < side)).all(axis=-1)
+    near = np.where(inside, values[np.where(inside, point[:, None] + by, 0)], -np.inf)
+    return np.asarray(point[(near < values[point][:, None]).all(axis=-1)])
+
+
+def bends(seen: FloatArray, point: Index, k: int, side: int) -> FloatArray:
+    """Return the sum of the absolute second differences along the strokes at points of a grid, values (side^k,).
+
+    They are taken to one side at borders and next to missing values, and none where that is not possible.
+    """
+    index = np.unravel_index(point, [side] * k)
+    total = np.zeros(point.shape)
+    for axis in range(k):
+        weight = side ** (k - 1 - axis)
+
+        def at(by: int, axis: int = axis, weight: int = weight) -> FloatArray:
+            there = (index[axis] + by >= 0) & (index[axis] + by < side)
+            return np.where(there, seen[np.where(there, point + by * weight, 0)], np.nan)
+
+        middle = np.abs(at(-1) - 2.0 * seen[point] + at(1))
+        sides = [np.abs(seen[point] - 2.0 * at(by) + at(2 * by)) for by in (-1, 1)]
+        total += np.nan_to_num(np.where(np.isnan(middle), np.fmax(*sides), middle), nan=0.0, posinf=-LOWEST)
+    return total
+
+
+def hopeful(seen: FloatArray, k: int, side: int) -> tuple[Index, FloatArray]:
+    """Return the tops of a grid, values (side^k,), that may win, the highest first, and the most that each may come to."""
+    values = missing_lowest(seen)
+    cube = values.reshape([side] * k)
+    tops = (cube >= widened(cube)) & (cube > -np.inf)
+    for axis in range(k):  # of a level part one point is enough
+        first, here = (np.moveaxis(each, axis, 0) for each in (tops, cube))
+        first[1:] &= here[1:] > here[:-1]
+    point = np.flatnonzero(tops)
+    if not point.size:
+        return point, np.zeros(0)
+    bound = np.minimum(values[point] + 0.5 * bends(seen, point, k, side), -LOWEST)
+    may_win = bound >= values.max()
+    kept = np.isin(point, firsts(values, point[may_win], k, side))
+    point, bound = point[kept], bound[kept]
+    order = np.lexsort((-bound, values[point] < values.max()))[:STARTS]
+    return point[order], bound[order]
+
+
+def starts_of(box: Box) -> tuple[Climbs, FloatArray]:
+    """Return the searches from the grid, and what their first stencils show, (r, n): values that the grid has."""
+    K, D, _ = box.seen.shape
+    found = [hopeful(box.seen[row], box.k, box.side) for row in np.ndindex(K, D)]
+    count = [len(point) for point, _ in found]
+    function, design = (np.repeat(each.ravel(), count) for each in np.indices((K, D)))
+    point, bound = (np.concatenate([each[part] for each in found]) for part in (0, 1))
+    index = np.stack(np.unravel_index(point, [box.side] * box.k), axis=-1)
+    steps = box.side - 1.0
+    middle = np.clip(index, 1, box.side - 2)
+    stencil = (middle[:, None, :] + stencil_of(box.k).astype(int)) @ box.side ** np.arange(box.k - 1, -1, -1)
+    full, none = np.full(len(point), 1.0 / steps), np.full(len(point), np.nan)
+    climbs = Climbs(
+        function, design, index / steps, box.seen[function, design, point], middle / steps, full, none, bound,
+        np.zeros(len(point), int), np.full(len(point), -1),
+    )  # fmt: skip
+    return climbs, box.seen[function[:, None], design[:, None], stencil]
+
+
+# -- where it is smooth: a quadratic on a stencil ------------------------------------------------------------
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Quadratic:
+    """Quadratics (r,) of places (r, k) in their stencils, from -1 to 1: value, gradient, second derivatives."""
+
+    value: FloatArray
+    slope: FloatArray
+    bend: FloatArray
+
+    @classmethod
+    def of(cls, seen: FloatArray, k: int) -> Quadratic:
+        """Return those through what stencils show."""
+        ahead, behind = seen[:, 1 : 2 * k + 1 : 2], seen[:, 2 : 2 * k + 1 : 2]
+        bend = np.zeros((len(seen), k, k))
+        bend[:, range(k), range(k)] = ahead - 2.0 * seen[:, :1] + behind
+        for number, (i, j) in enumerate(combinations(range(k), 2)):
+            a, b, c, d = seen[:, 2 * k + 1 + 4 * number : 2 * k + 5 + 4 * number].T
+            bend[:, i, j] = bend[:, j, i] = 0.25 * (a - b - c + d)
+        return cls(seen[:, 0], 0.5 * (ahead - behind), bend)
+
+    def at(self, u: FloatArray) -> FloatArray:
+        """Return the values (r,) at places (r, k)."""
+        return np.asarray(self.value + (u * (self.slope + 0.5 * np.einsum("rij,rj->ri", self.bend, u))).sum(axis=-1))
+
+    def on(self, stencil: FloatArray) -> FloatArray:
+        """Return the values (r, n) at the places (n, k) of a stencil."""
+        bent = np.einsum("ni,rij,nj->rn", stencil, self.bend, stencil)
+        return np.asarray(self.value[:, None] + self.slope @ stencil.T + 0.5 * bent)
+
+    def top(self, low: FloatArray, high: FloatArray, start: FloatArray) -> FloatArray:
+        """Return a highest place (r, k) between bounds (r, k): stroke by stroke uphill, and a Newton step in those that are free."""
+        k = self.slope.shape[1]
+        u = np.clip(start, low, high)
+        for _ in range(3):
+            for axis in [*range(k)] * 3:
+                slope = self.slope[:, axis] + np.einsum("rj,rj->r", self.bend[:, axis], u) - self.bend[:, axis, axis] * u[:, axis]
+                bend, ends = self.bend[:, axis, axis], (low[:, axis], high[:, axis])
+                gain = [end * (slope + 0.5 * bend * end) for end in ends]
+                inner = np.clip(-slope / np.where(bend < 0.0, bend, -1.0), *ends)
+                u[:, axis] = np.where(bend < 0.0, inner, np.where(gain[1] > gain[0], ends[1], ends[0]))
+            u = self._newton(u, low, high)
+        return u
+
+    def _newton(self, u: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+        """Return the places after a Newton step in the free coordinates, where it stays in and is no loss."""
+        k = u.shape[1]
+        free = (u > low) & (u < high)
+        slope = self.slope + np.einsum("rij,rj->ri", self.bend, u)
+        matrix = np.where(free[:, :, None] & free[:, None, :], self.bend, 0.0)
+        size = np.abs(self.bend).max(axis=(1, 2))[:, None]
+        matrix[:, range(k), range(k)] -= np.where(free, 1e-13 * size, 1.0) + 1e-300
+        with np.errstate(all="ignore"):
+            step = np.linalg.solve(matrix, np.where(free, -slope, 0.0)[..., None])[..., 0]
+        new = np.where(np.isfinite(step), u + step, u)
+        good = ((new >= low) & (new <= high)).all(axis=-1) & (self.at(new) >= self.at(u))
+        return np.where(good[:, None], new, u)
+
+
+def snapped(unit: FloatArray) -> FloatArray:
+    """Return places in the unit box, those next to a border on it."""
+    unit = np.where(unit < 1e-14, 0.0, np.minimum(unit, 1.0))
+    return np.asarray(np.where(unit > 1.0 - 1e-14, 1.0, unit))
+
+
+def fitted(
+    climbs: Climbs, seen: FloatArray, k: int, least: FloatArray, places: FloatArray | None = None
+) -> tuple[Climbs, Mask, Mask]:
+    """Return the searches after a round, which have come to their top, and which are not smooth. `least` (r,) is what is no gain.
+
+    What they have `seen` is at `places` (r, n, k), where these are not those of the stencil.
+    """
+    rows, stencil, fixed = np.arange(len(seen)), stencil_of(k), np.arange(k) == climbs.axis[:, None]
+    values = missing_lowest(seen)
+    pick = np.argmax(values, axis=-1)
+    better = values[rows, pick] > climbs.value
+    centre, half = climbs.centre, climbs.half[:, None]
+    at = snapped(centre + half * stencil[pick]) if places is None else places[rows, pick]
+    unit = np.where(better[:, None], at, climbs.unit)
+    value = np.where(better, values[rows, pick], climbs.value)
+    smooth = np.isfinite(seen).all(axis=-1)
+    model = Quadratic.of(np.where(smooth[:, None], seen, 0.0), k)
+    walls = -centre / half, (1.0 - centre) / half
+    low, high = np.where(fixed, 0.0, np.maximum(-1.5, walls[0])), np.where(fixed, 0.0, np.minimum(1.5, walls[1]))
+    u = model.top(low, high, stencil[pick])
+    at_wall = fixed | (np.abs(u - walls[0]) < 1e-9) | (np.abs(u - walls[1]) < 1e-9)
+    inside = (at_wall | (np.abs(u) < 1.5)).all(axis=-1)
+    hoped = model.at(u)
+    error = np.abs(model.value - climbs.expected)
+    spread = np.ptp(np.where(smooth[:, None], seen, 0.0), axis=-1)
+    misfit = np.abs(model.on(stencil) - np.where(smooth[:, None], seen, 0.0)).max(axis=-1)
+    trusted = smooth & ~(error > 0.25 * spread + least) & (misfit <= 0.25 * spread + least)
+    outward = np.where(at_wall, np.abs(model.slope + np.einsum("rij,rj->ri", model.bend, u)), 0.0)
+    firm = (fixed | at_wall & (outward > 4.0 * np.fmax(error, misfit)[:, None] + 0.5 * np.abs(model.bend).sum(axis=-1))).all(axis=-1)
+    done = trusted & (hoped - value <= least) & (misfit <= 0.05 * spread + least) & ((error <= 1e3 * least) | firm)
+    good = smooth & (hoped > value)
+    goal = np.where(good[:, None], np.clip(centre + half * u, 0.0, 1.0), unit)
+    near = good | (smooth & inside & (np.abs(goal - (centre + half * u)) <= 0.5 * half).all(axis=-1))
+    share = np.where(trusted & inside & near, 0.25, np.where(good & trusted & better, 1.0, 0.5))
+    new_half = climbs.half * share
+    middle = np.where(fixed, unit, np.clip(goal, new_half[:, None], 1.0 - new_half[:, None]))
+    expected = np.where(smooth & (np.abs((middle - centre) / half) <= 2.0).all(axis=-1), model.at((middle - centre) / half), np.nan)
+    bound = np.where(smooth, np.fmax(value, hoped) + 2.0 * np.abs(hoped - value) + 2.0 * np.nan_to_num(error, nan=np.inf), np.inf)
+    idle = np.where(better & (values[rows, pick] - climbs.value > least), 0, climbs.idle + 1)
+    after = replace(climbs, unit=unit, value=value, centre=middle, half=new_half, expected=expected, bound=bound, idle=idle)
+    rough = ~done & ((idle > PATIENCE) & ~(trusted & inside))
+    return after, done, rough | ((new_half <= NARROW) & ~done)
+
+
+def at_stencils(box: Box, climbs: Climbs, offsets: FloatArray) -> FloatArray:
+    """Return what searches (r,) see at their centres plus offsets (n, k) times their halves, shape (r, n): equal stencils are one."""
+    keys = np.column_stack([climbs.design, climbs.centre, climbs.half])
+    _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    places = snapped(climbs.centre[first, None, :] + climbs.half[first, None, None] * offsets)
+    seen, _ = box.at(climbs.design[first], places)
+    return np.asarray(seen[climbs.function, inverse.reshape(-1)])
+
+
+def climbed(box: Box) -> tuple[Climbs, Climbs, FloatArray]:
+    """Return the searches that came to a smooth top, those that did not, and (K, D) what is no gain."""
+    D = box.seen.shape[1]
+    finite = np.where(np.abs(box.seen) < -LOWEST, box.seen, np.nan)
+    size = np.fmax.reduce(np.abs(finite), axis=-1, initial=0.0)
+    span = np.fmax.reduce(finite, axis=-1, initial=-np.inf) - np.fmin.reduce(finite, axis=-1, initial=np.inf)
+    least = CLOSE * np.maximum(span, 0.0) + ROUNDED * size
+    going, seen = starts_of(box)
+    tops: list[Climbs] = [going.where(slice(0, 0))]
+    rough: list[Climbs] = [going.where(slice(0, 0))]
+    for _ in range(ROUNDS):
+        going, done, stuck = fitted(going, seen, box.k, least[going.function, going.design])
+        tops.append(going.where(done))
+        rough.append(going.where(stuck & ~done))
+        known = Climbs.joined([*tops, *rough, going])
+        best = known.best(D)[-len(going.value) :] if len(going.value) else going.value
+        going = going.where(~done & ~stuck & ((going.bound >= best) | (going.value >= best)))
+        if not len(going.value):
+            break
+        seen = at_stencils(box, going, stencil_of(box.k))
+    rough.append(going)
+    return Climbs.joined(tops), Climbs.joined(rough), least
+
+
+# -- where it is not smooth: gradients that are sampled ------------------------------------------------------
+
+SLOPES, FALLS = 4, 60  # samples beyond two a stroke; rounds
+LENGTHS = np.ldexp(1.0, np.arange(-5, 6))  # of the radius: how far one goes along a direction
+
+
+def own_values(box: Box, climbs: Climbs, places: FloatArray) -> FloatArray:
+    """Return the values (r, n) of each search's own function at its own places (r, n, k); those of equal searches are asked once."""
+    seen, _ = box.at(climbs.design, places)
+    return np.asarray(seen[climbs.function, np.arange(len(places))])
+
+
+def shortest(slopes: FloatArray, known: Mask) -> FloatArray:
+    """Return the shortest vectors (r, k) in the hulls of vectors (r, m, k), of those that are known (r, m)."""
+    rows = np.arange(len(slopes))
+    slopes = np.where(known[..., None], slopes, 0.0)
+    weight = known / np.maximum(known.sum(axis=-1, keepdims=True), 1)
+    found = np.einsum("rm,rmk->rk", weight, slopes)
+    for _ in range(80):
+        along = np.einsum("rmk,rk->rm", slopes, found)
+        least = np.argmin(np.where(known, along, np.inf), axis=-1)
+        most = np.argmax(np.where(weight > 0.0, along, -np.inf), axis=-1)
+        step = slopes[rows, least] - slopes[rows, most]
+        share = -(found * step).sum(axis=-1) / np.maximum((step * step).sum(axis=-1), 1e-300)
+        share = np.clip(np.nan_to_num(share), 0.0, weight[rows, most])
+        weight[rows, least] += share
+        weight[rows, most] -= share
+        found = found + share[:, None] * step
+        if not np.any(share > 1e-9):
+            break
+    return found
+
+
+def ridden(box: Box, climbs: Climbs, least: FloatArray) -> Climbs:
+    """Return searches (r,) after steps along the directions in which all slopes about them rise; `least` (r,) is what is no gain."""
+    k, rows = box.k, np.arange(len(climbs.value))
+    m = 2 * k + SLOPES
+    radius = np.full(len(rows), 0.5 / (box.side - 1))
+    root = 2.0
+    for _ in range(64):
+        root = (1.0 + root) ** (1.0 / (k + 1))
+    number = 0
+    for _ in range(FALLS):
+        cube = 2.0 * ((0.5 + (number + np.arange(m))[:, None] * root ** -np.arange(1.0, k + 1)) % 1.0) - 1.0
+        number += m
+        wanted = climbs.unit[:, None] + radius[:, None, None] * cube
+        base = np.clip(wanted, 0.0, 1.0)
+        delta = (1e-4 * radius[:, None, None] * np.where(base > 0.5, -1.0, 1.0))[..., None] * np.eye(k)  # (r, m, k, k)
+        places = np.concatenate([base[:, :, None], base[:, :, None] + delta], axis=2)
+        seen = own_values(box, climbs, places.reshape(len(rows), -1, k)).reshape(len(rows), m, k + 1)
+        slopes = (seen[..., 1:] - seen[..., :1]) / np.einsum("rmkk->rmk", delta)
+        known = np.isfinite(slopes).all(axis=-1)
+        steep = 10.0 * np.abs(np.where(known[..., None], slopes, 0.0)).max(axis=(1, 2))
+        slopes = np.where(wanted != base, -np.sign(wanted - base) * steep[:, None, None], slopes)
+        way = shortest(slopes, known)
+        rise = np.sqrt((way * way).sum(axis=-1))
+        size = np.abs(way).max(axis=-1)
+        ahead = way / np.where(size > 0.0, size, 1.0)[:, None]
+        line = np.clip(climbs.unit[:, None] + (radius[:, None] * LENGTHS)[..., None] * ahead[:, None], 0.0, 1.0)
+        values = missing_lowest(np.concatenate([own_values(box, climbs, line), seen[..., 0]], axis=1))
+        line = np.concatenate([line, base], axis=1)
+        pick = np.argmax(values, axis=-1)
+        gain = values[rows, pick] - climbs.value
+        better = gain > 0.0
+        unit = np.where(better[:, None], line[rows, pick], climbs.unit)
+        climbs = replace(climbs, unit=unit, value=np.where(better, values[rows, pick], climbs.value))
+        moved = better & (gain > 0.02 * radius * rise) & (gain > least)
+        far = moved & (pick >= 8) & (pick < len(LENGTHS))
+        radius = np.where(far, np.minimum(2.0 * radius, 0.5), np.where(moved, radius, 0.25 * radius))
+        if radius.max(initial=0.0) < NARROW:
+            break
+    return climbs
+
+
+# -- the border of what has a value --------------------------------------------------------------------------
+
+EDGES, BORDERS, CUTS = 4, 4, 8  # borders of each function and design, along each stroke and in all; parts of a bisection
+ACROSS = np.linspace(-1.0, 1.0, 9)
+
+
+def border_starts(box: Box) -> Climbs:
+    """Return searches at the grid points whose next along a stroke has no value, the best ones."""
+    K, D, _ = box.seen.shape
+    rows: list[tuple[int, int, int, int]] = []
+    for function, design in np.ndindex(K, D):
+        cube = missing_lowest(box.seen[function, design]).reshape([box.side] * box.k)
+        if not np.isneginf(cube).any():
+            continue
+        for axis, by in product(range(box.k), (-1, 1)):
+            beyond, behind = shifted(cube, axis, by), shifted(cube, axis, -by)
+            edge = (cube > -np.inf) & np.isneginf(beyond)
+            score = np.where(edge, cube + np.where(behind > LOWEST, np.maximum(cube - behind, 0.0), 0.0), -np.inf).ravel()
+            tops = np.flatnonzero(edge.ravel() & (score >= widened(score.reshape(cube.shape)).ravel()))
+            rows += [(function, design, int(point), axis) for point in tops[np.argsort(-score[tops])][:EDGES]]
+    function, design, point, axis = np.array(rows, int).reshape(-1, 4).T
+    unit = np.stack(np.unravel_index(point, [box.side] * box.k), axis=-1) / (box.side - 1.0)
+    steps, _ = neighbours(box.k, box.side)
+    near = np.clip(np.rint(unit * (box.side - 1)).astype(int)[:, None] + steps, 0, box.side - 1) @ box.side ** np.arange(box.k - 1, -1, -1)
+    value = box.seen[function, design, point]
+    rise = np.fmax.reduce(np.abs(box.seen[function[:, None], design[:, None], near] - value[:, None]), axis=-1, initial=0.0)
+    half, none = np.full(len(point), 1.0 / (box.side - 1)), np.full(len(point), np.nan)
+    return Climbs(function, design, unit, value, unit, half, none, 2.0 * rise, np.zeros(len(point), int), axis)
+
+
+def shifted(cube: FloatArray, axis: int, by: int) -> FloatArray:
+    """Return the values so many places on along an axis, NaN beyond the ends."""
+    found = np.full(cube.shape, np.nan)
+    into, out = [slice(None)] * cube.ndim, [slice(None)] * cube.ndim
+    into[axis], out[axis] = (slice(None, -by), slice(by, None)) if by > 0 else (slice(-by, None), slice(None, by))
+    found[tuple(into)] = cube[tuple(out)]
+    return found
+
+
+def on_border(box: Box, alike: Index, climbs: Climbs, places: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the places (r, n, k) on the border next to places (r, n, k), along each search's stroke, and the values (r, n) there.
+
+    The border is looked for within two halves of the stencil; where there is none the value is NaN. Functions that are `alike`
+    (K,) have the same border.
+    """
+    keys = np.column_stack([alike[climbs.function], climbs.design, climbs.axis, climbs.half, places.reshape(len(places), -1)])
+    _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    inverse = inverse.reshape(-1)
+    found, there = crossed(box, climbs.where(first), places[first])
+    seen, _ = box.at(climbs.design[first], found)
+    return found[inverse], np.where(there[inverse], seen[climbs.function, inverse], np.nan)
+
+
+def crossed(box: Box, climbs: Climbs, places: FloatArray) -> tuple[FloatArray, Mask]:
+    """Return the last places (r, n, k) with a value along each search's stroke, and whether there is a border (r, n)."""
+    r, _, k = places.shape
+    fixed = (np.arange(k) == climbs.axis[:, None])[:, None, None, :]
+    middle = np.take_along_axis(places, climbs.axis[:, None, None], axis=-1)[..., 0]
+
+    def missing_at(along: FloatArray) -> Mask:
+        at = np.where(fixed, along[..., None], places[:, :, None, :])
+        return np.isnan(own_values(box, climbs, at.reshape(r, -1, k)).reshape(along.shape))
+
+    along = np.clip(middle[..., None] + (2.0 * climbs.half)[:, None, None] * ACROSS, 0.0, 1.0)
+    missing = missing_at(along)
+    change = missing[..., :-1] != missing[..., 1:]
+    away = np.where(change, np.abs(np.arange(ACROSS.size - 1) - ACROSS.size // 2 + 0.5), np.inf)
+    pick = np.argmin(away, axis=-1)[..., None]
+    first, last = (np.take_along_axis(along, pick + step, axis=-1)[..., 0] for step in (0, 1))
+    back = np.take_along_axis(missing, pick, axis=-1)[..., 0]
+    inside, outside = np.where(back, last, first), np.where(back, first, last)
+    outside = np.where(change.any(axis=-1), outside, inside)
+    while np.max(np.abs(outside - inside), initial=0.0) > 1e-13:
+        cut = inside[..., None] + (outside - inside)[..., None] * np.linspace(0.0, 1.0, CUTS + 1)
+        gone = np.concatenate([missing_at(cut[..., 1:-1]), np.ones((*inside.shape, 1), bool)], axis=-1)
+        pick = np.argmax(gone, axis=-1)[..., None]
+        new = [np.take_along_axis(cut, pick + step, axis=-1)[..., 0] for step in (0, 1)]
+        if np.array_equal(new, [inside, outside]):
+            break
+        inside, outside = new
+    return np.where(fixed[:, :, 0], inside[..., None], places), np.asarray(change.any(axis=-1))
+
+
+def hopeful_borders(box: Box, alike: Index, known: FloatArray) -> Climbs:
+    """Return the searches on borders that may better what is known (K, D)."""
+    starts = border_starts(box)
+    places, values = on_border(box, alike, starts, starts.unit[:, None])
+    found, D = missing_lowest(values[:, 0]), box.seen.shape[1]
+    keys = np.column_stack([starts.function, starts.design, starts.unit])
+    _, point = np.unique(keys, axis=0, return_inverse=True)
+    away = np.where(np.isfinite(found), np.abs(places[:, 0] - starts.unit).sum(axis=-1), np.inf)
+    order = np.lexsort((away, point.reshape(-1)))
+    nearest = np.zeros(len(found), bool)
+    nearest[order[np.flatnonzero(np.diff(point.reshape(-1)[order], prepend=-1))]] = True
+    hope = found + np.abs(found - starts.value) + starts.bound
+    nearest &= (found > -np.inf) & (hope >= known[starts.function, starts.design])
+    going = replace(starts, unit=places[:, 0], centre=places[:, 0], value=found, half=0.5 * starts.half)
+    order = np.flatnonzero(nearest)
+    row = (going.function * D + going.design)[order]
+    order = order[np.lexsort((-found[order], row))]
+    row = np.sort(row)
+    order = order[np.arange(len(row)) - np.searchsorted(row, row) < BORDERS]
+    return going.where(order)
+
+
+def along_borders(box: Box, known: FloatArray, least: FloatArray) -> Climbs:
+    """Return searches along the borders of what has a value, those that may better what is known (K, D)."""
+    first: dict[bytes, int] = {}
+    alike = np.array([first.setdefault(np.isnan(row).tobytes(), number) for number, row in enumerate(box.seen)])
+    going = hopeful_borders(box, alike, known)
+    ended = [going.where(slice(0, 0))]
+    for _ in range(ROUNDS):
+        if not len(going.value):
+            break
+        stencil = np.where((np.arange(box.k) == going.axis[:, None])[:, None], 0.0, stencil_of(box.k))
+        places, values = on_border(box, alike, going, snapped(going.centre[:, None] + going.half[:, None, None] * stencil))
+        going, done, stuck = fitted(going, values, box.k, least[going.function, going.design], places)
+        stuck = going.half < BORDER
+        lost = ~np.isfinite(values).all(axis=-1)  # the border runs along this stroke: it is followed along another
+        going = replace(going, axis=np.where(lost, (going.axis + 1) % box.k, going.axis), expected=np.where(lost, np.nan, going.expected))
+        ended.append(going.where(done | stuck))
+        best = np.maximum(Climbs.joined([*ended, going]).best(box.seen.shape[1])[-len(going.value) :], known[going.function, going.design])
+        stay = ~(done | stuck) & ((going.bound >= best) | (going.value >= best))
+        going = going.where(stay)
+    return Climbs.joined([*ended, going])
+
+
+# -- the search ----------------------------------------------------------------------------------------------
+
+
+@np.errstate(all="ignore")
+def highest_in(box: Box) -> HighestInBox:
+    """Return the highest values in a box."""
+    K, D, _ = box.seen.shape
+    tops, rough, least = climbed(box)
+    best = best_of(Climbs.joined([tops, rough]), K, D, 1)
+    rough = best_of(rough, K, D, ROUGH)
+    rough = rough.where((rough.value > -np.inf) & (rough.bound >= value_of(best, K, D)[rough.function, rough.design]))
+    if len(rough.value):
+        rough = ridden(box, rough, least[rough.function, rough.design])
+    found = [tops, rough, best]
+    missing = np.isnan(box.seen)
+    if missing.any() and not missing.all():
+        found.append(along_borders(box, value_of(best_of(Climbs.joined(found), K, D, 1), K, D), least))
+    doubtful = best_of(Climbs.joined(found[1:2] + found[3:]), K, D, 2) if len(found) > 3 or len(rough.value) else rough
+    grows = grows_in_box(box, doubtful)
+    best = best_of(Climbs.joined(found), K, D, 1)
+    value, unit = value_of(best, K, D), np.zeros((K, D, box.k))
+    unit[best.function, best.design] = best.unit
+    unbounded = np.isposinf(value)
+    unbounded[doubtful.function[grows], doubtful.design[grows]] = True
+    poles = doubtful.where(grows)
+    unit[poles.function, poles.design] = poles.unit
+    lost = missing.all(axis=-1)
+    value = np.where(lost, np.nan, np.where(unbounded, np.inf, np.where(value <= LOWEST, -np.inf, value)))
+    return HighestInBox(value, unit, unbounded)
+
+
+def best_of(climbs: Climbs, K: int, D: int, count: int) -> Climbs:
+    """Return the best of the searches of each function and design, so many."""
+    row = climbs.function * D + climbs.design
+    order = np.lexsort((-climbs.value, row))
+    row = row[order]
+    rank = np.arange(len(row)) - np.searchsorted(row, row)
+    return climbs.where(order[rank < count])
+
+
+def value_of(best: Climbs, K: int, D: int) -> FloatArray:
+    """Return the values (K, D) of the best searches, one each."""
+    value = np.full((K, D), -np.inf)
+    value[best.function, best.design] = best.value
+    return value
+
+
+def grows_in_box(box: Box, climbs: Climbs) -> Mask:
+    """Return at which places (r,) a value grows beyond bounds along a stroke; see `peaks.grows_along_leg`."""
+    if not len(climbs.value):
+        return np.zeros(0, bool)
+    far = np.ldexp(1.0, -np.arange(1, 41))
+    ways = np.array([-1.0, 1.0])[:, None, None] * far[:, None] * np.eye(box.k)[:, None, None, :]  # (k, 2, n, k)
+    at = climbs.unit[:, None, None, None, :] + ways
+    on = ((at >= 0.0) & (at <= 1.0)).all(axis=-1)
+    found, reached = box.at(climbs.design, np.clip(at, 0.0, 1.0).reshape(len(at), -1, box.k))
+    seen = found[climbs.function, np.arange(len(at))]
+    seen, reached = np.where(on, seen.reshape(on.shape), np.nan), reached.reshape(on.shape) & on
+    poles = is_pole(np.broadcast_to(climbs.value[:, None], on.shape[:-2]), seen, reached, far, BORDER, SEEN)
+    return np.asarray(np.isposinf(climbs.value) | poles.any(axis=(-2, -1)))

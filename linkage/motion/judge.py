@@ -87,6 +87,28 @@ class Row:
     situation: Situation
     sense: float
 
+    @property
+    def is_reciprocal(self) -> bool:
+        """Whether one over it is looked for."""
+        return self.piece.reciprocal is not None and isinstance(self.leaf, Least)
+
+    @property
+    def request(self) -> Any:
+        """What is looked for."""
+        return self.piece.reciprocal if self.is_reciprocal else self.piece.request
+
+    @property
+    def sought(self) -> float:
+        """1.0 where the greatest value of what is looked for is the worst, else -1.0."""
+        return 1.0 if self.is_reciprocal else self.sense
+
+    def value(self, highest: FloatArray) -> FloatArray:
+        """Return its worst value from the highest of what is looked for times its sense; NaN where it has no bound anywhere."""
+        if self.is_reciprocal:
+            with np.errstate(all="ignore"):
+                return np.asarray(np.where(highest > 0.0, 1.0 / highest, np.nan))
+        return np.asarray(self.sense * highest)
+
 
 @final
 @dataclass(frozen=True, eq=False)
@@ -188,7 +210,7 @@ class Place:
         return [
             Found(
                 row,
-                row.sense * value[k],
+                row.value(value[k]),
                 {name: each[k] for name, each in strokes.items()},
                 unbounded[k],
                 asked.seen.lawless[k],
@@ -256,7 +278,7 @@ class Asked:
         self.plan = place.plan
         self._bound: dict[int, BoundRequest] = {}
         for k, row in enumerate(rows):
-            bound = as_bound(self.plan, row.piece.request)
+            bound = as_bound(self.plan, row.request)
             if bound is not None:
                 self._bound[k] = bound
 
@@ -267,9 +289,8 @@ class Asked:
             self.note(motion, kept, values, unlimited)
         self.seen.count += motion.reached.size
         for k, row in enumerate(self.rows):
-            values[k] *= row.sense
+            values[k] *= row.sought
         values[:, ~kept] = np.nan
-        values[unlimited] = np.nan
         return values
 
     def values(self, motion: Motion) -> tuple[FloatArray, Mask]:
@@ -278,16 +299,25 @@ class Asked:
         with unwarned(), np.errstate(all="ignore"):
             if self._bound:
                 found = Evaluation(motion._grid, tuple(self._bound.values()), QUICKEST, "nan").run(None)
-                for (k, bound), each in zip(self._bound.items(), found, strict=True):
+                for k, each in zip(self._bound, found, strict=True):
                     values[k] = np.broadcast_to(each, motion.shape)
-                    unlimited[k] = without_bound(self.plan, bound, motion)
             for k, row in enumerate(self.rows):
                 if k not in self._bound:
-                    values[k] = value_at(motion, row.piece.request)
-                    mask = row.piece.request.unlimited(motion) if isinstance(row.piece.request, Request) else None
-                    unlimited[k] = False if mask is None else np.broadcast_to(mask, motion.shape) & np.isnan(values[k])
+                    values[k] = value_at(motion, row.request)
+                if row.is_reciprocal:
+                    unlimited[k] = values[k] <= 0.0
+                elif (np.isnan(values[k]) & motion.reached).any():
+                    unlimited[k] = self.without_bound(k, motion) & np.isnan(values[k])
         values[:, ~motion.reached] = np.nan
         return values, unlimited & motion.reached
+
+    def without_bound(self, k: int, motion: Motion) -> Mask:
+        """Return where the law of a row has no bound: by its program, else as the request says."""
+        request = self.rows[k].request
+        if k in self._bound:
+            return without_bound(self.plan, self._bound[k], motion)
+        mask = request.unlimited(motion) if isinstance(request, Request) else None
+        return np.zeros(motion.shape, bool) if mask is None else np.asarray(np.broadcast_to(mask, motion.shape))
 
     def note(self, motion: Motion, kept: Mask, values: FloatArray, unlimited: Mask) -> None:
         """Note the shares of the places that have no value, and one of those that cannot be assembled."""
@@ -375,7 +405,7 @@ def at_poses(asked: Asked, motion: Motion) -> list[Found]:
     strokes = {name: np.broadcast_to(np.ravel(value), flat.shape) for name, value in motion.strokes.items()}
     return [
         Found(
-            row, row.sense * best[k], {name: np.take_along_axis(value[k], place[k], axis=-1)[..., 0] for name, value in strokes.items()},
+            row, row.value(best[k]), {name: np.take_along_axis(value[k], place[k], axis=-1)[..., 0] for name, value in strokes.items()},
             np.isposinf(best[k]), asked.seen.lawless[k], asked.seen.unlimited[k],
         )
         for k, row in enumerate(asked.rows)

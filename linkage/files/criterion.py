@@ -22,11 +22,7 @@ import numpy as np
 from ..errors import DefinitionError, unknown
 from ..mechanism import Mechanism
 from ..motion import Request
-from ..motion.requests import Combined
-from ..plan import plan_measure
-from ..quantities import Number, Quantity, angle, distance, is_number, x, y
-from ..steps import Point
-from ..study.measures import (
+from ..motion.measures import (
     CombinedMeasure,
     Condition,
     Constraint,
@@ -40,11 +36,15 @@ from ..study.measures import (
     least,
     most,
     reachable,
+    strokes_behind,
     words_of,
     worst,
 )
+from ..motion.requests import Combined
+from ..plan import plan_measure
+from ..quantities import Number, Quantity, angle, distance, is_number, x, y
+from ..steps import Point
 from ..study.problem import NOWHERE, Problem
-from ..study.sampling import strokes_behind
 from ..units import UNITS
 from .callables import request_function
 from .expression import BINARY, CONSTANTS, NUMBER, Grammar, tokens

@@ -5,6 +5,7 @@
     a moment turns its link counter-clockwise; a support pushes its point along its direction
 """
 
+from .acting import DIRECTIONS, FRICTIONLESS, PLAIN, Acting
 from .case import LoadCase
 from .element import (
     AT_REST,

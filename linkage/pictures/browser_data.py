@@ -548,4 +548,4 @@ def verdict_data(machine: Mechanism, motion: Motion) -> list[list[Any]]:
 
 def verdict_parts(said: str) -> tuple[int, str, str]:
     """Return whether a verdict is kept, what it is called and what it says."""
-    return (int(said.ok), said.heading, said.sentence) if isinstance(said, Verdict) else (2, "", str(said))
+    return (2 if said.ok is None else int(said.ok), said.heading, said.sentence) if isinstance(said, Verdict) else (2, "", str(said))

@@ -12,6 +12,7 @@ from .quantity import (
     Number,
     Operand,
     Operation,
+    PoseCondition,
     Quantity,
     Ref,
     Sum,

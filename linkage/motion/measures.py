@@ -16,10 +16,12 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any, ClassVar, NoReturn, TypeAlias, final
 
-from ..errors import DefinitionError, cited
-from ..motion import Motion, Request
+from ..errors import DefinitionError, LawError, UntracedError, cited
+from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import Quantity, is_number
+from ..quantities import PoseCondition, Quantity, is_number
+from .motion import Motion
+from .requests import BoundRequest, Request, bound
 
 MeasuredQuantity: TypeAlias = "str | Quantity | Request | Worst | Callable[[Motion], FloatArray]"
 """What has a value at every pose: a named output, a quantity, a request, or a function of a motion."""
@@ -353,11 +355,56 @@ reachable = Reachable()
 
 def conditions_of(given: Any, machine: Any) -> list[Constraint]:
     """Return the constraints of conditions; DefinitionError for what is none."""
-    listed = [given] if isinstance(given, (Condition, Measure, bool)) else given
+    listed = [given] if isinstance(given, (Condition, Measure, PoseCondition, bool)) else given
     if not isinstance(listed, (list, tuple)):
         raise DefinitionError(f"subject_to={cited(given)}: a list of conditions is expected, such as [least(...) >= 35 * kN].")
     for each in listed:
+        if isinstance(each, PoseCondition):
+            bool(each)
         if not isinstance(each, Condition):
             what = f"{each} says no limit" if isinstance(each, Measure) else f"{cited(each)} is no condition"
             raise DefinitionError(f"subject_to: {what}; write one such as most(...) <= 8 * deg.")
     return [found for each in listed for found in each.constraints(machine)]
+
+
+# Quantities as requests of a plan.
+
+
+def bound_quantity(plan: Plan, quantity: str | Quantity | Request) -> BoundRequest:
+    """Return a quantity bound to a plan; a dimension by its name too, `"lift.closed"`."""
+    if isinstance(quantity, str) and quantity not in plan.members and quantity in plan.table.spellings:
+        return DimensionValue(*plan.table.spellings[quantity])
+    return bound(plan, quantity)
+
+
+def strokes_behind(plan: Plan, quantity: Any) -> tuple[str, ...]:
+    """Return the strokes that a quantity depends on; all of them for a function of a motion."""
+    if not isinstance(quantity, (str, Quantity, Request)):
+        return tuple(plan.strokes)
+    try:
+        names = bound_quantity(plan, quantity).names(plan)
+    except (UntracedError, LawError):
+        return tuple(plan.strokes)
+    return tuple(name for name in plan.strokes if name in names or name in plan.reaches(*(each for each in names if each in plan.members)))
+
+
+@final
+@dataclass(frozen=True)
+class DimensionValue(BoundRequest):
+    """A dimension itself, by its owner and sign."""
+
+    owner: str
+    sign: int
+
+    @property
+    def key(self) -> Any:
+        return "dimension", self.owner, self.sign
+
+    def nodes(self, plan: Plan) -> tuple[Any, ...]:
+        return (plan.trace.inputs[self.owner] * float(self.sign),)
+
+    def names(self, plan: Plan) -> set[str]:
+        return set()
+
+    def __str__(self) -> str:
+        return self.owner

@@ -26,7 +26,7 @@ from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, 
 from .evaluation import Evaluation
 from .extremes import extremum, moving
 from .limits import stroke_unit
-from .margins import Margin, has_all_margins, least_margins, missing_at
+from .margins import LeastMargin, has_all_margins, least_margins, missing_at
 from .measures import (
     At,
     Condition,
@@ -224,7 +224,7 @@ class Place:
     # -- what is lost ------------------------------------------------------------------------------------
 
     @cached_property
-    def holes(self) -> list[Margin]:
+    def holes(self) -> list[LeastMargin]:
         """The loops that come apart somewhere it is looked at, however narrow that place is."""
         if self.over.shape == "poses" or self.motion._design_shape:
             return []

@@ -373,8 +373,8 @@ def after_round(
     new_half = climbs.half * share
     middle = np.where(fixed, unit, np.clip(goal, new_half[:, None], 1.0 - new_half[:, None]))
     expected = np.where(smooth & (np.abs((middle - centre) / half) <= 2.0).all(axis=-1), model.at((middle - centre) / half), np.nan)
-    bound = np.where(smooth, np.fmax(value, hoped) + 2.0 * np.abs(hoped - value) + 2.0 * np.nan_to_num(error, nan=np.inf), np.inf)
-    idle = np.where(better & (values[rows, pick] - climbs.value > least), 0, climbs.idle + 1)
+    bound = np.where(smooth, np.fmax(value, hoped) + 2.0 * np.abs(hoped - value) + 2.0 * np.fmax(error, misfit), np.inf)
+    idle = np.where(smooth & better & (values[rows, pick] - climbs.value > least), 0, climbs.idle + 1)
     after = replace(climbs, unit=unit, value=value, centre=middle, half=new_half, expected=expected, bound=bound, idle=idle)
     rough = ~done & ((idle > PATIENCE) & ~(trusted & inside))
     return after, done, rough | ((new_half <= NARROW) & ~done)
@@ -401,8 +401,9 @@ def climbed(box: SeenBox) -> tuple[Climbs, Climbs, FloatArray]:
     rough: list[Climbs] = [going.where(NONE)]
     for _ in range(ROUNDS):
         going, done, stuck = after_round(going, seen, box.k, least[going.function, going.design])
-        tops.append(going.where(done))
-        rough.append(going.where(stuck & ~done))
+        edge = ~np.isfinite(seen).all(axis=-1)  # next to what has no value: its border is followed on its own
+        tops.append(going.where(done | (stuck & edge)))
+        rough.append(going.where(stuck & ~done & ~edge))
         known = Climbs.joined([*tops, *rough, going])
         best = known.best(D)[-len(going.value) :] if len(going.value) else going.value
         going = going.where(~done & ~stuck & ((going.bound >= best) | (going.value >= best)))
@@ -509,8 +510,9 @@ def stepped(box: SeenBox, climbs: Climbs, way: FloatArray, near: FloatArray, see
 
 # -- the border of what has a value --------------------------------------------------------------------------
 
-EDGES, BORDERS, CUTS = 4, 4, 8  # borders of each function and design, along each stroke and in all; parts of a bisection
-ACROSS = np.linspace(-1.0, 1.0, 9)
+FINE = 2e-7  # of the box: how narrow a stencil on a border gets
+EDGES, BORDERS, CUTS = 4, 4, 16  # borders of each function and design, along each stroke and in all; parts of a bisection
+ACROSS = np.linspace(-6.0, 6.0, 13)  # where a border is looked for, in halves of the stencil
 
 
 def border_starts(box: SeenBox) -> Climbs:
@@ -549,7 +551,7 @@ def values_beside(cube: FloatArray, axis: int, by: int) -> FloatArray:
 def on_border(box: SeenBox, alike: Index, climbs: Climbs, places: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the places (r, n, k) on the border next to places (r, n, k), along each search's stroke, and the values (r, n) there.
 
-    The border is looked for within two halves of the stencil; where there is none the value is NaN. Functions that are `alike`
+    The border is looked for within six halves of the stencil; where there is none the value is NaN. Functions that are `alike`
     (K,) have the same border.
     """
     keys = np.column_stack([alike[climbs.function], climbs.design, climbs.axis, climbs.half, places.reshape(len(places), -1)])
@@ -570,7 +572,7 @@ def border_crossings(box: SeenBox, climbs: Climbs, places: FloatArray) -> tuple[
         at = np.where(fixed, along[..., None], places[:, :, None, :])
         return np.isnan(own_values(box, climbs, at.reshape(r, -1, k)).reshape(along.shape))
 
-    along = np.clip(middle[..., None] + (2.0 * climbs.half)[:, None, None] * ACROSS, 0.0, 1.0)
+    along = np.clip(middle[..., None] + climbs.half[:, None, None] * ACROSS, 0.0, 1.0)
     missing = missing_at(along)
     change = missing[..., :-1] != missing[..., 1:]
     away = np.where(change, np.abs(np.arange(ACROSS.size - 1) - ACROSS.size // 2 + 0.5), np.inf)
@@ -613,26 +615,43 @@ def hopeful_borders(box: SeenBox, alike: Index, known: FloatArray) -> Climbs:
     return going.where(order)
 
 
-def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> Climbs:
-    """Return searches along the borders of what has a value, those that may better what is known (K, D)."""
+def border_stencil(k: int, axis: Index) -> tuple[FloatArray, Index]:
+    """Return the different places (r, m, k) of stencils that stand still along a stroke (r,), and which of them (r, n) each place is."""
+    found = [np.unique(np.where(np.arange(k) == each, 0.0, stencil_of(k)), axis=0, return_inverse=True) for each in range(k)]
+    return np.array([offsets for offsets, _ in found])[axis], np.array([index.reshape(-1) for _, index in found])[axis]
+
+
+def turned(climbs: Climbs, lost: Mask, half: FloatArray) -> Climbs:
+    """Return searches that follow the border along the next stroke where it is `lost` along this one, as wide as before for each stroke."""
+    k = climbs.unit.shape[1]
+    axis = np.where(lost, (climbs.axis + 1) % k, climbs.axis)
+    width = np.where(lost & (axis > 0), half, climbs.half)
+    return replace(climbs, axis=axis, half=width, expected=np.where(lost, np.nan, climbs.expected))
+
+
+def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[Climbs, Climbs]:
+    """Return the searches along borders that came to a smooth top, and the others; those that may better what is known (K, D)."""
     first: dict[bytes, int] = {}
     alike = np.array([first.setdefault(np.isnan(row).tobytes(), number) for number, row in enumerate(box.seen)])
     going = hopeful_borders(box, alike, known)
-    ended = [going.where(NONE)]
+    tops, ended = [going.where(NONE)], [going.where(NONE)]
     for _ in range(ROUNDS):
         if not len(going.value):
             break
-        stencil = np.where((np.arange(box.k) == going.axis[:, None])[:, None], 0.0, stencil_of(box.k))
-        places, values = on_border(box, alike, going, snapped(going.centre[:, None] + going.half[:, None, None] * stencil))
+        offsets, index = border_stencil(box.k, going.axis)
+        places, values = on_border(box, alike, going, snapped(going.centre[:, None] + going.half[:, None, None] * offsets))
+        places, values = np.take_along_axis(places, index[..., None], axis=1), np.take_along_axis(values, index, axis=1)
+        half = going.half
         going, done, stuck = after_round(going, values, box.k, least[going.function, going.design], places)
-        stuck = going.half < BORDER
-        lost = ~np.isfinite(values).all(axis=-1)  # the border runs along this stroke: it is followed along another
-        going = replace(going, axis=np.where(lost, (going.axis + 1) % box.k, going.axis), expected=np.where(lost, np.nan, going.expected))
-        ended.append(going.where(done | stuck))
-        best = np.maximum(Climbs.joined([*ended, going]).best(box.seen.shape[1])[-len(going.value) :], known[going.function, going.design])
+        beaten = going.value <= (known + least)[going.function, going.design]
+        stuck = (going.half < FINE) | (beaten & (going.idle > 2 * PATIENCE))
+        going = turned(going, ~np.isfinite(values).all(axis=-1), half)
+        tops.append(going.where(done))
+        ended.append(going.where(stuck & ~done))
+        best = np.maximum(Climbs.joined([*tops, *ended, going]).best(box.seen.shape[1])[-len(going.value) :], known[going.function, going.design])
         stay = ~(done | stuck) & ((going.bound >= best) | (going.value >= best))
         going = going.where(stay)
-    return Climbs.joined([*ended, going])
+    return Climbs.joined(tops), Climbs.joined([*ended, going])
 
 
 # -- the search ----------------------------------------------------------------------------------------------
@@ -651,8 +670,9 @@ def highest_in(box: SeenBox) -> HighestInBox:
     found = [tops, rough, best]
     missing = np.isnan(box.seen)
     if missing.any() and not missing.all():
-        found.append(along_borders(box, value_of(best_of(Climbs.joined(found), K, D, 1), K, D), least))
-    doubtful = best_of(Climbs.joined(found[1:2] + found[3:]), K, D, 2) if len(found) > 3 or len(rough.value) else rough
+        found += along_borders(box, value_of(best_of(Climbs.joined(found), K, D, 1), K, D), least)
+    doubtful = best_of(Climbs.joined([rough, *found[4:]]), K, D, 1)
+    doubtful = doubtful.where(doubtful.value >= value_of(best_of(Climbs.joined(found), K, D, 1), K, D)[doubtful.function, doubtful.design])
     grows = grows_in_box(box, doubtful)
     best = best_of(Climbs.joined(found), K, D, 1)
     value, unit = value_of(best, K, D), np.zeros((K, D, box.k))

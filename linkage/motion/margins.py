@@ -6,14 +6,14 @@ extremes, and with it a part of the strokes that is out of reach and far narrowe
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
 
 from ..errors import AssemblyError
-from ..plan import Loop, Plan
+from ..plan import Loop, Mask, Plan
 from ..program import FloatArray
 from .course import ON_ARRAYS, ROUNDING, Clearances
 from .extremes import places_text, searched
@@ -41,8 +41,10 @@ class LeastMargin:
         return f"{self.step}: {np.min(self.value):.3g} at {places_text(self.strokes, self.units)}"
 
 
-def least_margins(motion: Motion) -> list[LeastMargin]:
+def least_margins(motion: Motion, kept: Callable[[Motion], Mask] | None = None) -> list[LeastMargin]:
     """Return the least margin of every loop that moves, over the range, the path or the box that a motion covers.
+
+    `kept` says which poses are asked for, all where it is None.
 
     A hole down to 1e-5 of the strokes is found. Groups have no such margin, and laws that give no value somewhere have none either:
     see `has_all_margins`.
@@ -50,7 +52,12 @@ def least_margins(motion: Motion) -> list[LeastMargin]:
     known = motion.plan.made("clearances", Clearances.of)
     if not (known.loops and motion.strokes):
         return []
-    found = searched(motion, lambda each: margins(each, known), -1.0, everywhere=True)
+
+    def asked(each: Motion) -> FloatArray:
+        found = margins(each, known)
+        return found if kept is None else np.where(kept(each), found, np.nan)
+
+    found = searched(motion, asked, -1.0, everywhere=True)
     shape = (len(known.loops), *motion._design_shape)
     places = [{name: value[row] for name, value in found.strokes.items()} for row in range(shape[0])]
     noise = np.array([rounding_at(motion, known, place)[row] for row, place in enumerate(places)])

@@ -648,7 +648,8 @@ def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[C
         going = turned(going, ~np.isfinite(values).all(axis=-1), half)
         tops.append(going.where(done))
         ended.append(going.where(stuck & ~done))
-        best = np.maximum(Climbs.joined([*tops, *ended, going]).best(box.seen.shape[1])[-len(going.value) :], known[going.function, going.design])
+        best = Climbs.joined([*tops, *ended, going]).best(box.seen.shape[1])[-len(going.value) :]
+        best = np.maximum(best, known[going.function, going.design])
         stay = ~(done | stuck) & ((going.bound >= best) | (going.value >= best))
         going = going.where(stay)
     return Climbs.joined(tops), Climbs.joined([*ended, going])

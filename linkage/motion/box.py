@@ -21,10 +21,7 @@ import numpy as np
 
 from ..plan import Mask
 from ..program import FloatArray
-from .between import Function, values_of
-from .grid import JoinedTo, joined_in_order
-from .motion import Motion
-from .peaks import LOWEST, Index, is_pole, missing_lowest
+from .line import LOWEST, Index, is_pole, missing_lowest
 
 SIDES = {2: 129, 3: 33, 4: 13, 5: 8, 6: 6}  # values a stroke, by the number of strokes
 MORE, MOST_POSES = 5, 1 << 20  # values a stroke of more strokes; grid poses of all designs together
@@ -57,80 +54,12 @@ class HighestInBox:
     unbounded: Mask
 
 
-def moving(motion: Motion) -> tuple[str, ...]:
-    """Return the strokes that a motion moves."""
-    return tuple(name for name, value in motion.strokes.items() if np.ptp(value) > 0.0)
-
-
 def values_a_stroke(k: int, designs: int) -> int:
     """Return how many values a stroke has on the grid: fewer only where the grids of all designs would be too large."""
     side = SIDES.get(k, MORE)
     while side > 3 and designs * side**k > max(MOST_POSES, SIDES[2] ** 2):
         side -= 1
     return side
-
-
-@final
-class InBox:
-    """A function of the poses in the box from the least to the greatest value of k strokes that a motion moves; others stand still."""
-
-    def __init__(self, motion: Motion, f: Function, sense: float = 1.0, *, everywhere: bool = False) -> None:
-        self.f, self.sense, self.names, self.everywhere = f, sense, moving(motion), everywhere
-        self.low = {name: float(np.min(value)) for name, value in motion.strokes.items()}
-        self.high = {name: float(np.max(value)) for name, value in motion.strokes.items()}
-        self.k = len(self.names)
-        self.side = values_a_stroke(self.k, motion._grid.size[0])
-        grid = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, self.side)] * self.k, indexing="ij"), axis=-1)
-        self.first = Motion(motion.plan, motion.designs, self.strokes(grid), "nan", joining=joined_in_order)
-        seen = sense * values_of(f, self.first, everywhere=everywhere)
-        self.front = seen.shape[: seen.ndim - len(self.first.shape)]
-        self.seen = seen.reshape(-1, self.first._grid.size[0], self.side**self.k)
-        self._reached = self.first.reached.reshape(-1, self.side**self.k)
-        self._all_reached = bool(self._reached.all())
-        self.count = self._reached.size
-
-    def strokes(self, unit: FloatArray) -> dict[str, FloatArray]:
-        """Return the strokes [SI], shape (...), at places (..., k) of the unit box; exact on its borders."""
-        still = np.zeros(unit.shape[:-1])
-        share = {name: unit[..., axis] for axis, name in enumerate(self.names)}
-        found = {name: low + (self.high[name] - low) * share.get(name, still) for name, low in self.low.items()}
-        return {name: np.where(share.get(name, still) == 1.0, self.high[name], value) for name, value in found.items()}
-
-    def at(self, design: Index, places: FloatArray) -> tuple[FloatArray, Mask]:
-        """Return the values (K, u, n) at places (u, n, k) of a design each (u,), and which poses (u, n) are reached."""
-        D, count = len(self._reached), np.bincount(design, minlength=len(self._reached))
-        slot = np.empty(len(design), int)
-        order = np.argsort(design, kind="stable")
-        slot[order] = np.arange(len(design)) - np.repeat(np.cumsum(count) - count, count)
-        unit = np.zeros((D, int(count.max(initial=1)), *places.shape[1:]))
-        unit[design, slot] = places
-        seen, reached = self._look(unit)
-        return seen[:, design, slot], reached[design, slot]
-
-    def _look(self, unit: FloatArray) -> tuple[FloatArray, Mask]:
-        """Return the values (K, D, c, n) at places (D, c, n, k), each design at its own, and which poses (D, c, n) are reached."""
-        shape = (*self.first._design_shape, *unit.shape[1:-1])
-        strokes = {name: value.reshape(shape) for name, value in self.strokes(unit).items()}
-        near = self._near(unit).reshape(shape)
-        motion = Motion(self.first.plan, self.first.designs, strokes, "nan", per_design=True, joining=JoinedTo(self.first._grid, near))
-        seen = self.sense * values_of(self.f, motion, everywhere=self.everywhere)
-        self.count += motion.reached.size
-        return seen.reshape(-1, *unit.shape[:-1]), motion.reached.reshape(unit.shape[:-1])
-
-    def _near(self, unit: FloatArray) -> Index:
-        """Return the nearest reached of the grid points about places (D, c, n, k), by their number; the nearest where none is."""
-        at = unit * (self.side - 1)
-        weights = weights_of(self.k, self.side)
-        if self._all_reached:
-            return np.asarray(np.rint(at).astype(int) @ weights)
-        low = np.clip(np.floor(at), 0, self.side - 2)
-        best, near = np.full(unit.shape[:-1], np.inf), np.zeros(unit.shape[:-1], int)
-        for corner in product((0.0, 1.0), repeat=self.k):
-            place = ((low + corner) @ weights).astype(int)
-            there = np.take_along_axis(self._reached, place.reshape(len(place), -1), axis=-1).reshape(place.shape)
-            away = np.abs(at - low - corner).max(axis=-1) + np.where(there, 0.0, 10.0)
-            best, near = np.minimum(best, away), np.where(away < best, place, near)
-        return near
 
 
 # -- starts and what is known of them ------------------------------------------------------------------------
@@ -704,7 +633,7 @@ def value_of(best: Climbs, K: int, D: int) -> FloatArray:
 
 
 def grows_in_box(box: SeenBox, climbs: Climbs) -> Mask:
-    """Return at which places (r,) a value grows beyond bounds along a stroke; see `peaks.grows_along_leg`."""
+    """Return at which places (r,) a value grows beyond bounds along a stroke; see `line.grows_along_leg`."""
     if not len(climbs.value):
         return np.zeros(0, bool)
     far = np.ldexp(1.0, -np.arange(1, 41))

@@ -28,6 +28,7 @@ MORE, MOST_POSES = 5, 1 << 20  # values a stroke of more strokes; grid poses of 
 STARTS, ROUGH = 24, 3  # of each function and design; of these, how many go on where it is not smooth
 ROUNDS, PATIENCE = 40, 3  # of stencils; rounds that gain nothing before a start counts as not smooth
 CLOSE, ROUNDED = 1e-12, 16.0 * float(np.finfo(float).eps)  # of the range of the values, and of their size: what is no gain
+TRUST = 1.5  # of a stencil's half: how far a quadratic is believed
 NARROW = 1e-9  # of the box: how narrow a stencil gets
 NONE = np.zeros(0, int)
 SEEN, BORDER = 1e-7, 1e-8  # how near a value must keep growing to be unbounded, and how near its border is known; of the box
@@ -244,6 +245,11 @@ class Quadratic:
             u = self._newton(u, low, high)
         return u
 
+    def falls(self, u: FloatArray, by: FloatArray) -> Mask:
+        """Return along which coordinates (r, k) a quadratic is steeper at places (r, k) than it bends, by so much (r,)."""
+        slope = np.abs(self.slope + np.einsum("rij,rj->ri", self.bend, u))
+        return np.asarray(slope > by[:, None] + 0.5 * np.abs(self.bend).sum(axis=-1))
+
     def _newton(self, u: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
         """Return the places after a Newton step in the free coordinates, where it stays in and is no loss."""
         k = u.shape[1]
@@ -272,41 +278,49 @@ def after_round(
 
     What they have `seen` is at `places` (r, n, k), where these are not those of the stencil.
     """
-    rows, stencil, fixed = np.arange(len(seen)), stencil_of(k), np.arange(k) == climbs.axis[:, None]
+    rows, stencil = np.arange(len(seen)), stencil_of(k)
     values = missing_lowest(seen)
     pick = np.argmax(values, axis=-1)
-    better = values[rows, pick] > climbs.value
+    gain = values[rows, pick] - climbs.value
     centre, half = climbs.centre, climbs.half[:, None]
     at = snapped(centre + half * stencil[pick]) if places is None else places[rows, pick]
-    unit = np.where(better[:, None], at, climbs.unit)
-    value = np.where(better, values[rows, pick], climbs.value)
+    climbs = replace(climbs, unit=np.where((gain > 0.0)[:, None], at, climbs.unit), value=np.fmax(climbs.value, values[rows, pick]))
     smooth = np.asarray(np.isfinite(seen).all(axis=-1))
-    model = Quadratic.of(np.where(smooth[:, None], seen, 0.0), k)
-    walls = -centre / half, (1.0 - centre) / half
-    low, high = np.where(fixed, 0.0, np.maximum(-1.5, walls[0])), np.where(fixed, 0.0, np.minimum(1.5, walls[1]))
+    seen = np.where(smooth[:, None], seen, 0.0)
+    model = Quadratic.of(seen, k)
+    fixed, walls = np.arange(k) == climbs.axis[:, None], (-centre / half, (1.0 - centre) / half)
+    low, high = np.where(fixed, 0.0, np.maximum(-TRUST, walls[0])), np.where(fixed, 0.0, np.minimum(TRUST, walls[1]))
     u = model.top(low, high, stencil[pick])
     at_wall = fixed | (np.abs(u - walls[0]) < 1e-9) | (np.abs(u - walls[1]) < 1e-9)
-    inside = (at_wall | (np.abs(u) < 1.5)).all(axis=-1)
-    hoped = model.at(u)
-    error = np.abs(model.value - climbs.expected)
-    spread = np.ptp(np.where(smooth[:, None], seen, 0.0), axis=-1)
-    misfit = np.abs(model.on(stencil) - np.where(smooth[:, None], seen, 0.0)).max(axis=-1)
+    inside = np.asarray((at_wall | (np.abs(u) < TRUST)).all(axis=-1))
+    error, misfit, spread = np.abs(model.value - climbs.expected), np.abs(model.on(stencil) - seen).max(axis=-1), np.ptp(seen, axis=-1)
     trusted = smooth & ~(error > 0.25 * spread + least) & (misfit <= 0.25 * spread + least)
-    outward = np.where(at_wall, np.abs(model.slope + np.einsum("rij,rj->ri", model.bend, u)), 0.0)
-    firm = (fixed | at_wall & (outward > 4.0 * np.fmax(error, misfit)[:, None] + 0.5 * np.abs(model.bend).sum(axis=-1))).all(axis=-1)
-    done = trusted & (hoped - value <= least) & (misfit <= 0.05 * spread + least) & ((error <= 1e3 * least) | firm)
-    good = smooth & (hoped > value)
-    goal = np.where(good[:, None], np.clip(centre + half * u, 0.0, 1.0), unit)
-    near = good | (smooth & inside & (np.abs(goal - (centre + half * u)) <= 0.5 * half).all(axis=-1))
-    share = np.where(trusted & inside & near, 0.25, np.where(good & trusted & better, 1.0, 0.5))
-    new_half = climbs.half * share
-    middle = np.where(fixed, unit, np.clip(goal, new_half[:, None], 1.0 - new_half[:, None]))
-    expected = np.where(smooth & (np.abs((middle - centre) / half) <= 2.0).all(axis=-1), model.at((middle - centre) / half), np.nan)
-    bound = np.where(smooth, np.fmax(value, hoped) + 2.0 * np.abs(hoped - value) + 2.0 * np.fmax(error, misfit), np.inf)
-    idle = np.where(smooth & better & (values[rows, pick] - climbs.value > least), 0, climbs.idle + 1)
-    after = replace(climbs, unit=unit, value=value, centre=middle, half=new_half, expected=expected, bound=bound, idle=idle)
-    rough = ~done & ((idle > PATIENCE) & ~(trusted & inside))
-    return after, done, rough | ((new_half <= NARROW) & ~done)
+    firm = (fixed | (at_wall & model.falls(u, 4.0 * np.fmax(error, misfit)))).all(axis=-1)
+    hoped = model.at(u)
+    done = trusted & (hoped - climbs.value <= least) & (misfit <= 0.05 * spread + least) & ((error <= 1e3 * least) | firm)
+    bound = np.fmax(climbs.value, hoped) + 2.0 * np.abs(hoped - climbs.value) + 2.0 * np.fmax(error, misfit)
+    idle = np.where(smooth & (gain > least), 0, climbs.idle + 1)
+    climbs = replace(climbs, bound=np.where(smooth, bound, np.inf), idle=idle)
+    climbs = moved_on(climbs, model, u, smooth & (hoped > climbs.value), smooth & inside, trusted, gain > 0.0)
+    rough = (idle > PATIENCE) & ~(trusted & inside)
+    return climbs, done, ~done & (rough | (climbs.half <= NARROW))
+
+
+def moved_on(climbs: Climbs, model: Quadratic, u: FloatArray, good: Mask, inside: Mask, trusted: Mask, better: Mask) -> Climbs:
+    """Return searches (r,) with their next stencils: about the quadratic's top `u` where that is `good`, else about the best place.
+
+    They are a quarter as wide where the top is `inside` and the quadratic `trusted`, as wide as before where it leads on to what is
+    `better`, else half as wide.
+    """
+    centre, half = climbs.centre, climbs.half[:, None]
+    goal = np.where(good[:, None], np.clip(centre + half * u, 0.0, 1.0), climbs.unit)
+    near = good | (np.abs(goal - (centre + half * u)) <= 0.5 * half).all(axis=-1)
+    new = climbs.half * np.where(trusted & inside & near, 0.25, np.where(good & trusted & better, 1.0, 0.5))
+    fixed = np.arange(u.shape[1]) == climbs.axis[:, None]
+    middle = np.where(fixed, climbs.unit, np.clip(goal, new[:, None], 1.0 - new[:, None]))
+    step = (middle - centre) / half
+    known = (good | inside) & (np.abs(step) <= 2.0).all(axis=-1)
+    return replace(climbs, centre=middle, half=new, expected=np.where(known, model.at(step), np.nan))
 
 
 def at_stencils(box: SeenBox, climbs: Climbs, offsets: FloatArray) -> FloatArray:
@@ -574,7 +588,7 @@ def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[C
         going, done, stuck = after_round(going, values, box.k, least[going.function, going.design], places)
         beaten = going.value <= (known + least)[going.function, going.design]
         stuck = (going.half < FINE) | (beaten & (going.idle > 2 * PATIENCE))
-        going = turned(going, ~np.isfinite(values).all(axis=-1), half)
+        going = turned(going, np.asarray(~np.isfinite(values).all(axis=-1)), half)
         tops.append(going.where(done))
         ended.append(going.where(stuck & ~done))
         best = Climbs.joined([*tops, *ended, going]).best(box.seen.shape[1])[-len(going.value) :]

@@ -50,9 +50,7 @@ def calls_of(tree):
 def loops_of(tree):
     """Yield what is looped over, as nodes."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.For):
-            yield node.iter
-        elif isinstance(node, ast.comprehension):
+        if isinstance(node, (ast.For, ast.comprehension)):
             yield node.iter
 
 
@@ -62,7 +60,7 @@ def halved_strokes(tree):
         if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Mult, ast.Div)):
             names = {each.attr for each in ast.walk(node) if isinstance(each, ast.Attribute)}
             numbers = {each.value for each in ast.walk(node) if isinstance(each, ast.Constant)}
-            if {"start", "end"} <= names and numbers & {0.5, 2, 2.0} and any(isinstance(each, ast.Add) for each in ast.walk(node)):
+            if {"start", "end"} <= names and numbers & {0.5, 2} and any(isinstance(each, ast.Add) for each in ast.walk(node)):
                 yield node.lineno
 
 

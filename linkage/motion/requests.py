@@ -81,9 +81,9 @@ class Request(Arithmetic):
         """Whether these directions are those of a stroke, which has to be named; else they are its own, as a cylinder's."""
         return False
 
-    def pieces(self, plan: Plan) -> tuple[Piece, ...]:
+    def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
         """Return the smooth pieces that it is judged by in one situation, such as the two sides of a cylinder."""
-        return (Piece(self),)
+        return (SmoothPiece(self),)
 
     def unlimited(self, motion: MotionLike) -> Mask | None:
         """Return the mask of poses at which its law has no bound, such as where the load drives; None where it always has one."""
@@ -95,7 +95,7 @@ RequestLike: TypeAlias = str | Member | Request
 
 @final
 @dataclass(frozen=True, eq=False)
-class Piece:
+class SmoothPiece:
     """A smooth piece of a question: what has a value at every pose, and the side of the cylinder that it is of, "" for none.
 
     `reciprocal` is one over it, where that goes on smoothly through zero where the request has no bound: then its greatest value is looked
@@ -417,15 +417,14 @@ class Combined(Request):
     def of_strokes(self) -> bool:
         return any(each.of_strokes for each in self.requests)
 
-    def pieces(self, plan: Plan) -> tuple[Piece, ...]:
-        parts = [each.pieces(plan) if isinstance(each, Request) else (Piece(each),) for each in self.parts]
+    def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
+        parts = [each.pieces(plan) if isinstance(each, Request) else (SmoothPiece(each),) for each in self.parts]
         chosen = list(product(*parts))
         if len(chosen) == 1 and all(piece.request is part for piece, part in zip(chosen[0], self.parts, strict=True)):
-            return (Piece(self),)
-        return tuple(
-            Piece(Combined(self.function, tuple(piece.request for piece in each)), next((piece.side for piece in each if piece.side), ""))
-            for each in chosen
-        )
+            return (SmoothPiece(self),)
+        sides = [next((piece.side for piece in each if piece.side), "") for each in chosen]
+        combined = [Combined(self.function, tuple(piece.request for piece in each)) for each in chosen]
+        return tuple(SmoothPiece(request, side) for request, side in zip(combined, sides, strict=True))
 
     def unlimited(self, motion: MotionLike) -> Mask | None:
         found = [mask for mask in (each.unlimited(motion) for each in self.requests) if mask is not None]

@@ -128,10 +128,10 @@ def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None
     `acting` says loads and case in one, with a direction or rates too; then it has values and no derivatives.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
-    return DriveForce(acting_of(acting, "drive_force", loads=loads, case=case), drive)
+    return DriveForce(situation_of(acting, "drive_force", loads=loads, case=case), drive)
 
 
-def acting_of(acting: Acting | None, what: str, **keywords: Any) -> Acting:
+def situation_of(acting: Acting | None, what: str, **keywords: Any) -> Acting:
     """Return the situation that a door is given, whole or by its keywords; DefinitionError for both."""
     given = {name: value for name, value in keywords.items() if value is not None}
     if acting is None:
@@ -272,7 +272,7 @@ def pin_force(
     if not all(isinstance(each, str) for each in names):
         said = "the names of a point and of a body are expected"
         raise DefinitionError(f'pin_force({cited(point)}, {cited(on)}): {said}, such as pin_force("G", "arm").')
-    return PinForce(acting_of(acting, "pin_force", loads=loads, case=case), point, on, component)
+    return PinForce(situation_of(acting, "pin_force", loads=loads, case=case), point, on, component)
 
 
 @final

@@ -267,7 +267,7 @@ class LiftingCylinder:
             )  # fmt: skip
             return Verdict("lowering", False, text, answer=push)
         if self.ram.works == "both":
-            enough = push.value <= float(self.circuit.supply(judge.motion))
+            enough = judge.answer(least(Reserve(*self.asked)) >= 1.0).ok is not False  # which asks the other side while it drives
             text = said(
                 "{direction}, the load does not drive it back {where} {against}: the other side must push with up to {push}, {place}.",
                 direction=said("extending") if self.way_back == "extending" else said("retracting"), where=where, against=against,

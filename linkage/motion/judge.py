@@ -202,7 +202,7 @@ class Domain:
     def extremes(self, rows: Sequence[Sought]) -> tuple[list[WorstPiece], Coverage]:
         """Return the worst of every row, and what was seen on the way."""
         asked = Asked(self, rows)
-        if self.over.shape == "poses":
+        if self.over.shape == "poses" or not self.motion.strokes:
             with np.errstate(all="ignore"):
                 return worst_at_poses(asked, self.motion), asked.seen
         found = extremum(self.motion, asked, 1.0)
@@ -226,7 +226,7 @@ class Domain:
     @cached_property
     def holes(self) -> list[LeastMargin]:
         """The loops that come apart somewhere it is looked at, however narrow that place is."""
-        if self.over.shape == "poses" or self.motion._design_shape:
+        if self.over.shape == "poses" or self.motion._design_shape or not self.motion.strokes:
             return []
         with unwarned():
             found = least_margins(self.motion, self.over.kept if self.over.only else None)

@@ -292,8 +292,10 @@ def movement_of(motion: Motion, direction: str, rates: Mapping[str, ArrayLike] |
     sense = sense_of(direction)
     if rates is not None:
         given = rates_of("rates", rates, motion.strokes, motion.shape, motion.plan.title)
-        if sense and drive is not None and np.any(sense * np.asarray(given.get(drive, 0.0)) < 0.0):
-            raise DefinitionError(f"{motion.plan.title}: direction={direction!r} and the rate of {drive} contradict each other; drop one.")
+        named = [drive] if drive is not None else [*given] if len(given) == 1 else []
+        wrong = next((name for name in named if sense and np.any(sense * np.asarray(given.get(name, 0.0)) < 0.0)), None)
+        if wrong is not None:
+            raise DefinitionError(f"{motion.plan.title}: direction={direction!r} and the rate of {wrong} contradict each other; drop one.")
         return Movement(direction, given, bool(sense), True)
     if not sense:
         return AT_REST

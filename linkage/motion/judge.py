@@ -20,7 +20,7 @@ from ..language import said
 from ..loads import PLAIN, Acting, ForceElement, LoadCase
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel
-from ..quantities import Quantity
+from ..quantities import Quantity, Ref
 from ..vectors import Numbers
 from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
 from .evaluation import Evaluation
@@ -771,6 +771,7 @@ def measures_of(plan: Plan, question: Any) -> str:
     if not isinstance(measure, Leaf) or isinstance(measure, Integral):
         return ""
     known = plan.members.get(measure.quantity) if isinstance(measure.quantity, str) else measure.quantity
+    known = plan.members.get(known.target) if isinstance(known, Ref) else known
     return str(getattr(known, "measures", "")) if isinstance(known, (Quantity, Request)) else ""
 
 

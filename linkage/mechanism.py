@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from .assembly import Assembly, assembled, assemblies
 from .errors import DefinitionError, cited, told, unknown
-from .loads import ForceElement
+from .loads import ForceElement, check_together
 from .loads.element import Formulas
 from .mobility import FourBar, Mobility, check, four_bars, mobility
 from .motion import (
@@ -95,10 +95,38 @@ def of_own_motion(cls: type[Mechanism], method: Callable[[Mechanism, Motion], An
 
 
 @final
+class ClassBody(dict[str, object]):
+    """What stands in the body of a class, line by line: a name that has a member takes no other one, which would lose the first."""
+
+    def __init__(self, title: str) -> None:
+        super().__init__()
+        self.title = title
+
+    def __setitem__(self, name: str, value: object) -> None:
+        first = self.get(name)
+        if isinstance(first, Member) and value is not first:
+            both = f"{name} = {written(first)} stands there already, and {name} = {written(value)} would take its place without a word"
+            raise DefinitionError(f"{self.title}: {both}; give one of them another name, or take one out.", member=name)
+        super().__setitem__(name, value)
+
+
+def written(value: object) -> str:
+    """Return a line's right side for a message; its kind alone where its parts have no names yet."""
+    try:
+        return str(value) if isinstance(value, Member) else cited(value)
+    except DefinitionError:
+        return f"{type(value).__name__}(...)"
+
+
+@final
 class MechanismType(ABCMeta):
     """The class of the classes of mechanism: what a class is made of does not change once it is made."""
 
     plan: Plan
+
+    @classmethod
+    def __prepare__(cls, name: str, bases: tuple[type, ...], /, **options: object) -> ClassBody:  # type: ignore[override]
+        return ClassBody(name)
 
     def __setattr__(cls, name: str, value: object) -> None:
         builder = str(sys._getframe(1).f_globals.get("__name__", ""))
@@ -147,6 +175,7 @@ class Mechanism(Shown, metaclass=MechanismType):
             except DefinitionError as error:
                 raise DefinitionError(f"{cls.__name__}: {name} = {sketch}: {error}", member=name) from None
         check(cls.plan)
+        check_together(cls.plan.of_kind(ForceElement), cls.plan.members, cls.__name__)
         for member in (*members.values(), *cls.plan.members.values()):
             member.settle(cls.__name__)
 

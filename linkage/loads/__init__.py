@@ -19,6 +19,7 @@ from .element import (
     Rate,
     Rates,
     TwoPinned,
+    check_together,
     couple,
     require_poses,
 )  # fmt: skip

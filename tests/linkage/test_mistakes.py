@@ -62,7 +62,7 @@ def test_a_wrong_word_in_a_class(right, wrong, words):
 
 
 def test_a_name_that_is_bound_twice():
-    with pytest.raises(DefinitionError, match="is used before it has a name, or its name is bound twice"):
+    with pytest.raises(DefinitionError, match=r"^Twice: A = Ground\(0.0, 0.0\) stands there already, and A = Ground\(0.1, 0.0\) would"):
 
         class Twice(Mechanism):
             S = Stroke(0.0, 0.2)

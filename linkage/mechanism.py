@@ -105,12 +105,12 @@ class ClassBody(dict[str, object]):
     def __setitem__(self, name: str, value: object) -> None:
         first = self.get(name)
         if isinstance(first, Member) and value is not first:
-            both = f"{name} = {written(first)} stands there already, and {name} = {written(value)} would take its place without a word"
+            both = f"{name} = {as_line(first)} stands there already, and {name} = {as_line(value)} would take its place without a word"
             raise DefinitionError(f"{self.title}: {both}; give one of them another name, or take one out.", member=name)
         super().__setitem__(name, value)
 
 
-def written(value: object) -> str:
+def as_line(value: object) -> str:
     """Return a line's right side for a message; its kind alone where its parts have no names yet."""
     try:
         return str(value) if isinstance(value, Member) else cited(value)

@@ -19,7 +19,7 @@ from ..motion import stroke_unit
 from ..plan import Plan
 from ..program.traced import elementwise
 from ..quantities import Quantity, Tabulated, unnamed
-from ..units import UNITS, deg
+from ..units import UNITS, deg, unit_or_none
 from .words import Cross, Deg, Dot, Norm, TurnV
 
 # What an expression measures: lengths, angles, and products of them.
@@ -92,8 +92,8 @@ SI: Mapping[str, str] = {
 
 
 def unit_named(name: str) -> Unit:
-    """Return a unit by its name; a plain number for none."""
-    return Unit(named=name) if name else NUMBER
+    """Return a unit by its name; a plain number for none. DefinitionError for one that there is not."""
+    return Unit(named=unit_or_none(name, "the unit of an equation")) if name else NUMBER
 
 
 KINDS = {"length": LENGTH, "coordinate": LENGTH, "angle": ANGLE}

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import linkage
-from linkage import LEFT, AssemblyError, Crank, DefinitionError, Dyad, Ground, Mechanism, Pin, Stroke, deg
+from linkage import LEFT, AssemblyError, Crank, DefinitionError, Dyad, Ground, Mechanism, Pin, Stroke, deg, y
+from linkage.loads import Weight
 
 NAMES = {name: getattr(linkage, name) for name in linkage.__all__}
 
@@ -223,3 +224,20 @@ def test_a_direction_needs_two_points(line):
 def test_a_stroke_is_named_where_it_gets_a_value(given):
     with pytest.raises(DefinitionError, match=r"Machine: at\(.* does not say which stroke has this value; write at\(phi=\.\.\.\)\."):
         made(CRANK)().at(*given)
+
+
+@pytest.mark.parametrize("name", ["X\n", "", "a b", "1a", "a.b", "a-b", "class", "None", "<b>", "\\", "ﬁ", "X\u2028", "{x}"])
+def test_names_that_no_line_of_python_could_give(name):
+    """A class that type(...) makes takes any text for a name; what is printed, drawn and written into files could not be read again."""
+    with pytest.raises(DefinitionError, match=f"^{re.escape(repr(name))} is no name for a class: letters, digits and _, no digit first"):
+        type(name, (FourBar,), {})
+    for member in (Ground(1, 2), Weight("A", mass=3.0), y("A"), Stroke(0, 1)):
+        with pytest.raises(DefinitionError, match=f"^{re.escape(repr(name))} is no name for a member of Made"):
+            type("Made", (FourBar,), {name: member})
+
+
+@pytest.mark.parametrize("name", ["Fünfgelenk", "Δ", "_private", "X" * 80])
+def test_names_that_a_line_of_python_could_give(name):
+    made = type(name, (FourBar,), {name: Ground(1, 2)})
+    assert made.plan.title == name
+    assert made().at(phi=1.0)[name].tolist() == [1.0, 2.0]

@@ -102,11 +102,11 @@ class FloatCircuit(Circuit):
 
     def claims(self, members: Mapping[str, Member]) -> Mapping[Hashable, str]:
         (ram,) = self.members(members)
+        doubled = f"feed {ram.name or ram}, whose thrust would count double: one chamber has one line"
+        filled = "are given the same block, which would be filled twice: gas stands in one line"
         return {
-            ("gas line", ram.name or id(ram)): f"feed {ram.name or ram}, whose thrust would count double: one chamber has one line. Take one out, or put the vessels of "
-            "both into one AccumulatorBlock.",
-            ("block", id(self.block)): "are given the same block, which would be filled twice: gas stands in one line. Give each circuit a "
-            "block of its own, AccumulatorBlock([Accumulator(...)]).",
+            ("gas line", ram.name or id(ram)): f"{doubled}. Take one out, or put the vessels of both into one AccumulatorBlock.",
+            ("block", id(self.block)): f"{filled}. Give each circuit a block of its own, AccumulatorBlock([Accumulator(...)]).",
         }
 
     def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:

@@ -107,7 +107,8 @@ class LiftCircuit(LiftLine):
             rams = other.members(members)
             shared = [ram for ram in own if any(same(ram, each) for each in rams)]
             if shared and not len(shared) == len(own) == len(rams):
-                what = f"{self.name} and {other.name} both have {with_and(ram.name or str(ram) for ram in shared)}, but not the same cylinders"
+                both = with_and(ram.name or str(ram) for ram in shared)
+                what = f"{self.name} and {other.name} both have {both}, but not the same cylinders"
                 says = "what shares a chamber is one line with one pressure"
                 raise DefinitionError(f"{title}: {what}; {says}. Name all of them in one LiftCircuit, or none in both.")
 

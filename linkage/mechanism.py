@@ -125,7 +125,7 @@ class MechanismType(ABCMeta):
     plan: Plan
 
     @classmethod
-    def __prepare__(cls, name: str, bases: tuple[type, ...], /, **options: object) -> ClassBody:  # type: ignore[override]
+    def __prepare__(cls, name: str, bases: tuple[type, ...], /, **options: object) -> ClassBody:
         return ClassBody(name)
 
     def __setattr__(cls, name: str, value: object) -> None:

@@ -75,18 +75,18 @@ class Looked:
 
     @cached_property
     def pose(self) -> dict[str, float]:
-        """The strokes of the pose whose numbers are filled in: the middle of the run, else the nearest one that is reached and has forces."""
+        """The strokes of the pose whose numbers are filled in: the middle of the run, else the next that is reached and has forces."""
         reached = np.flatnonzero(self.curve.reached)
         nearest = [self.strokes_at(self.curve, int(place)) for place in reached[np.argsort(np.abs(reached - CURVE // 2), kind="stable")]]
         return next(filter(self.has_forces, nearest[:TRIED]), nearest[0])
 
     def has_forces(self, strokes: Mapping[str, float]) -> bool:
-        """Return whether a pose is none at which forces are refused, as at a cylinder's dead centre; one without loads has none to refuse."""
+        """Return whether forces are not refused at a pose, as they are at a cylinder's dead centre."""
         if not self.machine.plan.of_kind(ForceElement):
             return True
         try:
             with unwarned():
-                pin_forces(self.machine.at(**strokes))
+                pin_forces(self.machine.at(unreachable="raise", **strokes))
         except SingularError:
             return False
         except LinkageError:  # it has no forces anywhere, and the report says why

@@ -314,7 +314,8 @@ class Value(BoundRequest):
 
     def __str__(self) -> str:
         what = self.member.name or str(self.member)
-        return f"the ratio of {what} by {self.along[0]}" if self.along else what
+        kind = "ratio" if len(self.along) == 1 else "second derivative"
+        return f"the {kind} of {what} by {self.along[0]}" if self.along else what
 
 
 def natural_size(member: Member, size: FloatArray) -> FloatArray | None:

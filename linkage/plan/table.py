@@ -48,7 +48,7 @@ class Table:
         self._labels: dict[Label, tuple[str, Quantity]] = {}
 
     def add(self, name: str, default: float, kind: str, where: str, unit: str = "") -> None:
-        """Enter a design variable; raise DefinitionError where its name is taken, its value cannot be, or its unit is none that is known."""
+        """Enter a design variable; raise DefinitionError where its name is taken, its value cannot be, or its unit is unknown."""
         self.check_free(name, where)
         if unit and (not isinstance(unit, str) or unit not in UNITS):
             error = unknown("Unit", unit, UNITS, where=f"{self.title}: {where}, {name}")

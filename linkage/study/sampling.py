@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, final
 
 import numpy as np
@@ -12,10 +12,10 @@ from ..errors import DefinitionError, LawError, UntracedError, unwarned
 from ..motion import BoundRequest, Grid, Motion, Request
 from ..motion.evaluation import Evaluation
 from ..motion.grid import Angles, JoinedTo, angles_of
-from ..motion.requests import Slope, bound
+from ..motion.requests import Ratio, Slope, bound
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level
-from ..quantities import Quantity
+from ..quantities import Quantity, name_of, x, y
 from .checks import quantity_values, title_of
 from .measures import words_of
 
@@ -130,6 +130,15 @@ class Sampling:
         return np.array(found)
 
 
+def which_component(plan: Plan, quantity: Any) -> str:
+    """Return how one component of a quantity of two is asked for: `ratio(x(G), order=2)` of `ratio(G, order=2)`."""
+    if isinstance(quantity, Ratio) and name_of(quantity.target) in plan.points:
+        one, other = (replace(quantity, target=part(name_of(quantity.target))) for part in (x, y))
+        return f"say which, {one} or {other}"
+    name = words_of(quantity)
+    return f'say which, x("{name}") or y("{name}")' if quantity in plan.points else "take x(P) or y(P) for a point P in it"
+
+
 def traced(plan: Plan, quantity: Any) -> BoundRequest | None:
     """Return a quantity bound to a plan as nodes of its program; None where it has none; DefinitionError for what is no number."""
     if not isinstance(quantity, (str, Quantity, Request)):
@@ -139,8 +148,7 @@ def traced(plan: Plan, quantity: Any) -> BoundRequest | None:
     except (UntracedError, LawError):
         return None
     if request.rows > 1:
-        name = words_of(quantity)
-        raise DefinitionError(f'{plan.title}: {name} has two components; say which, x("{name}") or y("{name}").')
+        raise DefinitionError(f"{plan.title}: {words_of(quantity)} has two components; {which_component(plan, quantity)}.")
     try:
         plan.made(("traced", request.key), lambda twin: len(request.nodes(twin)))
     except (UntracedError, LawError):

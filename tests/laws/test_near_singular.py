@@ -143,7 +143,7 @@ def alike(seed):
     outcomes = []
     for order in (1, 2):
         asked = [ratio(each, order=order) for each in (target, x(target), y(target))]
-        whole, *parts = (verdict(lambda each=each: motion.ratio(each.target, order=order)) for each in asked)
+        whole, *parts = (verdict(lambda each=each: motion.ratio(each.target, order=each.order)) for each in asked)
         again, *others = (verdict(lambda each=each: machine().evaluate([each], **strokes)) for each in asked)
         for judged, components in ((whole, parts), (again, others)):
             assert judged[0] == any(refused for refused, _ in components), (seed, order, judged, components)

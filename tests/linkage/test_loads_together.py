@@ -94,7 +94,7 @@ def test_a_class_in_which_something_stands_twice_is_refused_by_name(make, words)
 
 
 def test_a_cylinder_by_its_name_and_by_itself_is_one():
-    with pytest.raises(DefinitionError, match="pump has ram twice, .* count=2 in the Cylinder"):
+    with pytest.raises(DefinitionError, match=r"pump has ram twice, .* count=2 in the Cylinder"):
 
         class Both(Lever):
             ram = Cylinder("A", "B", **RAM)
@@ -159,7 +159,7 @@ def test_two_loads_of_one_name_are_refused():
 
 def test_friction_that_is_given_beside_the_machines_own_is_refused():
     motion = made(f=PinFriction("O", 20 * mm, 0.1))().at(S=0.1)
-    with pytest.raises(DefinitionError, match="f and .* both are the friction of the pin O"):
+    with pytest.raises(DefinitionError, match=r"f and .* both are the friction of the pin O"):
         driving_force(motion, ["load", "f", PinFriction("O", 20 * mm, 0.1)], direction="extending")
 
 
@@ -206,7 +206,7 @@ LINES = {
 @pytest.mark.parametrize(("first", "second"), [pair for pair in itertools.product(LINES, LINES) if pair[0] != "number"])
 def test_a_name_that_stands_twice_in_a_class_would_lose_the_first(first, second):
     lines = f"class Twice(Lever):\n    {LINES[first]}\n    {LINES[second]}\n"
-    with pytest.raises(DefinitionError, match="^Twice: P = .* stands there already, and P = .* would take its place without a word"):
+    with pytest.raises(DefinitionError, match=r"^Twice: P = .* stands there already, and P = .* would take its place without a word"):
         exec(lines, {**globals(), "Lever": Lever})
 
 

@@ -36,7 +36,7 @@ from .motion import (
 )
 from .plan import Body, Plan
 from .program import FloatArray, Way
-from .quantities import Member, Stroke, is_name
+from .quantities import Member, Stroke, is_name, needs
 from .shown import Shown, ShownList
 from .steps import Drawn
 from .vectors import Numbers
@@ -168,8 +168,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         reached = cls.plan.reaches(*cls.plan.moving)
         for name in cls.plan.strokes:
             if name not in reached and cls.plan.points:
-                text = f"{cls.__name__}: the stroke {name} moves nothing; use it in a length or an angle, or take it out."
-                raise DefinitionError(text, member=name)
+                raise idle_stroke(cls.plan, name)
         for name, sketch in cls.plan.of_kind(Drawn).items():
             try:
                 at_values(cls.plan.sketch_strokes, cls.plan)
@@ -412,6 +411,23 @@ def declared(cls: type) -> dict[str, Member]:
             elif name in members:
                 del members[name]
     return members
+
+
+def idle_stroke(plan: Plan, stroke: str) -> DefinitionError:
+    """Return the error for a stroke that no point follows: what follows it, and how that is to move a point."""
+    following = {name: member for name, member in plan.members.items() if name != stroke and stroke in plan.reaches(name)}
+    text = f"{plan.title}: the stroke {stroke} moves nothing"
+    if not following:
+        return DefinitionError(f"{text}; use it in a length or an angle, or take it out.", member=stroke)
+    name = min(following, key=lambda each: following[each].kind == "quantity")  # of a link and an output the link
+    opening = f"{text}: {name} = {following[name]} follows it"
+    steps = [each for each in needs(following[name]) if each in plan.points and not plan.points[each].is_fixed]
+    if not steps:
+        return DefinitionError(f"{opening}, and no point does; use it in the length or the angle of a step.", member=stroke)
+    point = steps[-1]
+    step = f"{point} = {plan.points[point]}"
+    remedy = f"Let that step have a length or an angle that follows {stroke}, or write {point} = Pin(near=(x, y)) and what holds it as links"
+    return DefinitionError(f"{opening}, but {step} places {point} without it. {remedy}.", member=stroke)
 
 
 def check_name(name: str, what: str) -> None:

@@ -8,13 +8,16 @@ from numpy.testing import assert_allclose
 
 from linkage import (
     LEFT,
+    Crank,
     DefinitionError,
     Dyad,
     Ground,
     Guide,
+    Link,
     Mechanism,
     OnGuide,
     OnLink,
+    Pin,
     SingularWarning,
     SliderDyad,
     Stroke,
@@ -124,3 +127,44 @@ def test_the_force_of_a_drive_that_follows_a_point_is_refused_in_words():
     motion = machine_of("body", "angle")().sweep(3)
     with pytest.raises(DefinitionError, match=r"a drive follows .*angle\(O, B\), which depends on moving points"):
         pin_forces(motion)
+
+
+def test_links_of_a_parts_list_may_follow_a_point():
+    class Listed(Lever):
+        X = Pin(near=(-0.1, 0.2))
+        one, two = Link("P X", PX=FOLLOWED["distance"] + 0.2), Link("B X", BX=0.5)
+
+    class Written(Lever):
+        X = Dyad("P", "B", PX=FOLLOWED["distance"] + 0.2, BX=0.5, side=LEFT)
+
+    listed, written = Listed().sweep(5), Written().sweep(5)
+    assert_allclose(listed["X"], written["X"], rtol=0, atol=1e-14)
+    assert_allclose(listed.ratio("X"), written.ratio("X"), rtol=0, atol=1e-13)
+
+
+def test_a_group_may_have_lengths_that_follow_a_point():
+    class Plate(Mechanism):
+        phi = Stroke(0.0, 0.3)
+        O, P, Q = Ground(0, 0), Ground(3, 0), Ground(1.5, 3)
+        A = Crank(O, OA=0.5, angle=phi)
+        plate = Link("D E F", DE=1, DF=0.9, EF=0.8)
+        r1 = Link("A D", AD=0.7 + 0.2 * distance("A", "O"))
+        r2 = Link("P E", PE=1.0 + 0.1 * (x("A") - 0.5))
+        r3 = Link("Q F", QF=1.9)
+        D, E, F = Pin(near=(1.2, 0.5)), Pin(near=(2.2, 0.5)), Pin(near=(1.6, 1.3))
+
+    motion = Plate().sweep(5)
+    assert_allclose(motion.distance("P", "E"), 1.0 + 0.1 * (motion.x("A") - 0.5), rtol=1e-13)
+    assert_allclose(motion.ratio("D"), motion.ratio("D", method="central"), rtol=0, atol=1e-8)
+    assert Plate().mobility == 1
+
+
+def test_lengths_may_follow_points_that_follow_lengths():
+    class Chain(Lever):
+        X = OnLink("O", "B", OX=0.3 + 0.1 * distance("B", "P"))
+        Y = OnLink("O", "X", OY=0.1 + 0.5 * distance("X", "P"))
+        Z = Dyad("Y", "P", YZ=0.5 + 0.1 * angle("O", "Y"), PZ=0.7, side=LEFT)
+
+    motion = Chain().sweep(5)
+    assert_allclose(motion.distance("O", "Y"), 0.1 + 0.5 * motion.distance("X", "P"), rtol=1e-13)
+    assert_allclose(motion.ratio("Z"), motion.ratio("Z", method="central"), rtol=0, atol=1e-8)

@@ -159,7 +159,7 @@ class Mechanism(Shown, metaclass=MechanismType):
 
     def __init_subclass__(cls, **options: object) -> None:
         super().__init_subclass__(**options)
-        check_name(cls.__name__, "class")
+        check_bindable(cls.__name__, "class")
         for name in ("columns", "verdicts"):
             if isfunction(vars(cls).get(name)):
                 type.__setattr__(cls, name, of_a_design(of_own_motion(cls, vars(cls)[name])))
@@ -404,7 +404,7 @@ def declared(cls: type) -> dict[str, Member]:
             if not isinstance(value, Member):
                 check_no_member(cls.__name__, name, value)
             if isinstance(value, Member):
-                check_name(name, f"member of {cls.__name__}")
+                check_bindable(name, f"member of {cls.__name__}")
                 if name in vars(Mechanism) or name in ("plan",):
                     raise DefinitionError(f"{cls.__name__}: {name} is a word of the framework; give the member another name.", member=name)
                 members[name] = value
@@ -430,7 +430,7 @@ def idle_stroke(plan: Plan, stroke: str) -> DefinitionError:
     return DefinitionError(f"{opening}, but {step} places {point} without it. {remedy}.", member=stroke)
 
 
-def check_name(name: str, what: str) -> None:
+def check_bindable(name: str, what: str) -> None:
     """Raise DefinitionError for the name of a class or a member that no line of Python could give it, as type(...) takes any text."""
     if not is_name(name):
         raise DefinitionError(f"{cited(name)} is no name for a {what}: letters, digits and _, no digit first, no word of Python.")

@@ -372,11 +372,11 @@ class Place:
 
     def dot(self, other: Place | Vec) -> Term:
         """Return the scalar product."""
-        return Term(Dot(self.expr, vector_expr(other)), self.unit * unit_of(other))
+        return Term(Dot(self.expr, vector_expr(other)), self.unit * vector_unit(other))
 
     def cross(self, other: Place | Vec) -> Term:
         """Return the z component of the vector product."""
-        return Term(Cross(self.expr, vector_expr(other)), self.unit * unit_of(other))
+        return Term(Cross(self.expr, vector_expr(other)), self.unit * vector_unit(other))
 
     def left(self) -> Place:
         """Return this vector turned by +90 degrees."""
@@ -402,6 +402,6 @@ def vector_expr(given: Place | Vec) -> Any:
     return given.expr if isinstance(given, Place) else sympy.ImmutableMatrix([term(given.x).expr, term(given.y).expr])
 
 
-def unit_of(given: Place | Vec) -> Unit:
+def vector_unit(given: Place | Vec) -> Unit:
     """Return what a vector is measured in; of two plain numbers a number."""
     return given.unit if isinstance(given, Place) else term(given.x).unit

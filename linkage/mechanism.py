@@ -426,7 +426,8 @@ def idle_stroke(plan: Plan, stroke: str) -> DefinitionError:
         return DefinitionError(f"{opening}, and no point does; use it in the length or the angle of a step.", member=stroke)
     point = steps[-1]
     step = f"{point} = {plan.points[point]}"
-    remedy = f"Let that step have a length or an angle that follows {stroke}, or write {point} = Pin(near=(x, y)) and what holds it as links"
+    pin = f"{point} = Pin(near=(x, y))"
+    remedy = f"Let that step have a length or an angle that follows {stroke}, or write {pin} and what holds it as links"
     return DefinitionError(f"{opening}, but {step} places {point} without it. {remedy}.", member=stroke)
 
 

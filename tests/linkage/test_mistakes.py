@@ -249,7 +249,7 @@ LEVER = """
     B = Crank(O, OB=0.3, angle=phi)
 """
 FOLLOWS = [
-    ('ram = Link("A B", AB=0.45 + S)', r'ram = Link\("A B", AB=0.45 \+ S\) follows it, but B = Crank\(.*\) places B without it. Let that step'),
+    ('ram = Link("A B", AB=0.45 + S)', r'ram = Link\("A B", AB=0.45 \+ S\) follows it, but B = Crank\(.*\) places B without it. Let'),
     ("tie = Weight(B, mass=S * 3)", r"tie = Weight\(.*\) follows it, but B = Crank\(.*\) places B without it"),
     ("gap = distance(A, B) - S", r"gap = .* follows it, but B = Crank\(.*\) places B without it"),
     ("rail = Guide(A, angle=S)", r"rail = Guide\(A, angle=S\) follows it, and no point does; use it in the length or the angle of a step"),

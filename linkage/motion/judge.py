@@ -15,7 +15,7 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError, LawError, UntracedError, cited, told, unwarned
+from ..errors import DefinitionError, cited, told, unwarned
 from ..language import said
 from ..loads import PLAIN, Acting, ForceElement, LoadCase
 from ..plan import Mask, Plan
@@ -36,10 +36,10 @@ from .measures import (
     Measure,
     Reachable,
     Worst,
-    bound_quantity,
     conditions_of,
     reachable,
     strokes_behind,
+    traced,
     words_of,
 )
 from .motion import Motion
@@ -299,7 +299,7 @@ class Asked:
         self.plan = place.plan
         self._bound: dict[int, BoundRequest] = {}
         for k, row in enumerate(rows):
-            bound = as_bound(self.plan, row.request)
+            bound = traced(self.plan, row.request)
             if bound is not None:
                 self._bound[k] = bound
 
@@ -353,21 +353,6 @@ class Asked:
         count = max(1, int(good.sum()))
         self.seen.lawless = [float((np.isnan(values[k]) & ~unlimited[k] & good).sum()) / count for k in range(len(self.rows))]
         self.seen.unlimited = [float((unlimited[k] & good).sum()) / count for k in range(len(self.rows))]
-
-
-def as_bound(plan: Plan, quantity: Any) -> BoundRequest | None:
-    """Return a quantity as nodes of a plan's program; None where it has none; DefinitionError for what has two components."""
-    if not isinstance(quantity, (str, Quantity, Request)):
-        return None
-    try:
-        bound = bound_quantity(plan, quantity)
-        if bound.rows > 1:
-            name = words_of(quantity)
-            raise DefinitionError(f'{plan.title}: {name} has two components; say which, x("{name}") or y("{name}").')
-        plan.made(("traced", bound.key), lambda twin: len(bound.nodes(twin)))
-    except (UntracedError, LawError):
-        return None
-    return bound
 
 
 def without_bound(plan: Plan, bound: BoundRequest, motion: Motion) -> Mask:

@@ -170,7 +170,10 @@ class BoundRequest(ABC):
         return self.nodes(plan)
 
     def scale(self, plan: Plan, left: Left) -> FloatArray:
-        """Return what its error is compared with where it is smaller [SI], shape (n,), from what rounding leaves of its nodes."""
+        """Return what a component's error is compared with where that is smaller [SI], from what rounding leaves of its nodes.
+
+        Shape (n,), or (rows, n) where each component has its own.
+        """
         return np.full(left.size.shape, SMALL)
 
     def error(self, plan: Plan, left: Left) -> FloatArray:
@@ -353,7 +356,8 @@ class Value(BoundRequest):
 
     def __str__(self) -> str:
         what = self.member.name or str(self.member)
-        return f"the ratio of {what} by {self.along[0]}" if self.along else what
+        kind = "ratio" if len(self.along) == 1 else "second derivative"
+        return f"the {kind} of {what} by {self.along[0]}" if self.along else what
 
 
 def natural_size(member: Member, size: FloatArray) -> FloatArray | None:
@@ -557,7 +561,7 @@ class CombinedOf(BoundRequest):
                 continue
             count = len(each.rounded(plan))
             own = left.part(slice(first, first + count))
-            values.append(np.hypot.reduce(own.values[: each.rows], axis=0))
+            values.append(np.abs(own.values[: each.rows]))
             sizes.append(np.maximum(values[-1], each.scale(plan, own)))
             first += count
         with np.errstate(all="ignore"):
@@ -568,7 +572,7 @@ class CombinedOf(BoundRequest):
 
 
 def combined_size(function: str, values: Sequence[FloatArray], sizes: Sequence[FloatArray]) -> FloatArray:
-    """Return the size that a combination's error is compared with, from the values and sizes of its parts, shape (n,) each."""
+    """Return the size that a combination's error is compared with, from the values and sizes of its parts, shape (n,) or (rows, n) each."""
     if function == "multiply":
         return sizes[0] * sizes[1]
     if function == "divide":
@@ -576,7 +580,7 @@ def combined_size(function: str, values: Sequence[FloatArray], sizes: Sequence[F
     if function in UNIT_SIZE:
         return np.ones_like(sizes[0])
     if function in ("add", "subtract", "negative", "absolute", "minimum", "maximum", "hypot"):
-        return np.asarray(np.max(sizes, axis=0))
+        return reduce(np.maximum, sizes)
     return np.full(sizes[0].shape, SMALL)
 
 
@@ -622,7 +626,7 @@ class Ratios(BoundRequest):
             return np.zeros(left.size.shape)
         with np.errstate(all="ignore"):
             largest = np.max([np.hypot(*part.values) for part in parts], axis=0)
-        return np.asarray(np.max([part.over(MINOR * largest) for part in parts], axis=0))
+        return np.asarray(np.max([part.length.over(MINOR * largest) for part in parts], axis=0))
 
     def __str__(self) -> str:
         return "the ratios of the points"
@@ -675,6 +679,9 @@ class Slope(BoundRequest):
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
         inputs = [plan.trace.inputs[name] for name in self.by]
         return tuple(share for node in self.what.nodes(plan) for share in gradient(node, inputs))
+
+    def error(self, plan: Plan, left: Left) -> FloatArray:
+        return left.length.over(SMALL)
 
     def names(self, plan: Plan) -> set[str]:
         return self.what.names(plan)

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import final
+
+import numpy as np
 
 from ..errors import DefinitionError
 from ..loads import ForceElement, PinFriction
-from ..plan import Plan
+from ..plan import Plan, carrying_pairs
 from ..quantities import Quantity, name_of
 from ..steps import Link
 from .acting import ActingThrust, member_title
-from .holding import Holders, PressureLine
+from .holding import Holders, PressureLine, sampled
 
 FRAME = -1
 FRAME_NAME = "frame"
@@ -36,8 +39,9 @@ class FreeBody:
 class Strut:
     """A straight two-point member P -> Q: a driven length, a cylinder that holds, or a member whose thrust a law gives.
 
-    `quantity` is the driven length [m], None where the points alone tell it; `far` are the points on Q's side; `host` the declared
-    link that it is part of, if any; `line` what it holds with; `known` its thrust where a law gives it, so that it drives nothing.
+    `quantity` is the driven length [m], None where the points alone tell it; `far` are the points on Q's side; `host` the body that
+    it is together with the points measured along it, if any; `line` what it holds with; `known` its thrust where a law gives it, so
+    that it drives nothing.
     """
 
     name: str
@@ -48,6 +52,18 @@ class Strut:
     host: str = ""
     line: PressureLine | None = None
     known: ActingThrust | None = None
+
+    @property
+    def ends(self) -> tuple[str, str]:
+        """The points at its ends."""
+        return self.P, self.Q
+
+    @property
+    def is_cylinder(self) -> bool:
+        """Whether it is a member that holds, or that would where nothing fed it."""
+        return self.line is not None or (
+            self.known is not None and isinstance(self.known.member, ForceElement) and self.known.member.holds
+        )
 
 
 def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[ActingThrust]) -> tuple[tuple[FreeBody, ...], tuple[Strut, ...]]:
@@ -62,14 +78,17 @@ def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[ActingThrust]) -
         for body in plan.links[1:]
         if frozenset(body.points) not in inner and not holds_an_arm(plan, body.points)
     ]
-    driven = [with_host(plan, strut, links) for strut in driven_lengths(plan, holders)]
     cylinders = [Strut(member_title(each), *each.ends, line=line) for line in holders.lines for each in line.cylinders]
-    struts = [*driven, *(replace(strut, far=frozenset({strut.Q})) for strut in (*cylinders, *known_struts(thrusts)))]
+    struts = [*driven_lengths(plan, holders), *cylinders, *known_struts(thrusts)]
     twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
     if twice:
         raise DefinitionError(f"{plan.title}: two elements are called {twice}; give each a name of its own in the class.")
+    hosts = with_points(plan, struts, links)
+    struts = [replace(strut, far=far_points(plan, strut, hosts.get(strut.name)), host=host_name(strut, hosts)) for strut in struts]
+    carrying = [carrier_body(strut, hosts[strut.name]) for strut in struts if strut.host and strut.quantity is None]
+    gone = {host.name for name, host in hosts.items() if name in {each.name for each in carrying}}
     own = [FreeBody(strut.name, (strut.P, strut.Q), (strut.P, strut.Q), label=strut.P + strut.Q) for strut in struts if not strut.host]
-    return (*sliders, *arms, *links, *own), tuple(struts)
+    return (*sliders, *arms, *(link for link in links if link.name not in gone), *carrying, *own), tuple(struts)
 
 
 def frame_points(plan: Plan) -> frozenset[str]:
@@ -110,14 +129,77 @@ def driven_lengths(plan: Plan, holders: Holders) -> list[Strut]:
     return found
 
 
-def with_host(plan: Plan, strut: Strut, links: Sequence[FreeBody]) -> Strut:
-    """Return a driven length with the link that it is part of, where both its points belong to one, and the points that go with Q."""
-    host = next((link for link in links if {strut.P, strut.Q} <= set(link.points)), None)
-    far = {strut.Q}
-    for point in host.points if host else ():
-        if far & {name for body in plan.points[point].bodies() for name in body[:1] if point not in body[:2]}:
-            far.add(point)
-    return replace(strut, far=frozenset(far), host=host.name if host else "")
+def with_points(plan: Plan, struts: Sequence[Strut], links: Sequence[FreeBody]) -> dict[str, FreeBody]:
+    """Return the declared bodies that are two-point members with the points measured along them, by the members' names.
+
+    One member a body: of several between the same points the cylinder, then the driven length, then the first of the others.
+    """
+    inside = [(strut, link) for strut in struts for link in links if {strut.P, strut.Q} <= set(link.points)]
+    if not inside:
+        return {}
+    carrying = carrying_pairs(plan, (each.ends for each, _ in inside))
+    found: dict[str, FreeBody] = {}
+    for strut, link in sorted(inside, key=lambda each: (not each[0].is_cylinder, each[0].quantity is None)):
+        if link not in found.values() and (strut.quantity is not None or frozenset(strut.ends) in carrying):
+            found.setdefault(strut.name, link)
+    return found
+
+
+def host_name(strut: Strut, hosts: Mapping[str, FreeBody]) -> str:
+    """Return the name of the body that a member is with the points along it: of a driven length the link's, else its own; "" for none."""
+    if strut.name not in hosts:
+        return ""
+    return strut.name if strut.quantity is None else hosts[strut.name].name
+
+
+def carrier_body(strut: Strut, link: FreeBody) -> FreeBody:
+    """Return the body that an element is with the points measured along it; it goes by their link's name as well."""
+    points = (strut.P, strut.Q, *(point for point in link.points if point not in strut.ends))
+    return FreeBody(strut.name, points, strut.ends, label=link.label or link.name)
+
+
+def far_points(plan: Plan, strut: Strut, host: FreeBody | None) -> frozenset[str]:
+    """Return the points that go with a member's end Q, of a cylinder those on its rod: measured from Q, or linked to such points.
+
+    DefinitionError for a point that keeps its place on neither side, as on a triangle whose third side is the member.
+    """
+    if host is None or len(host.points) == 2:
+        return frozenset({strut.Q})
+    groups = [{body[0], point} for point in host.points for body in plan.points[point].bodies() if point not in body[:2]]
+    groups += [{bar.P, bar.Q} for bar in plan.rods]
+    groups += [set(link.point_names) for link in plan.of_kind(Link).values() if not set(strut.ends) <= set(link.point_names)]
+    far, near = {strut.Q}, {strut.P}
+    for side in (far, near):
+        while more := set().union(*(group for group in groups if group & side)) & set(host.points) - side:
+            side |= more
+    places = plan.made(("places", strut.P, strut.Q, host.points), lambda _: places_on(plan, strut, host.points))
+    for point in host.points:
+        kept = [end for end, side in ((strut.P, near), (strut.Q, far)) if point in side]
+        if len(kept) != 1 or not places[point, kept[0]] <= RIGID:
+            given = plan.points[point]
+            raise DefinitionError(
+                f"{plan.title}: {point} = {given} is measured along {strut.name}, whose length {strut.P}{strut.Q} changes, and keeps its "
+                f"place neither at {strut.P} nor at {strut.Q}. Measure it from one of them, {point} = OnLink({strut.P}, {strut.Q}, "
+                f"{strut.P}{point}=...), with an angle where it lies aside; or let two links meet there, Dyad({strut.P}, {strut.Q}, ...)."
+            )
+    return frozenset(far)
+
+
+RIGID = 1e-7
+"""A point that moves by less than this part of its distance keeps its place."""
+
+
+def places_on(plan: Plan, strut: Strut, points: Iterable[str]) -> dict[tuple[str, str], float]:
+    """Return how far points move along and across a member beside one of its ends, over the strokes and relative to their distance."""
+    motion, found = sampled(plan), {}
+    along = motion[strut.Q] - motion[strut.P]
+    along = along / np.hypot(along[0], along[1])
+    for point, end in product(points, strut.ends):
+        arm = motion[point] - motion[end]
+        parts = np.stack([arm[0] * along[0] + arm[1] * along[1], along[0] * arm[1] - along[1] * arm[0]])[:, motion.reached]
+        size = float(np.max(np.hypot(parts[0], parts[1]), initial=0.0)) or 1.0
+        found[point, end] = float(np.max(np.ptp(parts, axis=1), initial=0.0)) / size if parts.size else 0.0
+    return found
 
 
 def known_struts(thrusts: Sequence[ActingThrust]) -> list[Strut]:

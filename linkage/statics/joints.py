@@ -200,6 +200,14 @@ class Structure:
         name = strut.host or strut.name
         return next(index for index, body in enumerate(self.bodies) if body.name == name and {strut.P, strut.Q} <= set(body.points))
 
+    def seat(self, contact: Contact, body: int) -> str:
+        """Return the point of a body that a contact goes with: its own where it is one, else that from which its line is measured."""
+        if contact.point in self.bodies[body].points or contact.joint is None:
+            return contact.point
+        side = contact.joint.on if contact.on == body else contact.joint.by
+        points = self.plan.of_kind(Guide)[side.points[0]].points if side.role == "guide" else side.points
+        return next(iter(points), contact.point)
+
     def side(self, side: JointSide, joint: Joint, owner: str) -> int:
         """Return the body that one side of a joint names."""
         if side.role == "guide":
@@ -261,6 +269,7 @@ class Structure:
     def names(self) -> dict[str, str]:
         """The names of all bodies by what they go by: their own, their link's, their points; not what several go by."""
         labels = [(body.label, body.name) for body in self.bodies if body.label]
+        labels += [(each.P + each.Q, each.host) for each in self.struts if each.host == each.name]
         for link, member in self.plan.of_kind(Link).items():  # a driven length goes by its link's name as well
             driven = [each for each in self.struts if each.quantity is not None and {each.P, each.Q} == set(member.point_names)]
             labels += [(link, each.name) for each in driven]

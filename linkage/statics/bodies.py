@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import final
@@ -61,9 +61,8 @@ class Strut:
     @property
     def is_cylinder(self) -> bool:
         """Whether it is a member that holds, or that would where nothing fed it."""
-        return self.line is not None or (
-            self.known is not None and isinstance(self.known.member, ForceElement) and self.known.member.holds
-        )
+        member = None if self.known is None else self.known.member
+        return self.line is not None or (isinstance(member, ForceElement) and member.holds)
 
 
 def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[ActingThrust]) -> tuple[tuple[FreeBody, ...], tuple[Strut, ...]]:
@@ -72,23 +71,23 @@ def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[ActingThrust]) -
     sides = [side for _, joint in plan.joints for side in (joint.on, joint.by) if side.role == "slider"]
     sliders = [slider(point) for point in dict.fromkeys(side.points[0] for side in sides) if point not in fixed]
     arms = [telescope(plan, name) for name in plan.telescopes]
+    links = declared_bodies(plan, arms)
+    struts, hosts = two_point_members(plan, holders, thrusts, links)
+    renamed = [each for each in struts if each.host == each.name]
+    links = [link for link in links if link not in [hosts[each.name] for each in renamed]]
+    carrying = [replace(hosts[each.name], name=each.name, axis=each.ends) for each in renamed]
+    own = [FreeBody(strut.name, (strut.P, strut.Q), (strut.P, strut.Q), label=strut.P + strut.Q) for strut in struts if not strut.host]
+    return (*sliders, *arms, *links, *carrying, *own), struts
+
+
+def declared_bodies(plan: Plan, arms: Iterable[FreeBody]) -> list[FreeBody]:
+    """Return the bodies that steps and links declare, without the frame and the arms that a stroke moves."""
     inner = {frozenset(arm.points) for arm in arms}
-    links = [
+    return [
         FreeBody(body.name, body.points, (body.points[0], body.points[1]), label=link_name(plan, body.points))
         for body in plan.links[1:]
         if frozenset(body.points) not in inner and not holds_an_arm(plan, body.points)
     ]
-    cylinders = [Strut(member_title(each), *each.ends, line=line) for line in holders.lines for each in line.cylinders]
-    struts = [*driven_lengths(plan, holders), *cylinders, *known_struts(thrusts)]
-    twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
-    if twice:
-        raise DefinitionError(f"{plan.title}: two elements are called {twice}; give each a name of its own in the class.")
-    hosts = with_points(plan, struts, links)
-    struts = [replace(strut, far=far_points(plan, strut, hosts.get(strut.name)), host=host_name(strut, hosts)) for strut in struts]
-    carrying = [carrier_body(strut, hosts[strut.name]) for strut in struts if strut.host and strut.quantity is None]
-    gone = {host.name for name, host in hosts.items() if name in {each.name for each in carrying}}
-    own = [FreeBody(strut.name, (strut.P, strut.Q), (strut.P, strut.Q), label=strut.P + strut.Q) for strut in struts if not strut.host]
-    return (*sliders, *arms, *(link for link in links if link.name not in gone), *carrying, *own), tuple(struts)
 
 
 def frame_points(plan: Plan) -> frozenset[str]:
@@ -119,6 +118,19 @@ def link_name(plan: Plan, points: tuple[str, ...]) -> str:
 # Straight members: driven lengths, cylinders that hold, members with a law of their own.
 
 
+def two_point_members(
+    plan: Plan, holders: Holders, thrusts: Sequence[ActingThrust], links: Sequence[FreeBody]
+) -> tuple[tuple[Strut, ...], dict[str, FreeBody]]:
+    """Return the two-point members, and by their names the declared bodies that they are together with the points along them."""
+    cylinders = [Strut(member_title(each), *each.ends, line=line) for line in holders.lines for each in line.cylinders]
+    struts = [*driven_lengths(plan, holders), *cylinders, *known_struts(thrusts)]
+    twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
+    if twice:
+        raise DefinitionError(f"{plan.title}: two elements are called {twice}; give each a name of its own in the class.")
+    hosts = with_points(plan, struts, links)
+    return tuple(placed(plan, strut, hosts.get(strut.name)) for strut in struts), hosts
+
+
 def driven_lengths(plan: Plan, holders: Holders) -> list[Strut]:
     """Return the lengths that a step drives, where no cylinder has taken over all their strokes."""
     found = []
@@ -145,26 +157,21 @@ def with_points(plan: Plan, struts: Sequence[Strut], links: Sequence[FreeBody]) 
     return found
 
 
-def host_name(strut: Strut, hosts: Mapping[str, FreeBody]) -> str:
-    """Return the name of the body that a member is with the points along it: of a driven length the link's, else its own; "" for none."""
-    if strut.name not in hosts:
-        return ""
-    return strut.name if strut.quantity is None else hosts[strut.name].name
+def placed(plan: Plan, strut: Strut, host: FreeBody | None) -> Strut:
+    """Return a two-point member with the points on its far side and the name of the body it is, if it carries points.
+
+    A body that a stroke drives keeps its own name, one with an element has the element's.
+    """
+    if host is None:
+        return replace(strut, far=frozenset({strut.Q}))
+    return replace(strut, far=far_points(plan, strut, host), host=strut.name if strut.quantity is None else host.name)
 
 
-def carrier_body(strut: Strut, link: FreeBody) -> FreeBody:
-    """Return the body that an element is with the points measured along it; it goes by their link's name as well."""
-    points = (strut.P, strut.Q, *(point for point in link.points if point not in strut.ends))
-    return FreeBody(strut.name, points, strut.ends, label=link.label or link.name)
-
-
-def far_points(plan: Plan, strut: Strut, host: FreeBody | None) -> frozenset[str]:
+def far_points(plan: Plan, strut: Strut, host: FreeBody) -> frozenset[str]:
     """Return the points that go with a member's end Q, of a cylinder those on its rod: measured from Q, or linked to such points.
 
     DefinitionError for a point that keeps its place on neither side, as on a triangle whose third side is the member.
     """
-    if host is None or len(host.points) == 2:
-        return frozenset({strut.Q})
     groups = [{body[0], point} for point in host.points for body in plan.points[point].bodies() if point not in body[:2]]
     groups += [{bar.P, bar.Q} for bar in plan.rods]
     groups += [set(link.point_names) for link in plan.of_kind(Link).values() if not set(strut.ends) <= set(link.point_names)]

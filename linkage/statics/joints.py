@@ -269,7 +269,9 @@ class Structure:
     def names(self) -> dict[str, str]:
         """The names of all bodies by what they go by: their own, their link's, their points; not what several go by."""
         labels = [(body.label, body.name) for body in self.bodies if body.label]
-        labels += [(each.P + each.Q, each.host) for each in self.struts if each.host == each.name]
+        for each in self.struts:  # a cylinder with points along it goes by its ends and by all its points, too
+            if each.host == each.name:
+                labels += [(name, each.name) for name in (each.P + each.Q, "".join(self.bodies[self.body_of(each)].points))]
         for link, member in self.plan.of_kind(Link).items():  # a driven length goes by its link's name as well
             driven = [each for each in self.struts if each.quantity is not None and {each.P, each.Q} == set(member.point_names)]
             labels += [(link, each.name) for each in driven]

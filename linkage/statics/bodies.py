@@ -11,7 +11,7 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError
-from ..loads import ForceElement, PinFriction
+from ..loads import ForceElement, PinFriction, TwoPoint
 from ..plan import Plan, carrying_pairs
 from ..quantities import Quantity, name_of
 from ..steps import Link
@@ -62,7 +62,7 @@ class Strut:
     def is_cylinder(self) -> bool:
         """Whether it is a member that holds, or that would where nothing fed it."""
         member = None if self.known is None else self.known.member
-        return self.line is not None or (isinstance(member, ForceElement) and member.holds)
+        return self.line is not None or (isinstance(member, TwoPoint) and member.holds)
 
 
 def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[ActingThrust]) -> tuple[tuple[FreeBody, ...], tuple[Strut, ...]]:

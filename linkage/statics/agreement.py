@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import final
+from typing import cast, final
 
 import numpy as np
 
@@ -17,8 +17,8 @@ from ..errors import DefinitionError
 from ..motion import require_motion
 from ..motion.limits import where_words
 from ..motion.requests import Ratios, examined
-from ..plan import Mask
-from ..program import FloatArray
+from ..plan import NEAR, Mask
+from ..program import FloatArray, elementwise
 from .acting import Movement
 from .equilibrium import System
 from .friction import Speeds
@@ -30,7 +30,7 @@ AGREES = 1e-6
 MARGIN = 10.0
 """Nor does one of less than so many times the relative error that a pose has by itself."""
 ROUGHLY = 1e-4
-"""The part in a program, which does not know the error of a pose: up to the poses that are refused it is below."""
+"""The part in a program next to a singular pose, whose error it does not know: up to the poses that are refused it is below."""
 STILL = 1e-9
 """m or rad a unit of a stroke: slower than this nothing moves."""
 
@@ -93,7 +93,17 @@ def is_foreign(structure: Structure, contact: Contact) -> bool:
 
 def assumed_joints(structure: Structure, poses: FlatPoses) -> list[FloatArray]:
     """Return numbers of a program, each shape (1,), that are above zero where the joints hold what they say."""
-    return [np.asarray(ROUGHLY * (slip.size + STILL) - slip.miss) for slip in slips(structure, poses)]
+    found, plan = list(slips(structure, poses)), structure.plan
+    if not found:
+        return []
+    near = NEAR - poses.flat(poses.motion._array(np.asarray(plan.trace.nearness(plan.members), object)))
+    exactly, roughly = ([part * (slip.size + STILL) - slip.miss for slip in found] for part in (AGREES, ROUGHLY))
+    return [elementwise(holds_or_near, (a, b, near)) for a, b in zip(exactly, roughly, strict=True)]
+
+
+def holds_or_near(exactly: FloatArray, roughly: FloatArray, near: FloatArray) -> FloatArray:
+    """Return what is above zero where one of two does: exactly, or roughly and near."""
+    return cast(FloatArray, np.maximum(exactly, np.minimum(roughly, near)))
 
 
 def check_joints(structure: Structure, poses: FlatPoses) -> None:

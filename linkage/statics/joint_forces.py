@@ -19,6 +19,7 @@ from ..program import FloatArray
 from ..shown import Shown
 from ..units import kN
 from .acting import ActingLoad, ActingLoads, Case, Loads, acting_loads, movement_of
+from .agreement import check_joints
 from .bodies import FRAME_NAME
 from .force_program import forces_at
 from .joints import Contact, Structure, force_direction, place_of
@@ -65,6 +66,7 @@ def agreeing(found: PoseForces, loads: Loads, case: Case, split: str) -> PoseFor
     lost, words = without_work(found)
     if not lost.any():
         return found
+    check_joints(found.structure, found.poses)
     poses, motion = found.poses, found.poses.motion
     mask = poses.mask(lost)
     if motion.unreachable == "raise":

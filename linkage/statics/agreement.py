@@ -22,7 +22,7 @@ from ..program import FloatArray, elementwise
 from .acting import Movement
 from .equilibrium import System
 from .friction import Speeds
-from .joints import Contact, Structure, force_direction, place_of
+from .joints import Contact, Structure, acting_place, force_direction
 from .poses import FlatPoses
 
 AGREES = 1e-6
@@ -69,7 +69,7 @@ def slips(structure: Structure, poses: FlatPoses) -> Iterator[Slip]:
 def slips_in(contact: Contact, system: System, speeds: Speeds, stroke: str) -> Iterator[Slip]:
     """Yield what one joint lets slip by a stroke; where a drive along a curve of the frame is told by its point, nothing."""
     poses, drives = system.poses, list(system.structure.drives(contact))
-    place = place_of(contact, poses)
+    place = acting_place(contact, poses)
     on, by = (speeds.material(body, place, contact) for body in (contact.on, contact.by))
     spins = speeds.spin(contact.on), speeds.spin(contact.by)
     for letter in contact.holds:

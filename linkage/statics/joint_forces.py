@@ -22,7 +22,7 @@ from .acting import ActingLoad, ActingLoads, Case, Loads, acting_loads, movement
 from .agreement import check_joints
 from .bodies import FRAME_NAME
 from .force_program import forces_at
-from .joints import Contact, Structure, force_direction, place_of
+from .joints import Contact, Structure, acting_place, force_direction
 from .poses import FlatPoses
 from .solution import PoseForces, locked_words
 from .work import by_work, poses_held, without_work, work_gap
@@ -209,7 +209,7 @@ def joints_of(
 
 def place_elsewhere(contact: Contact, poses: FlatPoses) -> FloatArray | None:
     """Return where a contact's force acts, shape (2, ...) [m]; None where that is its point."""
-    place, point = place_of(contact, poses), poses.at(contact.point)
+    place, point = acting_place(contact, poses), poses.at(contact.point)
     return None if place is point or np.array_equal(place, point) else poses.full(place)
 
 

@@ -355,12 +355,12 @@ class Wrench:
 def wrenches(contact: Contact, poses: FlatPoses, scale: float) -> list[Wrench]:
     """Return the unit wrenches of a contact's unknowns; all unknowns are in N, a couple is `scale` [m] times its own."""
     none = np.zeros((2, poses.count))
-    place = place_of(contact, poses)
+    place = acting_place(contact, poses)
     forces = {letter: none if letter == "c" else force_direction(contact, letter, poses) for letter in contact.holds}
     return [Wrench(place, force, none[0] + (scale if letter == "c" else 0.0)) for letter, force in forces.items()]
 
 
-def place_of(contact: Contact, poses: FlatPoses) -> FloatArray:
+def acting_place(contact: Contact, poses: FlatPoses) -> FloatArray:
     """Return where a contact's force acts, shape (2, n) [m]: at its line's origin, or at the point that runs on the line."""
     joint = contact.joint
     if joint is None or joint.line is None or joint.track or "runner" in (joint.on.role, joint.by.role):

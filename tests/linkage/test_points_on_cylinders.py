@@ -21,6 +21,7 @@ from linkage import (
     LinkMass,
     Mechanism,
     Moment,
+    OnGuide,
     OnLink,
     Pin,
     PinFriction,
@@ -37,6 +38,7 @@ from linkage import (
     mm,
     pin_force,
     pin_forces,
+    ref,
 )
 from tests.laws.plane import cross
 from tests.mechanisms.free_bodies import FreeBodies, places
@@ -291,6 +293,40 @@ def test_a_guide_on_it_rubs_on_the_side_it_is_measured_from(ends):
         lost[direction] = np.abs(forces.drives["S"] - driving_force(motion))
         assert forces.residual < 1e-10
     assert lost["extending"].min() > 0.01
+
+
+CARRIED = {
+    "a carriage driven along the barrel": {"rail": Guide("A", "B"), "C": OnGuide("rail", at=0.1 + ref("S2"))},
+    "a carriage driven along the rod": {"rail": Guide("B", "A"), "C": OnGuide("rail", at=0.1 + ref("S2"))},
+    "an arm out of the barrel": {"C": OnLink("A", "B", AC=0.3 + ref("S2"), BAC=20 * deg), "small": Cylinder("A", "C", bore=0.05, rod=0.03)},
+    "an arm out of the rod": {"C": OnLink("B", "A", BC=0.2 + ref("S2"), ABC=20 * deg)},
+    "an arm that turns on the barrel": {"C": OnLink("K", "A", KC=0.2, AKC=0.3 + ref("S2"))},
+    "a lever on a driven length": {"C": Dyad("K", "G", KC=0.3 + ref("S2"), GC=0.5, side=LEFT), "G": Ground(0.2, 0.9)},
+}
+LAST = list(CARRIED)[-2:]                                      # they hang on K
+
+
+@pytest.mark.parametrize(("base", "name"), [(base, name) for name in CARRIED for base in (Bare, Held)[name in LAST :]])
+def test_what_a_second_stroke_moves_on_it(base, name):
+    """The thrust is the potential energy's slope, by differences."""
+    members, at = CARRIED[name], {"S": [0.05, 0.1, 0.2], "S2": [0.02, 0.1, 0.15]}
+    machine = variant(base, S2=Stroke(0.0, 0.2), box=Weight("C", mass=50), **members)()
+    forces = assert_balanced(machine, machine.at(**at), ("lift", "small")[: 1 + ("small" in members)])
+    assert machine.mobility == machine.gruebler == 2
+
+    def energy(step):
+        motion = machine.at(S=np.array(at["S"]) + step, S2=at["S2"])
+        return 9.80665 * (500 * motion.y("T") + 50 * motion.y("C"))
+
+    assert_allclose(forces.thrusts["lift"], (energy(1e-5) - energy(-1e-5)) / 2e-5, rtol=1e-6)
+
+
+def test_a_cylinder_that_is_given_with_the_loads_carries_as_well():
+    machine = variant(Arm, K=OnLink("A", "B", AK=0.3, BAK=20 * deg), box=Weight("K", mass=50))()
+    motion = machine.sweep(3)
+    driven, given = pin_forces(motion), pin_forces(motion, ["load", "box", Cylinder("A", "B", bore=80 * mm, rod=40 * mm)])
+    assert_allclose(given.force("A", on="Cylinder AB"), driven.force("A", on="ABK"), rtol=1e-12)
+    assert_allclose(given.thrusts["Cylinder AB"], driven.thrusts["AB"], rtol=1e-12)
 
 
 def test_friction_in_its_pins_where_something_hangs_on_it():

@@ -209,8 +209,8 @@ def joints_of(
 
 def place_elsewhere(contact: Contact, poses: FlatPoses) -> FloatArray | None:
     """Return where a contact's force acts, shape (2, ...) [m]; None where that is its point."""
-    place, point = acting_place(contact, poses), poses.at(contact.point)
-    return None if place is point or np.array_equal(place, point) else poses.full(place)
+    place = acting_place(contact, poses)
+    return None if place is poses.at(contact.point) else poses.full(place)
 
 
 def joints_at(joints: Sequence[JointForce], point: str, title: str) -> tuple[JointForce, ...]:

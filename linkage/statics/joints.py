@@ -360,14 +360,24 @@ def wrenches(contact: Contact, poses: FlatPoses, scale: float) -> list[Wrench]:
     return [Wrench(place, force, none[0] + (scale if letter == "c" else 0.0)) for letter, force in forces.items()]
 
 
+SAME = 1e-9
+"""Places that differ by less than this part of their coordinates are one."""
+
+
 def acting_place(contact: Contact, poses: FlatPoses) -> FloatArray:
-    """Return where a contact's force acts, shape (2, n) [m]: at its line's origin, or at the point that runs on the line."""
-    joint = contact.joint
+    """Return where a contact's force acts, shape (2, n) [m]: at its line's origin, or at the point that runs on the line.
+
+    An origin that is the point to rounding is the point, as the motion has it.
+    """
+    joint, point = contact.joint, poses.at(contact.point)
     if joint is None or joint.line is None or joint.track or "runner" in (joint.on.role, joint.by.role):
-        return poses.at(contact.point)
+        return point
     with np.errstate(all="ignore"):
         origin = joint.line(poses.reading).origin
-    return poses.pair(origin.x, origin.y)
+    place = poses.pair(origin.x, origin.y)
+    if place.dtype == object:
+        return place
+    return point if np.all(np.abs(place - point) <= SAME * np.max(np.abs(point), initial=0.0)) else place
 
 
 def force_direction(contact: Contact, letter: str, poses: FlatPoses) -> FloatArray:

@@ -433,12 +433,32 @@ class Parts(Mechanism):
     box = Weight("K", mass=100)
 
 
-def test_the_spelling_by_parts_says_the_same():
-    parts, steps = Parts(), variant(Held, box=Weight("K", mass=100))()
-    assert parts.gruebler == steps.gruebler == 1
-    ours, theirs = pin_forces(parts.sweep(5)), pin_forces(steps.sweep(5))
+class Linked(Parts):
+    """The cylinder as one link with its points: K on the barrel, R on the rod."""
+
+    ram = Link("A B K R", AB=0.7 + ref("S"), AK=0.3, BAK=0, BR=0.1, ABR=-30 * deg)
+    K, R = Pin(near=(0.2, 0.2)), Pin(near=(0.6, 0.4))
+    bag = Weight("R", mass=20)
+
+
+ROD = {"R": OnLink("B", "A", BR=0.1, ABR=-30 * deg), "bag": Weight("R", mass=20)}
+
+
+@pytest.mark.parametrize(("parts", "more"), [(Parts, {}), (variant(Parts, barrel=Link("A K", AK=0.3)), {}), (Linked, ROD)])
+def test_the_spelling_by_parts_says_the_same(parts, more):
+    parts, steps = parts(), variant(Held, box=Weight("K", mass=100), **more)()
+    assert parts.gruebler == steps.gruebler == parts.mobility == 1
+    ours, theirs = assert_balanced(parts, parts.sweep(5)), pin_forces(steps.sweep(5))
     for point in "AB":
         assert_allclose(ours.force(point, on="lift"), theirs.force(point, on="lift"), rtol=1e-9, atol=1e-6)
+
+
+def test_a_link_that_would_stretch_is_refused_as_ever():
+    """T is no point along the cylinder; a link of both its ends and T would have to be as long as it and rigid."""
+    with pytest.raises(DefinitionError, match="mobility is 0"):
+        variant(Bare, plate=Link("A", "B", "T"))
+    with pytest.raises(DefinitionError, match="mobility is 0"):
+        variant(Held, plate=Link("K", "B"))
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..assembly import places_at
 from ..errors import AssemblyError, DefinitionError
-from ..plan import Plan, Reading, Trace, carrying_pairs, merged, strokes_text
+from ..plan import Plan, Reading, Trace, carrying_pairs, member_sides, merged, strokes_text
 from ..program import FloatArray, Level, Node, Tangent, ancestors, interpret
 from ..quantities import quantity
 from ..steps import Link, match
@@ -119,16 +119,12 @@ def rigid_rows(points: tuple[str, ...], places: Places, unknowns: tuple[str, ...
 def cylinder_sides(plan: Plan, link: Link) -> tuple[tuple[str, ...], ...]:
     """Return the points of a link that is a driven length with points along it, by sides, each with its end first; empty for any other."""
     carrying = carrying_pairs(plan) if len(link.point_names) > 2 else frozenset()
-    inside = [(bar.P, bar.Q) for bar in plan.cylinders if {bar.P, bar.Q} <= set(link.point_names)]
-    ends: tuple[str, ...] = next((pair for pair in inside if frozenset(pair) in carrying), ())
-    others = [point for point in link.point_names if point not in ends]
-    return tuple((end, *(point for point in others if (ends[1] in based_on(plan, point)) == (end == ends[1]))) for end in ends)
-
-
-def based_on(plan: Plan, point: str) -> set[str]:
-    """Return the points that a point is measured from, through others."""
-    bases = {body[0] for body in plan.points[point].bodies() if body[0] != point}
-    return bases.union(*(based_on(plan, each) for each in bases))
+    for bar in plan.cylinders:
+        if frozenset((bar.P, bar.Q)) in carrying and {bar.P, bar.Q} <= set(link.point_names):
+            _, far = member_sides(plan, (bar.P, bar.Q), link.point_names)
+            others = [point for point in link.point_names if point not in (bar.P, bar.Q)]
+            return (bar.P, *(each for each in others if each not in far)), (bar.Q, *(each for each in others if each in far))
+    return ()
 
 
 def sided_rows(sides: tuple[tuple[str, ...], ...], places: Places, unknowns: tuple[str, ...]) -> list[FloatArray]:

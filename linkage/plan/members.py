@@ -333,6 +333,22 @@ def carrying_pairs(plan: Members, members: Iterable[Iterable[str]] = ()) -> froz
     return frozenset(found)
 
 
+def member_sides(plan: Members, ends: tuple[str, str], points: Iterable[str]) -> tuple[set[str], set[str]]:
+    """Return which points of a body go with the one and with the other end of the two-point member that it is.
+
+    Those that are measured from that end, of a cylinder from A on its barrel and from B on its rod, and what is linked to such points.
+    """
+    among = set(points)
+    groups = [{body[0], point} for point in among for body in plan.points[point].bodies() if point not in body[:2]]
+    groups += [{bar.P, bar.Q} for bar in plan.rods]
+    groups += [set(link.point_names) for link in plan.of_kind(Link).values() if not set(ends) <= set(link.point_names)]
+    near, far = {ends[0]}, {ends[1]}
+    for side in (near, far):
+        while more := set().union(*(group for group in groups if group & side)) & among - side:
+            side |= more
+    return near, far
+
+
 def resting(plan: Members) -> dict[str, Guide]:
     """Return the points at a fixed place on a guide, which are rigid with it."""
     found = [(joint.point, joint) for point in plan.points.values() for joint in point.joints() if joint.drives and joint.track]

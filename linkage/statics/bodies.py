@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..loads import ForceElement, PinFriction, TwoPoint
-from ..plan import Plan, carrying_pairs
+from ..plan import Plan, carrying_pairs, member_sides
 from ..quantities import Quantity, name_of
 from ..steps import Link
 from .acting import ActingThrust, member_title
@@ -172,13 +172,7 @@ def far_points(plan: Plan, strut: Strut, host: FreeBody) -> frozenset[str]:
 
     DefinitionError for a point that keeps its place on neither side, as on a triangle whose third side is the member.
     """
-    groups = [{body[0], point} for point in host.points for body in plan.points[point].bodies() if point not in body[:2]]
-    groups += [{bar.P, bar.Q} for bar in plan.rods]
-    groups += [set(link.point_names) for link in plan.of_kind(Link).values() if not set(strut.ends) <= set(link.point_names)]
-    far, near = {strut.Q}, {strut.P}
-    for side in (far, near):
-        while more := set().union(*(group for group in groups if group & side)) & set(host.points) - side:
-            side |= more
+    near, far = member_sides(plan, strut.ends, host.points)
     places = plan.made(("places", strut.P, strut.Q, host.points), lambda _: places_on(plan, strut, host.points))
     for point in host.points:
         kept = [end for end, side in ((strut.P, near), (strut.Q, far)) if point in side]

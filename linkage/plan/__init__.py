@@ -2,7 +2,7 @@
 
 from .bodies import Body, gruebler, merged
 from .measure import plan_measure
-from .members import as_written, construction_order, needed_names, printed, strokes_text
+from .members import as_written, carrying_pairs, construction_order, member_sides, needed_names, printed, strokes_text
 from .missing import Mask, called, failures, missing_words, negative, opening
 from .plan import Plan
 from .reading import ArrayReading, Reading

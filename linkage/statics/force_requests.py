@@ -19,6 +19,7 @@ from ..plan import Plan
 from ..program import FloatArray, Node, Notes
 from ..vectors import Scalar
 from .acting import Case, Loads
+from .agreement import assumed_joints
 from .equilibrium import System
 from .joint_forces import JointForce, PinForces, joint_on, joints_of, pin_forces
 from .joints import Contact, Structure
@@ -297,6 +298,12 @@ class PinForceOf(ForceOf):
         contact, _, sign = contact_of(structure, self.request.point, self.request.on)
         force, _ = Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), []).transmitted(contact)
         return (motion.node(COMPONENTS[self.request.component](*(sign * force[:, 0]))),)
+
+    def notes(self, plan: Plan) -> Notes:
+        traced = self.traced(plan)
+        for each in assumed_joints(traced.structure, traced.poses):
+            traced.notes.assumed.setdefault(traced.motion.node(each[0]), "its joints")
+        return traced.notes
 
     def names(self, plan: Plan) -> set[str]:
         return set(plan.members)

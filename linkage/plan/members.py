@@ -32,7 +32,7 @@ from ..quantities import (
     quantity,
     unnamed,
 )
-from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point
+from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point, with_bodies
 from ..units import deg
 from .bodies import Body, gruebler, merged
 from .table import Table
@@ -60,7 +60,7 @@ class Members:
                 self.members[name] = self._bound(name, members[name])
         strokes = self.of_kind(Stroke)
         self.strokes: Mapping[str, Stroke] = FrozenDict({name: strokes[name] for name in members if name in strokes})
-        self.members = FrozenDict(self.members)
+        self.members = FrozenDict(with_bodies(self.members, self.table.lengths))
         for name, member in self.members.items():
             with about(name):
                 self._check_kinds(name, member)

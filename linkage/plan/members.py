@@ -60,10 +60,11 @@ class Members:
                 self.members[name] = self._bound(name, members[name])
         strokes = self.of_kind(Stroke)
         self.strokes: Mapping[str, Stroke] = FrozenDict({name: strokes[name] for name in members if name in strokes})
-        self.members = FrozenDict(with_bodies(self.members, self.table.lengths))
+        self.members = FrozenDict(self.members)
         for name, member in self.members.items():
             with about(name):
                 self._check_kinds(name, member)
+        self.members = FrozenDict(with_bodies(self.members, self.table.lengths))
 
     def _bound(self, name: str, member: Member) -> Member:
         """Return a member with its dimensions entered in the table."""

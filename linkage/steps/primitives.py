@@ -216,7 +216,7 @@ class Offset(Point):
         return self.keeps.groups
 
     def meeting(self, where: Where) -> tuple[Vec, ...]:
-        X, ends = where.at(self.name), (self.hangs_from, self.keeps.apex)
+        X, ends = where.at(self.name), (self.P, self.keeps.apex)
         return tuple(where.at(end) - X for end in ends) if self.keeps.apex else ()
 
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
@@ -236,7 +236,7 @@ class Offset(Point):
 
     def joints(self) -> tuple[Joint, ...]:
         """Return what a drive holds that turns its vector or pushes it out."""
-        name, start, keeps = self.name, self.hangs_from, self.keeps
+        name, start, keeps = self.name, name_of(self.P), self.keeps
         turned = () if keeps.angle is None else (Driven(keeps.angle, "c"),)
         by = JointSide(keeps.by) if keeps.by else FRAME_SIDE
         if keeps.length is not None:
@@ -250,7 +250,7 @@ class Offset(Point):
 
     @property
     def hangs_from(self) -> str:
-        return name_of(self.P)
+        return "" if self.keeps.settled or len(self.keeps.sides) > 1 else name_of(self.P)
 
     def __str__(self) -> str:
         return f"Offset({label(self.P)}, {label(self.by)})"

@@ -215,6 +215,14 @@ class Offset(Point):
     def bodies(self) -> tuple[tuple[str, ...], ...]:
         return self.keeps.groups
 
+    def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
+        """Return the triangle that places it, where it is the apex of one that closes in its own line."""
+        if len(self.keeps.sides) < 2:
+            return ()
+        P, Q = name_of(self.P), self.keeps.apex
+        base = (where.at(Q) - where.at(P)).length()
+        return (P + Q, base), *((side.P + self.name, where.value(side.length)) for side in self.keeps.sides)
+
     def meeting(self, where: Where) -> tuple[Vec, ...]:
         X, ends = where.at(self.name), (self.P, self.keeps.apex)
         return tuple(where.at(end) - X for end in ends) if self.keeps.apex else ()

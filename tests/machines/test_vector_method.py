@@ -1,13 +1,32 @@
 """The vector method's spelling, without links, is the same machine as the composite one: mobility, bodies, joints, forces, drawing, files."""
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import Link, Mechanism, driving_force, pin_forces
+from linkage import (
+    AssemblyError,
+    CosineAngle,
+    Crank,
+    DefinitionError,
+    Ground,
+    Link,
+    LinkageError,
+    Mechanism,
+    Offset,
+    Stroke,
+    Turn,
+    Vector,
+    Weight,
+    driving_force,
+    pin_forces,
+)
 from linkage.files import load, to_json, to_toml
 from linkage.pictures.scene import Scene
 from linkage.quantities import Member
+from tests.machines.random_vectors import machines
 from tests.machines.vector_pairs import PAIRS, PAPERS
 
 ALL = PAPERS | PAIRS
@@ -99,7 +118,8 @@ def test_a_written_link_agrees(which):
     """Every body declared once more, as its points: nothing is redundant, nothing changes."""
     vectors, _ = ALL[which]
     own = {name: member.renewed() for name, member in vars(vectors).items() if isinstance(member, Member)}
-    links = {f"body{k}": Link(*body.points) for k, body in enumerate(vectors.plan.links[1:]) if not set(body.points) & set(arms(vectors))}
+    plain = [body for body in vectors.plan.links[1:] if not set(body.points) & set(vectors.plan.telescopes)]
+    links = {f"body{k}": Link(*body.points) for k, body in enumerate(plain)}
     declared = type(vectors.__name__, (Mechanism,), own | links)
     assert str(declared.plan) != str(vectors.plan)
     found = declared().mobility
@@ -108,13 +128,153 @@ def test_a_written_link_agrees(which):
     same_forces(pin_forces(motion(declared)), pin_forces(motion(vectors)))
 
 
-def arms(cls):
-    return cls.plan.telescopes
-
-
 @both
 def test_driving_forces(which):
     one, other = (motion(cls) for cls in ALL[which])
     for stroke in other.plan.strokes:
         found = driving_force(other, drive=stroke)
         assert_allclose(driving_force(one, drive=stroke), found, rtol=1e-9, atol=1e-9 * np.abs(found).max())
+
+
+# -- by other means: distances that are measured, and machines that are drawn by a seed ------------------------
+
+
+def keeps_its_distances(cls, sweep):
+    """Return whether the distances within every body are constant over a motion, and those of no two bodies are one body's."""
+    for body in cls.plan.links:
+        rigid = [name for name in body.points if name not in cls.plan.telescopes]
+        root = [joint.point for _, joint in cls.plan.joints if joint.arm] if len(rigid) < len(body.points) else []
+        for P, Q in combinations([name for name in rigid if name not in root], 2):
+            lengths = np.hypot(*(sweep[P] - sweep[Q])) if np.ndim(sweep[P]) > 1 or np.ndim(sweep[Q]) > 1 else np.zeros(1)
+            assert np.ptp(lengths) <= 1e-12, (body, P, Q)
+
+
+@both
+def test_bodies_keep_their_distances(which):
+    vectors, _ = ALL[which]
+    keeps_its_distances(vectors, motion(vectors, 9))
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_machines_drawn_by_a_seed(seed):
+    """Random cranks, corners and offsets, in random spellings: the same machine as in steps; equilibrium agrees with virtual work."""
+    vectors, steps = machines(seed)
+    try:
+        other = pin_forces(motion(steps))
+    except (AssemblyError, LinkageError):
+        pytest.skip("this one is out of reach, or too near a singular pose, in steps as well")
+    assert vectors().mobility == steps().mobility == len(steps.plan.strokes)
+    assert vectors().gruebler == steps().gruebler
+    assert bodies(vectors) == bodies(steps)
+    mine = motion(vectors)
+    keeps_its_distances(vectors, mine)
+    one = pin_forces(mine)
+    same_forces(one, other)
+    assert one.gap < 1e-8
+
+
+# -- what is no body -----------------------------------------------------------------------------------------
+
+
+class SideRod(Mechanism):
+    """B runs parallel to A: by accident of the place of C, A and B keep their distance."""
+
+    phi = Stroke(0.2, 1.2)
+    O, C = Ground(0.0, 0.0), Ground(1.0, 0.0)
+    A = Offset(O, Turn(Vector(O, C), phi, length=0.3))
+    OA = Vector(O, A)
+    B = Offset(C, OA)
+    load = Weight(B, mass=10.0)
+
+
+def test_points_that_keep_their_distance_by_accident_are_no_link():
+    assert bodies(SideRod) == {frozenset("OC"), frozenset("OA"), frozenset("CB")}
+    assert (SideRod().mobility, SideRod().gruebler) == (2, 2)
+    with pytest.raises(LinkageError, match="CB not held"):
+        pin_forces(SideRod().sweep(3))
+
+
+def test_the_written_link_makes_it_one():
+    class Coupled(SideRod):
+        rod = Link("A", "B")
+
+    found = Coupled().at(phi=[0.3, 0.6, 1.0])
+    assert (Coupled().mobility, Coupled().gruebler) == (1, 1)
+    assert_allclose(pin_forces(found).drives["phi"], 10 * 9.80665 * 0.3 * np.cos(found.strokes["phi"]), rtol=1e-12)
+
+
+def test_one_vector_turns_one_body():
+    """The same driven vector at another point runs parallel; a second vector of its own is a second drive."""
+
+    class Parallel(Mechanism):
+        phi = Stroke(0.2, 1.2)
+        O, C = Ground(0.0, 0.0), Ground(1.0, 0.0)
+        arm = Turn(Vector(O, C), phi, length=0.3)
+        A, B = Offset(O, arm), Offset(C, arm)
+        load = Weight(B, mass=10.0)
+
+    class Geared(Parallel):
+        B = Offset("C", Turn(Vector("O", "C"), "phi", length=0.3))
+
+    assert (Parallel().mobility, Geared().mobility) == (2, 1)
+    motion = Geared().at(phi=[0.3, 0.6, 1.0])
+    assert_allclose(pin_forces(motion).drives["phi"], 10 * 9.80665 * 0.3 * np.cos(motion.strokes["phi"]), rtol=1e-12)
+
+
+def test_a_corner_of_other_lengths_closes_no_triangle():
+    """The corner of the sides 0.5 + S and 0.4, on a vector of 0.6: BO is no rod, and the arm is turned by its angle as by a crank."""
+
+    class Other(Mechanism):
+        S = Stroke(0.0, 0.1)
+        O, A = Ground(0.0, 0.0), Ground(0.7, 0.0)
+        OA = Vector(O, A)
+        B = Offset(O, Turn(OA, CosineAngle(abs(OA), 0.4, 0.5 + S), length=0.6))
+        load = Weight(B, mass=10.0)
+
+    assert bodies(Other) == {frozenset("OA"), frozenset("OB")} and not Other.plan.cylinders
+    motion = Other().sweep(5)
+    assert np.ptp(motion.distance("A", "B") - motion.strokes["S"]) > 1e-3
+    assert [joint.kind for _, joint in Other.plan.joints] == ["crank"]
+    assert_allclose(pin_forces(motion).drives["S"], driving_force(motion), rtol=1e-11)
+
+
+def test_a_corner_at_another_point_closes_no_triangle():
+    class Elsewhere(Mechanism):
+        S = Stroke(0.0, 0.1)
+        O, A, C = Ground(0.0, 0.0), Ground(0.7, 0.0), Ground(0.2, 0.5)
+        OA = Vector(O, A)
+        B = Offset(C, Turn(OA, CosineAngle(abs(OA), 0.4, 0.5 + S), length=0.4))
+        load = Weight(B, mass=10.0)
+
+    assert bodies(Elsewhere) == {frozenset("OAC"), frozenset("CB")} and not Elsewhere.plan.cylinders
+
+
+def test_steps_and_vectors_mix():
+    """A point turned on a crank's link is of its body; a link that would stretch is refused as ever."""
+
+    class Mixed(Mechanism):
+        phi = Stroke(0.2, 1.2)
+        O, C = Ground(0.0, 0.0), Ground(1.0, 0.0)
+        A = Crank(O, OA=0.3, angle=phi)
+        AC = Vector(A, C)
+        B = Offset(A, Turn(AC, CosineAngle(abs(AC), 0.9, 0.7), length=0.9))
+        P = Offset(O, Turn(Vector(O, A), 0.5, length=0.2))
+
+    assert bodies(Mixed) == {frozenset("OC"), frozenset("OAP"), frozenset("AB"), frozenset("CB")}
+    with pytest.raises(DefinitionError, match="the distance PB changes"):
+        type("Stretched", (Mixed,), {"rod": Link("P", "B")})
+
+
+def test_transmission_and_the_missing_length_are_told_of_a_corner():
+    class Short(Mechanism):
+        S = Stroke(0.0, 0.6)
+        O, A = Ground(0.0, 0.0), Ground(0.7, 0.0)
+        OA = Vector(O, A)
+        B = Offset(O, Turn(OA, CosineAngle(abs(OA), 0.4, 0.5 + S), length=0.4))
+
+    found = Short().at(S=[0.0, 0.1])
+    sides = np.array([0.4, 0.4]), 0.5 + found.strokes["S"]
+    angle = np.arccos((sides[0] ** 2 + sides[1] ** 2 - 0.49) / (2 * sides[0] * sides[1]))
+    assert_allclose(found.transmission_angle("B"), np.minimum(angle, np.pi - angle), rtol=1e-12)
+    with pytest.raises(AssemblyError, match=r"OA \+ OB = 1.1 m is 10 mm short of AB = 1.11 m"):
+        Short().at(S=0.61)

@@ -1,17 +1,18 @@
 """What the vector method's primitives keep by construction: which points move as one, which lengths and turns are driven.
 
-Nothing is measured here. A direction is a sum of angles, a length a sum of lengths, both by name; a body are points joined by vectors whose
-lengths follow no stroke and whose directions differ by angles that follow none. A turn by a cosine-rule angle closes a triangle, whose third
-side is a member as well. Points that keep their distance in another way, as the pins of a parallelogram do, are no body.
+Nothing is measured here. A direction is a sum of angles, a length a sum of lengths, both by name. Points are one body where vectors join
+them whose lengths follow no stroke and whose directions differ by angles that follow none. A turn by a cosine-rule angle closes a
+triangle, whose third side is a member as well. Points that keep their distance in another way, as the pins of a parallelogram do, are
+no body.
 """
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import reduce
 from math import isclose, pi, remainder
-from typing import final
+from typing import TypeAlias, final
 
 from ..quantities import (
     Angle,
@@ -41,12 +42,16 @@ SAME = 1e-12
 """Numbers of a class that differ by less than this, relative or in rad, are one number."""
 
 
+Terms: TypeAlias = frozenset[tuple[Hashable, float]]
+"""Multiples of what is told apart by name."""
+
+
 @final
 @dataclass(frozen=True)
 class Form:
     """A sum: multiples of what is told apart by name, and a number [SI]."""
 
-    terms: frozenset[tuple[Hashable, float]] = frozenset()
+    terms: Terms = frozenset()
     number: float = 0.0
 
     def plus(self, other: Form, factor: float = 1.0) -> Form:
@@ -68,15 +73,24 @@ class Form:
 @final
 @dataclass
 class TurningBody:
-    """Points that keep their places against each other. `turns` is what its directions have in common; `root` where a telescope begins."""
+    """Points that keep their places against each other. `turns` is the part of its directions that moves.
 
-    turns: frozenset[tuple[Hashable, float]]
+    `root` is the far end of a driven length: it tells how the body is turned, and is no point of it.
+    """
+
+    turns: Terms
     points: list[str] = field(default_factory=list)
     root: str = ""
 
-    def others(self, point: str) -> list[str]:
-        """Return the points that tell, beside one of it, how it is turned."""
-        return [each for each in (*self.points, self.root) if each and each != point]
+    @property
+    def on_it(self) -> list[str]:
+        """The points that tell how it is turned."""
+        return [*self.points, self.root] if self.root else self.points
+
+    def pair(self, point: str) -> tuple[str, str] | None:
+        """Return two points that tell how it is turned, one of them given if it can be; None where there is one alone."""
+        ordered = sorted(self.on_it, key=lambda each: each != point)
+        return (ordered[0], ordered[1]) if len(ordered) > 1 else None
 
 
 def with_bodies(members: Mapping[str, Member], lengths: Mapping[frozenset[str], Quantity]) -> dict[str, Member]:
@@ -93,6 +107,7 @@ class Construction:
 
     def __init__(self, members: Mapping[str, Member], lengths: Mapping[frozenset[str], Quantity]) -> None:
         self.members, self.lengths = members, dict(lengths)
+        self.named: dict[str, Form] = {}
         self.forms: dict[frozenset[str], Form] = {}
         self.rays: dict[tuple[str, str], Form] = {}
         self.arrows: dict[tuple[str, str], Reference] = {}
@@ -103,7 +118,7 @@ class Construction:
         self.bodies = [self.frame]
         self.placed: list[str] = []
         self.kept: dict[str, Kept] = {}
-        self.used = self._used()
+        self.used = self._points_behind(member for member in members.values() if isinstance(member, (Jointed, Link)))
         links = {name: member for name, member in members.items() if isinstance(member, Link)}
         for name, member in members.items():
             if isinstance(member, Point):
@@ -112,16 +127,16 @@ class Construction:
                 for each in [each for each, link in links.items() if set(link.point_names) <= set(self.placed)]:
                     self._join_link(links.pop(each))
 
-    def _used(self) -> set[str]:
-        """Return the points that steps, links and loads hang on, through vectors and quantities; not those of outputs alone."""
-        stack = [each for member in self.members.values() if isinstance(member, (Jointed, Link)) for each in needs(member)]
+    def _points_behind(self, starts: Iterable[Member]) -> set[str]:
+        """Return the points that some members hang on, at once or through vectors and quantities."""
+        stack = [each for member in starts for each in needs(member)]
         found: set[str] = set()
         while stack:
             name = stack.pop()
             if name not in found:
                 found.add(name)
                 stack += needs(self.members[name]) if isinstance(self.members[name], (Arrow, Quantity)) else ()
-        return found
+        return {name for name in found if isinstance(self.members[name], Point)}
 
     # -- points in turn --------------------------------------------------------------------------------------
 
@@ -148,7 +163,7 @@ class Construction:
         if len(points) < 2:
             return
         shared = [body for body in self.bodies if len(set(body.points) & set(points)) > 1]
-        body = shared[0] if shared else TurningBody(self.direction_of(points[0], points[1]).terms)
+        body = shared[0] if shared else TurningBody(self.moving(self.direction_of(points[0], points[1])))
         for other in (*shared[1:], TurningBody(frozenset(), list(points))):
             body.points += [each for each in other.points if each not in body.points]
         self.bodies = [each for each in self.bodies if each not in shared[1:]] + ([] if shared else [body])
@@ -158,7 +173,7 @@ class Construction:
         arrow = self.arrow(by)
         way, length = self.direction(arrow), self.length(arrow)
         turns, behind = self.moving(way), self.behind(length)
-        home = next((body for body in self.bodies if body.turns == turns and P in body.points and body.others(P)), None)
+        home = next((body for body in self.bodies if body.turns == turns and P in body.points and body.pair(P)), None)
         closing = None if home is not None else self._closing(P, way, length)
         self.rays[P, X], self.arrows[P, X] = way, by
         self.forms[frozenset((P, X))] = length
@@ -177,38 +192,35 @@ class Construction:
             return Kept(held.groups + other.groups, held.sides + other.sides, held.rods + other.rods, apex=Q)
         return held if drive is None else Kept(held.groups, held.sides, held.rods, by=drive[1], angle=drive[0], settled=True)
 
-    def _side(
-        self, P: str, X: str, length: Quantity, known: Quantity | None, form: Form, turns: frozenset[tuple[Hashable, float]]
-    ) -> Kept:
+    def _side(self, P: str, X: str, length: Quantity, known: Quantity | None, form: Form, turns: Terms) -> Kept:
         """Return a two-point member P X: a rod, or a drive's; nothing where its length follows points that move against each other."""
         behind = self.behind(form)
-        if POINTS in behind or (known is None and behind):
+        if POINTS in behind:
             return Kept()
-        self.bodies.append(TurningBody(turns, [P, X]))
+        self.bodies += [TurningBody(turns, [P], X), TurningBody(turns, [X], P)] if behind else [TurningBody(turns, [P, X])]
         sides = (Bar(P, X, length if known is None else known),)
-        return Kept(((P, X),), sides) if known is None else Kept((), sides, sides)
+        return Kept((), sides, sides) if behind or known is not None else Kept(((P, X),), sides)
 
     def _at_home(self, X: str, P: str, home: TurningBody, arrow: Arrow) -> Kept:
         """Return what a point keeps that is offset in the direction of a body at P: it is part of it, or slides along it."""
-        behind, Y = self.behind(self.length(arrow)), home.others(P)[0]
-        if behind == {STROKE}:
-            return self._telescope(X, P, home.turns, (P, Y), arrow, None)
-        if behind:
+        behind, by = self.behind(self.length(arrow)), home.pair(P)
+        if behind == {STROKE} and by is not None:
+            return self._telescope(X, P, home.turns, by, arrow, None)
+        if behind or by is None:
             return Kept()
+        rays = [pair for pair in self.rays if P in pair and X not in pair and {*pair} <= {*home.on_it}]
         home.points.append(X)
-        rays = [pair for pair in self.rays if P in pair and X not in pair and {*pair} <= {*home.points, home.root}]
         if not rays or home is self.frame:
-            return Kept(((P, Y, X),), settled=True)
+            return Kept(((P, by[1], X),), settled=True)
         start, end = rays[0]
-        Y = end if start == P else start
-        return Kept(((P, Y, X),), settled=True, beside=(Y, self.arrows[start, end], 1.0 if start == P else -1.0))
+        Y, sign = (end, 1.0) if start == P else (start, -1.0)
+        return Kept(((P, Y, X),), settled=True, beside=(Y, self.arrows[start, end], sign))
 
-    def _telescope(
-        self, X: str, P: str, turns: frozenset[tuple[Hashable, float]], by: tuple[str, ...], arrow: Arrow, angle: Quantity | None
-    ) -> Kept:
+    def _telescope(self, X: str, P: str, turns: Terms, by: tuple[str, ...], arrow: Arrow, angle: Quantity | None) -> Kept:
         """Return what an arm keeps that a stroke moves along its body."""
         self.bodies.append(TurningBody(turns, [X], root=P))
-        return Kept(by=by or tuple(self.frame.points[:2]), angle=angle, length=self._known(arrow), settled=True)
+        known, ends = self._known(arrow), by or tuple(self.frame.points[:2])
+        return Kept(by=ends, angle=angle, length=Length(arrow) if known is None else known, settled=True)
 
     def _closing(self, P: str, way: Form, length: Form) -> tuple[str, CosineAngle] | None:
         """Return the far end Q of the base P -> Q from which a vector is turned by the corner of a triangle, and that angle."""
@@ -236,9 +248,9 @@ class Construction:
         base, behind = self.moving(self.direction(self.arrow(arrow.base))), self.behind(self.form(arrow.angle))
         if not base:
             return (arrow.angle, ()) if STROKE in behind else None
-        bodies = [body for body in self.bodies if body.turns == base and len(body.points) > 1]
-        ends = [(P, body.others(P)[0]) for body in bodies if P in body.points] + [(body.points[0], body.points[1]) for body in bodies]
-        return (arrow.angle, ends[0]) if ends and behind == {STROKE} else None
+        bodies = sorted((body for body in self.bodies if body.turns == base and body.pair(P)), key=lambda body: P not in body.points)
+        by = bodies[0].pair(P) if bodies else None
+        return (arrow.angle, by) if by is not None and behind == {STROKE} else None
 
     # -- directions and lengths as sums ------------------------------------------------------------------------
 
@@ -276,7 +288,7 @@ class Construction:
             found = self._atom(("direction", first, second), {POINTS})
         else:
             found = Form(body.turns).plus(self._atom(("within a body", first, second), set()))
-        return found if P == first else found.plus(Form(number=pi))
+        return found if first == P else found.plus(Form(number=pi))
 
     def pair_length(self, P: str, Q: str) -> Form:
         """Return the distance of two points."""
@@ -291,6 +303,14 @@ class Construction:
     def form(self, given: Quantity) -> Form:
         """Return a quantity as a sum."""
         given = self._resolved(given)
+        if given.name not in self.named:
+            found = self._sum(given)
+            if not given.name:
+                return found
+            self.named[given.name] = found
+        return self.named[given.name]
+
+    def _sum(self, given: Quantity) -> Form:
         if isinstance(given, Number):
             return Form(number=given.number)
         if isinstance(given, Sum):
@@ -348,7 +368,7 @@ class Construction:
         """Return what a sum follows: strokes, points that move; nothing where it is constant."""
         return reduce(frozenset.union, (self.follows[key] for key, _ in form.terms), frozenset())
 
-    def moving(self, way: Form) -> frozenset[tuple[Hashable, float]]:
+    def moving(self, way: Form) -> Terms:
         """Return the part of a direction that is not constant: equal for all vectors of a body."""
         return frozenset((key, times) for key, times in way.terms if self.follows[key])
 
@@ -373,4 +393,5 @@ class Construction:
             if frozenset((P, Q)) in self.lengths:
                 return self.lengths[frozenset((P, Q))]
             return found if {P, Q} <= set(self.frame.points) else None
-        return given if POINTS not in self.behind(self.form(given)) else None
+        moving = [name for name in self._points_behind([found]) if not self.members[name].is_fixed]
+        return None if moving else given

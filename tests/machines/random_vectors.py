@@ -5,7 +5,24 @@ from math import pi
 
 import numpy as np
 
-from linkage import LEFT, RIGHT, CosineAngle, Crank, Dyad, Ground, Mechanism, Offset, OnLink, Stroke, Turn, Vector, Weight, angle, distance, ref
+from linkage import (
+    LEFT,
+    RIGHT,
+    CosineAngle,
+    Crank,
+    Dyad,
+    Ground,
+    Mechanism,
+    Offset,
+    OnLink,
+    Stroke,
+    Turn,
+    Vector,
+    Weight,
+    angle,
+    distance,
+    ref,
+)
 
 
 class Drawing:

@@ -1,4 +1,4 @@
-"""The vector method's spelling, without links, is the same machine as the composite one: mobility, bodies, joints, forces, drawing, files."""
+"""The vector method's spelling, without links, is the same machine as the composite one: bodies, joints, forces, drawing, files."""
 
 from itertools import combinations
 
@@ -7,15 +7,18 @@ import pytest
 from numpy.testing import assert_allclose
 
 from linkage import (
+    RIGHT,
     AssemblyError,
     CosineAngle,
     Crank,
     DefinitionError,
+    Dyad,
     Ground,
     Link,
     LinkageError,
     Mechanism,
     Offset,
+    OnLink,
     Stroke,
     Turn,
     Vector,
@@ -45,7 +48,7 @@ def bodies(cls):
 def joints(found):
     """Return every joint of pin forces by where and between what it is, with its force."""
     points = {body.name: frozenset(body.points) for body in found._structure.bodies}
-    sides = [(each, each.on, each.by, each.force) for each in found.joints] + [(each, each.by, each.on, -each.force) for each in found.joints]
+    sides = [(each, *side) for each in found.joints for side in ((each.on, each.by, each.force), (each.by, each.on, -each.force))]
     return {(each.kind, each.point, points.get(on, on), points.get(by, by)): force for each, on, by, force in sides}
 
 
@@ -261,7 +264,7 @@ def test_steps_and_vectors_mix():
         P = Offset(O, Turn(Vector(O, A), 0.5, length=0.2))
 
     assert bodies(Mixed) == {frozenset("OC"), frozenset("OAP"), frozenset("AB"), frozenset("CB")}
-    with pytest.raises(DefinitionError, match="the distance PB changes"):
+    with pytest.raises(DefinitionError, match="The link rod locks the linkage"):
         type("Stretched", (Mixed,), {"rod": Link("P", "B")})
 
 
@@ -275,6 +278,45 @@ def test_transmission_and_the_missing_length_are_told_of_a_corner():
     found = Short().at(S=[0.0, 0.1])
     sides = np.array([0.4, 0.4]), 0.5 + found.strokes["S"]
     angle = np.arccos((sides[0] ** 2 + sides[1] ** 2 - 0.49) / (2 * sides[0] * sides[1]))
-    assert_allclose(found.transmission_angle("B"), np.minimum(angle, np.pi - angle), rtol=1e-12)
+    assert_allclose(found.transmission_angle("B"), angle, rtol=1e-12)
     with pytest.raises(AssemblyError, match=r"OA \+ OB = 1.1 m is 10 mm short of AB = 1.11 m"):
         Short().at(S=0.61)
+
+
+class OnRam(Mechanism):
+    """U lies on the cylinder, Q off it; both go with the pin A."""
+
+    S = Stroke(0.0, 0.2)
+    A, O = Ground(0.0, 0.242), Ground(0.652, 0.330)
+    AO = Vector(A, O)
+    OAB = CosineAngle(abs(AO), 0.55 + S, 0.175)
+    B = Offset(A, Turn(AO, -OAB, length=0.55 + S))
+    U = Offset(A, Turn(AO, -OAB, length=0.3))
+    Q = Offset(A, Turn(Vector(A, B), 0.2, length=0.4))
+
+
+def test_points_on_a_cylinder_are_those_of_the_composite_spelling():
+    class Steps(Mechanism):
+        S = Stroke(0.0, 0.2)
+        A, O = Ground(0.0, 0.242), Ground(0.652, 0.330)
+        B = Dyad(A, O, AB=0.55 + S, OB=0.175, side=RIGHT)
+        U = OnLink(A, B, AU=0.3)
+        Q = OnLink(A, B, AQ=0.4, BAQ=0.2)
+
+    assert bodies(OnRam) == bodies(Steps)
+    assert [(bar.P, bar.Q) for bar in OnRam.plan.cylinders] == [("A", "B")]
+    assert OnRam().mobility == Steps().mobility == 1
+
+
+def test_a_length_of_points_that_keep_their_distance_is_a_rod():
+    """OC is 0.1 m longer than OB, as OD is than the cylinder: C is of the lever, and D of nothing."""
+
+    class Longer(OnRam):
+        OB = Vector("O", "B")
+        C = Offset("O", Turn(OB, 0.4, length=abs(OB) + 0.1))
+        D = Offset("O", Turn(OB, 0.8, length=abs(Vector("A", "B")) + 0.1))
+        E = Offset("O", Turn("AO", 0.2, length=abs(Vector("U", "B"))))
+
+    assert frozenset("OBC") in bodies(Longer)
+    assert not any("D" in body.points for body in Longer().links if len(body.points) > 1)
+    assert Longer.plan.points["E"].keeps.length is None and Longer().mobility == 1

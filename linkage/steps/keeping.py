@@ -33,7 +33,7 @@ from ..quantities import (
     needs,
 )
 from .link import Link
-from .primitives import Arrow, Axis, CosineAngle, Kept, Offset, Turn, Vector
+from .primitives import Arrow, Axis, CosineAngle, Offset, OffsetLinks, Turn, Vector
 from .step import Bar, Point
 
 STROKE, POINTS = "stroke", "points"
@@ -117,7 +117,7 @@ class Construction:
         self.frame = TurningBody(frozenset())
         self.bodies = [self.frame]
         self.placed: list[str] = []
-        self.kept: dict[str, Kept] = {}
+        self.kept: dict[str, OffsetLinks] = {}
         self.used = self._points_behind(member for member in members.values() if isinstance(member, (Jointed, Link)))
         links = {name: member for name, member in members.items() if isinstance(member, Link)}
         for name, member in members.items():
@@ -168,7 +168,7 @@ class Construction:
             body.points += [each for each in other.points if each not in body.points]
         self.bodies = [each for each in self.bodies if each not in shared[1:]] + ([] if shared else [body])
 
-    def _offset(self, X: str, P: str, by: Reference) -> Kept:
+    def _offset(self, X: str, P: str, by: Reference) -> OffsetLinks:
         """Return what the point X = P + vector keeps."""
         arrow = self.arrow(by)
         way, length = self.direction(arrow), self.length(arrow)
@@ -181,46 +181,46 @@ class Construction:
             return self._at_home(X, P, home, arrow)
         drive = None if closing is not None else self._drive(P, arrow)
         if drive is not None and behind:
-            return self._telescope(X, P, turns, drive[1], arrow, drive[0]) if behind == {STROKE} else Kept()
+            return self._telescope(X, P, turns, drive[1], arrow, drive[0]) if behind == {STROKE} else OffsetLinks()
         if closing is None and drive is None and X not in self.used:
-            return Kept()  # a pointer: nothing is held by it
+            return OffsetLinks()  # a pointer: nothing is held by it
         held = self._side(P, X, Length(arrow), self._known(arrow), length, turns)
         if closing is not None:
             Q, third = closing[0], closing[1].triangle[2]
             form = self.forms[frozenset((Q, X))] = self.form(third)
             other = self._side(Q, X, third, self._plain(third), form, self.moving(self.direction_of(Q, X)))
-            return Kept(held.groups + other.groups, held.sides + other.sides, held.rods + other.rods, apex=Q)
-        return held if drive is None else Kept(held.groups, held.sides, held.rods, by=drive[1], angle=drive[0], settled=True)
+            return OffsetLinks(held.groups + other.groups, held.sides + other.sides, held.rods + other.rods, apex=Q)
+        return held if drive is None else OffsetLinks(held.groups, held.sides, held.rods, by=drive[1], angle=drive[0], settled=True)
 
-    def _side(self, P: str, X: str, length: Quantity, known: Quantity | None, form: Form, turns: Terms) -> Kept:
+    def _side(self, P: str, X: str, length: Quantity, known: Quantity | None, form: Form, turns: Terms) -> OffsetLinks:
         """Return a two-point member P X: a rod, or a drive's; nothing where its length follows points that move against each other."""
         behind = self.behind(form)
         if POINTS in behind:
-            return Kept()
+            return OffsetLinks()
         self.bodies += [TurningBody(turns, [P], X), TurningBody(turns, [X], P)] if behind else [TurningBody(turns, [P, X])]
         sides = (Bar(P, X, length if known is None else known),)
-        return Kept((), sides, sides) if behind or known is not None else Kept(((P, X),), sides)
+        return OffsetLinks((), sides, sides) if behind or known is not None else OffsetLinks(((P, X),), sides)
 
-    def _at_home(self, X: str, P: str, home: TurningBody, arrow: Arrow) -> Kept:
+    def _at_home(self, X: str, P: str, home: TurningBody, arrow: Arrow) -> OffsetLinks:
         """Return what a point keeps that is offset in the direction of a body at P: it is part of it, or slides along it."""
         behind, by = self.behind(self.length(arrow)), home.pair(P)
         if behind == {STROKE} and by is not None:
             return self._telescope(X, P, home.turns, by, arrow, None)
         if behind or by is None:
-            return Kept()
+            return OffsetLinks()
         rays = [pair for pair in self.rays if P in pair and X not in pair and {*pair} <= {*home.on_it}]
         home.points.append(X)
         if not rays or home is self.frame:
-            return Kept(((P, by[1], X),), settled=True)
+            return OffsetLinks(((P, by[1], X),), settled=True)
         start, end = rays[0]
         Y, sign = (end, 1.0) if start == P else (start, -1.0)
-        return Kept(((P, Y, X),), settled=True, beside=(Y, self.arrows[start, end], sign))
+        return OffsetLinks(((P, Y, X),), settled=True, beside=(Y, self.arrows[start, end], sign))
 
-    def _telescope(self, X: str, P: str, turns: Terms, by: tuple[str, ...], arrow: Arrow, angle: Quantity | None) -> Kept:
+    def _telescope(self, X: str, P: str, turns: Terms, by: tuple[str, ...], arrow: Arrow, angle: Quantity | None) -> OffsetLinks:
         """Return what an arm keeps that a stroke moves along its body."""
         self.bodies.append(TurningBody(turns, [X], root=P))
         known, ends = self._known(arrow), by or tuple(self.frame.points[:2])
-        return Kept(by=ends, angle=angle, length=Length(arrow) if known is None else known, settled=True)
+        return OffsetLinks(by=ends, angle=angle, length=Length(arrow) if known is None else known, settled=True)
 
     def _closing(self, P: str, way: Form, length: Form) -> tuple[str, CosineAngle] | None:
         """Return the far end Q of the base P -> Q from which a vector is turned by the corner of a triangle, and that angle."""

@@ -166,7 +166,7 @@ class CosineAngle(Quantity):
 @final
 @refuses_changes
 @dataclass(frozen=True, eq=False)
-class Kept:
+class OffsetLinks:
     """What an offset point keeps by construction; nothing where it is a mere construction.
 
     `groups` are points that move as one, `sides` its distances from other points, `rods` those of them that strokes and dimensions
@@ -189,7 +189,7 @@ class Kept:
 class Offset(Point):
     """The point P + vector [m]."""
 
-    keeps = Kept()
+    keeps = OffsetLinks()
 
     expects = (("P", "point"), ("by", "vector"))
     argument_kinds = MappingProxyType({"vector": "vector"})
@@ -205,7 +205,7 @@ class Offset(Point):
     def place(self, where: Where) -> Vec:
         return where.at(self.P) + where.vector(self.by)
 
-    def keeping(self, keeps: Kept) -> Offset:
+    def keeping(self, keeps: OffsetLinks) -> Offset:
         """Return this point with what it keeps by construction."""
         return self.renewed(keeps=keeps)
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import final
 
-from ..quantities import Joint, JointSide, Quantity
+from ..quantities import Joint, JointSide, Quantity, needs
 from ..steps import Guide
 from .bodies import FRAME, Body
 from .members import Members
@@ -109,11 +109,11 @@ def chain_of(plan: Members) -> KinematicChain:
                 chain.add(f"{side.points[0]} (slider)", "block", side.points)
     blocks = [(name, joint, moved_side(chain, name, joint)) for name, joint in halves]
     for name, joint, block in blocks:
-        by = guided_by(chain, plan, joint.by)
-        slid = by if block != by else guided_by(chain, plan, joint.on)
+        has_slot = joint.on.role == "slider" and joint.point not in joint.on.points
+        line = guided_by(chain, plan, joint.on if has_slot else joint.by)
         strokes = tuple(each for drive in joint.drives for each in driven_by(plan, drive.quantity))
         along = joint.track[0] if len(joint.track) == 1 and joint.track[0] in plan.members else name
-        chain.slides.append(Pair("slide", along, slid, block, strokes, joint.drives[0].quantity if joint.drives else None))
+        chain.slides.append(Pair("slide", along, line, block, strokes, joint.drives[0].quantity if joint.drives else None))
     for _, joint in plan.joints:
         if joint.kind == "crank":
             turned = chain.holding(joint.on.points)
@@ -123,8 +123,13 @@ def chain_of(plan: Members) -> KinematicChain:
 
 def driven_by(plan: Members, quantity: Quantity) -> tuple[str, ...]:
     """Return the strokes that a driven quantity follows by itself, not through points."""
-    behind = {quantity.name, *plan.reaches(quantity.name or quantity)}
-    return tuple(name for name in plan.strokes if name in behind)
+    stack, found = [quantity.name] if quantity.name else [*needs(quantity)], set()
+    while stack:
+        name = stack.pop()
+        if name not in found and name not in plan.points:
+            found.add(name)
+            stack += needs(plan.members[name])
+    return tuple(name for name in plan.strokes if name in found)
 
 
 def half_joints(plan: Members) -> list[tuple[str, Joint]]:

@@ -94,7 +94,8 @@ def joint(
     words = "\n".join([name, ", ".join(data["strokes"])]) if driven else name
     shape = "circle,pad=0.25" if data["kind"] == "pin" else "square,pad=0.25"
     box = {"boxstyle": shape, "facecolor": style.PAPER, "edgecolor": edge, "linewidth": style.OUTLINE}
-    ax.text(*spot, words, ha="center", va="center", fontsize=style.SMALL, color=edge, bbox=box, zorder=2, gid=f"joint {name}")
+    x, y = spot
+    ax.text(x, y, words, ha="center", va="center", fontsize=style.SMALL, color=edge, bbox=box, zorder=2, gid=f"joint {name}")
     return spot
 
 
@@ -102,8 +103,9 @@ def body(ax: Axes, name: str, data: dict[str, Any], face: str, place: FloatArray
     """Draw a body as a plate with its name, and that of its link below."""
     words = f"{name}\n{data['link']}" if data.get("link") else name
     box = {"boxstyle": "round,pad=0.45", "facecolor": face, "edgecolor": style.mixed(face, style.INK, 0.65), "linewidth": style.OUTLINE}
-    ax.plot(*place, alpha=0.0)
+    x, y = place
+    ax.plot(x, y, alpha=0.0)
     ax.text(
-        *place, words, ha="center", va="center", fontsize=style.TEXT, color=style.INK, bbox=box, zorder=3, gid=f"body {name}",
+        x, y, words, ha="center", va="center", fontsize=style.TEXT, color=style.INK, bbox=box, zorder=3, gid=f"body {name}",
         fontweight="bold" if data["kind"] == "frame" else "normal",
     )  # fmt: skip

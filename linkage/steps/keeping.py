@@ -127,7 +127,7 @@ class Construction:
                 for each in [each for each, link in links.items() if set(link.point_names) <= set(self.placed)]:
                     self._join_link(links.pop(each))
 
-    def _points_behind(self, starts: Iterable[Member]) -> set[str]:
+    def _points_behind(self, starts: Iterable[Member]) -> dict[str, Point]:
         """Return the points that some members hang on, at once or through vectors and quantities."""
         stack = [each for member in starts for each in needs(member)]
         found: set[str] = set()
@@ -136,7 +136,7 @@ class Construction:
             if name not in found:
                 found.add(name)
                 stack += needs(self.members[name]) if isinstance(self.members[name], (Arrow, Quantity)) else ()
-        return {name for name in found if isinstance(self.members[name], Point)}
+        return {name: member for name in found if isinstance(member := self.members[name], Point)}
 
     # -- points in turn --------------------------------------------------------------------------------------
 
@@ -186,11 +186,15 @@ class Construction:
             return OffsetLinks()  # a pointer: nothing is held by it
         held = self._side(P, X, Length(arrow), self._known(arrow), length, turns)
         if closing is not None:
-            Q, third = closing[0], closing[1].triangle[2]
-            form = self.forms[frozenset((Q, X))] = self.form(third)
-            other = self._side(Q, X, third, self._plain(third), form, self.moving(self.direction_of(Q, X)))
-            return OffsetLinks(held.groups + other.groups, held.sides + other.sides, held.rods + other.rods, apex=Q)
+            return self._closed(X, *closing, held)
         return held if drive is None else OffsetLinks(held.groups, held.sides, held.rods, by=drive[1], angle=drive[0], settled=True)
+
+    def _closed(self, X: str, Q: str, corner: CosineAngle, held: OffsetLinks) -> OffsetLinks:
+        """Return what the apex of a triangle keeps beside the side that it hangs from: the third one, from the far end of its base."""
+        third = corner.triangle[2]
+        form = self.forms[frozenset((Q, X))] = self.form(third)
+        other = self._side(Q, X, third, self._plain(third), form, self.moving(self.direction_of(Q, X)))
+        return OffsetLinks(held.groups + other.groups, held.sides + other.sides, held.rods + other.rods, apex=Q)
 
     def _side(self, P: str, X: str, length: Quantity, known: Quantity | None, form: Form, turns: Terms) -> OffsetLinks:
         """Return a two-point member P X: a rod, or a drive's; nothing where its length follows points that move against each other."""
@@ -311,6 +315,7 @@ class Construction:
         return self.named[given.name]
 
     def _sum(self, given: Quantity) -> Form:
+        """Return a quantity as a sum, by what it is made of."""
         if isinstance(given, Number):
             return Form(number=given.number)
         if isinstance(given, Sum):
@@ -393,5 +398,4 @@ class Construction:
             if frozenset((P, Q)) in self.lengths:
                 return self.lengths[frozenset((P, Q))]
             return found if {P, Q} <= set(self.frame.points) else None
-        moving = [name for name in self._points_behind([found]) if not self.members[name].is_fixed]
-        return None if moving else given
+        return given if all(point.is_fixed for point in self._points_behind([found]).values()) else None

@@ -224,7 +224,8 @@ class Members:
     @cached_property
     def turning(self) -> frozenset[str]:
         """The names of what angles are sums of: strokes and dimensions in rad."""
-        return frozenset().union(*(self.terms(angle) for member in self.members.values() for angle in member.in_radians()))
+        parts = [part for name in self.members for part in self.with_parts(name)]
+        return frozenset().union(*(self.terms(angle) for part in parts for angle in part.in_radians()))
 
     @cached_property
     def following(self) -> tuple[tuple[str, Quantity], ...]:

@@ -75,7 +75,10 @@ class Drawing:
         body.append(X)
 
     def dyad(self, X):
-        P, Q = self.either(*self.pairs()) if self.pairs() else ("O", "X")
+        if not self.pairs():
+            self.on_body(X)
+            return
+        P, Q = self.either(*self.pairs())
         place = 0.5 * (self.at[P] + self.at[Q]) + rect(self.rng.uniform(0.5, 0.8), self.rng.uniform(-3.0, 3.0))
         p, q = abs(place - self.at[P]), abs(place - self.at[Q])
         left = ((self.at[Q] - self.at[P]).conjugate() * (place - self.at[P])).imag > 0.0

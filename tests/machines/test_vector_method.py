@@ -76,6 +76,8 @@ def test_mobility_and_bodies(which):
     assert vectors.gruebler == steps.gruebler
     assert bodies(type(vectors)) == bodies(type(steps))
     assert {(bar.P, bar.Q) for bar in vectors.plan.cylinders} == {(bar.P, bar.Q) for bar in steps.plan.cylinders}
+    angles, others = ({name for name in each.plan.strokes if name in each.plan.turning} for each in (vectors, steps))
+    assert angles == others
 
 
 @both
@@ -158,14 +160,15 @@ def test_bodies_keep_their_distances(which):
     keeps_its_distances(vectors, motion(vectors, 9))
 
 
-@pytest.mark.parametrize("seed", range(40))
+OUT_OF_REACH = (4, 8, 11, 26, 28, 29, 38)
+"""Seeds whose machines, in steps as well, cannot be assembled all over their strokes or pass a singular pose."""
+
+
+@pytest.mark.parametrize("seed", [seed for seed in range(47) if seed not in OUT_OF_REACH])
 def test_machines_drawn_by_a_seed(seed):
     """Random cranks, corners and offsets, in random spellings: the same machine as in steps; equilibrium agrees with virtual work."""
     vectors, steps = machines(seed)
-    try:
-        other = pin_forces(motion(steps))
-    except (AssemblyError, LinkageError):
-        pytest.skip("this one is out of reach, or too near a singular pose, in steps as well")
+    other = pin_forces(motion(steps))
     assert vectors().mobility == steps().mobility == len(steps.plan.strokes)
     assert vectors().gruebler == steps().gruebler
     assert bodies(vectors) == bodies(steps)

@@ -16,6 +16,7 @@ from typing import TypeAlias, final
 
 from ..quantities import (
     Angle,
+    CurveValue,
     Distance,
     Jointed,
     Length,
@@ -113,6 +114,7 @@ class Construction:
         self.arrows: dict[tuple[str, str], Reference] = {}
         self.follows: dict[Hashable, frozenset[str]] = {}
         self.corners: dict[Hashable, CosineAngle] = {}
+        self.strokes: set[Hashable] = set()
         self.turned: dict[Hashable, str] = {}
         self.frame = TurningBody(frozenset())
         self.bodies = [self.frame]
@@ -181,9 +183,9 @@ class Construction:
             return self._at_home(X, P, home, arrow)
         drive = None if closing is not None else self._drive(P, arrow)
         if drive is not None and behind:
-            return self._telescope(X, P, turns, drive[1], arrow, drive[0]) if behind == {STROKE} else OffsetLinks()
-        if closing is None and drive is None and X not in self.used:
-            return OffsetLinks()  # a pointer: nothing is held by it
+            return self._telescope(X, P, turns, drive[1], arrow, drive[0]) if self.is_driven(length) else OffsetLinks()
+        if closing is None and drive is None and (X not in self.used or (behind and not self.is_driven(length))):
+            return OffsetLinks()  # a pointer, or a place that is worked out: nothing is held by it
         held = self._side(P, X, Length(arrow), self._known(arrow), length, turns)
         if closing is not None:
             return self._closed(X, *closing, held)
@@ -207,10 +209,10 @@ class Construction:
 
     def _at_home(self, X: str, P: str, home: TurningBody, arrow: Arrow) -> OffsetLinks:
         """Return what a point keeps that is offset in the direction of a body at P: it is part of it, or slides along it."""
-        behind, by = self.behind(self.length(arrow)), home.pair(P)
-        if behind == {STROKE} and by is not None:
+        length, by = self.length(arrow), home.pair(P)
+        if self.is_driven(length) and by is not None:
             return self._telescope(X, P, home.turns, by, arrow, None)
-        if behind or by is None:
+        if self.behind(length) or by is None:
             return OffsetLinks()
         rays = [pair for pair in self.rays if P in pair and X not in pair and {*pair} <= {*home.on_it}]
         home.points.append(X)
@@ -249,12 +251,13 @@ class Construction:
             arrow = self.arrow(arrow.base)
         if not isinstance(arrow, Turn) or self.turned.setdefault(arrow.name or id(arrow), P) != P:
             return None
-        base, behind = self.moving(self.direction(self.arrow(arrow.base))), self.behind(self.form(arrow.angle))
+        base, angle = self.moving(self.direction(self.arrow(arrow.base))), self.form(arrow.angle)
         if not base:
-            return (arrow.angle, ()) if STROKE in behind else None
+            counted_from = (body.turns for body in self.bodies if body.turns <= angle.terms)  # the frame, or a body
+            return (arrow.angle, ()) if any(self.is_driven(Form(angle.terms - turns)) for turns in counted_from) else None
         bodies = sorted((body for body in self.bodies if body.turns == base and body.pair(P)), key=lambda body: P not in body.points)
         by = bodies[0].pair(P) if bodies else None
-        return (arrow.angle, by) if by is not None and behind == {STROKE} else None
+        return (arrow.angle, by) if by is not None and self.is_driven(angle) else None
 
     # -- directions and lengths as sums ------------------------------------------------------------------------
 
@@ -346,6 +349,8 @@ class Construction:
 
     def _other(self, given: Quantity) -> Form:
         """Return what has no simpler form: a stroke, a dimension, a coordinate, a function."""
+        if isinstance(given, (Stroke, CurveValue)):
+            self.strokes.add(given.name or str(given))
         if isinstance(given, (Stroke, Variable)) or not given.parts():
             return self._atom(given.name or str(given), {STROKE} if isinstance(given, Stroke) else set())
         parts = [self.members[part] if isinstance(part, str) else part for part in given.parts()]
@@ -355,7 +360,7 @@ class Construction:
                 behind |= self.behind(self.form(part))
             elif not (isinstance(part, Point) and part.is_fixed):
                 behind.add(POINTS)
-        return self._atom((type(given).__name__, given.name or str(given)), behind)
+        return self._atom(given.name or str(given), behind)
 
     def _resolved(self, given: Quantity) -> Quantity:
         """Return the quantity that a name stands for."""
@@ -372,6 +377,11 @@ class Construction:
     def behind(self, form: Form) -> frozenset[str]:
         """Return what a sum follows: strokes, points that move; nothing where it is constant."""
         return reduce(frozenset.union, (self.follows[key] for key, _ in form.terms), frozenset())
+
+    def is_driven(self, form: Form) -> bool:
+        """Return whether a sum follows strokes as a drive does: in proportion, or by a table. What is worked out of them is no drive."""
+        moving = [key for key, _ in form.terms if self.follows[key]]
+        return bool(moving) and all(key in self.strokes and self.follows[key] == {STROKE} for key in moving)
 
     def moving(self, way: Form) -> Terms:
         """Return the part of a direction that is not constant: equal for all vectors of a body."""

@@ -11,18 +11,25 @@ from linkage import (
     AssemblyError,
     CosineAngle,
     Crank,
+    Curve,
     DefinitionError,
+    Dimension,
     Dyad,
+    Force,
     Ground,
+    Guide,
     Link,
     LinkageError,
     Mechanism,
     Offset,
     OnLink,
+    Slide,
     Stroke,
     Turn,
     Vector,
     Weight,
+    deg,
+    distance,
     driving_force,
     pin_forces,
 )
@@ -227,21 +234,21 @@ def test_one_vector_turns_one_body():
     assert_allclose(pin_forces(motion).drives["phi"], 10 * 9.80665 * 0.3 * np.cos(motion.strokes["phi"]), rtol=1e-12)
 
 
+class Other(Mechanism):
+    """The corner of the sides 0.5 + S and 0.4, on a vector of 0.6: the cylinder is nowhere."""
+
+    S = Stroke(0.0, 0.1)
+    O, A = Ground(0.0, 0.0), Ground(0.7, 0.0)
+    OA = Vector(O, A)
+    B = Offset(O, Turn(OA, CosineAngle(abs(OA), 0.4, 0.5 + S), length=0.6))
+    load = Weight(B, mass=10.0)
+
+
 def test_a_corner_of_other_lengths_closes_no_triangle():
-    """The corner of the sides 0.5 + S and 0.4, on a vector of 0.6: BO is no rod, and the arm is turned by its angle as by a crank."""
-
-    class Other(Mechanism):
-        S = Stroke(0.0, 0.1)
-        O, A = Ground(0.0, 0.0), Ground(0.7, 0.0)
-        OA = Vector(O, A)
-        B = Offset(O, Turn(OA, CosineAngle(abs(OA), 0.4, 0.5 + S), length=0.6))
-        load = Weight(B, mass=10.0)
-
     assert bodies(Other) == {frozenset("OA"), frozenset("OB")} and not Other.plan.cylinders
-    motion = Other().sweep(5)
-    assert np.ptp(motion.distance("A", "B") - motion.strokes["S"]) > 1e-3
-    assert [joint.kind for _, joint in Other.plan.joints] == ["crank"]
-    assert_allclose(pin_forces(motion).drives["S"], driving_force(motion), rtol=1e-11)
+    assert not Other.plan.joints
+    with pytest.raises(DefinitionError, match="OB not held"):
+        pin_forces(Other().sweep(5))
 
 
 def test_a_corner_at_another_point_closes_no_triangle():
@@ -323,3 +330,55 @@ def test_a_length_of_points_that_keep_their_distance_is_a_rod():
     assert frozenset("OBC") in bodies(Longer)
     assert not any("D" in body.points for body in Longer().links if len(body.points) > 1)
     assert Longer.plan.points["E"].keeps.length is None and Longer().mobility == 1
+
+
+# -- what is worked out by formulas, and held by links that are written ----------------------------------------
+
+
+def test_a_lever_under_an_angle_that_is_worked_out_has_the_written_cylinder():
+    """The corner is counted from a direction that only its number tells: lever and cylinder are written."""
+
+    class Worksheet(Mechanism):
+        S = Stroke(0.0, 0.2)
+        FI0 = Dimension(float(np.arctan2(0.088, 0.652)), unit="deg")
+        L0, r = Dimension(0.55), Dimension(0.175)
+        A, O, X = Ground(0.0, 0.242), Ground(0.652, 0.330), Ground(1.652, 0.330)
+        FIS = CosineAngle(distance(A, O), r, L0 + S)
+        B = Offset(O, Turn(Vector(O, X), 180 * deg + FI0 + FIS, length=r))
+        lever, ram = Link(O, B), Link("A B", AB=L0 + S)
+        load = Weight(B, mass=100.0)
+
+    _, steps = PAIRS["a lever, placed from the cylinder's pin"]
+    assert (Worksheet().mobility, Worksheet().gruebler) == (1, 1)
+    found, other = pin_forces(motion(Worksheet)), pin_forces(motion(steps))
+    assert_allclose(found.thrusts["AB"], other.thrusts["AB"], rtol=1e-9)
+
+
+def test_a_crosshead_at_a_place_that_is_worked_out_slides_on_its_rail():
+    class Crosshead(Mechanism):
+        phi = Stroke(0.3, 1.2)
+        O, X = Ground(0.0, 0.0), Ground(1.0, 0.0)
+        OX = Vector(O, X)
+        A = Offset(O, Turn(OX, phi, length=0.1))
+        C = Offset(O, Turn(OX, 0, length=0.1 * np.cos(phi) + np.sqrt(0.09 - 0.01 * np.sin(phi) ** 2)))
+        rail = Guide(O, X)
+        shoe = Slide(C, rail)
+        rod = Link(A, C)
+        load = Force(C, (-50.0, 0.0))
+
+    found = Crosshead().sweep(7)
+    assert Crosshead().mobility == 1 and Crosshead.plan.telescopes == ()
+    assert_allclose(pin_forces(found).drives["phi"], driving_force(found), rtol=1e-11)
+
+
+def test_a_table_drives_as_a_stroke_does():
+    class Cam(Mechanism):
+        phi = Stroke(0.0, 1.0)
+        lift = Curve([0.0, 0.5, 1.0, 1.5], [0.2, 0.4, 0.9, 1.1])
+        O, X = Ground(0.0, 0.0), Ground(1.0, 0.0)
+        A = Offset(O, Turn(Vector(O, X), lift(phi), length=0.3))
+        load = Weight(A, mass=10.0)
+
+    found = Cam().sweep(5)
+    assert Cam().mobility == 1
+    assert_allclose(pin_forces(found).drives["phi"], driving_force(found), rtol=1e-11)

@@ -9,7 +9,7 @@ from copy import copy
 from functools import wraps
 from inspect import isfunction
 from types import MethodType
-from typing import Any, ClassVar, NoReturn, Self, TypeVar, cast, final
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar, cast, final
 
 import numpy as np
 import numpy.typing as npt
@@ -18,7 +18,7 @@ from .assembly import Assembly, assembled, assemblies
 from .errors import DefinitionError, cited, told, unknown
 from .loads import Acting, ForceElement, LoadCase, check_together
 from .loads.element import Formulas
-from .mobility import FourBar, Mobility, check, four_bars, mobility
+from .mobility import FourBar, Mobility, chain_graph, check, four_bars, mobility
 from .motion import (
     OPTIONS,
     PLAIN_CASE,
@@ -45,6 +45,9 @@ from .quantities import Member, Stroke, is_name, needs
 from .shown import Shown, ShownList
 from .steps import Drawn
 from .vectors import Numbers
+
+if TYPE_CHECKING:
+    import networkx as nx
 
 Method = TypeVar("Method", bound=Callable[..., object])
 Result = TypeVar("Result")
@@ -434,6 +437,16 @@ class Mechanism(Shown, metaclass=MechanismType):
     def gruebler(self) -> int:
         """The Gruebler count 3 (n - 1) - 2 j."""
         return self.plan.gruebler
+
+    @property
+    def graph(self) -> nx.MultiGraph:
+        """The bodies as nodes and the pins and slides between them as edges, a `networkx.MultiGraph`; `draw` makes its picture.
+
+        The frame is "frame". A pin of n bodies is n - 1 edges, a cylinder is a barrel and a rod, a point on a guide a block, so that
+        3 (n - 1) - 2 j is `gruebler`. Nodes have `kind`, `points`, `link` and `dimensions` [m] of this design, edges, keyed by name,
+        `kind`, the `strokes` that drive them and `dimensions`, the driven lengths as they are written.
+        """
+        return chain_graph(self.plan, self.at(unreachable="nan", **self.plan.sketch_strokes).inputs)
 
     def __repr__(self) -> str:
         changed = {name: value for name, value in self._values.items() if np.ndim(value) or value != self.plan.table.entries[name].default}

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DefinitionError
 from ..loads import ForceElement, PinFriction, TwoPoint
-from ..plan import Plan, carrying_pairs, member_sides
+from ..plan import Plan, arm_joint, arm_points, carrying_pairs, holds_an_arm, member_sides
 from ..quantities import Quantity, name_of
 from ..steps import Link
 from .acting import ActingThrust, member_title
@@ -220,17 +220,10 @@ def known_struts(thrusts: Sequence[ActingThrust]) -> list[Strut]:
 
 def telescope(plan: Plan, name: str) -> FreeBody:
     """Return the arm that a driven joint moves: its point and all that is rigid with it."""
-    joint = next(joint for owner, joint in plan.joints if owner == name and joint.arm)
+    joint = arm_joint(plan, name)
     refuse_driven(plan, joint.still)
-    base = set(joint.by.points)
-    own = [body.points for body in plan.links[1:] if name in body.points and base & set(body.points)]
-    points = tuple(dict.fromkeys(point for body in ((name,), *own) for point in body if point not in base))
+    points = arm_points(plan, name)
     return FreeBody("".join(points), points, (joint.point, name))
-
-
-def holds_an_arm(plan: Plan, points: tuple[str, ...]) -> bool:
-    """Return whether a body is the arm of a telescope with what it moves on; the arm stands for itself."""
-    return any(joint.arm and name in points and set(joint.by.points) & set(points) for name, joint in plan.joints)
 
 
 def refuse_driven(plan: Plan, still: Iterable[tuple[Quantity, str]]) -> None:

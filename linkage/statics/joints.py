@@ -64,8 +64,11 @@ class Contact:
 
     @property
     def is_curve(self) -> bool:
-        """Whether its point is driven along a line of the frame that is no guide's: its way is told by the point itself."""
-        return self.by == FRAME and not self.track
+        """Whether its point is driven along a line of the frame that is no guide's: its way is told by the point itself.
+
+        An arm's joint stands where its length is counted from, and that point stays.
+        """
+        return self.by == FRAME and not self.track and not (self.joint is not None and self.joint.arm)
 
     def goes_by(self, name: str) -> bool:
         """Return whether it is meant by the name of a guide, a step or a point of its line."""

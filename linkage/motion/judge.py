@@ -34,6 +34,7 @@ from .measures import (
     Leaf,
     Least,
     Measure,
+    Most,
     Reachable,
     Worst,
     conditions_of,
@@ -97,7 +98,12 @@ class Sought:
     @property
     def request(self) -> Any:
         """What is looked for."""
-        return self.piece.reciprocal if self.is_reciprocal else self.piece.request
+        return self.piece.reciprocal if self.is_reciprocal else self.piece.below if self.stays_at_zero else self.piece.request
+
+    @property
+    def stays_at_zero(self) -> bool:
+        """Whether what is looked for goes on below zero, where the request does not."""
+        return self.piece.below is not None and isinstance(self.leaf, Most)
 
     @property
     def sought(self) -> float:
@@ -109,7 +115,7 @@ class Sought:
         if self.is_reciprocal:
             with np.errstate(all="ignore"):
                 return np.asarray(np.where(highest > 0.0, 1.0 / highest, np.nan))
-        return np.asarray(self.sense * highest)
+        return np.asarray(np.maximum(highest, 0.0) if self.stays_at_zero else self.sense * highest)
 
 
 @final

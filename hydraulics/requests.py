@@ -83,7 +83,8 @@ class Pressure(CircuitRequest):
 
     @property
     def options(self) -> tuple[Hashable, ...]:
-        return *super().options, (self.side and f"side={self.side}") or None, "needed" if self.is_needed else None, self.below
+        kinds = ["needed"] * self.is_needed + ["below zero"] * self.below
+        return *super().options, (self.side and f"side={self.side}") or None, " ".join(kinds) or None
 
     def examine(self, plan: Plan) -> None:
         if self.circuit:

@@ -14,16 +14,16 @@ from linkage.cli.settings import check_argument, design, judged_code, motion_at,
 from linkage.cli.table import csv_argument, write_table
 from linkage.errors import DefinitionError, known_name
 from linkage.language import said
-from linkage.loads import ForceElement, LoadCase
+from linkage.loads import Acting, ForceElement, LoadCase
 from linkage.mechanism import Mechanism
 from linkage.motion import Column, Motion, columns_of, lowest
 from linkage.statics import elements_of, same
 from linkage.units import g0, show
 from linkage.verdict import Verdict
 
-from .inputs import Array
+from .inputs import Array, direction_of, proper_share
 from .judged import line_verdicts
-from .lift import LiftCircuit, direction_of, proper_share
+from .lift import LiftCircuit
 from .member import Cylinder, found_in
 
 
@@ -66,7 +66,8 @@ class CapacityCommand(Command):
             way = f"along ({along[0]:g}, {along[1]:g}){at_pressure(circuit, over, share)}"
             print(f"{machine.plan.title}: {ram.name} lifts at {point} {way}, beside the machine's own loads. Pressures are gauge.\n")
         write_table(columns, over.reached.size, options.csv)
-        found = [capacity_verdict(over, capacity, point), *line_verdicts(circuit, over, case), *ram.verdicts(over)]
+        judge = machine.judge(over, Acting(case=case))
+        found = [capacity_verdict(over, capacity, point), *line_verdicts(circuit, judge), *ram.verdicts(judge)]
         if options.csv != "-":
             print("", *found, sep="\n")
         return judged_code(found, options)

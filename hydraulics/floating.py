@@ -7,7 +7,7 @@ Source: Rekhlitski, Chuprynin (2013), (36), (37), (39).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from types import MappingProxyType
@@ -22,7 +22,7 @@ from linkage.language import said
 from linkage.loads import AT_REST, ForceElement, Glyph, Load, Parameter, Poses, Push, Rate, Rates, require_poses
 from linkage.loads.element import Formulas
 from linkage.loads.two_point import end_forces
-from linkage.motion import Motion, greatest, lowest
+from linkage.motion import Judge, Motion, least, most
 from linkage.plan import ArrayReading
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of, quantity
@@ -100,23 +100,41 @@ class FloatCircuit(Circuit):
     def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         return self.members(members)
 
+    def claims(self, members: Mapping[str, Member]) -> Mapping[Hashable, str]:
+        (ram,) = self.members(members)
+        doubled = f"feed {ram.name or ram}, whose thrust would count double: one chamber has one line"
+        filled = "are given the same block, which would be filled twice: gas stands in one line"
+        return {
+            ("gas line", ram.name or id(ram)): f"{doubled}. Take one out, or put the vessels of both into one AccumulatorBlock.",
+            ("block", id(self.block)): f"{filled}. Give each circuit a block of its own, AccumulatorBlock([Accumulator(...)]).",
+        }
+
     def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
         return self.pressure(motion)
 
-    def verdicts(self, motion: Motion) -> list[Verdict]:
-        """Return the range of the line's pressure over a motion, and whether fluid is left everywhere."""
+    def verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return the range of the line's pressure wherever it runs, whether fluid is left everywhere, and what its accumulators bear."""
+        def pressure(motion: Motion) -> Array:
+            return self.pressure(motion)
+
         try:
-            low, high = lowest(motion, self.pressure), greatest(motion, self.pressure)
+            low, high = judge.answers([least(pressure), most(pressure)])
+            block = self.accumulators(judge.motion)
         except DefinitionError as error:
             return [Verdict("line", False, " ".join(str(error).split()))]
-        unit = self.accumulators(motion).unit or "bar"
+        unit = block.unit or "bar"
         says = said(
             "its pressure goes from {low} {low_where} to {high} {high_where}",
             low=show(low.value, unit, 4), low_where=low.where, high=show(high.value, unit, 4), high_where=high.where,
         )  # fmt: skip
-        if low.value > 0.0:
-            return [Verdict("line", True, f"{says}.")]
-        return [Verdict("line", False, says + said(": the line is empty there. Charge it higher, or take larger accumulators."))]
+        if not low.value > 0.0:
+            text = says + said(": the line is empty there. Charge it higher, or take larger accumulators.")
+            return [Verdict("line", False, text, answer=low)]
+        faults = [each for each in block.checks(low.value, high.value, high.value) if not each.ok]
+        if not faults:
+            return [Verdict("line", True, f"{says}.", answer=low)]
+        found = "; ".join(f"{each.heading}: {each.sentence.rstrip('.')}" for each in faults)
+        return [Verdict("line", False, f"{says}; {found}.", answer=high)]
 
     def ram(self, motion: Poses) -> Cylinder:
         """Return its cylinder, as the motion's class has it."""

@@ -1,72 +1,76 @@
-"""What can be said of a lift over its motion, in sentences: along one stroke, the others held, or along a path of several.
+"""What can be said of a lift over all that a machine runs, in sentences: lifting, oil and time, holding, going back.
 
-Pressures are gauge; one design at a time. Extremes and ranges are looked for between the poses, whatever their number. Each
-cylinder is judged with all drives locked, by its own thrust; friction takes its senses from the movement.
+Pressures are gauge; one design at a time. Each cylinder is judged with all drives locked, by its own thrust, in every load case and in
+each of its own movements, on both of its sides; the judge looks between the poses, whatever their number.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import final
+from dataclasses import replace
+from typing import Any, final
 
 import numpy as np
 
 from linkage.errors import DefinitionError, known_name, unknown
 from linkage.language import said, said_of, with_and
-from linkage.motion import Motion, Span, below_zero, greatest, lowest, reached, require_motion
+from linkage.loads import FRICTIONLESS, Acting
+from linkage.motion import Answer, Judge, Motion, Question, Span, below_zero, least, most, reached, require_motion
 from linkage.statics import Case, Loads, elements_of, same
 from linkage.units import UNITS, show
 from linkage.verdict import Verdict
 
-from .cylinder import CylinderSize, standard_bores
-from .inputs import Array, not_negative, one_number
-from .line import Choice, Holding, LiftLine, Lowering, Work
-from .member import Cylinder, one_design, one_size
+from .cylinder import standard_bores
+from .inputs import not_negative, one_number
+from .line import LiftLine
+from .member import PISTON, SIDES, Cylinder, Thrust, carries_loads, one_design, one_size
+from .requests import GoingBack, Pressure, Reserve
+
+TRIES = 4
+"""Standard bores that are tried as a remedy, from the first that may do."""
+ENDLESS = 1e-4
+"""A reserve that is less says that the force grows without bounds."""
 
 
 def lift_verdicts(
     circuit: LiftLine | str, motion: Motion, loads: Loads = None, *, case: Case = None, resistance: float = 0.0, unit: str = "bar"
 ) -> list[Verdict]:
-    """Return the verdicts on lifting (with the remedy), oil and time, holding, and lowering against a `resistance` [Pa].
+    """Return the verdicts on lifting (with the remedy), oil and time, holding, and going back against a `resistance` [Pa].
 
-    `loads` are the machine's own unless others are given; `unit` is that of the pressures in the sentences. Along a path of
-    several strokes, `at(S1=..., S2=...)` with arrays of one axis, it is judged along the path. Of a line of several cylinders each is.
+    `loads` are the machine's own unless others are given, in all load cases unless one is named; `unit` is that of the pressures in the
+    sentences. Of several strokes, `at(S1=..., S2=...)` with arrays of one axis, it is judged along the path, of a grid over the box.
     """
     circuit = the_circuit(circuit, motion)
     not_negative(one_number(resistance, "Return resistance"), "Return resistance")
     known_name("Unit", unit, UNITS, where="lift_verdicts(unit=...)")
     one_design(motion, "A lift")
-    if len(motion._stroke_shape) > 1:
-        raise DefinitionError("A lift is judged along one stroke or one path; this motion is a grid of several strokes. Give at() arrays.")
     if not motion.reached.any():
         raise DefinitionError(f"{motion.plan.title}: no pose of this motion can be assembled, so that there is nothing to judge.")
-    cylinders = [LiftingCylinder(circuit, ram, motion, loads, case, unit) for ram in circuit.rams(motion)]
+    judge = Judge(motion.plan, motion.designs, [motion], Acting(loads, case)).lost_allowed()
+    return line_verdicts(circuit, judge, resistance, unit)
+
+
+def line_verdicts(circuit: LiftLine, judge: Judge, resistance: float = 0.0, unit: str = "bar") -> list[Verdict]:
+    """Return the verdicts on a circuit and each of its cylinders."""
+    cylinders = [LiftingCylinder(judge, circuit, ram, unit) for ram in circuit.rams(judge.motion)]
     nothing = idle(cylinders)
     if nothing is not None:
-        return [nothing, oil_verdict(circuit, motion)]
+        return [nothing, oil_verdict(circuit, judge)]
     several = len(cylinders) > 1
     return [
         *(with_name(each.lifting(), each.ram, several) for each in cylinders),
-        oil_verdict(circuit, motion),
+        oil_verdict(circuit, judge),
         *(with_name(each.holding(), each.ram, several) for each in cylinders),
-        *(with_name(each.lowering(resistance), each.ram, several) for each in cylinders),
+        *(with_name(each.going_back(resistance), each.ram, several) for each in cylinders),
     ]
 
 
-def line_verdicts(circuit: LiftLine, motion: Motion, case: Case = None) -> list[Verdict]:
-    """Return `lift_verdicts` of a circuit under the machine's own loads; over a grid of strokes its least reserve, and the holding."""
-    try:
-        if len(motion._stroke_shape) <= 1:
-            return lift_verdicts(circuit, motion, case=case)
-        cylinders = [LiftingCylinder(circuit, ram, motion, case=case) for ram in circuit.rams(motion)]
-        nothing = idle(cylinders)
-        if nothing is not None:
-            return [nothing]
-        several = len(cylinders) > 1
-        return [with_name(verdict, each.ram, several) for each in cylinders for verdict in (each.lifting(), each.holding())]
-    except DefinitionError as error:
-        return [Verdict("lifting", False, " ".join(str(error).split()))]
+def line_questions(circuit: LiftLine, judge: Judge) -> list[Question]:
+    """Return what the verdicts on a circuit ask of each of its cylinders at first; nothing where nothing acts."""
+    if not carries_loads(judge):
+        return []
+    cylinders = [LiftingCylinder(judge, circuit, ram) for ram in circuit.rams(judge.motion)]
+    return [question for each in cylinders for question in each.questions()]
 
 
 def the_circuit(circuit: LiftLine | str, motion: Motion) -> LiftLine:
@@ -81,17 +85,14 @@ def the_circuit(circuit: LiftLine | str, motion: Motion) -> LiftLine:
 
 def with_name(verdict: Verdict, ram: Cylinder, several: bool) -> Verdict:
     """Return a verdict that names its cylinder, where there are several."""
-    if not several:
-        return verdict
-    name = ram.name or str(ram)
-    return Verdict(f"{verdict.rule} {name}", verdict.ok, verdict.sentence, f"{verdict.heading} {name}")
+    return verdict.named(ram.name or str(ram)) if several else verdict
 
 
 def idle(cylinders: Sequence[LiftingCylinder]) -> Verdict | None:
     """Return the verdict on a lift that has nothing to carry; None where it has."""
     first = cylinders[0]
-    elements = elements_of(first.motion.plan, first.loads)
-    members = first.motion.plan.members
+    plan, members = first.judge.plan, first.judge.plan.members
+    elements = elements_of(plan, first.judge.acting.loads)
     feeding = [(name, one.feeds(members)) for name, one in elements]
     fed = [(name, each.ram) for each in cylinders for name, rams in feeding if any(same(each.ram, ram) for ram in rams)]
     if fed:
@@ -104,240 +105,211 @@ def idle(cylinders: Sequence[LiftingCylinder]) -> Verdict | None:
         return Verdict("lifting", False, text)
     if any(each.carries for each in cylinders):
         return None
-    acting = [name for name, each in elements if not each.holds and not each.joined(first.motion.plan.members)]
+    acting = [name for name, each in elements if not each.holds and not each.joined(members)]
     if not acting:
-        return Verdict("lifting", False, said("there is nothing to lift: no load is declared, such as Weight(G, mass=...)."))
+        return Verdict("lifting", None, said("there is nothing to lift: no load is declared, such as Weight(G, mass=...)."))
     text = said_of(
         len(acting),
         "there is nothing to lift: {loads} asks nothing of it; is a mass zero?",
         "there is nothing to lift: the loads {loads} ask nothing of it; is a mass zero?",
         loads=", ".join(acting),
     )
-    return Verdict("lifting", False, text)
-
-
-@final
-@dataclass(frozen=True, eq=False)
-class Lifting:
-    """How one cylinder lifts over a motion: its `least` reserve and where, the parts on which it is too weak, or the load drives.
-
-    Infinite where the load drives all the way, 0 where the force needed grows without bounds. Where it is too weak, `needed` is the
-    pump's pressure that lifts [Pa gauge], `bore` the smallest standard one that does [m] with the least reserve `gained`, NaN for none.
-    """
-
-    least: float
-    where: str
-    short: tuple[Span, ...]
-    driven: tuple[Span, ...]
-    needed: float = np.nan
-    bore: float = np.nan
-    gained: float = np.nan
-
-    @property
-    def is_free(self) -> bool:
-        """Whether the load drives all the way."""
-        return self.least == np.inf
+    return Verdict("lifting", None, text)
 
 
 @final
 class LiftingCylinder:
-    """One cylinder of a circuit over a motion."""
+    """One cylinder of a circuit over all that a judge looks at."""
 
-    def __init__(self, circuit: LiftLine, ram: Cylinder, motion: Motion, loads: Loads = None, case: Case = None, unit: str = "bar") -> None:
-        self.circuit, self.ram, self.motion, self.loads, self.case, self.unit = circuit, ram, motion, loads, case, unit
-
-    @property
-    def choice(self) -> Choice:
-        """Which cylinder and load case is meant."""
-        return {"cylinder": self.ram, "case": self.case}
+    def __init__(self, judge: Judge, circuit: LiftLine, ram: Cylinder, unit: str = "bar") -> None:
+        self.judge, self.circuit, self.ram, self.unit = judge, circuit, ram, unit
 
     @property
     def carries(self) -> bool:
         """Whether the cylinder carries anything anywhere."""
-        thrust = greatest(self.motion, lambda at: np.abs(self.ram.thrust(at, self.loads, case=self.case)))
-        return bool(thrust.value > 0.0)
+        return bool(self.judge.answer(most(abs(Thrust(self.ram, Acting())))).value > 0.0)
 
-    def force(self, motion: Motion) -> Array:
-        """Return the rod force while it lifts [N]."""
-        return self.circuit.rod_force(motion, self.loads, **self.choice)
+    @property
+    def asked(self) -> tuple[Cylinder, Acting, LiftLine]:
+        """What a request of it begins with."""
+        return self.ram, Acting(), self.circuit
 
-    def spare(self, motion: Motion) -> Array:
-        """Return the greatest rod force less the needed one [N]."""
-        work = self.circuit.work(motion, self.loads, **self.choice)
-        return self.circuit.most(motion, work) - work.force
+    def questions(self) -> list[Question]:
+        """Return what its verdicts ask at first."""
+        thrust = Thrust(self.ram, Acting())
+        standing = [most(Pressure(self.ram, Acting(direction=FRICTIONLESS), self.circuit, side)) for side in SIDES]
+        ends = [least(thrust), most(thrust)] if self.ram.works == "both" else []
+        return [most(abs(thrust)), least(Reserve(*self.asked)), *standing, *ends]
 
-    def show(self, pressure: Array | float) -> str:
+    def show(self, pressure: Any) -> str:
         """Return a pressure in the unit of the sentences."""
         return show(float(pressure), self.unit, 4)
 
     # -- lifting -------------------------------------------------------------------------------------------
 
     def lifting(self) -> Verdict:
-        """Return whether the pump lifts over the whole motion; where not, the pressure needed and the standard bore that would do."""
-        found, pump = self.lifted(), self.show(self.circuit.supply(self.motion))
-        if found.is_free:
+        """Return whether the pump lifts wherever it runs; where not, the pressure needed and the standard bore that would do."""
+        question, pump = least(Reserve(*self.asked)) >= 1.0, self.show(self.circuit.supply(self.judge.motion))
+        found = self.judge.answer(question)
+        if np.isnan(found.value) and found.ok is None:
             text = said("the load drives all the way: it is not limited by this cylinder{remedy}.", remedy=self.other_side())
-            return Verdict("lifting", True, text)
-        if found.least == 0.0:
+            return Verdict("lifting", None, text, answer=found)
+        if found.value < ENDLESS:
             text = said(
                 "at {pump} the force needed grows without bounds {where}: no cylinder lifts there; keep away from that pose.",
-                pump=pump, where=found.where,
+                pump=pump, where=found.place,
             )  # fmt: skip
-            return Verdict("lifting", False, text)
+            return Verdict("lifting", False, text, answer=found)
+        driven = self.parts(found, lambda reserve: np.where(np.isnan(reserve), -1.0, 1.0)) if found.unlimited else ()
         free = said(
-            "; the load drives {where}, there it is not limited by this cylinder{remedy}",
-            where=with_and(found.driven), remedy=self.other_side(),
-        ) if found.driven else ""  # fmt: skip
-        says = said("at {pump} the least reserve is {least:.3f}, {where}", pump=pump, least=found.least, where=found.where)
-        if found.least >= 1.0:
-            return Verdict("lifting", True, f"{says}{free}.")
-        weak = said("; too weak {where}", where=with_and(found.short)) if found.short else ""
-        return Verdict("lifting", False, f"{says}{weak}{free}. {self.remedy(found)}")
+            "; the load drives {where}, there it is not limited by this cylinder{remedy}", where=with_and(driven), remedy=self.other_side()
+        ) if driven and self.ram.works != "both" else ""  # fmt: skip
+        says = said("at {pump} the least reserve is {least:.3f}, {where}", pump=pump, least=found.value, where=found.place)
+        if found.ok:
+            return Verdict("lifting", True, f"{says}{free}.", answer=found)
+        short = self.parts(found, lambda reserve: np.nan_to_num(reserve, nan=2.0) - 1.0)
+        weak = said("; too weak {where}", where=with_and(short)) if short else ""
+        return Verdict("lifting", False, f"{says}{weak}{free}. {self.remedy(float(found.value))}", answer=found)
 
-    def lifted(self) -> Lifting:
-        """Return how the cylinder lifts, in numbers."""
-        motion, worst = self.motion, greatest(self.motion, self.use)
-        along = len(motion._stroke_shape) <= 1  # parts of a way are told, not of a grid
-        driven = below_zero(motion, self.force) if along else ()
-        if np.isnan(worst.value) or worst.value <= 0.0:
-            return Lifting(np.inf, "", (), driven)
-        least = 0.0 if worst.unbounded else 1.0 / float(worst.value)
-        if least >= 1.0:
-            return Lifting(least, worst.where, (), driven)
-        short = below_zero(motion, self.spare) if along else ()
-        if worst.unbounded:
-            return Lifting(least, worst.where, short, driven)
-        needed = greatest(motion, lambda at: self.circuit.pressure_for(at, self.loads, **self.choice)).value
-        return Lifting(least, worst.where, short, driven, float(needed), *self.larger())
-
-    def use(self, motion: Motion) -> Array:
-        """Return the needed rod force over the greatest one, 0 where the load drives."""
-        return self.use_of(motion, self.circuit.work(motion, self.loads, **self.choice))
-
-    def use_of(self, motion: Motion, work: Work) -> Array:
-        """Return the needed rod force over the greatest one of some work, 0 where the load drives."""
-        return np.where(work.force > 0.0, work.force / self.circuit.most(motion, work), 0.0) + 0.0 * work.force
-
-    def larger(self) -> tuple[float, float]:
-        """Return the smallest standard bore (ISO 3320) that lifts [m], with its least reserve; NaN where none does, or on a shared line."""
-        size = one_size(self.ram.sized(self.motion))
-        bores = np.array([bore for bore in standard_bores() if bore > max(size.bore, size.rod) * (1.0 + 1e-9)])
-        if not bores.size or len(self.circuit.rams(self.motion)) > 1:
-            return np.nan, np.nan
-
-        def uses(motion: Motion) -> Array:
-            """Return it for every bore at once: what the rod carries is the same."""
-            each = CylinderSize(bores.reshape(-1, *(1,) * len(motion.shape)), size.rod, self.ram.count, self.ram.works)
-            return self.use_of(motion, replace(self.circuit.work(motion, self.loads, **self.choice), size=each))
-
-        gained = 1.0 / greatest(self.motion, uses).value
-        enough = gained >= 1.0
-        first = int(np.argmax(enough))
-        return (float(bores[first]), float(gained[first])) if enough.any() else (np.nan, np.nan)
+    def parts(self, found: Answer, of_reserve: Any) -> tuple[Span, ...]:
+        """Return the parts of the one way, where there is one, on which a function of the reserve is below zero, in the worst situation."""
+        way, acting = self.judge.way, self.judge.situation(found)
+        if way is None:
+            return ()
+        reserve = Reserve(self.ram, acting, self.circuit, is_judged=True)
+        return below_zero(way, lambda at: of_reserve(reserve.of(at)))
 
     def other_side(self) -> str:
         """Return the remedy where the thrust changes its sign and one side alone is declared."""
         return said('; works="both" judges the other side as well') if self.ram.works != "both" else ""
 
-    def remedy(self, found: Lifting) -> str:
+    def remedy(self, reserve: float) -> str:
         """Return what makes up for a reserve below 1: a pressure, or a standard bore with its reserve."""
-        needed = self.show(found.needed)
-        if len(self.circuit.rams(self.motion)) > 1:
+        needed = self.show(self.judge.answer(most(Pressure(*self.asked, is_needed=True))).value)
+        if len(self.circuit.rams(self.judge.motion)) > 1:
             return said("It needs {needed}, or larger bores on this line.", needed=needed)
-        if np.isnan(found.bore):
-            return said("It needs {needed}; no standard bore is large enough.", needed=needed)
-        bore = show(found.bore, "mm", ".0f")
-        return said(
-            "It needs {needed}, or a bore of {bore}, with a reserve of {gained:.2f}.", needed=needed, bore=bore, gained=found.gained
-        )
+        for bore in self.larger(reserve):
+            gained = self.judge.answer(least(Reserve(*self.asked, bore=bore))).value
+            if gained >= 1.0:
+                text = said(
+                    "It needs {needed}, or a bore of {bore}, with a reserve of {gained:.2f}.",
+                    needed=needed,
+                    bore=show(bore, "mm", ".0f"),
+                    gained=gained,
+                )
+                return text
+        return said("It needs {needed}; no standard bore is large enough.", needed=needed)
 
-    # -- holding and lowering ------------------------------------------------------------------------------
+    def larger(self, reserve: float) -> list[float]:
+        """Return the standard bores (ISO 3320) to try [m], from the first that may give a reserve of 1."""
+        size = one_size(self.ram.sized(self.judge.motion))
+        area = size.bore**2 - (size.rod**2 if self.ram.works == "rod" else 0.0)
+        wanted = np.sqrt(area / reserve + (size.rod**2 if self.ram.works == "rod" else 0.0))
+        bores = [bore for bore in standard_bores() if bore > max(size.bore, size.rod) * (1.0 + 1e-9)]
+        return [bore for bore in bores if bore >= 0.9 * wanted][:TRIES]
+
+    # -- holding and going back ----------------------------------------------------------------------------
 
     def holding(self) -> Verdict:
         """Return the pressures that the load makes with the pump off, and whether they stay below the relief valve's."""
-        circuit, motion, limit = self.circuit, self.motion, float(self.circuit.held(self.motion))
-
-        def holds(at: Motion) -> Holding:
-            return circuit.holding(at, self.loads, cylinder=self.ram, case=self.case)
-
-        working, other = greatest(motion, lambda at: holds(at).working), greatest(motion, lambda at: holds(at).other)
+        circuit, limit = self.circuit, float(self.circuit.held(self.judge.motion))
+        order = SIDES if self.ram.works != "rod" else SIDES[::-1]
+        asked = [most(Pressure(self.ram, Acting(direction=FRICTIONLESS), circuit, side)) <= limit for side in order]
+        working, other = self.judge.answers(asked)
         endless = next((each for each in (working, other) if each.unbounded), None)
         if endless is not None:
-            text = said("the pressure grows without bounds {where}: nothing holds there; keep away from that pose.", where=endless.where)
-            return Verdict("holding", False, text)
-        ok = bool(working.value <= limit and other.value <= limit)
-        pistons, rods = said("piston side"), said("rod side")
-        sides = (rods, pistons) if self.ram.works == "rod" else (pistons, rods)
+            text = said("the pressure grows without bounds {where}: nothing holds there; keep away from that pose.", where=endless.place)
+            return Verdict("holding", False, text, answer=endless)
+        words = [said("piston side") if side == PISTON else said("rod side") for side in order]
         drives = "" if self.ram.works == "both" else said(" where the load drives")
         parts = [
-            said("up to {pressure} stand in the {side}, {where}", pressure=self.show(most.value), side=side, where=most.where)
-            for most, side in ((working, sides[0]), (other, f"{sides[1]}{drives}"))
-            if most.value > 0.0
+            said("up to {pressure} stand in the {side}, {where}", pressure=self.show(each.value), side=side, where=each.place)
+            for each, side in ((working, words[0]), (other, f"{words[1]}{drives}"))
+            if each.value > 0.0
         ]
         stands = ", ".join(parts) or said("no pressure stands on either side")
         given, pump = self.show(limit), circuit.relief is None
         valve = said("the pump, for no relief= is given, {limit}", limit=given) if pump else said("the relief valve, {limit}", limit=given)
-        if ok:
-            return Verdict("holding", True, said("with the pump off {stands}, held against {valve}.", stands=stands, valve=valve))
-        return Verdict(
-            "holding", False, said("with the pump off {stands}; that is above {valve}: take a larger bore.", stands=stands, valve=valve)
-        )
+        worst = max((working, other), key=lambda each: each.value)
+        if working.ok and other.ok:
+            return Verdict(
+                "holding", True, said("with the pump off {stands}, held against {valve}.", stands=stands, valve=valve), answer=worst
+            )
+        text = said("with the pump off {stands}; that is above {valve}: take a larger bore.", stands=stands, valve=valve)
+        return Verdict("holding", False, text, answer=worst)
 
-    def lowering(self, resistance: float = 0.0) -> Verdict:
-        """Return whether it sinks by itself against the resistance of the returning oil; where not, what the other side must give."""
-        circuit, motion, against = self.circuit, self.motion, said("against {pressure} in the return line", pressure=self.show(resistance))
+    def going_back(self, resistance: float = 0.0) -> Verdict:
+        """Return whether it goes back by itself against the resistance of the returning oil; where not, what the other side must give.
 
-        def sinks(at: Motion) -> Lowering:
-            return circuit.lowering(at, self.loads, resistance=resistance, cylinder=self.ram, case=self.case)
-
-        def margin(at: Motion) -> Array:
-            found = sinks(at)
-            return np.asarray(np.where(found.by_itself, 1.0, -1.0) + 0.0 * found.working)
-
-        stuck = below_zero(motion, margin)
-        if not stuck:
-            least = lowest(motion, lambda at: sinks(at).working)
-            if least.value <= 1e-9 * float(circuit.supply(motion)):
+        It goes back against its working direction; of one that works with both sides the way the load drives it at most poses. Where
+        the load then drives it on, as a lever past its top, the pump's pressure on the other side has to do it.
+        """
+        judge, against = self.judge, said("against {pressure} in the return line", pressure=self.show(resistance))
+        back = GoingBack(*self.asked, way=self.way_back, resistance=resistance)
+        push, alone = judge.answers([most(back) <= 0.0, least(replace(back, tells="load"))])
+        if push.ok:
+            if alone.value <= 1e-9 * float(self.circuit.supply(judge.motion)):
                 text = said(
                     "it goes back by itself {against}; {where} the load presses on neither side and nothing drives it.",
-                    against=against, where=least.where,
+                    against=against, where=alone.place,
                 )  # fmt: skip
-                return Verdict("lowering", True, text)
+                return Verdict("lowering", True, text, answer=push)
             text = said(
                 "it sinks by itself {against}: the load makes at least {pressure} in the working side, {where}.",
-                against=against, pressure=self.show(least.value), where=least.where,
+                against=against, pressure=self.show(alone.value), where=alone.place,
             )  # fmt: skip
-            return Verdict("lowering", True, text)
-        whole = reached(motion)
-        everywhere = len(stuck) == len(whole) and all(str(a) == str(b) for a, b in zip(stuck, whole, strict=True))
-        where = said("anywhere") if everywhere else with_and(stuck)
-        most = greatest(motion, lambda at: sinks(at).push)
-        if most.unbounded:
+            return Verdict("lowering", True, text, answer=push)
+        where = self.stuck(replace(back, acting=judge.situation(push)))
+        if push.unbounded:
             text = said(
                 "it does not sink by itself {where} {against}, and no push moves it {pose}: keep away from that pose.",
-                where=where, against=against, pose=most.where,
+                where=where, against=against, pose=push.place,
             )  # fmt: skip
-            return Verdict("lowering", False, text)
+            return Verdict("lowering", False, text, answer=push)
+        if self.ram.works == "both":
+            enough = judge.answer(least(Reserve(*self.asked)) >= 1.0).ok is not False  # which asks the other side while it drives
+            text = said(
+                "{direction}, the load does not drive it back {where} {against}: the other side must push with up to {push}, {place}.",
+                direction=said("extending") if self.way_back == "extending" else said("retracting"), where=where, against=against,
+                push=self.show(push.value), place=push.place,
+            )  # fmt: skip
+            return Verdict("lowering", enough, text, answer=push)
         text = said(
-            "it does not sink by itself {where} {against}: the other side must push with up to {push}.",
-            where=where, against=against, push=self.show(most.value),
+            "it does not sink by itself {where} {against}: the other side must push with up to {push}, {place}.",
+            where=where, against=against, push=self.show(push.value), place=push.place,
         )  # fmt: skip
-        return Verdict("lowering", False, text)
+        return Verdict("lowering", False, text, answer=push)
+
+    @property
+    def way_back(self) -> str:
+        """The direction in which it goes back: against its working one; of both the way the load drives it where it is strongest."""
+        if self.ram.works != "both":
+            return "retracting" if self.ram.works == "piston" else "extending"
+        low, high = self.judge.answers([least(Thrust(self.ram, Acting())), most(Thrust(self.ram, Acting()))])
+        return "retracting" if high.value >= -low.value else "extending"
+
+    def stuck(self, back: GoingBack) -> str:
+        """Return where it does not go back, in words."""
+        way = self.judge.way
+        if way is None:
+            return said("anywhere") if self.judge.answer(least(back)).value > 0.0 else said("in places")
+        stuck, whole = below_zero(way, lambda at: -np.nan_to_num(back.of(at), nan=-1.0)), reached(way)
+        everywhere = len(stuck) == len(whole) and all(str(a) == str(b) for a, b in zip(stuck, whole, strict=True))
+        return said("anywhere") if everywhere or not stuck else with_and(stuck)
 
 
-def oil_verdict(circuit: LiftLine, motion: Motion) -> Verdict:
-    """Return how much oil the motion takes, and how long the pump's flow needs for it."""
-    oil, back = float(circuit.oil(motion)), oil_back(circuit, motion)
+def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
+    """Return how much oil the machine takes over all that it runs, and how long the pump's flow needs for it."""
+    rams = circuit.rams(judge.motion)
+    ways = [ram.travelled(judge) for ram in rams]
+    oil = sum(way * float(np.ravel(ram.sized(judge.motion).area)[0]) for ram, way in zip(rams, ways, strict=True))
+    both = [(ram, way) for ram, way in zip(rams, ways, strict=True) if ram.works == "both"]
+    back = sum(way * float(np.ravel(ram.sized(judge.motion).pull_area)[0]) for ram, way in both)
     says = said("{oil} from end to end", oil=show(oil, "l", ".2f"))
     if back:
         says = said("{oil} from end to end outwards, {back} inwards", oil=show(oil, "l", ".2f"), back=show(back, "l", ".2f"))
-    if not np.any(circuit.number(motion, "flow") > 0.0):
+    rate = float(np.ravel(circuit.number(judge.motion, "flow"))[0])
+    if not rate > 0.0:
         return Verdict("oil", True, said("{says}; time follows from the pump's flow, which is not given.", says=says))
-    time, flow = show(float(circuit.time(motion)), "s", ".1f"), show(float(circuit.number(motion, "flow")), "l/min", 4)
+    time, flow = show(oil / rate, "s", ".1f"), show(rate, "l/min", 4)
     return Verdict("oil", True, said("{says}, {time} at {flow}.", says=says, time=time, flow=flow))
-
-
-def oil_back(circuit: LiftLine, motion: Motion) -> float:
-    """Return the oil [m3] that the rod sides take over the same way, of cylinders that work with both; 0 where none does."""
-    both = [ram for ram in circuit.rams(motion) if ram.works == "both"]
-    return sum(float(ram.travel(motion) * ram.sized(motion).pull_area) for ram in both)

@@ -19,31 +19,33 @@ from typing import Any, ClassVar, TypeAlias, Unpack, cast, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from linkage.errors import DefinitionError, cited, known_name, one_word
+from linkage.errors import DefinitionError, known_name, one_word
 from linkage.frozen import refuses_changes
-from linkage.loads import Force, ForceElement, Load, Parameter, Poses, require_poses
+from linkage.language import with_and
+from linkage.loads import DIRECTIONS, Force, ForceElement, Load, Parameter, Poses, require_poses
 from linkage.loads.element import Formulas
-from linkage.motion import Motion
+from linkage.motion import Judge, Motion, Question
 from linkage.program import is_traced
-from linkage.quantities import Member, Reference, label, name_of, real
-from linkage.statics import AnyMotion, Case, Loads, elements_of
+from linkage.quantities import Member, Reference, label, name_of
+from linkage.statics import AnyMotion, Case, Loads, elements_of, same
 from linkage.verdict import Verdict
 
 from .inputs import (
     Array,
+    direction_of,
     efficient,
     follows,
     in_cubic_metres,
     in_pascals,
     not_negative,
     number_set,
-    one_number,
     only_where,
     positive,
+    proper_share,
 )
-from .judged import line_verdicts
+from .judged import line_questions, line_verdicts
 from .line import Choice, Holding, LiftLine, Lowering, Work
-from .member import DIRECTIONS, Cylinder, Reading, the_cylinder, thrust_along
+from .member import Cylinder, Reading, the_cylinder, thrust_along
 
 Feeds: TypeAlias = "Reference | Sequence[Reference]"
 
@@ -97,12 +99,29 @@ class LiftCircuit(LiftLine):
         if not self.references:
             raise DefinitionError(f"{title}.{self.name}: the circuit has no cylinder; name one, LiftCircuit(lift, pressure=...).")
         super().examine(members, title)
+        own = self.members(members)
+        for place, ram in enumerate(own):
+            if any(same(ram, each) for each in own[:place]):
+                what = f"{self.name} has {ram.name or ram} twice, so that its oil would count double"
+                raise DefinitionError(f"{title}: {what}; name it once, or write count=2 in the Cylinder where there are two.")
+        for other in (each for each in members.values() if isinstance(each, LiftCircuit) and each is not self):
+            rams = other.members(members)
+            shared = [ram for ram in own if any(same(ram, each) for each in rams)]
+            if shared and not len(shared) == len(own) == len(rams):
+                both = with_and(ram.name or str(ram) for ram in shared)
+                what = f"{self.name} and {other.name} both have {both}, but not the same cylinders"
+                says = "what shares a chamber is one line with one pressure"
+                raise DefinitionError(f"{title}: {what}; {says}. Name all of them in one LiftCircuit, or none in both.")
 
     def loads(self, motion: Poses) -> list[Load]:
         return []
 
     def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         return self.members(members)
+
+    @property
+    def scales(self) -> bool:
+        return False
 
     def __str__(self) -> str:
         names = ", ".join(label(each) for each in self.references)
@@ -230,9 +249,16 @@ class LiftCircuit(LiftLine):
     def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, case: Case, direction: str | None) -> Array | None:
         return self.reserve(motion, cylinder=cylinder, case=case, direction=direction)
 
-    def verdicts(self, motion: Motion) -> list[Verdict]:
-        """Return the verdicts on lifting, oil, holding and lowering; over a grid of several strokes the least reserve and the holding."""
-        return line_verdicts(self, motion)
+    def questions(self, judge: Judge) -> list[Question]:
+        """Return what is asked of each of its cylinders: whether it carries anything, lifts, holds."""
+        return line_questions(self, judge)
+
+    def verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return the verdicts on lifting, oil, holding and lowering."""
+        try:
+            return line_verdicts(self, judge)
+        except DefinitionError as error:
+            return [Verdict("lifting", False, " ".join(str(error).split()))]
 
     def gauges_of(self, cylinder: Cylinder) -> dict[str, Reading]:
         return {"most": self.supply, "reserve": lambda motion: self.reserve(motion, cylinder=cylinder)}
@@ -378,24 +404,6 @@ ROUNDS = 12
 def divisor(written: Formulas, value: Array) -> Any:
     """Return a factor as it stands in an equation: a plain 1 where it is one."""
     return 1.0 if written.equals(value, 1.0) else value
-
-
-def proper_share(share: float) -> None:
-    """Raise DefinitionError for a share of the pressure that is not above 0 and up to 1."""
-    if not 0.0 < one_number(share, "share") <= 1.0:
-        raise DefinitionError(f"share = {share:.6g} of the pressure is not in 0 to 1; 0.9 is how tractors are tested.")
-
-
-def direction_of(along: tuple[float, float]) -> Array:
-    """Return a direction of length one, shape (2,); DefinitionError where it has no length."""
-    try:
-        unit = real(along)
-    except ValueError:
-        unit = np.zeros(2)
-    size = float(np.hypot(*unit)) if unit.shape == (2,) else 0.0
-    if not (np.isfinite(size) and size > 0.0):
-        raise DefinitionError(f"along={cited(along)} has no length; write one such as (0, 1).")
-    return unit / size
 
 
 def fitted(motion: Motion, value: Array) -> Array:

@@ -136,6 +136,21 @@ class LiftLine(Circuit):
         """Return the pressure that is needed on the side that works, shape (...)."""
 
     @abstractmethod
+    def efficiency(self, motion: Poses, kind: str) -> Array:
+        """Return the "mechanical" or "hydraulic" efficiency."""
+
+    @abstractmethod
+    def reserve(self, motion: AnyMotion, loads: Loads = None, **choice: Unpack[Choice]) -> Array:
+        """Return the greatest rod force over the needed one, shape (...); NaN where it is not limited by this cylinder."""
+
+    @abstractmethod
+    def capacity(
+        self, motion: AnyMotion, point: str, loads: Loads = None, *, along: tuple[float, float] = (0.0, 1.0), share: float = 1.0,
+        cylinder: Reference | None = None, case: Case = None,
+    ) -> Array:  # fmt: skip
+        """Return the largest load [N] at a point that the pump lifts beside the machine's own, shape (...)."""
+
+    @abstractmethod
     def holding(self, motion: Motion, loads: Loads = None, *, cylinder: Reference | None = None, case: Case = None) -> Holding:
         """Return the pressures that hold the thrust with the pump off."""
 

@@ -11,11 +11,11 @@ FAIL standard size: bore 110 mm and rod 60 mm; the rod is not of ISO 3320, next 
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Hashable, Iterable, Mapping
+from dataclasses import dataclass, replace
 from functools import partial, reduce
 from types import MappingProxyType
-from typing import ClassVar, Literal, TypeAlias, cast, final
+from typing import Any, ClassVar, Literal, Self, TypeAlias, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,12 +23,26 @@ from numpy.typing import ArrayLike
 from linkage.errors import DefinitionError, cited, unknown, unwarned
 from linkage.frozen import refuses_changes
 from linkage.language import noted, said, said_of, with_and
-from linkage.loads import AT_REST, Declared, DrawnAs, ForceElement, LoadCase, Parameter, Poses, Push, Rates, TwoPoint, require_poses
+from linkage.loads import (
+    AT_REST,
+    DIRECTIONS,
+    FRICTIONLESS,
+    Acting,
+    Declared,
+    DrawnAs,
+    ForceElement,
+    Parameter,
+    Poses,
+    Push,
+    Rates,
+    TwoPoint,
+    require_poses,
+)
 from linkage.loads.element import Formulas
-from linkage.motion import Column, Judging, Motion, Request, Tabled, greatest, lowest, require_motion
+from linkage.motion import Column, Judge, Judging, Motion, Question, Request, Tabled, greatest, least, lowest, most, require_motion
 from linkage.plan import Plan
-from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import AnyMotion, Case, LawRequest, Loads, elements_of, member_thrust, same
+from linkage.quantities import Member, Reference, distance, label, name_of
+from linkage.statics import AnyMotion, Case, LawRequest, Loads, case_words, elements_of, loads_identity, member_thrust, same
 from linkage.units import mm, show, shown_number, unit_sign
 from linkage.verdict import Verdict
 
@@ -38,7 +52,9 @@ from .inputs import Array, follows, number_set, one_number, positive, stroke_in_
 
 LENGTHS: Mapping[str, str] = MappingProxyType({"stroke": "Stroke of the cylinder", "closed": "Closed length of the cylinder"})
 """What its lengths are called in words."""
-DIRECTIONS = ("frictionless", "extending", "retracting")
+PISTON, ROD = "piston", "rod"
+SIDES = (PISTON, ROD)
+"""The sides of a cylinder."""
 
 
 @final
@@ -192,6 +208,27 @@ class Cylinder(TwoPoint, Tabled, Judging):
         """
         return pressure_of(self, motion, loads, case, direction)
 
+    @property
+    def driven(self) -> tuple[str, ...]:
+        """The directions in which the side that works drives it."""
+        return {"piston": ("extending",), "rod": ("retracting",)}.get(self.works, ("extending", "retracting"))
+
+    def pressure_on(self, side: str, motion: AnyMotion, acting: Acting, circuit: Circuit | None = None) -> Array:
+        """Return the pressure on one of its sides, shape (...) [Pa gauge]; 0 where the other side holds.
+
+        At rest without friction and efficiencies; while it moves, on a side that works, as its circuit has it.
+        """
+        thrust = self.thrust(motion, acting.loads, case=acting.case, direction=acting.movement, rates=acting.rates)
+        along = thrust if side == PISTON else -thrust
+        if acting.movement == FRICTIONLESS or self.works not in (side, "both"):
+            size = self.sized(motion)
+            return np.asarray(np.maximum(along, 0.0) / (size.push_area if side == PISTON else size.pull_area))[()]
+        if circuit is None:
+            found = pressure_of(self, motion, acting.loads, acting.case, acting.direction)
+        else:
+            found = circuit.pressure_in(self, motion, acting.loads, acting.case, acting.direction)
+        return np.where(along > 0.0, found, 0.0) + 0.0 * thrust
+
     def columns(self, motion: Motion) -> list[Column]:
         """Return its thrust without friction and, unless several circuits have it, its pressure and its reserve, for the table."""
         return self.columns_in(motion)
@@ -206,11 +243,16 @@ class Cylinder(TwoPoint, Tabled, Judging):
         reserve = None if circuit is None else circuit.reserve_of(self, motion, case, direction)
         return found if reserve is None else [*found, Column(noted("reserve"), reserve, "", 3)]
 
-    def verdicts(self, motion: Motion) -> list[Verdict]:
-        """Return whether it fits the motion, is of a standard size, and whether its rod buckles where it carries something."""
-        carries = any(each.loads(motion) or each.pushes(motion, AT_REST) for each in motion.plan.of_kind(ForceElement).values())
+    def questions(self, judge: Judge) -> list[Question]:
+        """Return its least and greatest length, and the utilisation of its rod."""
+        ends = distance(self.A, self.B)
+        return [least(ends), most(ends), *([most(BucklingUse(self, Acting()))] if carries_loads(judge) else [])]
+
+    def verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return whether it fits wherever the machine runs, is of a standard size, and whether a rod that carries something buckles."""
         try:
-            return [*self.fits(motion), self.standard(motion), *(self.buckling(motion) if carries else [])]
+            rod = self.buckling_verdicts(judge) if carries_loads(judge) else []
+            return [*self.length_verdicts(judge), self.standard(judge.motion), *rod]
         except DefinitionError as error:
             return [Verdict("cylinder", False, " ".join(str(error).split()))]
 
@@ -256,7 +298,9 @@ class Cylinder(TwoPoint, Tabled, Judging):
 
     def checks(self, motion: Motion, loads: Loads = None, *, case: Case = None) -> list[Verdict]:
         """Return what can be said of it over a motion of one design: length, standard size, and buckling where it carries something."""
-        return [*self.fits(motion), self.standard(motion), *self.buckling(motion, loads, case=case)]
+        one_design(motion, str(self))
+        judge = judge_of(motion, Acting(loads, case))
+        return [*self.length_verdicts(judge), self.standard(motion), *self.buckling_verdicts(judge)]
 
     def fits(self, motion: Motion) -> list[Verdict]:
         """Return whether its closed and its open length serve the motion, between its poses too; nothing where neither is given.
@@ -266,11 +310,22 @@ class Cylinder(TwoPoint, Tabled, Judging):
         one_design(motion, str(self))
         if not motion.reached.any():
             raise DefinitionError(f"{self}: no pose of this motion can be assembled, so that there is no length to check.")
-        low, high = map(float, self.extent(motion))
-        closed, stroke = (None if each is None else one_number(np.squeeze(each), "Length") for each in self.closed_and_stroke(motion))
+        return self.length_verdicts(judge_of(motion))
+
+    def length_verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return the same over all that a judge looks at."""
+        closed, stroke = (None if each is None else one_number(np.squeeze(each), "Length") for each in self.closed_and_stroke(judge.motion))
+        if closed is None and stroke is None:
+            return []
+        low, high = (float(each.value) for each in judge.answers([least(distance(self.A, self.B)), most(distance(self.A, self.B))]))
         if closed is not None:
             return [self._reaches(low, high, closed, closed + stroke if stroke is not None else np.inf)]
         return [] if stroke is None else [self._travels(high - low, stroke)]
+
+    def travelled(self, judge: Judge) -> float:
+        """Return greatest less least length over all that a judge looks at [m], of one design."""
+        low, high = judge.answers([least(distance(self.A, self.B)), most(distance(self.A, self.B))])
+        return float(high.value - low.value)
 
     def _reaches(self, low: float, high: float, closed: float, opened: float) -> Verdict:
         faults = []
@@ -334,25 +389,19 @@ class Cylinder(TwoPoint, Tabled, Judging):
         carries nothing among these loads.
         """
         one_design(motion, str(self))
-        rod = Buckling(one_size(self.sized(motion)).rod, self.mounting, self.safety)
+        return self.buckling_verdicts(judge_of(motion, Acting(loads, case)))
 
-        def use(at: Motion) -> Array:
-            return self.buckling_use(at, loads, case=each, direction=direction)
-
-        cases: Iterable[Case] = [case] if case is not None else [None, *motion.plan.of_kind(LoadCase).values()]
-        worst: tuple[float, float, float, str] | None = None
-        for each in cases:
-            for direction in DIRECTIONS if changes_in_motion(motion, loads) else DIRECTIONS[:1]:
-                found = greatest(motion, use)
-                if np.isnan(found.value) or (worst is not None and found.value <= worst[0]):
-                    continue
-                place = motion.moved(found.strokes)
-                with unwarned():  # the verdict itself says what comes of it
-                    force = float(self.thrust(place, loads, case=each, direction=direction)) / self.count
-                worst = float(found.value), float(place.distance(self.A, self.B)), force, found.where
-        if worst is None:
+    def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return the same over all that a judge looks at."""
+        rod = Buckling(one_size(self.sized(judge.motion)).rod, self.mounting, self.safety)
+        worst = judge.answer(most(BucklingUse(self, Acting())))
+        if np.isnan(worst.value) or not worst.value > 0.0:
             return [never_pushed()]
-        return [rod.judged(worst[1], worst[2], worst[3], unbounded=not np.isfinite(worst[0]))]
+        with unwarned():  # the verdict itself says what comes of it
+            place, acting = judge.there(worst), judge.situation(worst)
+            push = float(self.thrust(place, acting.loads, case=acting.case, direction=acting.movement)) / self.count
+            length = float(place.distance(self.A, self.B))
+        return [rod.judged(length, push, worst.place, unbounded=bool(worst.unbounded))]
 
     def buckling_use(self, motion: AnyMotion, loads: Loads = None, *, case: Case = None, direction: str | None = None) -> Array:
         """Return the utilisation of a rod, shape (...): a cylinder's push times the safety over the force at which it buckles; 0 in a pull.
@@ -373,6 +422,89 @@ class Cylinder(TwoPoint, Tabled, Judging):
     @property
     def _pins(self) -> str:
         return "".join(label(end) for end in (self.A, self.B))
+
+
+# What is asked of one cylinder.
+
+
+@dataclass(frozen=True, eq=False)
+class CylinderRequest(LawRequest):
+    """The base of what is asked of one cylinder of a class, by its name, in a situation; its directions are the cylinder's own."""
+
+    cylinder: str | Cylinder
+    acting: Acting
+
+    def identity(self, plan: Plan) -> Hashable:
+        loads = loads_identity(self.acting.loads, self.acting.case)
+        return None if loads is None or self.acting.rates is not None else (type(self).__name__, self.named, *self.options, loads)
+
+    @property
+    def named(self) -> Any:
+        """The cylinder by its name, or itself where it has none."""
+        return self.cylinder if isinstance(self.cylinder, str) else self.cylinder.name or self.cylinder
+
+    @property
+    def options(self) -> tuple[Hashable, ...]:
+        """What it is asked with, beside loads and load case."""
+        return (self.acting.direction,)
+
+    @property
+    def direction(self) -> str | None:
+        """The cylinder's own direction that is named; None for its own way of working, or for no friction."""
+        return self.acting.direction
+
+    def under(self, acting: Acting, *, keep: bool = False) -> Self:
+        found = self.acting.within(replace(acting, drive=None), "" if keep else str(self))
+        return self if found == self.acting else replace(self, acting=found)
+
+    def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
+        return DIRECTIONS if rubs else DIRECTIONS[:1]
+
+    def examine(self, plan: Plan) -> None:
+        self.ram(plan)
+
+    def ram(self, plan: Plan) -> Cylinder:
+        """Return the cylinder that is meant, as a plan has it."""
+        return self.named if isinstance(self.named, Cylinder) else found_in(plan.members, self.named, plan.title)
+
+    def __str__(self) -> str:
+        given = [str(each) for each in self.options if each is not None]
+        return f"{self.word}({', '.join([str(self.named), *given, *case_words(self.acting.case)])})"
+
+    @property
+    @abstractmethod
+    def word(self) -> str:
+        """The function that makes it."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Thrust(CylinderRequest):
+    """What a cylinder carries."""
+
+    word = "thrust"
+    measures = "force"
+
+    @property
+    def options(self) -> tuple[Hashable, ...]:
+        return (None if self.acting.movement == FRICTIONLESS else self.acting.movement,)
+
+    def law(self, motion: AnyMotion) -> Array:
+        return self.ram(motion.plan).thrust(
+            motion, self.acting.loads, case=self.acting.case, direction=self.acting.movement, rates=self.acting.rates
+        )
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class BucklingUse(CylinderRequest):
+    """How far a cylinder's rod is used against buckling."""
+
+    word = "buckling"
+
+    def law(self, motion: AnyMotion) -> Array:
+        given = self.acting
+        return self.ram(motion.plan).buckling_use(motion, given.loads, case=given.case, direction=given.direction)
 
 
 Reading: TypeAlias = Callable[[AnyMotion], Array]
@@ -476,6 +608,17 @@ class Circuit(ForceElement, Judging):
 def changes_in_motion(motion: AnyMotion, loads: Loads) -> bool:
     """Return whether there is friction among some loads, or an element that acts otherwise while it moves."""
     return any(each.frictions(motion) or each.feeds(motion.plan.members) for _, each in elements_of(motion.plan, loads))
+
+
+def carries_loads(judge: Judge) -> bool:
+    """Return whether anything acts on a machine by itself."""
+    motion = judge.motion
+    return any(each.loads(motion) or each.pushes(motion, AT_REST) for each in motion.plan.of_kind(ForceElement).values())
+
+
+def judge_of(motion: Motion, acting: Acting | None = None) -> Judge:
+    """Return the judge of one motion, of which what is out of reach is left out."""
+    return Judge(motion.plan, motion.designs, [motion], acting).lost_allowed()
 
 
 def one_design(motion: Motion, what: str) -> None:

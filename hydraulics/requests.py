@@ -5,101 +5,55 @@ Each is the cylinder's or the circuit's own method, read pose by pose: `motion[p
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Hashable
 from dataclasses import dataclass, replace
-from typing import Self, cast, final
+from typing import cast, final
+
+import numpy as np
 
 from linkage.errors import DefinitionError, known_name, unknown
+from linkage.loads import DIRECTIONS, Acting
 from linkage.mechanism import Mechanism
-from linkage.plan import Plan
+from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most, require_motion
+from linkage.motion.grid import MotionLike
+from linkage.plan import Mask, Plan
 from linkage.quantities import Quantity, Reference, distance, name_of, quantity
-from linkage.statics import AnyMotion, Case, LawRequest, case_words, loads_identity, same
-from linkage.study import at, least, most
-from linkage.study.measures import Condition, Constraint
+from linkage.statics import AnyMotion, Case, same, situation_of
 
-from .inputs import Array, follows
-from .lift import LiftCircuit, direction_of, proper_share
-from .member import DIRECTIONS, Cylinder, circuit_having, found_in
-
-
-@dataclass(frozen=True, eq=False)
-class CylinderRequest(LawRequest):
-    """The base of what is asked of one cylinder of a class, by its name, in a load case."""
-
-    cylinder: str
-    case: Case = None
-
-    def identity(self, plan: Plan) -> Hashable:
-        loads = loads_identity(None, self.case)
-        return None if loads is None else (type(self).__name__, self.cylinder, *self.options, loads)
-
-    @property
-    def options(self) -> tuple[Hashable, ...]:
-        """What it is asked with, beside the load case."""
-        return ()
-
-    def in_case(self, case: object) -> Self:
-        return self if self.case is not None else replace(self, case=cast(Case, case))
-
-    def examine(self, plan: Plan) -> None:
-        self.ram(plan)
-
-    def ram(self, plan: Plan) -> Cylinder:
-        """Return the cylinder that is meant, as a plan has it."""
-        return found_in(plan.members, self.cylinder, plan.title)
-
-    def __str__(self) -> str:
-        given = [str(each) for each in self.options if each is not None]
-        return f"{self.word}({', '.join([self.cylinder, *given, *case_words(self.case)])})"
-
-    @property
-    @abstractmethod
-    def word(self) -> str:
-        """The function that makes it."""
+from .cylinder import CylinderSize
+from .inputs import Array, direction_of, follows, only_where, proper_share
+from .line import LiftLine, Work
+from .member import PISTON, ROD, SIDES, BucklingUse, Circuit, CylinderRequest, Thrust, circuit_having, found_in
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class Thrust(CylinderRequest):
-    """What a cylinder carries."""
-
-    direction: str = "frictionless"
-    word = "thrust"
-    measures = "force"
-
-    @property
-    def options(self) -> tuple[Hashable, ...]:
-        return (None if self.direction == "frictionless" else self.direction,)
-
-    def law(self, motion: AnyMotion) -> Array:
-        return self.ram(motion.plan).thrust(motion, case=self.case, direction=self.direction)
-
-
-def thrust(cylinder: Reference, *, case: Case = None, direction: str = "frictionless") -> Thrust:
+def thrust(cylinder: Reference, *, case: Case = None, direction: str | None = None, acting: Acting | None = None) -> Thrust:
     """Return the request for what a cylinder carries [N], positive where it pushes: `lift.thrust(motion, case=..., direction=...)`.
 
-    With declared friction and a direction it has values and no derivatives.
+    `acting` says case and direction in one, with loads and rates too. With declared friction and a direction it has values and no
+    derivatives.
     """
-    return Thrust(name_of(cylinder), case, known_name("Direction", direction, DIRECTIONS))
+    return Thrust(name_of(cylinder), situation_of(acting, "thrust", case=case, direction=direction))
 
 
 @dataclass(frozen=True, eq=False)
 class CircuitRequest(CylinderRequest):
     """The base of what is asked of a cylinder on the circuit that feeds it: the only one that has it, unless one is named."""
 
-    circuit: str = ""
+    circuit: str | LiftLine = ""
 
     @property
     def options(self) -> tuple[Hashable, ...]:
-        return ((self.circuit and f"circuit={self.circuit}") or None,)
+        named = self.circuit if isinstance(self.circuit, str) else self.circuit.name or self.circuit
+        return (f"circuit={named}" if isinstance(named, str) and named else named or None), self.acting.direction
 
     def examine(self, plan: Plan) -> None:
         self.circuit_of(plan)
 
-    def circuit_of(self, plan: Plan) -> LiftCircuit:
+    def circuit_of(self, plan: Plan) -> LiftLine:
         """Return the circuit that is meant; DefinitionError where none or several have the cylinder, or the one named has not."""
-        circuits, ram = plan.of_kind(LiftCircuit), self.ram(plan)
+        circuits, ram = plan.of_kind(LiftLine), self.ram(plan)
+        if not isinstance(self.circuit, str):
+            return self.circuit
         if self.circuit and self.circuit not in circuits:
             raise unknown("LiftCircuit", self.circuit, circuits, where=plan.title)
         having = {name: each for name, each in circuits.items() if any(same(ram, one) for one in each.members(plan.members))}
@@ -116,15 +70,19 @@ class CircuitRequest(CylinderRequest):
 @final
 @dataclass(frozen=True, eq=False)
 class Pressure(CircuitRequest):
-    """The pressure on a cylinder's working side."""
+    """The pressure in a cylinder: on the side that works, or on one side.
 
-    direction: str | None = None
+    One that `is_needed` is that of the pump while it drives the cylinder, on the side that does.
+    """
+
+    side: str = ""
+    is_needed: bool = False
     word = "pressure"
     measures = "pressure"
 
     @property
     def options(self) -> tuple[Hashable, ...]:
-        return *super().options, self.direction
+        return *super().options, (self.side and f"side={self.side}") or None, "needed" if self.is_needed else None
 
     def examine(self, plan: Plan) -> None:
         if self.circuit:
@@ -132,24 +90,47 @@ class Pressure(CircuitRequest):
         else:
             circuit_having(self.ram(plan), plan)
 
+    def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
+        return self.ram(plan).driven if self.is_needed else DIRECTIONS
+
+    def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
+        if self.side:
+            return (SmoothPiece(self, self.side),)
+        ram = self.ram(plan)
+        if self.is_needed:
+            side = driving_side(self.acting.direction)
+            return (SmoothPiece(replace(self, side=side), side),)
+        if any(same(ram, one) for each in plan.of_kind(Circuit).values() for one in each.feeds(plan.members)):
+            return (SmoothPiece(self, ram.works),)
+        return tuple(SmoothPiece(replace(self, side=side), side) for side in SIDES)
+
     def law(self, motion: AnyMotion) -> Array:
-        ram = self.ram(motion.plan)
-        if self.circuit:
-            return self.circuit_of(motion.plan).pressure_in(ram, motion, None, self.case, self.direction)
-        return ram.pressure(motion, case=self.case, direction=self.direction)
+        ram, given = self.ram(motion.plan), self.acting
+        circuit = self.circuit_of(motion.plan) if self.circuit else None
+        if not self.side:
+            if circuit is not None:
+                return circuit.pressure_in(ram, motion, given.loads, given.case, given.direction)
+            return ram.pressure(motion, given.loads, case=given.case, direction=given.direction)
+        return ram.pressure_on(self.side, motion, given, circuit)
 
 
-def pressure(cylinder: Reference, *, case: Case = None, circuit: Reference | None = None, direction: str | None = None) -> Pressure:
-    """Return the request for the pressure on the side that works [Pa gauge]: `lift.pressure(motion, case=..., direction=...)`.
+def pressure(
+    cylinder: Reference,
+    *,
+    case: Case = None,
+    circuit: Reference | None = None,
+    direction: str | None = None,
+    side: str = "",
+    acting: Acting | None = None,
+) -> Pressure:
+    """Return the request for the pressure in a cylinder [Pa gauge]: `lift.pressure(motion, case=..., direction=...)`.
 
     It is that of the cylinder's one circuit, efficiencies and back pressure included; `circuit` names one of several LiftCircuits.
+    Of the side that works; `side="piston"` or `side="rod"` asks for one side, 0 where the other one holds. Where it is judged both count.
     """
-    return Pressure(name_of(cylinder), case, circuit_name(circuit), known_direction(direction))
-
-
-def known_direction(direction: str | None) -> str | None:
-    """Return a direction or none; DefinitionError for any other word."""
-    return direction if direction is None else known_name("Direction", direction, DIRECTIONS)
+    if side:
+        known_name("Side", side, SIDES)
+    return Pressure(name_of(cylinder), situation_of(acting, "pressure", case=case, direction=direction), circuit_name(circuit), side)
 
 
 def circuit_name(circuit: Reference | None) -> str:
@@ -160,26 +141,122 @@ def circuit_name(circuit: Reference | None) -> str:
 @final
 @dataclass(frozen=True, eq=False)
 class Reserve(CircuitRequest):
-    """The greatest rod force over the needed one."""
+    """The greatest rod force over the needed one; of one that is judged, while it moves against the load.
 
-    direction: str | None = None
+    `bore` [m] is another one tried in the place of the cylinder's own.
+    """
+
+    is_judged: bool = False
+    bore: float = 0.0
     word = "reserve"
 
     @property
     def options(self) -> tuple[Hashable, ...]:
-        return *super().options, self.direction
+        tried = f"bore={self.bore:g}" if self.bore else None
+        return *super().options, "against the load" if self.is_judged else None, tried
+
+    def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
+        return self.ram(plan).driven
+
+    def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
+        if self.acting.direction not in self.ram(plan).driven:
+            return (SmoothPiece(self),)
+        use = Use(self.cylinder, self.acting, self.circuit, self.bore)
+        return (SmoothPiece(replace(self, is_judged=True), driving_side(self.acting.direction), use),)
 
     def law(self, motion: AnyMotion) -> Array:
-        circuit, ram = self.circuit_of(motion.plan), self.ram(motion.plan)
-        return circuit.reserve(motion, cylinder=ram, case=self.case, direction=self.direction)
+        circuit, given = self.circuit_of(motion.plan), self.acting
+        if not (self.is_judged or self.bore):
+            return circuit.reserve(motion, given.loads, cylinder=self.ram(motion.plan), case=given.case, direction=given.direction)
+        work = self.work(motion)
+        with np.errstate(invalid="ignore"):
+            return np.asarray(circuit.most(motion, work) / only_where(self.against(work) > 0.0, work.force))[()]
+
+    def against(self, work: Work) -> Array:
+        """Return what is above zero where the cylinder has to drive [N]: the thrust in its direction where that is judged."""
+        return work.thrust * work.sense if self.is_judged else work.force
+
+    def work(self, motion: AnyMotion) -> Work:
+        """Return what the cylinder has to do, with another bore where one is tried."""
+        circuit, given, ram = self.circuit_of(motion.plan), self.acting, self.ram(motion.plan)
+        found = circuit.work(motion, given.loads, cylinder=ram, case=given.case, direction=given.direction)
+        return replace(found, size=CylinderSize(self.bore, found.size.rod, found.size.count, found.size.works)) if self.bore else found
+
+    def unlimited(self, motion: MotionLike) -> Mask:
+        work = self.work(require_motion(motion))
+        return np.asarray(np.isfinite(work.thrust) & ~(self.against(work) > 0.0))
 
 
-def reserve(cylinder: Reference, *, case: Case = None, circuit: Reference | None = None, direction: str | None = None) -> Reserve:
+@final
+@dataclass(frozen=True, eq=False)
+class Use(CircuitRequest):
+    """One over the reserve of the side that drives a cylinder in a direction; below zero where the load drives."""
+
+    bore: float = 0.0
+    word = "use"
+
+    @property
+    def options(self) -> tuple[Hashable, ...]:
+        return *super().options, self.bore
+
+    def law(self, motion: AnyMotion) -> Array:
+        circuit, given, ram = self.circuit_of(motion.plan), self.acting, self.ram(motion.plan)
+        size, k_m = ram.sized(motion), circuit.efficiency(motion, "mechanical")
+        size = CylinderSize(self.bore, size.rod, size.count, size.works) if self.bore else size
+        thrust = ram.thrust(motion, given.loads, case=given.case, direction=given.movement)
+        sense = 1.0 if given.direction == "extending" else -1.0
+        most = circuit.most(motion, Work(np.asarray(sense), np.asarray(sense), size, k_m))
+        return np.asarray(sense * thrust / (k_m * most))[()]
+
+
+def reserve(
+    cylinder: Reference, *, case: Case = None, circuit: Reference | None = None, direction: str | None = None, acting: Acting | None = None
+) -> Reserve:
     """Return the request for the greatest rod force over the needed one: `circuit.reserve(motion, cylinder=lift, case=..., direction=...)`.
 
-    NaN where the load drives, which is not limited by this cylinder and counts in no least value.
+    NaN where the load drives, which is not limited by this cylinder and counts in no least value. Where it is judged, of a cylinder that
+    works with both sides each counts while it moves against the load.
     """
-    return Reserve(name_of(cylinder), case, circuit_name(circuit), known_direction(direction))
+    return Reserve(name_of(cylinder), situation_of(acting, "reserve", case=case, direction=direction), circuit_name(circuit))
+
+
+def driving_side(direction: str | None) -> str:
+    """Return the side that drives a cylinder in a direction."""
+    return {"extending": PISTON, "retracting": ROD}.get(direction or "", "")
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class GoingBack(CircuitRequest):
+    """What the other side must give while a cylinder goes back against a resistance [Pa]; below zero where the load does it by itself.
+
+    `tells="load"` is the pressure that the load alone makes in the side it leaves. Friction acts against the movement: the load
+    brings T k_m where it drives and takes T / k_m where it resists.
+    """
+
+    way: str = "retracting"
+    resistance: float = 0.0
+    tells: str = "push"
+    word = "going back"
+    measures = "pressure"
+
+    @property
+    def options(self) -> tuple[Hashable, ...]:
+        return *super().options, self.way, self.resistance, self.tells
+
+    def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
+        return (self.way,)
+
+    def law(self, motion: AnyMotion) -> Array:
+        ram, given = self.ram(motion.plan), self.acting
+        size, k_m = ram.sized(motion), self.circuit_of(motion.plan).efficiency(motion, "mechanical")
+        thrust = ram.thrust(motion, given.loads, case=given.case, direction=self.way)
+        drives = thrust if self.way == "retracting" else -thrust
+        leaves, other = (size.push_area, size.pull_area) if self.way == "retracting" else (size.pull_area, size.push_area)
+        brings = np.where(drives > 0.0, drives * k_m, drives / k_m)
+        if self.tells == "load":
+            return np.asarray(np.maximum(brings, 0.0) / leaves)[()]
+        return np.asarray((self.resistance * leaves - brings) / other)[()]
 
 
 @final
@@ -198,13 +275,20 @@ class Capacity(CircuitRequest):
         along = None if self.along == (0.0, 1.0) else f"along=({self.along[0]:g}, {self.along[1]:g})"
         return self.point, *super().options, along, None if self.share == 1.0 else f"share={self.share:g}"
 
+    def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
+        return ()
+
     def examine(self, plan: Plan) -> None:
         super().examine(plan)
         known_name("Point", self.point, plan.points, where=plan.title)
 
     def law(self, motion: AnyMotion) -> Array:
-        circuit, ram = self.circuit_of(motion.plan), self.ram(motion.plan)
-        return circuit.capacity(motion, self.point, along=self.along, share=self.share, cylinder=ram, case=self.case)
+        circuit, ram, given = self.circuit_of(motion.plan), self.ram(motion.plan), self.acting
+        return circuit.capacity(motion, self.point, given.loads, along=self.along, share=self.share, cylinder=ram, case=given.case)
+
+    def unlimited(self, motion: MotionLike) -> Mask:
+        thrust = self.ram(motion.plan).thrust(require_motion(motion), self.acting.loads, case=self.acting.case)
+        return np.asarray(np.isfinite(thrust) & np.isnan(self.of(motion)))
 
 
 def capacity(
@@ -215,6 +299,7 @@ def capacity(
     share: float = 1.0,
     case: Case = None,
     circuit: Reference | None = None,
+    acting: Acting | None = None,
 ) -> Capacity:
     """Return the request for the largest load [N] at a point that the pump lifts beside the machine's own: `circuit.capacity(motion, "G")`.
 
@@ -222,28 +307,15 @@ def capacity(
     """
     proper_share(share)
     x, y = direction_of(along)
-    return Capacity(name_of(cylinder), case, circuit_name(circuit), name_of(point), (float(x) + 0.0, float(y) + 0.0), float(share))
+    given, unit = situation_of(acting, "capacity", case=case), (float(x) + 0.0, float(y) + 0.0)
+    return Capacity(name_of(cylinder), given, circuit_name(circuit), name_of(point), unit, float(share))
 
 
-@final
-@dataclass(frozen=True, eq=False)
-class BucklingUse(CylinderRequest):
-    """How far a cylinder's rod is used against buckling."""
-
-    direction: str | None = None
-    word = "buckling"
-
-    @property
-    def options(self) -> tuple[Hashable, ...]:
-        return (self.direction,)
-
-    def law(self, motion: AnyMotion) -> Array:
-        return self.ram(motion.plan).buckling_use(motion, case=self.case, direction=self.direction)
-
-
-def buckling(cylinder: Reference, *, case: Case = None, direction: str | None = None) -> BucklingUse:
+def buckling(
+    cylinder: Reference, *, case: Case = None, direction: str | None = None, acting: Acting | None = None
+) -> BucklingUse:
     """Return the request for the utilisation of a rod: `lift.buckling_use(motion, case=..., direction=...)`, at most 1 where it holds."""
-    return BucklingUse(name_of(cylinder), case, known_direction(direction))
+    return BucklingUse(name_of(cylinder), situation_of(acting, "buckling", case=case, direction=direction))
 
 
 # A condition of a search.

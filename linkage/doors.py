@@ -23,12 +23,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from .formulas import Equations
+    from .motion.measures import Measure
     from .pictures import Drawing
     from .pictures.film import Progress
     from .quantities import Quantity
     from .statics.acting import Case, Loads
     from .study import Front, Optimum
-    from .study.measures import Measure
 
 
 @overload

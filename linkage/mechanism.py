@@ -16,27 +16,32 @@ import numpy.typing as npt
 
 from .assembly import Assembly, assembled, assemblies
 from .errors import DefinitionError, cited, told, unknown
-from .loads import ForceElement
+from .loads import Acting, ForceElement, LoadCase, check_together
 from .loads.element import Formulas
 from .mobility import FourBar, Mobility, chain_graph, check, four_bars, mobility
 from .motion import (
+    OPTIONS,
+    PLAIN_CASE,
+    Answer,
     Column,
     Featured,
+    Judge,
     Motion,
+    Over,
     PoseFunction,
+    Question,
     RequestLike,
-    added_verdicts,
     at_values,
     columns_of,
     evaluate,
-    motion_verdicts,
+    judge_verdicts,
     require_motion,
     source_of,
     sweep_values,
 )
 from .plan import Body, Plan
 from .program import FloatArray, Way
-from .quantities import Member, Stroke
+from .quantities import Member, Stroke, is_name, needs
 from .shown import Shown, ShownList
 from .steps import Drawn
 from .vectors import Numbers
@@ -45,7 +50,7 @@ if TYPE_CHECKING:
     import networkx as nx
 
 Method = TypeVar("Method", bound=Callable[..., object])
-Answer = TypeVar("Answer")
+Result = TypeVar("Result")
 
 
 def of_a_design(method: Method) -> Method:
@@ -75,26 +80,44 @@ class OfADesign:
         return self.unbound if design is None else MethodType(self.method, design)
 
 
-def of_own_motion(cls: type[Mechanism], method: Callable[[Mechanism, Motion], Answer]) -> Callable[[Mechanism, Motion], Answer]:
-    """Return a machine's own `columns` or `verdicts`, which refuses in words what is no motion of the machine.
-
-    To the verdicts of a class are added those of what its subclasses declare beside its own members.
-    """
+def of_own_motion(method: Callable[[Mechanism, Motion], Result]) -> Callable[[Mechanism, Motion], Result]:
+    """Return a machine's own `columns` or `rules`, which refuses in words what is no motion of the machine."""
 
     @wraps(method)
-    def checked(machine: Mechanism, motion: Motion) -> Answer:
+    def checked(machine: Mechanism, motion: Motion) -> Result:
         require_motion(motion)
         missing = [name for name in machine.plan.members if name not in motion.plan.members]
         if missing:
             said = f"{method.__name__}(...) is given a motion of {motion.plan.title}, which has no {missing[0]}"
             raise DefinitionError(f"{machine.plan.title}: {said}; give one of {machine.plan.title}.")
         with told(f"{machine.plan.title}.{method.__name__}(motion)"):
-            found = method(machine, motion)
-        if method.__name__ != "verdicts" or not isinstance(found, list) or type(machine)._owner("verdicts") is not cls:
-            return found
-        return cast(Answer, ShownList([*found, *added_verdicts(motion, cls.plan.members)]))
+            return method(machine, motion)
 
     return checked
+
+
+@final
+class ClassBody(dict[str, object]):
+    """What stands in the body of a class, line by line: a name that has a member takes no other one, which would lose the first."""
+
+    def __init__(self, title: str) -> None:
+        super().__init__()
+        self.title = title
+
+    def __setitem__(self, name: str, value: object) -> None:
+        first = self.get(name)
+        if isinstance(first, Member) and value is not first:
+            both = f"{name} = {as_line(first)} stands there already, and {name} = {as_line(value)} would take its place without a word"
+            raise DefinitionError(f"{self.title}: {both}; give one of them another name, or take one out.", member=name)
+        super().__setitem__(name, value)
+
+
+def as_line(value: object) -> str:
+    """Return a line's right side for a message; its kind alone where its parts have no names yet."""
+    try:
+        return str(value) if isinstance(value, Member) else cited(value)
+    except DefinitionError:
+        return f"{type(value).__name__}(...)"
 
 
 @final
@@ -102,6 +125,10 @@ class MechanismType(ABCMeta):
     """The class of the classes of mechanism: what a class is made of does not change once it is made."""
 
     plan: Plan
+
+    @classmethod
+    def __prepare__(cls, name: str, bases: tuple[type, ...], /, **options: object) -> ClassBody:
+        return ClassBody(name)
 
     def __setattr__(cls, name: str, value: object) -> None:
         builder = str(sys._getframe(1).f_globals.get("__name__", ""))
@@ -134,22 +161,33 @@ class Mechanism(Shown, metaclass=MechanismType):
 
     def __init_subclass__(cls, **options: object) -> None:
         super().__init_subclass__(**options)
-        for name in ("columns", "verdicts"):
+        if "verdicts" in vars(cls):
+            remedy = "name it rules(self, motion): what it returns is added to these, and super().rules(motion) gives those of its base"
+            raise DefinitionError(f"{cls.__name__}.verdicts replaces what is said of every machine; {remedy}.", member="verdicts")
+        check_bindable(cls.__name__, "class")
+        for name in ("columns", "rules"):
             if isfunction(vars(cls).get(name)):
-                type.__setattr__(cls, name, of_a_design(of_own_motion(cls, vars(cls)[name])))
+                type.__setattr__(cls, name, of_a_design(of_own_motion(vars(cls)[name])))
         members = declared(cls)
         type.__setattr__(cls, "plan", Plan(assembled(members, cls.__name__), cls.__name__))
+        for name in cls.plan.of_kind(LoadCase):
+            if name == PLAIN_CASE:
+                text = f'{cls.__name__}: a load case cannot be named {name}: that is what the machine\'s own loads are called; rename it.'
+                raise DefinitionError(text, member=name)
         reached = cls.plan.reaches(*cls.plan.moving)
         for name in cls.plan.strokes:
-            if name not in reached and cls.plan.points:
-                text = f"{cls.__name__}: the stroke {name} moves nothing; use it in a length or an angle, or take it out."
+            if name in OPTIONS:
+                text = f"{cls.__name__}: a stroke cannot be named {name}, which Over takes for something else; rename it."
                 raise DefinitionError(text, member=name)
+            if name not in reached and cls.plan.points:
+                raise idle_stroke(cls.plan, name)
         for name, sketch in cls.plan.of_kind(Drawn).items():
             try:
                 at_values(cls.plan.sketch_strokes, cls.plan)
             except DefinitionError as error:
                 raise DefinitionError(f"{cls.__name__}: {name} = {sketch}: {error}", member=name) from None
         check(cls.plan)
+        check_together(cls.plan.of_kind(ForceElement), cls.plan.members, cls.__name__)
         for member in (*members.values(), *cls.plan.members.values()):
             member.settle(cls.__name__)
 
@@ -301,13 +339,48 @@ class Mechanism(Shown, metaclass=MechanismType):
         return columns_of(motion)
 
     @of_a_design
-    def verdicts(self, motion: Motion) -> list[str]:
-        """Return what an engineer should know of this motion: sentences, or `Verdict`s. A machine replaces it by its own.
+    def verdicts(self, motion: Motion | None = None, *, over: Any = None, acting: Acting | None = None) -> list[str]:
+        """Return what an engineer should know of this design: `Verdict`s and sentences; of a batch, how many designs fail.
 
-        Without its own it is whether it is assembled, its dead points, and what its members say, such as cylinders and circuits; of a
-        batch, how many designs fail.
+        Of a motion over all that it covers, without one over `overs` or what is given as `over`; under all load cases that occur, in all
+        movements, on both sides of cylinders. It is whether the machine is assembled, its dead points, what its members say, such as
+        cylinders and circuits, and then its own `rules`.
         """
-        return ShownList(motion_verdicts(require_motion(motion)))
+        if motion is not None and over is not None:
+            raise DefinitionError(f"{self.plan.title}.verdicts: a motion and over= both say where is looked; give one of them.")
+        judge = self.judge(require_motion(motion) if motion is not None else over, acting)
+        return ShownList([*judge_verdicts(judge), *self.rules(judge.motion if motion is None else motion)])
+
+    @of_a_design
+    def rules(self, motion: Motion) -> list[str]:
+        """Return what this machine's own rules say of a motion, `Verdict`s and sentences, added to the general ones."""
+        return []
+
+    @property
+    def overs(self) -> tuple[Over, ...]:
+        """Where this machine is looked at: what its class declares as `Over`s, else the box of all strokes."""
+        return tuple(self.plan.of_kind(Over).values()) or (Over(),)
+
+    @of_a_design
+    def answers(
+        self, questions: Sequence[Question], over: Over | Mapping[str, Any] | Sequence[Over] | None = None, acting: Acting | None = None
+    ) -> list[Answer]:
+        """Return the answers to questions, the worst over everything that is looked at: one function for every reader.
+
+        `answers([least(reserve("lift")) >= 1, most(pin_force("V")), reachable])`: a question is a measure, a condition such as `fits(lift)`
+        or a comparison of measures. `over` is one `Over` or several, a dictionary short for one, default `overs`. `acting` says loads,
+        a load case, a direction; without it all load cases count that occur, all directions, both sides of every cylinder.
+        """
+        return ShownList(self.judge(over, acting).answers(questions))
+
+    def judge(self, over: Any = None, acting: Acting | None = None) -> Judge:
+        """Return who answers questions of this design, over what is given or what it runs."""
+        given = self.overs if over is None else over if isinstance(over, (list, tuple)) else (over,)
+        overs = [Over(**each) if isinstance(each, Mapping) else each for each in given]
+        wrong = next((each for each in overs if not isinstance(each, (Over, Motion))), None)
+        if wrong is not None or not overs:
+            raise DefinitionError(f"{self.plan.title}: over={cited(wrong)}: an Over is expected, such as Over(S=(0.0, 0.2)), or several.")
+        return Judge(self.plan, self._values, overs, acting, self)
 
     @of_a_design
     def featured(self) -> Featured:
@@ -380,6 +453,10 @@ class Mechanism(Shown, metaclass=MechanismType):
         return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in changed.items())})"
 
 
+WORDS = frozenset({"plan", "graph", "follow"})
+"""Words of the framework that no member may have for its name, beside those of Mechanism itself."""
+
+
 def declared(cls: type) -> dict[str, Member]:
     """Return the members of a class and its bases by name; a subclass replaces by name."""
     members: dict[str, Member] = {}
@@ -388,12 +465,37 @@ def declared(cls: type) -> dict[str, Member]:
             if not isinstance(value, Member):
                 check_no_member(cls.__name__, name, value)
             if isinstance(value, Member):
-                if name in vars(Mechanism) or name in ("plan",):
+                check_bindable(name, f"member of {cls.__name__}")
+                if name in vars(Mechanism) or name in WORDS:
                     raise DefinitionError(f"{cls.__name__}: {name} is a word of the framework; give the member another name.", member=name)
                 members[name] = value
             elif name in members:
                 del members[name]
     return members
+
+
+def idle_stroke(plan: Plan, stroke: str) -> DefinitionError:
+    """Return the error for a stroke that no point follows: what follows it, and how that is to move a point."""
+    following = {name: member for name, member in plan.members.items() if name != stroke and stroke in plan.reaches(name)}
+    text = f"{plan.title}: the stroke {stroke} moves nothing"
+    if not following:
+        return DefinitionError(f"{text}; use it in a length or an angle, or take it out.", member=stroke)
+    name = min(following, key=lambda each: following[each].kind == "quantity")  # of a link and an output the link
+    opening = f"{text}: {name} = {following[name]} follows it"
+    steps = [each for each in needs(following[name]) if each in plan.points and not plan.points[each].is_fixed]
+    if not steps:
+        return DefinitionError(f"{opening}, and no point does; use it in the length or the angle of a step.", member=stroke)
+    point = steps[-1]
+    step = f"{point} = {plan.points[point]}"
+    pin = f"{point} = Pin(near=(x, y))"
+    remedy = f"Let that step have a length or an angle that follows {stroke}, or write {pin} and what holds it as links"
+    return DefinitionError(f"{opening}, but {step} places {point} without it. {remedy}.", member=stroke)
+
+
+def check_bindable(name: str, what: str) -> None:
+    """Raise DefinitionError for the name of a class or a member that no line of Python could give it, as type(...) takes any text."""
+    if not is_name(name):
+        raise DefinitionError(f"{cited(name)} is no name for a {what}: letters, digits and _, no digit first, no word of Python.")
 
 
 def check_no_member(title: str, name: str, value: object) -> None:

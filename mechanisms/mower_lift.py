@@ -6,15 +6,13 @@ Source: worksheet "Mathematical modelling of the lift of the left section of the
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from math import atan2, hypot, pi
 from typing import Any
 
 import numpy as np
 
-from hydraulics import Cylinder, CylinderSize, LiftCircuit, next_bore, pressure, reserve, thrust
+from hydraulics import Cylinder, CylinderSize, LiftCircuit, pressure, reserve, thrust
 from hydraulics.inputs import in_pascals, positive
-from hydraulics.judged import Lifting, LiftingCylinder
 from linkage import (
     RIGHT,
     Column,
@@ -36,13 +34,9 @@ from linkage import (
     ratio,
     y,
 )
-from linkage.language import said, with_and
 from linkage.loads.element import Formulas
-from linkage.motion import Span, lowest, reached
 from linkage.quantities import Coordinate
-from linkage.reports import reached_span
-from linkage.units import cm, deg, g0, kgf, kgf_cm2, mm, show, shown_number
-from linkage.verdict import Verdict
+from linkage.units import cm, deg, g0, kgf, kgf_cm2, mm, show
 
 G_FROM_O = (1.07, -0.37)  # centre of gravity from O at S = 0.55 m, as the input says, m
 BELOW = atan2(G_FROM_O[1], G_FROM_O[0])  # its direction from O, rad
@@ -140,108 +134,3 @@ class MowerLift(Mechanism):
         most = float(self["p_max"])
         limits = {"kz": (1.0, "kz = 1", "below"), "pd": (most, f"p_max = {show(most, 'kgf/cm2', 4)}", "above")}
         return Featured("kz", ["G"], limits)
-
-    def verdicts(self, motion: Motion) -> list[str]:
-        """Return whether the section can be lifted, where not, the remedy, and the oil it takes; looked for between the poses too.
-
-        Beside these whatever else fails: holding, lowering, or the rod, which buckles.
-        """
-        if motion._design_shape:
-            return [batch_verdict(self.circuit, motion)]
-        if not motion.reached.any():
-            return [Verdict("reach", False, said("No pose of this motion can be assembled; there is nothing to lift."))]
-        judged = LiftingCylinder(self.circuit, self.lift, motion, unit="kgf/cm2")
-        found = judged.lifted()
-        beside = [judged.holding(), judged.lowering(), *self.lift.buckling(motion)] if found.least > 0.0 else []
-        apart = [] if motion.reached.all() else [Verdict("reach", False, said("The poses out of reach are left out of this."))]
-        return [
-            *lift_verdict(self.circuit, motion, found), *driven_verdict(found), *oil_taken(self.circuit, motion),
-            *(each for each in beside if not each), *apart,
-        ]  # fmt: skip
-
-
-# -- verdicts ----------------------------------------------------------------------------------------------
-
-
-def lift_verdict(circuit: LiftCircuit, motion: Motion, found: Lifting) -> list[Verdict]:
-    """Return whether one design lifts; where not, from where to where, and the remedy. Nothing where the load drives all the way."""
-    if found.is_free:
-        return []
-    pump = show(float(circuit.supply(motion)), "kgf/cm2", 4)
-    least = said("the force needed grows without bounds {where}", where=found.where)
-    if found.least > 0.0:
-        least = said("the least reserve kz is {least:.3f}, {where}", least=found.least, where=found.where)
-    if found.least >= 1.0:
-        text = said("The section can be lifted {range} at {pump}: {least}.", range=all_of(motion), pump=pump, least=least)
-        return [Verdict("lifting", True, text)]
-    text = said(
-        "The section cannot be lifted {range} at {pump}: {least}, and kz is below 1 {where}. {remedy}",
-        range=out_of(motion, found.short), pump=pump, least=least, where=with_and(found.short), remedy=remedy_words(circuit, motion, found),
-    )  # fmt: skip
-    return [Verdict("lifting", False, text)]
-
-
-def all_of(motion: Motion) -> str:
-    """Return the motion's range in words."""
-    low, high = reached_span(motion)
-    stroke = motion.plan.strokes["S"]
-    return said("over the whole stroke") if (low, high) == (stroke.start, stroke.end) else with_and(reached(motion))
-
-
-def out_of(motion: Motion, short: Sequence[Span]) -> str:
-    """Return which positions the section does not leave, in words."""
-    (low, high), first, last = reached_span(motion), short[0].start["S"], short[0].end["S"]
-    if (first, last) == (low, high):
-        return said("anywhere on this stroke") if low < high else said("here")
-    if first > low:
-        return said("beyond S = {end}", end=show(first, "m", ".4f"))
-    if low == motion.plan.strokes["S"].start:
-        return said("from its lowest position")
-    return said("from S = {start}", start=show(low, "m", ".4f"))
-
-
-def remedy_words(circuit: LiftCircuit, motion: Motion, found: Lifting) -> str:
-    """Return what makes up for a least reserve below 1: a pressure, or the smallest standard bore (ISO 3320)."""
-    if found.least == 0.0:
-        return said("No pressure and no bore lifts there: keep away from that pose.")
-    needed, bore = show(found.needed, "kgf/cm2", ".1f"), float(circuit.ram(motion).sized(motion).bore)
-    if np.isnan(found.bore):
-        return said("It needs {needed}; no standard bore is large enough.", needed=needed)
-    which = said("the next standard bore") if found.bore == next_bore(bore) else said("a larger standard bore")
-    return said(
-        "It needs {needed}, or {which}: {bore} gives kz = {gained:.2f}.",
-        needed=needed, which=which, bore=show(found.bore, "mm", ".0f"), gained=found.gained,
-    )  # fmt: skip
-
-
-def driven_verdict(found: Lifting) -> list[Verdict]:
-    """Return where the load drives the lift, if it does."""
-    text = said("The load drives the lift {where}: there it is not limited by this cylinder.", where=with_and(found.driven))
-    return [Verdict("driven", True, text)] if found.driven else []
-
-
-def oil_taken(circuit: LiftCircuit, motion: Motion) -> list[Verdict]:
-    """Return how much oil the motion takes, if it moves."""
-    low, high = reached_span(motion)
-    if low == high:
-        return []
-    oil, flow = show(float(circuit.oil(motion)), "l", ".2f"), float(circuit.number(motion, "flow"))
-    start, end = shown_number(low, "m", ".4f"), show(high, "m", ".4f")
-    says = said("Lifting from S = {start} to {end} takes {oil} of oil", start=start, end=end, oil=oil)
-    if flow <= 0.0:
-        return [Verdict("oil", True, said("{says}; time and flow follow from the pump.", says=says))]
-    time = show(float(circuit.time(motion)), "s", ".1f")
-    return [Verdict("oil", True, said("{says}, {time} at {flow}.", says=says, time=time, flow=show(flow, "l/min", 4)))]
-
-
-def batch_verdict(circuit: LiftCircuit, motion: Motion) -> Verdict:
-    """Return how many designs of a batch fall short, and the extremes."""
-    kz = lowest(motion, circuit.reserve).value
-    least = np.where(np.isnan(kz), np.inf, kz)
-    count = int((least < 1.0).sum())
-    text = said(
-        "{count} of {total} designs fall short of kz = 1 over this motion; the least reserve is {worst:.3f} in the worst "
-        "design and {best:.3f} in the best. Take one design for its stroke range and the remedy.",
-        count=count, total=least.size, worst=least.min(), best=least.max(),
-    )  # fmt: skip
-    return Verdict("lifting", count == 0, text)

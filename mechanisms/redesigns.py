@@ -9,7 +9,7 @@ from typing import Any
 
 from hydraulics import capacity, reserve
 from linkage import Ground, LoadCase, OnLink, around, at, deg, drive_force, kgf_cm2, least, mm, most, ratio, ref, x, y
-from linkage.study.measures import Condition, Measure
+from linkage.motion.measures import Condition, Measure
 
 from .header_balancer import HEADERS, HeaderBalancer, with_header
 from .header_balancer.side_by_side import ThreeHeaders

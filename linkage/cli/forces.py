@@ -119,7 +119,7 @@ class LimitsCommand(Command):
             print(each)
         if not options.check:
             return 0
-        verdicts = geometry_verdicts(over)
+        verdicts = geometry_verdicts(machine.judge(over))
         print("", *verdicts, sep="\n")
         return judged_code(verdicts, options)
 

@@ -5,13 +5,12 @@ from __future__ import annotations
 import re
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 
 from ..errors import DefinitionError, cited, known_name, unknown
-from ..loads import LoadCase
+from ..loads import DIRECTIONS, PLAIN, Acting, LoadCase
 from ..mechanism import Mechanism
 from ..motion import Column, Motion, Request, RequestLike, columns_of, stroke_unit
 from ..plan import Plan, plan_measure
@@ -21,7 +20,6 @@ from ..steps import Point
 from ..units import UNITS, parse
 from ..verdict import Verdict
 
-DIRECTIONS = ("frictionless", "extending", "retracting")
 FAILED = 1
 """The exit code of `--check` where a verdict fails."""
 
@@ -128,19 +126,6 @@ def stroke_values(plan: Plan, text: str) -> tuple[str, Any]:
 # -- columns -----------------------------------------------------------------------------------------------
 
 
-@final
-@dataclass(frozen=True)
-class Acting:
-    """Under which loads forces are asked for: a load case by name, and a direction of motion; None for the machine's own way."""
-
-    case: str | None = None
-    direction: str | None = None
-    drive: str | None = None
-
-
-PLAIN = Acting()
-
-
 def acting_of(machine: Mechanism, options: Namespace) -> Acting:
     """Return the load case and the direction that options mean; DefinitionError for a case or a drive that is not there."""
     cases = {name: each for name, each in machine.plan.of_kind(LoadCase).items()}
@@ -184,12 +169,9 @@ def requested(machine: Mechanism, motion: Motion, text: str, acting: Acting, kno
     from ..files.criterion import quantity_said
 
     found = quantity_said(text, machine)
-    is_of_forces = isinstance(found, Request) and found.in_case(acting.case or "") is not found
-    if is_of_forces and acting.direction is not None and "direction" not in text:
-        remedy = "write direction= into it where it takes one, or take the columns drive force, thrust, pressure, reserve"
-        raise DefinitionError(f"{text} has no direction by --direction; {remedy}.")
-    if isinstance(found, Request) and acting.case is not None:
-        found = found.in_case(acting.case)
+    is_of_forces = isinstance(found, Request) and bool(found.movements(plan, True))
+    if isinstance(found, Request):
+        found = found.under(acting, keep=True)
     over = motion.moved(motion.strokes) if is_of_forces else motion
     return columns_asked(over, found, text)
 

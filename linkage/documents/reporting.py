@@ -169,7 +169,7 @@ def verdict_section(machine: Mechanism) -> tuple[Section, Mark]:
         return Section(title, (Paragraph(said("This machine declares no rules of its own.")),)), Mark(None, said("no rules declared"))
     rows = tuple(verdict_row(each) for each in found)
     judged = [each for each in found if isinstance(each, Verdict)]
-    count = sum(each.ok for each in judged)
+    count = sum(each.ok is True for each in judged)
     grid_of = TableBlock(said("Rules, over the whole strokes"), (said("rule"), said("result"), said("what was found")), rows, "llm")
     word = said("{kept} of {all} rules kept", kept=count, all=len(judged)) if judged else said("no rules declared")
     return Section(title, (grid_of,)), Mark(count == len(judged) if judged else None, word)

@@ -25,8 +25,10 @@ from typing import Any, final
 import numpy as np
 
 from ..errors import DefinitionError, one_word, unknown
+from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Column, Request, stroke_display_unit
+from ..motion.measures import At, Constraint, Given, Measure
 from ..program import FloatArray
 from ..quantities import is_number
 from ..study import Target, monte_carlo, settings_for, survey, tornado, zone
@@ -35,7 +37,6 @@ from ..study.box import METHODS as SAMPLE_METHODS
 from ..study.box import Box
 from ..study.checks import unit_of
 from ..study.measured import measure_of, measured_title
-from ..study.measures import At, Constraint, Given, Measure
 from ..study.monte_carlo import limits_listed
 from ..study.optimise import constraint_in_case, in_case
 from ..study.space import Around, coordinates
@@ -339,7 +340,7 @@ def with_case(quantity: Any, case: Any) -> Any:
     """Return a quantity or a measure with the forces of a load case, where it is of forces."""
     if isinstance(quantity, Measure):
         return in_case(quantity, case)
-    return quantity.in_case(case) if case is not None and isinstance(quantity, Request) else quantity
+    return quantity.under(Acting(case=case), keep=True) if case is not None and isinstance(quantity, Request) else quantity
 
 
 def quantity_or_measure(text: Any, machine: Mechanism) -> Any:

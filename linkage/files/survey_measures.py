@@ -9,8 +9,8 @@ from typing import Any, final
 import numpy as np
 
 from ..mechanism import Mechanism
+from ..motion.measures import Condition, Constraint, Leaf, Measure
 from ..program import FloatArray
-from ..study.measures import Condition, Constraint, Leaf, Measure
 from ..study.optimum import unit_of_measure
 from ..study.problem import NOWHERE, Problem, missed, reduced
 from .criterion import CriterionParser, measure_or_constant

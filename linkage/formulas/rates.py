@@ -88,7 +88,7 @@ class LineDerivatives:
         return sympy.S.Zero if rate == STILL else Cross(vector, rate) / Norm(vector) ** 2
 
     def _stretching(self, vector: Any) -> Any:
-        """Return the rate of a vector's length, with a line of its own where it has a name: d|EC|/dS."""
+        """Return the rate of a vector's length, that of a named one with a line of its own: d|EC|/dS."""
         if isinstance(vector, TurnV):  # written where it is used
             base, _, *length = vector.args
             return self.number(length[0]) if length else self._stretching(base)

@@ -5,6 +5,7 @@
     a moment turns its link counter-clockwise; a support pushes its point along its direction
 """
 
+from .acting import DIRECTIONS, FRICTIONLESS, PLAIN, Acting
 from .case import LoadCase
 from .element import (
     AT_REST,
@@ -19,6 +20,7 @@ from .element import (
     Rate,
     Rates,
     TwoPinned,
+    check_together,
     couple,
     require_poses,
 )  # fmt: skip

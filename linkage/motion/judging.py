@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections import Counter
-from collections.abc import Collection, Container, Iterable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -13,34 +13,44 @@ from ..language import said
 from ..quantities import Member
 from ..units import deg, show
 from ..verdict import Verdict
-from .limits import StrokeLimits, place_text, span_text, stroke_unit
-from .motion import Motion, out_of_reach
+from .answer import share_text
+from .judge import Judge, Question
+from .limits import StrokeLimits, place_text
+from .measures import Measure, least, reachable
+from .motion import out_of_reach
+from .pose_requests import transmission
 
 POOR = 40.0 * deg
 """A transmission angle below which textbooks advise against a loop that carries load [rad]."""
 JUDGED = 200
 """Designs of a batch whose members are judged, each by itself."""
-MOST_STROKES = 2
-"""Strokes over whose whole box members are judged; of more it is along each of them, the others in their middle."""
-ALONG = 21
 
 
 class Judging(Member):
-    """A member that has something to say of a motion, such as a cylinder: its base beside that of its kind."""
+    """A member that has something to say of a machine, such as a cylinder: its base beside that of its kind."""
+
+    def questions(self, judge: Judge) -> list[Question]:
+        """Return what its verdicts ask of every machine, so that all members' questions are looked at in one pass."""
+        return []
 
     @abstractmethod
-    def verdicts(self, motion: Motion) -> list[Verdict]:
-        """Return what an engineer should know of it, under the machine's own loads, over a motion of one design with poses reached.
+    def verdicts(self, judge: Judge) -> list[Verdict]:
+        """Return what an engineer should know of it: what the judge answers over all that the machine runs, of one design.
 
         Where several members follow the same rule the machine adds their names to it.
         """
 
 
-def motion_verdicts(motion: Motion) -> list[str]:
-    """Return what can be said of a motion of any machine; of a batch, how many designs fail."""
-    if motion._design_shape:
-        return batch_verdicts(motion)
-    return [*geometry_verdicts(motion), *(member_verdicts(motion) if motion.reached.any() else [])]
+def judge_verdicts(judge: Judge) -> list[str]:
+    """Return what can be said of any machine over all that it runs; of a batch, how many designs fail."""
+    if any(map(np.ndim, judge.designs.values())):
+        return batch_verdicts(judge)
+    if not any(place.motion.reached.any() for place in judge.places):
+        return assembly_verdicts(judge)
+    members = judge.plan.of_kind(Judging).values()
+    judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
+    lost = judge.answer(reachable).ok is False
+    return [*geometry_verdicts(judge), *member_verdicts(judge.lost_allowed() if lost else judge)]
 
 
 def one_line(error: LinkageError) -> str:
@@ -51,28 +61,40 @@ def one_line(error: LinkageError) -> str:
 # -- geometry ----------------------------------------------------------------------------------------------
 
 
-def geometry_verdicts(motion: Motion) -> list[str]:
-    """Return whether one design is assembled over a motion, its dead points, and its least transmission angle where it is poor."""
-    if not motion.strokes or not motion.plan.moving:
+def geometry_verdicts(judge: Judge) -> list[str]:
+    """Return whether one design is assembled over all that it runs, its dead points, and its least transmission angle where it is poor."""
+    if not judge.plan.strokes or not judge.plan.moving:
         return []
-    if not motion.reached.any():
-        return [assembly_verdict(motion)]
-    limits = motion.limits().values()
-    return [assembly_verdict(motion), *(each for one in limits for each in dead_point_verdicts(one)), *transmission_words(limits)]
+    first = next((place.motion for place in judge.places if place.motion.reached.any()), None)
+    if first is None:
+        return assembly_verdicts(judge)
+    limits = first.limits().values()
+    dead = [each for one in limits for each in dead_point_verdicts(one)]
+    return [*assembly_verdicts(judge), *dead, *transmission_words(judge)]
 
 
-def assembly_verdict(motion: Motion) -> Verdict:
-    """Return whether every pose of a motion is assembled, and the way between them; where not, how much is missing and what to do."""
-    if not motion.reached.all():
-        return Verdict("assembly", False, one_line(out_of_reach(motion)))
-    if motion.interruptions:
-        text = said(
-            "between the poses the way is interrupted: {between}; shorten the stroke or change a length.",
-            between="; ".join(map(str, motion.interruptions)),
-        )
-        return Verdict("assembly", False, text)
-    spans = [f"{name} = {span_text(values, stroke_unit(motion.plan, name))}" for name, values in motion.strokes.items()]
-    return Verdict("assembly", True, said("it is assembled over {spans}.", spans=", ".join(spans)))
+def assembly_verdicts(judge: Judge) -> list[str]:
+    """Return whether it is assembled wherever it runs; where not, how much is lost, what is missing in the deepest place, a remedy."""
+    if not judge.plan.strokes or not judge.plan.moving:
+        return []
+    answer = judge.answer(reachable)
+    domains = [place.over.words(place.motion) for place in judge.places]
+    named = [
+        f"{place.over.name}: {words}" if place.over.name and len(domains) > 1 else words
+        for place, words in zip(judge.places, domains, strict=True)
+    ]
+    if not answer.lost:
+        return [Verdict("assembly", True, said("it is assembled over {spans}.", spans="; ".join(named)), answer=answer)]
+    if not any(place.motion.reached.any() for place in judge.places):
+        return [Verdict("assembly", False, one_line(out_of_reach(judge.places[0].motion)), answer=answer)]
+    text = said(
+        "over {spans} {share} cannot be assembled, deepest {place}: {why}", spans="; ".join(named), share=share_text(answer.lost.share),
+        place=answer.place, why=answer.lost.sentence,
+    )  # fmt: skip
+    if answer.ok:
+        return [Verdict("assembly", True, said("{lost}; its Over allows that.", lost=text.rstrip(".")), answer=answer)]
+    remedy = said('what follows holds for the rest. Shorten a stroke, or declare Over(..., lost="allowed").')
+    return [Verdict("assembly", False, f"{text.rstrip('.')}; {remedy}", answer=answer)]
 
 
 def dead_point_verdicts(limits: StrokeLimits) -> Iterator[Verdict]:
@@ -114,75 +136,49 @@ def away_text(value: float, unit: str, near: float) -> str:
     return said("{distance} beyond it", distance=show(value, "deg" if unit == "rad" else "mm", 3))
 
 
-def transmission_words(limits: Collection[StrokeLimits]) -> list[str]:
+def transmissions(judge: Judge) -> dict[str, Measure]:
+    """Return the least transmission angle of every joint that has one and moves, as a question."""
+    joints = (name for name in judge.motion._joints if not judge.plan.reaches(name).isdisjoint(judge.plan.strokes))
+    return {name: least(transmission(name)) for name in joints}
+
+
+def transmission_words(judge: Judge) -> list[str]:
     """Return the least transmission angle, where it is poor; it is no fault as such, a toggle lives of it."""
-    within = [
-        (each.angle, each, one)
-        for one in limits
-        for each in one.transmission
-        if each.angle < POOR and min(one.start, one.end) <= each.stroke <= max(one.start, one.end)
+    asked = transmissions(judge)
+    found = [
+        (float(each.value), name, each) for name, each in zip(asked, judge.answers([*asked.values()]), strict=True) if each.value < POOR
     ]
-    if not within:
+    if not found:
         return []
-    angle, least, along = min(within, key=lambda each: each[0])
+    angle, joint, where = min(found, key=lambda each: each[0])
     return [
         said(
-            "The least transmission angle is {angle}, at {place}: below {poor} pin forces and play grow.",
-            angle=show(angle, "deg", 3),
-            place=place_of(along, least.stroke, least.joint),
-            poor=show(POOR, "deg", 3),
+            "The least transmission angle is {angle}, of {joint} {place}: below {poor} pin forces and play grow.",
+            angle=show(angle, "deg", 3), joint=joint, place=where.place, poor=show(POOR, "deg", 3),
         )
-    ]
+    ]  # fmt: skip
 
 
 # -- members -----------------------------------------------------------------------------------------------
 
 
-def member_verdicts(motion: Motion, names: Iterable[str] | None = None) -> list[Verdict]:
-    """Return what the members that judge themselves say, all or those named; with their names where several follow the same rule."""
-    moving = [name for name, value in motion.strokes.items() if np.ptp(value) > 0.0]
-    if len(motion._stroke_shape) > MOST_STROKES and len(moving) > MOST_STROKES:
-        return [verdict for name in moving for verdict in along_stroke(motion, name, names)]
-    members = motion.plan.of_kind(Judging)
-    chosen = [name for name in members if names is None or name in set(names)]
-    found = [(name, verdict) for name in chosen for verdict in members[name].verdicts(motion)]
+def member_verdicts(judge: Judge) -> list[Verdict]:
+    """Return what the members that judge themselves say; with their names where several follow the same rule."""
+    members = judge.plan.of_kind(Judging)
+    found = [(name, verdict) for name, member in members.items() for verdict in member.verdicts(judge)]
     count = Counter(rule for _, rule in {(name, verdict.rule) for name, verdict in found})
-    return [
-        verdict if count[verdict.rule] == 1 else Verdict(f"{verdict.rule} {name}", verdict.ok, verdict.sentence) for name, verdict in found
-    ]
+    return [verdict if count[verdict.rule] == 1 else verdict.named(name) for name, verdict in found]
 
 
-def along_stroke(motion: Motion, stroke: str, names: Iterable[str] | None) -> Iterator[Verdict]:
-    """Yield what members say along one stroke of a grid, the others in the middle of theirs."""
-    middle = {name: float(np.min(value) + np.max(value)) / 2.0 for name, value in motion.strokes.items()}
-    values = np.linspace(np.min(motion.strokes[stroke]), np.max(motion.strokes[stroke]), ALONG)
-    over = motion.moved({name: values if name == stroke else np.full(ALONG, value) for name, value in middle.items()})
-    if not over.reached.any():
-        return
-    for verdict in member_verdicts(over, names):
-        heading = said("{rule}, along {stroke}", rule=verdict.heading, stroke=stroke)
-        yield Verdict(f"{verdict.rule}, along {stroke}", verdict.ok, verdict.sentence, heading)
-
-
-def added_verdicts(motion: Motion, own: Container[str]) -> list[str]:
-    """Return what the members say that are not among a class's own: those of a variant, beside the class's own verdicts."""
-    names = [name for name in motion.plan.of_kind(Judging) if name not in own]
-    if not names or not motion.reached.any():
-        return []
-    return batch_verdicts(motion, names, with_assembly=False) if motion._design_shape else [*member_verdicts(motion, names)]
-
-
-def batch_verdicts(motion: Motion, names: Iterable[str] | None = None, *, with_assembly: bool = True) -> list[str]:
+def batch_verdicts(judge: Judge) -> list[str]:
     """Return, rule by rule, how many designs of a batch fail, with what is said of the first of these."""
-    reached = motion.reached.reshape(-1, int(np.prod(motion._stroke_shape)))
-    whole, total = reached.all(axis=1), len(reached)
-    found: list[str] = []
-    if with_assembly:
-        lost = np.flatnonzero(~whole)
-        text = said("{n} of {total} designs cannot be assembled over the whole motion", n=lost.size, total=total)
-        text += said("; the first is design {number}.", number=lost[0] + 1) if lost.size else "."
-        found.append(Verdict("assembly", not lost.size, text))
-    if not (motion.plan.of_kind(Judging) if names is None else [*names]):
+    reached = [place.motion.reached.reshape(-1, int(np.prod(place.motion._stroke_shape))) for place in judge.places]
+    whole, total = np.all([each.all(axis=1) for each in reached], axis=0), len(reached[0])
+    lost = np.flatnonzero(~whole)
+    text = said("{n} of {total} designs cannot be assembled over the whole motion", n=lost.size, total=total)
+    text += said("; the first is design {number}.", number=lost[0] + 1) if lost.size else "."
+    found: list[str] = [Verdict("assembly", not lost.size, text)]
+    if not judge.plan.of_kind(Judging):
         return found
     if total > JUDGED:
         text = said(
@@ -192,24 +188,13 @@ def batch_verdicts(motion: Motion, names: Iterable[str] | None = None, *, with_a
         )
         return [*found, text]
     failed: dict[str, list[tuple[int, str]]] = {}
-    for number in np.flatnonzero(reached.any(axis=1)).tolist():
-        for verdict in member_verdicts(one_of(motion, number), names):
+    for number in np.flatnonzero(np.any([each.any(axis=1) for each in reached], axis=0)).tolist():
+        for verdict in member_verdicts(judge.of_design(number).lost_allowed()):
             failed.setdefault(verdict.rule, [])
-            if not verdict.ok:
+            if verdict.ok is False:
                 failed[verdict.rule].append((number + 1, verdict.sentence))
     for rule, each_of in failed.items():
         text = said("{n} of {total} designs fail", n=len(each_of), total=total)
         text += said("; the first is design {number}: {sentence}", number=each_of[0][0], sentence=each_of[0][1]) if each_of else "."
         found.append(Verdict(rule, not each_of, text))
     return found
-
-
-def one_of(motion: Motion, number: int) -> Motion:
-    """Return the motion of one design of a batch, by its number among them."""
-    shape = motion._design_shape
-    designs = {name: float(np.broadcast_to(value, shape).ravel()[number]) for name, value in motion.designs.items()}
-    own = {
-        name: value.reshape(-1, *motion._stroke_shape)[number] if motion._grid.per_design else value
-        for name, value in motion.strokes.items()
-    }
-    return Motion(motion.plan, designs, own, "nan")

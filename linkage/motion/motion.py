@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, NoReturn, Self, TypeAlias, TypeVar, cast
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from .conditions import Judged
 from .course import Interruption
 from .grid import Grid, JoinedTo, Joining, angles_of, joined_in_order, not_joined, to_rounding
 from .limits import Limits, assembly_error, no_joint, span_text, stroke_unit, where_words
+from .over import Over, over_of
 from .poles import body_points, body_rates, pole_of, whole_body
 from .requests import (
     BoundRequest,
@@ -42,6 +43,7 @@ from .requests import (
 from .strokes import checked_name, method_of, order_of, rates_of
 
 Target: TypeAlias = str | Member
+Made = TypeVar("Made")
 
 
 class Motion(Shown):
@@ -75,6 +77,7 @@ class Motion(Shown):
         self.shape, self._design_shape = self._grid.shape, self._grid.design_shape
         self._tangent = tangent
         self._values: dict[Hashable, FloatArray] = {}
+        self._kept: dict[Hashable, Any] = {}
         self._watched: dict[Hashable, bool] = {}
         self.reached: Mask = np.ones(self.shape, bool)
         result = plan.kernel(plan.moving, guarded=True)(self._grid.flat)
@@ -99,6 +102,11 @@ class Motion(Shown):
     def strokes(self) -> dict[str, FloatArray]:
         """The strokes by name [m or rad], arrays of one shape."""
         return self._grid.strokes
+
+    @property
+    def over(self) -> Over:
+        """Where it is looked at: of one stroke its range, of several in arrays of one axis their path, of a grid the box."""
+        return over_of(self.strokes, self._grid.per_design)
 
     @property
     def inputs(self) -> dict[str, Any]:
@@ -554,6 +562,16 @@ class Motion(Shown):
             self._evaluated(what.member, what.along)
             return self._watched[what.key]
         return self._is_near_singular
+
+    def _once(self, key: Hashable, make: Callable[[], Made]) -> Made:
+        """Return what several ask of these poses, such as all joint forces in one situation, made once and kept with the motion."""
+        if key not in self._kept:
+            self._kept[key] = make()
+        return cast(Made, self._kept[key])
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what pickle keeps: what was worked out once for several is worked out again."""
+        return vars(self) | {"_kept": {}}
 
     # -- read on arrays ----------------------------------------------------------------------------------
 

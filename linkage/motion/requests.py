@@ -9,16 +9,19 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
+from functools import reduce
+from itertools import product
 from types import MappingProxyType
-from typing import Any, NoReturn, TypeAlias, final
+from typing import Any, TypeAlias, final
 
 import numpy as np
 
 from ..errors import DefinitionError, cited
+from ..loads import DIRECTIONS, Acting
 from ..plan import NEAR, ArrayReading, Mask, Plan
 from ..program import FloatArray, Kernel, Node, Notes, ancestors, gradient
 from ..quantities import TAKEN, Arithmetic, Member, Number, Quantity, label, quantity, spelled
-from ..quantities.quantity import COMPARED
+from ..quantities.quantity import PoseCondition
 from ..steps import Arrow, Point
 from .conditions import DOUBTFUL, LEAST, PLACES, ROUGH, Judged, Left, Rounding, judged
 from .grid import Angles, Grid, MotionLike, angles_of
@@ -51,17 +54,57 @@ class Request(Arithmetic):
             return NotImplemented
         return Combined(function, tuple(map(operand, operands)))
 
-    def _compared(self, other: object) -> NoReturn:
-        raise DefinitionError(f"{self} has a value at every pose, so that it cannot be compared. {COMPARED}")
+    def __ge__(self, other: object) -> PoseCondition:
+        return PoseCondition(self, ">=", other)
 
-    __lt__ = __le__ = __gt__ = __ge__ = _compared
+    def __le__(self, other: object) -> PoseCondition:
+        return PoseCondition(self, "<=", other)
 
-    def in_case(self, case: object) -> Request:
-        """Return the request with the forces of a load case, where it is of forces and names no case itself."""
+    __gt__, __lt__ = __ge__, __le__
+
+    def under(self, acting: Acting, *, keep: bool = False) -> Request:
+        """Return the request in a situation, where it is of forces.
+
+        Where it names another one itself that is kept, or, unless `keep`, refused with a DefinitionError.
+        """
         return self
+
+    def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
+        """Return the directions of motion in which it is judged, of DIRECTIONS; none where it is of no force.
+
+        `rubs`: whether there is friction, or what acts otherwise while it moves.
+        """
+        return ()
+
+    @property
+    def of_strokes(self) -> bool:
+        """Whether these directions are those of a stroke, which has to be named; else they are its own, as a cylinder's."""
+        return False
+
+    def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
+        """Return the smooth pieces that it is judged by in one situation, such as the two sides of a cylinder."""
+        return (SmoothPiece(self),)
+
+    def unlimited(self, motion: MotionLike) -> Mask | None:
+        """Return the mask of poses at which its law has no bound, such as where the load drives; None where it always has one."""
+        return None
 
 
 RequestLike: TypeAlias = str | Member | Request
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class SmoothPiece:
+    """A smooth piece of a question: what has a value at every pose, and the side of the cylinder that it is of, "" for none.
+
+    `reciprocal` is one over it, where that goes on smoothly through zero where the request has no bound: then its greatest value is looked
+    for in the place of the request's least.
+    """
+
+    request: Any
+    side: str = ""
+    reciprocal: Any = None
 
 
 class BoundRequest(ABC):
@@ -127,7 +170,10 @@ class BoundRequest(ABC):
         return self.nodes(plan)
 
     def scale(self, plan: Plan, left: Left) -> FloatArray:
-        """Return what its error is compared with where it is smaller [SI], shape (n,), from what rounding leaves of its nodes."""
+        """Return what a component's error is compared with where that is smaller [SI], from what rounding leaves of its nodes.
+
+        Shape (n,), or (rows, n) where each component has its own.
+        """
         return np.full(left.size.shape, SMALL)
 
     def error(self, plan: Plan, left: Left) -> FloatArray:
@@ -310,7 +356,8 @@ class Value(BoundRequest):
 
     def __str__(self) -> str:
         what = self.member.name or str(self.member)
-        return f"the ratio of {what} by {self.along[0]}" if self.along else what
+        kind = "ratio" if len(self.along) == 1 else "second derivative"
+        return f"the {kind} of {what} by {self.along[0]}" if self.along else what
 
 
 def natural_size(member: Member, size: FloatArray) -> FloatArray | None:
@@ -357,9 +404,35 @@ class Combined(Request):
             empty |= each if each.ndim <= len(motion.shape) else each.any(axis=0)
         return motion._finite(np.where(empty, np.nan, found), empty, str(self))
 
-    def in_case(self, case: object) -> Combined:
-        parts = tuple(each.in_case(case) if isinstance(each, Request) else each for each in self.parts)
+    @property
+    def requests(self) -> list[Request]:
+        """The requests among its parts."""
+        return [each for each in self.parts if isinstance(each, Request)]
+
+    def under(self, acting: Acting, *, keep: bool = False) -> Combined:
+        parts = tuple(each.under(acting, keep=keep) if isinstance(each, Request) else each for each in self.parts)
         return self if all(a is b for a, b in zip(parts, self.parts, strict=True)) else Combined(self.function, parts)
+
+    def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
+        occurring = {each for part in self.requests for each in part.movements(plan, rubs)}
+        return tuple(each for each in DIRECTIONS if each in occurring)
+
+    @property
+    def of_strokes(self) -> bool:
+        return any(each.of_strokes for each in self.requests)
+
+    def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
+        parts = [each.pieces(plan) if isinstance(each, Request) else (SmoothPiece(each),) for each in self.parts]
+        chosen = list(product(*parts))
+        if len(chosen) == 1 and all(piece.request is part for piece, part in zip(chosen[0], self.parts, strict=True)):
+            return (SmoothPiece(self),)
+        sides = [next((piece.side for piece in each if piece.side), "") for each in chosen]
+        combined = [Combined(self.function, tuple(piece.request for piece in each)) for each in chosen]
+        return tuple(SmoothPiece(request, side) for request, side in zip(combined, sides, strict=True))
+
+    def unlimited(self, motion: MotionLike) -> Mask | None:
+        found = [mask for mask in (each.unlimited(motion) for each in self.requests) if mask is not None]
+        return reduce(np.logical_or, found) if found else None
 
     def bound(self, plan: Plan) -> CombinedOf:
         return CombinedOf(self, tuple(each if isinstance(each, float) else bound(plan, each) for each in self.parts))
@@ -488,7 +561,7 @@ class CombinedOf(BoundRequest):
                 continue
             count = len(each.rounded(plan))
             own = left.part(slice(first, first + count))
-            values.append(np.hypot.reduce(own.values[: each.rows], axis=0))
+            values.append(np.abs(own.values[: each.rows]))
             sizes.append(np.maximum(values[-1], each.scale(plan, own)))
             first += count
         with np.errstate(all="ignore"):
@@ -499,7 +572,7 @@ class CombinedOf(BoundRequest):
 
 
 def combined_size(function: str, values: Sequence[FloatArray], sizes: Sequence[FloatArray]) -> FloatArray:
-    """Return the size that a combination's error is compared with, from the values and sizes of its parts, shape (n,) each."""
+    """Return the size that a combination's error is compared with, from the values and sizes of its parts, shape (n,) or (rows, n) each."""
     if function == "multiply":
         return sizes[0] * sizes[1]
     if function == "divide":
@@ -507,7 +580,7 @@ def combined_size(function: str, values: Sequence[FloatArray], sizes: Sequence[F
     if function in UNIT_SIZE:
         return np.ones_like(sizes[0])
     if function in ("add", "subtract", "negative", "absolute", "minimum", "maximum", "hypot"):
-        return np.asarray(np.max(sizes, axis=0))
+        return reduce(np.maximum, sizes)
     return np.full(sizes[0].shape, SMALL)
 
 
@@ -553,7 +626,7 @@ class Ratios(BoundRequest):
             return np.zeros(left.size.shape)
         with np.errstate(all="ignore"):
             largest = np.max([np.hypot(*part.values) for part in parts], axis=0)
-        return np.asarray(np.max([part.over(MINOR * largest) for part in parts], axis=0))
+        return np.asarray(np.max([part.length.over(MINOR * largest) for part in parts], axis=0))
 
     def __str__(self) -> str:
         return "the ratios of the points"
@@ -606,6 +679,9 @@ class Slope(BoundRequest):
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
         inputs = [plan.trace.inputs[name] for name in self.by]
         return tuple(share for node in self.what.nodes(plan) for share in gradient(node, inputs))
+
+    def error(self, plan: Plan, left: Left) -> FloatArray:
+        return left.length.over(SMALL)
 
     def names(self, plan: Plan) -> set[str]:
         return self.what.names(plan)

@@ -15,10 +15,10 @@ from matplotlib.patheffects import withStroke
 
 from ..errors import DefinitionError, cited
 from ..motion import Column, Motion, stroke_display_unit
+from ..motion.measures import At, Constraint, Given, Leaf, Least, Measure, Most, words_of
 from ..program import FloatArray
 from ..quantities import is_whole
 from ..study import Optimum
-from ..study.measures import At, Constraint, Given, Leaf, Least, Measure, Most, words_of
 from ..study.optimum import unit_of_leaf
 from ..units import factor, mm, shown_in
 from . import style

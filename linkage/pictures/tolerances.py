@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from ..errors import DefinitionError, cited, unknown
+from ..motion.measures import Given, Least, Most
 from ..program import FloatArray
 from ..study.measured import number_bound
-from ..study.measures import Given, Least, Most
 from ..study.monte_carlo import Band, MonteCarlo, share_words
 from ..study.sensitivity import Effect, Tornado
 from ..study.tolerances import tolerance_words

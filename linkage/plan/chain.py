@@ -14,7 +14,7 @@ from typing import final
 from ..quantities import Joint, JointSide, Quantity, needs
 from ..steps import Guide
 from .bodies import FRAME, Body
-from .members import Members
+from .members import Members, carrying_pairs, member_sides
 
 
 @final
@@ -95,11 +95,28 @@ def gruebler(bodies: Sequence[Body], cylinders: Iterable[tuple[str, str]]) -> in
 def chain_of(plan: Members) -> KinematicChain:
     """Return the chain of a mechanism."""
     arms = {name: arm_points(plan, name) for name in plan.telescopes}
-    chain = KinematicChain([body for body in plan.links if body.fixed or not holds_an_arm(plan, body.points)])
-    for bar in plan.cylinders:
-        part = KinematicChain((), [(bar.P, bar.Q)])
-        chain.bodies += part.bodies
-        chain.slides += [replace(each, strokes=driven_by(plan, bar.length), length=bar.length) for each in part.slides]
+    carrying = carrying_pairs(plan)
+    chain = KinematicChain(
+        [
+            body
+            for body in plan.links
+            if body.fixed or not (holds_an_arm(plan, body.points) or any(pair <= set(body.points) for pair in carrying))
+        ]
+    )
+    driven = {frozenset((bar.P, bar.Q)): bar for bar in plan.cylinders}
+    others = [[point for point in plan.points if point in pair] for pair in carrying if pair not in driven]
+    for P, Q in (*((bar.P, bar.Q) for bar in plan.cylinders), *others):
+        part, ends = KinematicChain((), [(P, Q)]), (P, Q)
+        on_it = next((body.points for body in plan.links[1:] if frozenset(ends) in carrying and set(ends) <= set(body.points)), ends)
+        near, far = member_sides(plan, ends, on_it)
+        chain.bodies += [
+            replace(body, points=(end, *(point for point in on_it if point in side and point != end)))
+            for body, end, side in zip(part.bodies, ends, (near, far), strict=True)
+        ]
+        bar = driven.get(frozenset(ends))
+        chain.slides += part.slides if bar is None else [
+            replace(each, strokes=driven_by(plan, bar.length), length=bar.length) for each in part.slides
+        ]
     for name, points in arms.items():
         enter_arm(chain, plan, name, points)
     halves = half_joints(plan)

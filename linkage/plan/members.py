@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
 from math import pi
@@ -310,15 +310,47 @@ def construction_order(needs: Mapping[str, Iterable[str]], title: str) -> list[s
         raise DefinitionError(text, member=cycle[0]) from None
 
 
-def rigid_bodies(plan: Members) -> tuple[Body, ...]:
-    """Return the rigid bodies, the frame first."""
+def rigid_bodies(plan: Members, apart: Collection[frozenset[str]] = ()) -> tuple[Body, ...]:
+    """Return the rigid bodies, the frame first; without the points that are measured along the pairs of points `apart`."""
     groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in plan.rods]
-    groups += [body for name, point in plan.points.items() if name not in plan.telescopes for body in point.bodies()]
+    placed = [body for name, point in plan.points.items() if name not in plan.telescopes for body in point.bodies()]
+    groups += [body for body in placed if frozenset(body[:2]) not in apart]
     groups += [link.point_names for link in plan.of_kind(Link).values() if len(link.point_names) > 2 or not plan.is_cylinder(link)]
     rest = plan.resting
     still = [name for name, guide in rest.items() if not guide.points]
     groups += [(*guide.points, name) for name, guide in rest.items() if len(guide.points) == 2]
     return merged(groups, (*plan.ground, *still))
+
+
+def carrying_pairs(plan: Members, members: Iterable[Iterable[str]] = ()) -> frozenset[frozenset[str]]:
+    """Return the ends of the straight two-point members that carry points measured along them, such as K = OnLink(A, B) on a cylinder.
+
+    They are driven lengths, the elements of the class and `members` more, by their ends. A member between two points that are
+    rigid with each other without it, as a spring across a link is, carries nothing: the link does.
+    """
+    measured = {frozenset(body[:2]) for name, point in plan.points.items() if name not in plan.telescopes for body in point.bodies()}
+    driven = {frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
+    elements = [{joint.point for joint in each.joints()} for each in plan.of_kind(Jointed).values() if each.kind == "load"]
+    found = measured & {*driven, *map(frozenset, (*elements, *members))}
+    while rigid := {pair for pair in found - driven if any(pair <= set(body.points) for body in rigid_bodies(plan, found))}:
+        found -= rigid
+    return frozenset(found)
+
+
+def member_sides(plan: Members, ends: tuple[str, str], points: Iterable[str]) -> tuple[set[str], set[str]]:
+    """Return which points of a body go with the one and with the other end of the two-point member that it is.
+
+    Those that are measured from that end, of a cylinder from A on its barrel and from B on its rod, and what is linked to such points.
+    """
+    among = set(points)
+    groups = [{body[0], point} for point in among for body in plan.points[point].bodies() if point not in body[:2]]
+    groups += [{bar.P, bar.Q} for bar in plan.rods]
+    groups += [set(link.point_names) for link in plan.of_kind(Link).values() if not set(ends) <= set(link.point_names)]
+    near, far = {ends[0]}, {ends[1]}
+    for side in (near, far):
+        while more := set().union(*(group for group in groups if group & side)) & among - side:
+            side |= more
+    return near, far
 
 
 def printed(plan: Members, values: Mapping[str, float] = MappingProxyType({})) -> dict[str, str]:

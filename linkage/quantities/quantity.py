@@ -123,6 +123,43 @@ COMPARED = "What holds over a stroke is said of one number of it: least(q) >= ..
 CHOICE = "choose by np.maximum or np.minimum, or make two classes of it"
 
 
+@final
+@dataclass(frozen=True, eq=False)
+class PoseCondition:
+    """A comparison of what has a value at every pose: `x("T") <= 4`, kept at some poses and not at others; for `Over(..., only=[...])`.
+
+    A quantity or a request stands on its left or on its right, by their names too.
+    """
+
+    left: Any
+    symbol: str
+    right: Any
+
+    __array_ufunc__ = None
+
+    def __post_init__(self) -> None:
+        if not is_number(self.right) and not isinstance(self.right, (str, Quantity, Arithmetic)):
+            raise DefinitionError(f"{self}: a number in SI or a quantity is expected beside {self.symbol}.")
+
+    @property
+    def margin(self) -> Any:
+        """What is zero or above at the poses that keep it: a quantity or a request."""
+        left, right = (quantity(each) if isinstance(each, str) else each for each in (self.left, self.right))
+        return left - right if self.symbol == ">=" else right - left
+
+    def __str__(self) -> str:
+        return f"{self.left} {self.symbol} {self.right}"
+
+    def __bool__(self) -> NoReturn:
+        raise DefinitionError(f"{self}: it has a value at every pose, so that it cannot be compared once for all; {CHOICE}. {COMPARED}")
+
+    def _no_number(self, *others: object) -> NoReturn:
+        raise DefinitionError(f"{self} is a condition on poses and no number; {CHOICE}. {COMPARED}")
+
+    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = __neg__ = __float__ = _no_number
+    __lt__ = __le__ = __gt__ = __ge__ = _no_number
+
+
 class Quantity(Member):
     """A scalar member or a part of one. Adds, multiplies and takes NumPy's functions."""
 
@@ -165,10 +202,13 @@ class Quantity(Member):
     def __bool__(self) -> NoReturn:
         raise DefinitionError(f"{self}: a quantity has no value in a class, so that `if`, `and`, `or` cannot choose by it; {CHOICE}.")
 
-    def _compared(self, other: object) -> NoReturn:
-        raise DefinitionError(f"{self}: a quantity has no value in a class, so that it cannot be compared; {CHOICE}. {COMPARED}")
+    def __ge__(self, other: object) -> PoseCondition:
+        return PoseCondition(self, ">=", other)
 
-    __lt__ = __le__ = __gt__ = __ge__ = _compared
+    def __le__(self, other: object) -> PoseCondition:
+        return PoseCondition(self, "<=", other)
+
+    __gt__, __lt__ = __ge__, __le__
 
     def __float__(self) -> NoReturn:
         raise DefinitionError(f"{self}: a quantity has no value in a class; take NumPy's functions of it, np.sin(...), not math's.")

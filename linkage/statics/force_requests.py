@@ -5,22 +5,23 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import TypeVar, cast, final
+from typing import Any, Self, TypeVar, final
 from weakref import ref
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, known_name
-from ..loads import ForceElement, LoadCase
-from ..motion import BoundRequest, Request, require_motion
+from ..errors import DefinitionError, UntracedError, cited, known_name
+from ..loads import DIRECTIONS, FRICTIONLESS, Acting, ForceElement, LoadCase
+from ..motion import BoundRequest, Motion, Request, require_motion
 from ..motion.grid import MotionLike
 from ..motion.requests import identity_of, stroke_of
 from ..plan import Plan
 from ..program import FloatArray, Node, Notes
 from ..vectors import Scalar
 from .acting import Case, Loads
+from .agreement import assumed_joints
 from .equilibrium import System
-from .joint_forces import JointForce, joint_on, joints_of, pin_forces
+from .joint_forces import JointForce, PinForces, joint_on, joints_of, pin_forces
 from .joints import Contact, Structure
 from .solution import Solution
 from .traced_loads import TracedLoads, checked_length, eliminated_forces
@@ -58,44 +59,89 @@ def is_unchanging(thing: object) -> bool:
     return bool(thing._class) or (settings is not None and settings.frozen)
 
 
+@dataclass(frozen=True, eq=False)
+class ForceRequest(Request):
+    """The base of requests of forces: under which loads, in which load case and movement."""
+
+    acting: Acting
+
+    def under(self, acting: Acting, *, keep: bool = False) -> Self:
+        found = self.acting.within(acting, "" if keep else str(self))
+        return self if found == self.acting else replace(self, acting=found)
+
+    @property
+    def of_strokes(self) -> bool:
+        return True
+
+    def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
+        return DIRECTIONS if rubs else DIRECTIONS[:1]
+
+    def identified(self, *what: Hashable) -> Hashable:
+        """Return what tells it from others: what it is of, and in which situation; None where that may change."""
+        loads = loads_identity(self.acting.loads, self.acting.case)
+        return None if loads is None or self.acting.rates is not None else (*what, loads, self.acting.movement, self.acting.drive)
+
+    @property
+    def acting_words(self) -> list[str]:
+        """The situation as arguments in words."""
+        direction = [] if self.acting.direction is None else [f"direction={self.acting.direction}"]
+        return [*case_words(self.acting.case), *direction, *([f"drive={self.acting.drive}"] if self.acting.drive else [])]
+
+    def bound_to(self, plan: Plan, bound: Callable[[Plan], Bound]) -> Bound:
+        """Return it as `bound` binds it; UntracedError while it moves, for friction follows from the forces that it changes."""
+        if self.acting.movement != FRICTIONLESS or self.acting.rates is not None:
+            raise UntracedError(f"{plan.title}: {self}: while it moves it has values, and no program that gives derivatives. Ask at rest.")
+        return bound_once(plan, self, bound) if self.acting.loads is None else bound(plan)
+
+
 @final
 @dataclass(frozen=True, eq=False)
-class DriveForce(Request):
-    """The frictionless force of a drive, as something to ask for."""
+class DriveForce(ForceRequest):
+    """The force of a drive, as something to ask for."""
 
     drive: str | None = None
-    loads: Loads = None
-    case: Case = None
 
     def identity(self, plan: Plan) -> Hashable:
-        loads = loads_identity(self.loads, self.case)
-        return None if loads is None else ("drive force", self.drive, loads)
-
-    def in_case(self, case: object) -> DriveForce:
-        return self if self.case is not None else replace(self, case=cast(Case, case))
+        return self.identified("drive force", self.drive)
 
     def of(self, motion: MotionLike) -> FloatArray:
-        return driving_force(require_motion(motion), self.loads, self.drive, case=self.case)
+        given = self.acting
+        movement: dict[str, Any] = {"direction": given.movement, "rates": given.rates}
+        return driving_force(require_motion(motion), given.loads, self.drive, case=given.case, **movement)
 
     def __str__(self) -> str:
-        return f"drive_force({', '.join([*([self.drive] if self.drive else []), *case_words(self.case)])})"
+        return f"drive_force({', '.join([*([self.drive] if self.drive else []), *self.acting_words])})"
 
     def bound(self, plan: Plan) -> DriveForceOf:
-        return bound_once(plan, self, self._bound) if self.loads is None else self._bound(plan)
+        return self.bound_to(plan, self._bound)
 
     def _bound(self, plan: Plan) -> DriveForceOf:
         drive = stroke_of(plan, self.drive, "drive")
-        traced = TracedLoads.apart(plan, self.loads, self.case)
-        return DriveForceOf(self.loads, self.case, drive, traced.key, frozenset(traced.names), frozenset(traced.carriers))
+        loads, case = self.acting.loads, self.acting.case
+        traced = TracedLoads.apart(plan, loads, case)
+        return DriveForceOf(loads, case, drive, traced.key, frozenset(traced.names), frozenset(traced.carriers))
 
 
-def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None) -> DriveForce:
+def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None, *, acting: Acting | None = None) -> DriveForce:
     """Return the request for the generalised force of a stroke, in `evaluate`, `function` and `gradient`: [N], a crank's torque [Nm].
 
-    It is the frictionless `driving_force(motion, loads, drive, case=case)`: `motion.gradient(drive_force(), wrt=["OB", "load.mass"])`.
+    It is `driving_force(motion, loads, drive, case=case)`, frictionless: `motion.gradient(drive_force(), wrt=["OB", "load.mass"])`.
+    `acting` says loads and case in one, with a direction or rates too; then it has values and no derivatives.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
-    return DriveForce(drive, loads, case)
+    return DriveForce(situation_of(acting, "drive_force", loads=loads, case=case), drive)
+
+
+def situation_of(acting: Acting | None, what: str, **keywords: Any) -> Acting:
+    """Return the situation that a door is given, whole or by its keywords; DefinitionError for both."""
+    given = {name: value for name, value in keywords.items() if value is not None}
+    if acting is None:
+        return Acting(**given)
+    if not isinstance(acting, Acting):
+        raise DefinitionError(f'{what}(acting={cited(acting)}): a situation is expected, such as acting=Acting(case="full").')
+    if given:
+        raise DefinitionError(f"{what}: {next(iter(given))}= and acting= both say it; give acting= alone, Acting({next(iter(given))}=...).")
+    return acting
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,57 +211,69 @@ COMPONENTS: Mapping[str, Callable[[Scalar, Scalar], Scalar]] = MappingProxyType(
 
 @final
 @dataclass(frozen=True, eq=False)
-class PinForce(Request):
-    """A component of a frictionless joint force, as something to ask for."""
+class PinForce(ForceRequest):
+    """A component of a joint force, as something to ask for."""
 
-    point: str
+    point: str = ""
     on: str = ""
     component: str = "size"
-    loads: Loads = None
-    case: Case = None
     measures = "force"
 
     def identity(self, plan: Plan) -> Hashable:
-        loads = loads_identity(self.loads, self.case)
-        return None if loads is None else ("pin force", self.point, self.on, self.component, loads)
-
-    def in_case(self, case: object) -> PinForce:
-        return self if self.case is not None else replace(self, case=cast(Case, case))
+        return self.identified("pin force", self.point, self.on, self.component)
 
     def of(self, motion: MotionLike) -> FloatArray:
         known_name("Component", self.component, COMPONENTS, where=f"{motion.plan.title}: the force at {self.point}")
-        force = pin_forces(require_motion(motion), self.loads, case=self.case).force(self.point, self.on)
+        force = pin_forces_under(require_motion(motion), self.acting).force(self.point, self.on)
         return np.asarray(COMPONENTS[self.component](force[0], force[1]))
 
     def __str__(self) -> str:
         component = [] if self.component == "size" else [f"component={self.component}"]
-        return f"pin_force({', '.join([self.point, *([self.on] if self.on else []), *component, *case_words(self.case)])})"
+        return f"pin_force({', '.join([self.point, *([self.on] if self.on else []), *component, *self.acting_words])})"
 
     def bound(self, plan: Plan) -> PinForceOf:
-        return bound_once(plan, self, self._bound) if self.loads is None else self._bound(plan)
+        return self.bound_to(plan, self._bound)
 
     def _bound(self, plan: Plan) -> PinForceOf:
         known_name("Component", self.component, COMPONENTS, where=f"{plan.title}: the force at {self.point}")
-        traced = TracedLoads.apart(plan, self.loads, self.case)
+        loads, case = self.acting.loads, self.acting.case
+        traced = TracedLoads.apart(plan, loads, case)
         structure = Structure(plan, traced.acting.elements, traced.acting.thrusts)
         request = replace(self, on=structure.full_name(self.on))
         _, joint, _ = contact_of(structure, self.point, request.on)
         spans = tuple((strut.name, strut.P, strut.Q) for strut in structure.struts)
         length = plan.made(("checked length", spans), lambda _: checked_length(plan, traced.acting))
-        return PinForceOf(self.loads, self.case, request, (*traced.key, spans), length, str(joint))
+        return PinForceOf(loads, case, request, (*traced.key, spans), length, str(joint))
 
 
-def pin_force(point: str, on: str = "", component: str = "size", loads: Loads = None, case: Case = None) -> PinForce:
+def pin_forces_under(motion: Motion, acting: Acting) -> PinForces:
+    """Return all joint forces of a motion in a situation, worked out once for all that ask for one of them."""
+
+    def found() -> PinForces:
+        return pin_forces(
+            motion, acting.loads, case=acting.case, direction=acting.movement, drive=acting.drive, rates=acting.rates
+        )
+
+    loads = loads_identity(acting.loads, acting.case)
+    if loads is None or acting.rates is not None:
+        return found()
+    return motion._once(("pin forces", loads, acting.movement, acting.drive), found)
+
+
+def pin_force(
+    point: str, on: str = "", component: str = "size", loads: Loads = None, case: Case = None, *, acting: Acting | None = None
+) -> PinForce:
     """Return the request for a joint force [N], in `evaluate`, `function` and `gradient`: its "size", or its part along "x" or "y".
 
-    It is that of the frictionless `pin_forces(motion, loads, case=case).force(point, on)`: on the body `on` from the other one.
+    It is that of `pin_forces(motion, loads, case=case).force(point, on)`, frictionless: on the body `on` from the other one.
+    `acting` says loads and case in one, with a direction, a drive or rates too; then it has values and no derivatives.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
     names: tuple[object, ...] = point, on
     if not all(isinstance(each, str) for each in names):
         said = "the names of a point and of a body are expected"
         raise DefinitionError(f'pin_force({cited(point)}, {cited(on)}): {said}, such as pin_force("G", "arm").')
-    return PinForce(point, on, component, loads, case)
+    return PinForce(situation_of(acting, "pin_force", loads=loads, case=case), point, on, component)
 
 
 @final
@@ -241,11 +299,17 @@ class PinForceOf(ForceOf):
         force, _ = Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), []).transmitted(contact)
         return (motion.node(COMPONENTS[self.request.component](*(sign * force[:, 0]))),)
 
+    def notes(self, plan: Plan) -> Notes:
+        traced = self.traced(plan)
+        for each in assumed_joints(traced.structure, traced.poses):
+            traced.notes.assumed.setdefault(traced.motion.node(each[0]), "its joints")
+        return traced.notes
+
     def names(self, plan: Plan) -> set[str]:
         return set(plan.members)
 
     def refuse(self, motion: MotionLike) -> None:
-        pin_forces(require_motion(motion), self.loads, case=self.case)
+        pin_forces_under(require_motion(motion), Acting(self.loads, self.case))
 
     def __str__(self) -> str:
         what = "the size" if self.request.component == "size" else f"the {self.request.component} component"

@@ -2,7 +2,6 @@
 
 from .box import Box
 from .infeasible import InfeasibleError
-from .measures import at, integral, least, most, reachable, worst
 from .monte_carlo import Band, MonteCarlo, monte_carlo
 from .optimum import Optimum
 from .pareto import Front

@@ -10,8 +10,8 @@ import numpy as np
 
 from ..errors import LinkageError, StudyError
 from ..mechanism import Mechanism
+from ..motion.measures import Constraint
 from ..units import show
-from .measures import Constraint
 from .optimum import in_units, multipliers, true_values, unit_of_constraint
 from .problem import Problem
 from .solver import Found, Local, scales_of

@@ -12,12 +12,12 @@ import numpy as np
 from ..errors import DefinitionError, cited, one_word, unknown, unwarned
 from ..frozen import FrozenDict, refuses_changes
 from ..mechanism import Mechanism
+from ..motion.measures import At, Condition, Constraint, Leaf, Measure, conditions_of
 from ..plan import Mask, Plan
 from ..program import FloatArray, Way
 from ..quantities import is_number
 from ..units import display_unit
 from .measured import Measured, StudyPoses, fold, fold_start, measure_of, measured_title, number_bound
-from .measures import At, Condition, Constraint, Leaf, Measure, conditions_of
 from .tolerances import Tolerance, ToleranceLike, sampled_designs, shifted_designs, tolerance_words, tolerances_of
 
 Task = TypeVar("Task")

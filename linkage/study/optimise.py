@@ -14,8 +14,21 @@ import numpy as np
 
 from ..disk import check_name, in_words, replacing_text
 from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, cited, one_word
+from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Request
+from ..motion.measures import (
+    At,
+    CombinedMeasure,
+    Constraint,
+    Leaf,
+    Measure,
+    Worst,
+    conditions_of,
+    require_quantity,
+    strokes_behind,
+    words_of,
+)
 from ..program import FloatArray, fixed_backend
 from ..quantities import Quantity, is_number, is_whole, ref
 from ..statics import Case
@@ -25,7 +38,6 @@ from .box import unit_points
 from .checkpoint import measure_text
 from .checks import check_one_design
 from .infeasible import infeasible_error
-from .measures import At, CombinedMeasure, Constraint, Leaf, Measure, Worst, conditions_of, require_quantity, words_of
 from .optimum import Optimum, in_units, polished, unit_of_constraint
 from .problem import COARSE, SAMPLES, Problem, reduced
 from .solver import Found, Graded, Local
@@ -121,8 +133,6 @@ def objective_of(machine: Mechanism, given: Any) -> Measure:
     if isinstance(given, Measure):
         return given
     quantity = require_quantity(given, "minimise")
-    from .sampling import strokes_behind
-
     if not isinstance(quantity, Worst) and not strokes_behind(machine.plan, quantity):
         return At(quantity, {})
     raise DefinitionError(
@@ -148,7 +158,7 @@ def quantity_in_case(quantity: Any, case: Case) -> Any:
     """Return a quantity with the forces of a load case."""
     if isinstance(quantity, Worst):
         return replace(quantity, quantity=quantity_in_case(quantity.quantity, case))
-    return quantity.in_case(case) if isinstance(quantity, Request) else quantity
+    return quantity.under(Acting(case=case), keep=True) if isinstance(quantity, Request) else quantity
 
 
 def constraint_in_case(constraint: Constraint, case: Case) -> Constraint:

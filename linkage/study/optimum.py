@@ -15,6 +15,7 @@ import numpy as np
 from ..disk import Place, replacing_text
 from ..errors import AssemblyError, DefinitionError, cited
 from ..mechanism import Mechanism
+from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, Worst
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number
@@ -23,7 +24,6 @@ from ..units import deg, display_unit, mm, show
 from .box import unit_points
 from .checks import unit_of
 from .measured import measure_of
-from .measures import Constraint, Given, Integral, Leaf, Measure, Worst
 from .problem import Problem
 from .result_rows import ResultRow, result_text, write_result
 from .solver import MET, Found, Local, missing_of, scale_of, scales_of

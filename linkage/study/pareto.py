@@ -15,12 +15,12 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, LinkageError
 from ..mechanism import Mechanism
+from ..motion.measures import CombinedMeasure, Constraint, Given, Measure
 from ..program import FloatArray
 from ..shown import Shown
 from ..units import show
 from .batching import Progress
 from .infeasible import infeasible_error
-from .measures import CombinedMeasure, Constraint, Given, Measure
 from .optimum import true_values, unit_of_measure
 from .problem import COARSE, Problem
 from .solver import MET, Found, Local, missing_of, scales_of

@@ -8,16 +8,16 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, LawError, UntracedError, unwarned
+from ..errors import unwarned
 from ..motion import BoundRequest, Grid, Motion, Request
 from ..motion.evaluation import Evaluation
 from ..motion.grid import Angles, JoinedTo, angles_of
-from ..motion.requests import Slope, bound
+from ..motion.measures import traced
+from ..motion.requests import Slope
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level
 from ..quantities import Quantity
 from .checks import quantity_values, title_of
-from .measures import words_of
 
 DIFFERENCE = 6e-6
 """Of a variable's span: the step of a central difference, where nothing better is to be had."""
@@ -130,42 +130,6 @@ class Sampling:
         return np.array(found)
 
 
-def traced(plan: Plan, quantity: Any) -> BoundRequest | None:
-    """Return a quantity bound to a plan as nodes of its program; None where it has none; DefinitionError for what is no number."""
-    if not isinstance(quantity, (str, Quantity, Request)):
-        return None
-    try:
-        request = bound_quantity(plan, quantity)
-    except (UntracedError, LawError):
-        return None
-    if request.rows > 1:
-        name = words_of(quantity)
-        raise DefinitionError(f'{plan.title}: {name} has two components; say which, x("{name}") or y("{name}").')
-    try:
-        plan.made(("traced", request.key), lambda twin: len(request.nodes(twin)))
-    except (UntracedError, LawError):
-        return None
-    return request
-
-
-def bound_quantity(plan: Plan, quantity: str | Quantity | Request) -> BoundRequest:
-    """Return a quantity bound to a plan; a dimension by its name too, `"lift.closed"`."""
-    if isinstance(quantity, str) and quantity not in plan.members and quantity in plan.table.spellings:
-        return DimensionValue(*plan.table.spellings[quantity])
-    return bound(plan, quantity)
-
-
-def strokes_behind(plan: Plan, quantity: Any) -> tuple[str, ...]:
-    """Return the strokes that a quantity depends on; all of them for a function of a motion."""
-    if not isinstance(quantity, (str, Quantity, Request)):
-        return tuple(plan.strokes)
-    try:
-        names = bound_quantity(plan, quantity).names(plan)
-    except (UntracedError, LawError):
-        return tuple(plan.strokes)
-    return tuple(name for name in plan.strokes if name in names or name in plan.reaches(*(each for each in names if each in plan.members)))
-
-
 def motion_of(grid: Grid) -> Motion:
     """Return the motion over a grid, NaN out of reach."""
     joining = grid._joining if isinstance(grid._joining, JoinedTo) else None
@@ -257,28 +221,6 @@ class Placed(BoundRequest):
 
     def __str__(self) -> str:
         return "all places"
-
-
-@final
-@dataclass(frozen=True)
-class DimensionValue(BoundRequest):
-    """A dimension itself, by its owner and sign."""
-
-    owner: str
-    sign: int
-
-    @property
-    def key(self) -> Any:
-        return "dimension", self.owner, self.sign
-
-    def nodes(self, plan: Plan) -> tuple[Any, ...]:
-        return (plan.trace.inputs[self.owner] * float(self.sign),)
-
-    def names(self, plan: Plan) -> set[str]:
-        return set()
-
-    def __str__(self) -> str:
-        return self.owner
 
 
 def with_values(designs: Mapping[str, Any], changed: Mapping[str, Any]) -> dict[str, Any]:

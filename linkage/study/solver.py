@@ -16,8 +16,8 @@ from warnings import catch_warnings, simplefilter
 import numpy as np
 
 from ..errors import DefinitionError
+from ..motion.measures import Constraint, Given, Integral, Leaf, Least, Measure, Most
 from ..program import FloatArray
-from .measures import Constraint, Given, Integral, Leaf, Least, Measure, Most
 from .problem import Evaluated, Problem, reduced, scale_among, size_of_rows, terms_size
 
 FAR = 10.0

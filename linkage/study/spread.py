@@ -12,12 +12,12 @@ from ..errors import DefinitionError, cited, unwarned
 from ..mechanism import Mechanism
 from ..motion import BoundRequest, Request, RequestLike, require_motion
 from ..motion.grid import MotionLike
+from ..motion.measures import words_of
 from ..motion.requests import dimensions_of, identity_of
 from ..plan import Plan
 from ..program import FloatArray, Node, Notes, gradient
 from .checks import check_mechanism
 from .measured import number_bound
-from .measures import words_of
 from .tolerances import ToleranceLike, tolerances_of
 
 

@@ -137,7 +137,7 @@ class ArmDrive(DrivenArm):
         """Return what the drive has over the moment asked for, which may not fall below zero, folding, and opening."""
         return featured_drive("folding", "opening")
 
-    def verdicts(self, motion: Motion) -> list[str]:
+    def rules(self, motion: Motion) -> list[str]:
         """Return whether the drive carries the arm over a motion, and whether the cylinder is as long as that takes."""
         return drive_verdicts(motion)
 
@@ -222,7 +222,7 @@ class DirectArmDrive(DrivenArm):
         """Return what the drive has over the moment asked for, which may not fall below zero, folding, and opening."""
         return featured_drive("folding", "opening")
 
-    def verdicts(self, motion: Motion) -> list[str]:
+    def rules(self, motion: Motion) -> list[str]:
         """Return whether the drive carries the arm over a motion, and whether the cylinder is as long as that takes."""
         return drive_verdicts(motion)
 

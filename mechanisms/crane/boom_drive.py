@@ -72,6 +72,6 @@ class BoomDrive(Mechanism):
         """Return what the drive has over the moment asked for, which may not fall below zero."""
         return featured_drive("lifting")
 
-    def verdicts(self, motion: Motion) -> list[str]:
+    def rules(self, motion: Motion) -> list[str]:
         """Return whether the drive carries the boom over a motion, and whether the cylinder is as long as that takes."""
         return drive_verdicts(motion)

@@ -15,9 +15,9 @@ import numpy as np
 
 from linkage import DefinitionError, Mechanism, StudyError, at, integral, least, most, optimise, ratio, ref, x, y
 from linkage.errors import cited, one_word
+from linkage.motion.measures import Measure
 from linkage.quantities import is_number
 from linkage.study import InfeasibleError, Optimum
-from linkage.study.measures import Measure
 from linkage.units import deg, kN, mm
 
 from .arm_drive import ArmDrive

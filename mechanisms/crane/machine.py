@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import LEFT, Dimension, Dyad, Featured, Ground, Motion, OnLink, Stroke, ref
+from linkage import LEFT, Dimension, Dyad, Featured, Ground, OnLink, Stroke, ref
 from linkage.units import MPa, deg, mm
 
 from .skeleton import CraneSkeleton
@@ -62,10 +62,6 @@ class Crane(CraneSkeleton):
     lift_line = LiftCircuit(lift, pressure=22 * MPa, mechanical_efficiency=0.95)
     fold_line = LiftCircuit(fold, pressure=22 * MPa, mechanical_efficiency=0.95)
     extend_line = LiftCircuit(extend, pressure=22 * MPa, mechanical_efficiency=0.95)
-
-    def verdicts(self, motion: Motion) -> list[str]:
-        """Return the conditions on the skeleton; what its drives carry the load map says, and `BoomDrive` and `ArmDrive` of each alone."""
-        return super().verdicts(motion)
 
     def featured(self) -> Featured:
         """Return the height of the telescope's end T, and its path and that of the arm's end K."""

@@ -169,7 +169,7 @@ class CraneSkeleton(Mechanism):
         point = name.removesuffix("_x").removesuffix("_y")
         return not self.plan.reaches(name if name in self.plan.members else point).isdisjoint(self.strokes)
 
-    def verdicts(self, motion: Motion) -> list[str]:
+    def rules(self, motion: Motion) -> list[str]:
         """Return which of the source's conditions on the skeleton this design keeps, with what is to spare; of a batch nothing."""
         if any(np.ndim(value) for value in self.dimensions.values()):
             return []

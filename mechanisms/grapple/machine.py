@@ -142,7 +142,7 @@ class Grapple(Mechanism):
         """Return the moment given over the one that the stem takes, which holds it from 1 on, and the path of the lever's end A."""
         return Featured("M_g/M_1", ["A"], {"M_g/M_1": (1.0, said("holds the stem"), "below")})
 
-    def verdicts(self, motion: Motion) -> list[str]:
+    def rules(self, motion: Motion) -> list[str]:
         """Return what an engineer should know: moment over the stems, way past the hinge, opening, stroke, E, the cylinder's size."""
         return [*grapple_verdicts(motion)]
 

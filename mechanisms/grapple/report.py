@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hydraulics import Cylinder, LiftCircuit
+from hydraulics import LiftCircuit
 from linkage import Column, DefinitionError, Motion, pin_forces, ref
 from linkage.language import said
 from linkage.motion import greatest, lowest, require_motion
@@ -135,7 +135,7 @@ def grapple_verdicts(motion: Motion) -> list[Verdict]:
         return [Verdict("cylinder", False, words)]
     return [
         moment_verdict(motion), passing_verdict(motion), room_verdict(motion), opening_verdict(motion), stroke_verdict(motion),
-        hinge_verdict(motion), *motion.plan.of_kind(Cylinder)["lift"].checks(gripping(motion)),
+        hinge_verdict(motion),
     ]  # fmt: skip
 
 

@@ -128,7 +128,7 @@ class HeaderBalancer(Mechanism):
         valve = (float(self["valve"]), said("the relief valve opens"), "above")
         return Featured("F_R free", ["R"], {"F_R free": (0.0, said("the shoe lifts off"), "below"), "P": valve})
 
-    def verdicts(self, motion: Motion) -> list[str]:
+    def rules(self, motion: Motion) -> list[str]:
         """Return the paper's five criteria in words, over the following range of one design."""
         if motion._design_shape:
             return [said("The criteria are judged for one design at a time; this motion has a batch of them.")]

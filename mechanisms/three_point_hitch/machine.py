@@ -35,7 +35,7 @@ from linkage.loads.element import Formulas
 from linkage.units import MPa, deg, g0, kg, litre, minute, mm
 
 from .capacity import Lifted, capacity, write_capacity
-from .report import verdicts
+from .report import rules
 
 
 class ThreePointHitch(Mechanism):
@@ -113,9 +113,9 @@ class ThreePointHitch(Mechanism):
         limits = {"capacity": (weight, said("weight of the implement"), "below")} if weight > 0.0 else {}
         return Featured("capacity", ["G"], limits)
 
-    def verdicts(self, motion: Motion) -> list[str]:
+    def rules(self, motion: Motion) -> list[str]:
         """Return what an engineer should know: capacity and its weakest point, pressure, oil, upper link, mast, front axle."""
-        return [*verdicts(self, motion)]
+        return [*rules(self, motion)]
 
 
 # Hitch categories 1 to 3: the dimensions that ISO 730 fixes, and hitches of such proportions.

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hydraulics import lift_verdicts
 from linkage import Column, ForceElement, Mechanism, Motion, pin_forces
 from linkage.language import noted, said
-from linkage.motion import out_of_reach
 from linkage.program import FloatArray
 from linkage.reports import closely, ranges_below_zero, spans_in_words
 from linkage.statics.acting import Case
@@ -37,21 +35,16 @@ def capacity_columns(motion: Motion) -> list[Column]:
     ]
 
 
-def verdicts(hitch: Mechanism, motion: Motion) -> list[Verdict]:
-    """Return the verdicts on a motion; of a batch, how many designs fall short."""
+def rules(hitch: Mechanism, motion: Motion) -> list[Verdict]:
+    """Return the hitch's own rules over a motion; of a batch, how many designs fall short."""
     if not motion.reached.any():
-        return [Verdict("reach", False, said("No pose of this motion can be assembled; there is nothing to lift."))]
+        return []
     if motion._design_shape:
         return [batch_verdict(motion)]
-    circuit = circuit_of(motion)
-    found = [
-        weakest_verdict(motion), limit_verdict(motion), *lift_verdicts(circuit, motion, unit="MPa"), *circuit.ram(motion).checks(motion),
-        test_verdict(motion), upper_link_verdict(motion), balance_verdict(motion), mast_verdict(hitch, motion),
+    return [
+        weakest_verdict(motion), limit_verdict(motion), test_verdict(motion), upper_link_verdict(motion), balance_verdict(motion),
+        mast_verdict(hitch, motion),
     ]  # fmt: skip
-    if motion.reached.all():
-        return [*found]
-    text = said("poses out of reach are left out of this. {which}", which=out_of_reach(motion))
-    return [*found, Verdict("reach", False, text)]
 
 
 def weakest_verdict(motion: Motion) -> Verdict:

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.optimize import differential_evolution
 
 from linkage import optimise
-from linkage.study.measures import conditions_of
+from linkage.motion.measures import conditions_of
 from linkage.study.problem import Problem
 from linkage.study.space import Space
 from mechanisms.redesigns import flat_hitch, steady_reaction, strong_lift

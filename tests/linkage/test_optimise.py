@@ -43,8 +43,8 @@ from linkage import (
     x,
     y,
 )
+from linkage.motion.measures import conditions_of
 from linkage.study import InfeasibleError
-from linkage.study.measures import conditions_of
 from linkage.study.problem import Problem
 from linkage.study.solver import Local
 from linkage.study.space import Space

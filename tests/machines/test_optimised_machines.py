@@ -33,8 +33,8 @@ from linkage import (
     y,
 )
 from linkage.errors import FileError
+from linkage.motion.measures import At, Integral, Least
 from linkage.study import InfeasibleError
-from linkage.study.measures import At, Integral, Least
 from linkage.study.optimum import worth_of
 from linkage.study.problem import Problem
 from linkage.study.space import Space

@@ -12,14 +12,16 @@ from __future__ import annotations
 import operator
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any, ClassVar, NoReturn, TypeAlias, final
 
-from ..errors import DefinitionError, cited
-from ..motion import Motion, Request
+from ..errors import DefinitionError, LawError, UntracedError, cited
+from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import Quantity, is_number
+from ..quantities import PoseCondition, Quantity, is_number, name_of, x, y
+from .motion import Motion
+from .requests import BoundRequest, Ratio, Request, bound
 
 MeasuredQuantity: TypeAlias = "str | Quantity | Request | Worst | Callable[[Motion], FloatArray]"
 """What has a value at every pose: a named output, a quantity, a request, or a function of a motion."""
@@ -353,11 +355,82 @@ reachable = Reachable()
 
 def conditions_of(given: Any, machine: Any) -> list[Constraint]:
     """Return the constraints of conditions; DefinitionError for what is none."""
-    listed = [given] if isinstance(given, (Condition, Measure, bool)) else given
+    listed = [given] if isinstance(given, (Condition, Measure, PoseCondition, bool)) else given
     if not isinstance(listed, (list, tuple)):
         raise DefinitionError(f"subject_to={cited(given)}: a list of conditions is expected, such as [least(...) >= 35 * kN].")
     for each in listed:
+        if isinstance(each, PoseCondition):
+            bool(each)
         if not isinstance(each, Condition):
             what = f"{each} says no limit" if isinstance(each, Measure) else f"{cited(each)} is no condition"
             raise DefinitionError(f"subject_to: {what}; write one such as most(...) <= 8 * deg.")
     return [found for each in listed for found in each.constraints(machine)]
+
+
+# Quantities as requests of a plan.
+
+
+def which_component(plan: Plan, quantity: Any) -> str:
+    """Return how one component of a quantity of two is asked for: `ratio(x(G), order=2)` of `ratio(G, order=2)`."""
+    if isinstance(quantity, Ratio) and name_of(quantity.target) in plan.points:
+        one, other = (replace(quantity, target=part(name_of(quantity.target))) for part in (x, y))
+        return f"say which, {one} or {other}"
+    name = words_of(quantity)
+    return f'say which, x("{name}") or y("{name}")' if quantity in plan.points else "take x(P) or y(P) for a point P in it"
+
+
+def traced(plan: Plan, quantity: Any) -> BoundRequest | None:
+    """Return a quantity bound to a plan as nodes of its program; None where it has none; DefinitionError for what is no number."""
+    if not isinstance(quantity, (str, Quantity, Request)):
+        return None
+    try:
+        request = bound_quantity(plan, quantity)
+    except (UntracedError, LawError):
+        return None
+    if request.rows > 1:
+        raise DefinitionError(f"{plan.title}: {words_of(quantity)} has two components; {which_component(plan, quantity)}.")
+    try:
+        plan.made(("traced", request.key), lambda twin: len(request.nodes(twin)))
+    except (UntracedError, LawError):
+        return None
+    return request
+
+
+def bound_quantity(plan: Plan, quantity: str | Quantity | Request) -> BoundRequest:
+    """Return a quantity bound to a plan; a dimension by its name too, `"lift.closed"`."""
+    if isinstance(quantity, str) and quantity not in plan.members and quantity in plan.table.spellings:
+        return DimensionValue(*plan.table.spellings[quantity])
+    return bound(plan, quantity)
+
+
+def strokes_behind(plan: Plan, quantity: Any) -> tuple[str, ...]:
+    """Return the strokes that a quantity depends on; all of them for a function of a motion."""
+    if not isinstance(quantity, (str, Quantity, Request)):
+        return tuple(plan.strokes)
+    try:
+        names = bound_quantity(plan, quantity).names(plan)
+    except (UntracedError, LawError):
+        return tuple(plan.strokes)
+    return tuple(name for name in plan.strokes if name in names or name in plan.reaches(*(each for each in names if each in plan.members)))
+
+
+@final
+@dataclass(frozen=True)
+class DimensionValue(BoundRequest):
+    """A dimension itself, by its owner and sign."""
+
+    owner: str
+    sign: int
+
+    @property
+    def key(self) -> Any:
+        return "dimension", self.owner, self.sign
+
+    def nodes(self, plan: Plan) -> tuple[Any, ...]:
+        return (plan.trace.inputs[self.owner] * float(self.sign),)
+
+    def names(self, plan: Plan) -> set[str]:
+        return set()
+
+    def __str__(self) -> str:
+        return self.owner

@@ -1,0 +1,142 @@
+"""What the judge finds: a value and its place, in which load case and movement, whether a condition is kept, and what has no value."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, final
+
+import numpy as np
+
+from ..language import said, translated
+from ..loads import FRICTIONLESS
+from ..units import display_unit, show
+from .limits import place_text
+
+OF_VALUE, LOST, UNBOUNDED, NOTHING_LEFT = "value", "lost", "unbounded", "nothing left"
+"""What an answer rests on: a value; places that are lost; a value that grows without bounds; nothing, as no place is asked or limited."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Lost:
+    """What has no value where it was asked for: its share of the places, the deepest of them [m or rad], and what is missing there.
+
+    `surely` is False where places may be lost between those that were looked at: those of groups, and of laws that have no value.
+    """
+
+    share: float = 0.0
+    strokes: Mapping[str, float] = field(default_factory=dict)
+    sentence: str = ""
+    surely: bool = True
+
+    def __bool__(self) -> bool:
+        return self.share > 0.0 or bool(self.sentence)
+
+
+NONE_LOST = Lost()
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """What the judge answers to one question: the worst over all that was looked at. Of a batch arrays over its designs.
+
+    `value` [SI], infinite where it is unbounded and NaN where there is none; `ok` True, False or None, for a bare measure and where
+    nothing is left to judge, which `status` says. `strokes` say where [m or rad], `case`, `direction`, `drive`, `side` and `over` in which
+    situation, "" where there is one only. `unlimited` and `outside` are shares of the places looked at. `width` is the part of each
+    stroke that the place may be broad at the least to be found, `count` the number of poses looked at.
+    """
+
+    question: Any
+    value: Any
+    ok: Any
+    status: Any
+    strokes: Mapping[str, Any]
+    case: Any = ""
+    direction: Any = ""
+    drive: Any = ""
+    side: Any = ""
+    over: Any = ""
+    lost: Lost = NONE_LOST
+    unlimited: float = 0.0
+    outside: float = 0.0
+    width: Mapping[str, float] = field(default_factory=dict)
+    count: int = 0
+    units: Mapping[str, str] = field(default_factory=dict)
+    measures: str = ""
+    named: frozenset[str] = frozenset()
+    """What has to be named, as there are several: "case", "direction", "drive", "side", "over"."""
+
+    def __repr__(self) -> str:
+        kept = "" if np.ndim(self.value) or self.ok is None else ": kept" if self.ok else ": not kept"
+        return f"<Answer to {self.question}{kept}; {self}>"
+
+    @property
+    def unbounded(self) -> Any:
+        """Whether it grows without bounds."""
+        return np.asarray(self.status == UNBOUNDED)[()] if np.ndim(self.value) else self.status == UNBOUNDED
+
+    @property
+    def where(self) -> str:
+        """Where it stands, in words: `at S = 0.1234 m`, `at S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges."""
+        return said("at {place}", place=places_text(self.strokes, self.units)) if self.strokes else ""
+
+    @property
+    def situation(self) -> str:
+        """In which situation it stands, in words: `extending, in the case full, over loading`; "" where there is one only."""
+        if np.ndim(self.value):
+            return ""
+        words = []
+        if "direction" in self.named and self.direction:
+            text = said("at rest") if self.direction == FRICTIONLESS else translated(self.direction)
+            words.append(said("{direction} {drive}", direction=text, drive=self.drive) if "drive" in self.named and self.drive else text)
+        if "side" in self.named and self.side:
+            words.append(said("on the piston side") if self.side == "piston" else said("on the rod side"))
+        if "case" in self.named and self.case:
+            words.append(said("in the case {case}", case=self.case))
+        if "over" in self.named and self.over:
+            words.append(said("over {over}", over=self.over))
+        return ", ".join(words)
+
+    @property
+    def place(self) -> str:
+        """Situation and place in words: `extending, in the case full, at phi = 90.00 deg, psi = 0.00 deg`."""
+        return ", ".join(each for each in (self.situation, self.where) if each)
+
+    @property
+    def amount(self) -> str:
+        """The value in words, with its unit where that is known."""
+        if self.status == UNBOUNDED:
+            return said("without bounds")
+        unit = display_unit(self.measures, "mm")
+        return show(float(self.value), unit, 6)
+
+    def __str__(self) -> str:
+        if np.ndim(self.value):
+            finite = np.asarray(self.value)[np.isfinite(self.value)]
+            if not finite.size:
+                return said("no value at any pose")
+            return f"{said('{low} to {high}', low=f'{finite.min():.6g}', high=f'{finite.max():.6g}')} {self.where}"
+        if self.status == NOTHING_LEFT:
+            return said("nothing is left to judge: every place is unlimited, left out or lost")
+        if np.isnan(self.value):
+            return f"{said('no value at any pose')}{f'; {self.lost.sentence}' if self.lost.sentence else ''}"
+        found = f"{self.amount} {self.place}".strip()
+        return f"{found}; {self.lost_words}" if self.lost else found
+
+    @property
+    def lost_words(self) -> str:
+        """What is lost, in words."""
+        share = said("{share} of the places is lost", share=share_text(self.lost.share))
+        return f"{share}: {self.lost.sentence}" if self.lost.sentence else share
+
+
+def share_text(share: float) -> str:
+    """Return a share of the places as a percentage."""
+    return f"{100.0 * share:.3g} %" if share > 0.0 else said("a narrow part")
+
+
+def places_text(strokes: Mapping[str, Any], units: Mapping[str, str]) -> str:
+    """Return values of strokes as a place is read: `S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges."""
+    return ", ".join(f"{name} = {place_text(value, units[name])}" for name, value in strokes.items())

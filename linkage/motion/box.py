@@ -1,0 +1,661 @@
+"""The highest values of functions over a box of two strokes and more; many functions and many designs at once.
+
+A grid with the borders on it gives the starts: of the points that no neighbour betters, those that may still win, by half of what the
+values bend there; the highest always. A part of the box that is higher than all else is found if it holds a box as wide as the grid's
+steps: one of its points is then the highest of all.
+
+From each start a quadratic is fitted on a stencil, which moves to the quadratic's top and contracts; all stencils of all functions are
+one call a round, equal ones once. What is not smooth goes on by sampled gradients: the shortest vector in their hull leads along a ridge
+in any direction. The border of what has a value is followed by bisection along a stroke, as a function of the others.
+Sources: A. R. Conn, K. Scheinberg, L. N. Vicente, Introduction to Derivative-Free Optimization (2009), ch. 10; J. V. Burke, A. S. Lewis,
+M. L. Overton, SIAM J. Optim. 15 (2005) 751-779.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from itertools import combinations, product
+from typing import Protocol, Self, final
+
+import numpy as np
+
+from ..plan import Mask
+from ..program import FloatArray
+from .line import LOWEST, Index, is_pole, missing_lowest
+
+SIDES = {2: 129, 3: 33, 4: 13, 5: 8, 6: 6}  # values a stroke, by the number of strokes
+MORE, MOST_POSES = 5, 1 << 20  # values a stroke of more strokes; grid poses of all designs together
+STARTS, ROUGH = 24, 3  # of each function and design; of these, how many go on where it is not smooth
+ROUNDS, PATIENCE = 40, 3  # of stencils; rounds that gain nothing before a start counts as not smooth
+CLOSE, ROUNDED = 1e-12, 16.0 * float(np.finfo(float).eps)  # of the range of the values, and of their size: what is no gain
+TRUST = 1.5  # of a stencil's half: how far a quadratic is believed
+NARROW = 1e-9  # of the box: how narrow a stencil gets
+NONE = np.zeros(0, int)
+SEEN, BORDER = 1e-7, 1e-8  # how near a value must keep growing to be unbounded, and how near its border is known; of the box
+
+
+class SeenBox(Protocol):
+    """Functions in the unit box: `seen` (K, D, side^k) on the grid, and values and reached poses anywhere else."""
+
+    k: int
+    side: int
+    seen: FloatArray
+
+    def at(self, design: Index, places: FloatArray) -> tuple[FloatArray, Mask]:
+        """Return the values (K, u, n) at places (u, n, k) of a design each (u,), and which poses (u, n) are reached."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class HighestInBox:
+    """The highest value of K functions of D designs, arrays (K, D), NaN where there is none; where (K, D, k); whether it is unbounded."""
+
+    value: FloatArray
+    unit: FloatArray
+    unbounded: Mask
+
+
+def values_a_stroke(k: int, designs: int) -> int:
+    """Return how many values a stroke has on the grid: fewer only where the grids of all designs would be too large."""
+    side = SIDES.get(k, MORE)
+    while side > 3 and designs * side**k > max(MOST_POSES, SIDES[2] ** 2):
+        side -= 1
+    return side
+
+
+# -- starts and what is known of them ------------------------------------------------------------------------
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Climbs:
+    """Searches, arrays (r, ...): whose (function and design), the best place and its value, the next stencil, what it should show."""
+
+    function: Index
+    design: Index
+    unit: FloatArray
+    value: FloatArray
+    centre: FloatArray
+    half: FloatArray
+    expected: FloatArray
+    bound: FloatArray
+    idle: Index
+    axis: Index
+    """The stroke along which a border is followed, -1 where the box is searched."""
+
+    def where(self, mask: Mask | Index) -> Self:
+        """Return some of them."""
+        return type(self)(*(getattr(self, each.name)[mask] for each in fields(self)))
+
+    @classmethod
+    def joined(cls, parts: list[Climbs]) -> Climbs:
+        """Return all of several."""
+        return cls(*(np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(cls)))
+
+    def best(self, rows: int) -> FloatArray:
+        """Return the best value known, for each the best of its function and design; `rows` is the number of designs."""
+        row = self.function * rows + self.design
+        found = np.full(int(row.max(initial=0)) + 1, -np.inf)
+        np.maximum.at(found, row, self.value)
+        return np.asarray(found[row])
+
+
+def stencil_of(k: int) -> FloatArray:
+    """Return the places (n, k) of a stencil from -1 to 1: its middle, the axes, the pairs of axes; of up to three strokes all 3^k."""
+    axes = [sign * axis for axis in np.eye(k) for sign in (1.0, -1.0)]
+    pairs = [a * i + b * j for i, j in combinations(np.eye(k), 2) for a, b in product((1.0, -1.0), repeat=2)]
+    corners = [np.array(each) for each in product((1.0, -1.0), repeat=3)] if k == 3 else []
+    return np.array([np.zeros(k), *axes, *pairs, *corners])
+
+
+def weights_of(k: int, side: int) -> Index:
+    """Return by how much a step along each stroke (k,) is further on in the numbers of a grid's points."""
+    return np.asarray(side ** np.arange(k - 1, -1, -1))
+
+
+def steps_to_neighbours(k: int, side: int) -> tuple[Index, Index]:
+    """Return the steps (n, k) to the neighbours of a grid point, and by how much these are further on in its numbers (n,)."""
+    steps = np.array([each for each in product((-1, 0, 1), repeat=k) if any(each)])
+    return steps, steps @ weights_of(k, side)
+
+
+def widened(cube: FloatArray) -> FloatArray:
+    """Return the highest of each point of a grid and its neighbours."""
+    for axis in range(cube.ndim):
+        ahead, behind = np.moveaxis(cube, axis, 0)[1:], np.moveaxis(cube, axis, 0)[:-1]
+        found = cube.copy()
+        into = np.moveaxis(found, axis, 0)
+        np.maximum(into[:-1], ahead, out=into[:-1])
+        np.maximum(into[1:], behind, out=into[1:])
+        cube = found
+    return cube
+
+
+def firsts(values: FloatArray, point: Index, k: int, side: int) -> Index:
+    """Return those of some tops of a grid, values (side^k,), that are the first ones of a level part."""
+    steps, by = steps_to_neighbours(k, side)
+    steps, by = steps[by < 0], by[by < 0]
+    index = np.stack(np.unravel_index(point, [side] * k), axis=-1)[:, None] + steps
+    inside = ((index >= 0) & (index < side)).all(axis=-1)
+    near = np.where(inside, values[np.where(inside, point[:, None] + by, 0)], -np.inf)
+    return np.asarray(point[(near < values[point][:, None]).all(axis=-1)])
+
+
+def bends(seen: FloatArray, point: Index, k: int, side: int) -> FloatArray:
+    """Return the sum of the absolute second differences along the strokes at points of a grid, values (side^k,).
+
+    They are taken to one side at borders and next to missing values, and none where that is not possible.
+    """
+    index = np.unravel_index(point, [side] * k)
+    total = np.zeros(point.shape)
+    for axis in range(k):
+        weight = side ** (k - 1 - axis)
+
+        def at(by: int, axis: int = axis, weight: int = weight) -> FloatArray:
+            there = (index[axis] + by >= 0) & (index[axis] + by < side)
+            return np.where(there, seen[np.where(there, point + by * weight, 0)], np.nan)
+
+        middle = np.abs(at(-1) - 2.0 * seen[point] + at(1))
+        sides = [np.abs(seen[point] - 2.0 * at(by) + at(2 * by)) for by in (-1, 1)]
+        total += np.nan_to_num(np.where(np.isnan(middle), np.fmax(*sides), middle), nan=0.0, posinf=-LOWEST)
+    return total
+
+
+def hopeful(seen: FloatArray, k: int, side: int) -> tuple[Index, FloatArray]:
+    """Return the tops of a grid, values (side^k,), that may win, the highest first, and the most that each may come to."""
+    values = missing_lowest(seen)
+    cube = values.reshape([side] * k)
+    tops = np.asarray((cube >= widened(cube)) & (cube > -np.inf))
+    for axis in range(k):  # of a level part one point is enough
+        here = np.moveaxis(cube, axis, 0)
+        np.moveaxis(tops, axis, 0)[1:] &= here[1:] > here[:-1]
+    point = np.flatnonzero(tops)
+    if not point.size:
+        return point, np.zeros(0)
+    bound = np.minimum(values[point] + 0.5 * bends(seen, point, k, side), -LOWEST)
+    may_win = bound >= values.max()
+    kept = np.isin(point, firsts(values, point[may_win], k, side))
+    point, bound = point[kept], bound[kept]
+    order = np.lexsort((-bound, values[point] < values.max()))[:STARTS]
+    return point[order], bound[order]
+
+
+def starts_of(box: SeenBox) -> tuple[Climbs, FloatArray]:
+    """Return the searches from the grid, and what their first stencils show, (r, n): values that the grid has."""
+    K, D, _ = box.seen.shape
+    found = [hopeful(box.seen[row], box.k, box.side) for row in np.ndindex(K, D)]
+    count = [len(point) for point, _ in found]
+    function, design = (np.repeat(each.ravel(), count) for each in np.indices((K, D)))
+    point, bound = (np.concatenate([each[part] for each in found]) for part in (0, 1))
+    index = np.stack(np.unravel_index(point, [box.side] * box.k), axis=-1)
+    steps = box.side - 1.0
+    middle = np.clip(index, 1, box.side - 2)
+    stencil = (middle[:, None, :] + stencil_of(box.k).astype(int)) @ weights_of(box.k, box.side)
+    full, none = np.full(len(point), 1.0 / steps), np.full(len(point), np.nan)
+    climbs = Climbs(
+        function, design, index / steps, box.seen[function, design, point], middle / steps, full, none, bound,
+        np.zeros(len(point), int), np.full(len(point), -1),
+    )  # fmt: skip
+    return climbs, box.seen[function[:, None], design[:, None], stencil]
+
+
+# -- where it is smooth: a quadratic on a stencil ------------------------------------------------------------
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Quadratic:
+    """Quadratics (r,) of places (r, k) in their stencils, from -1 to 1: value, gradient, second derivatives."""
+
+    value: FloatArray
+    slope: FloatArray
+    bend: FloatArray
+
+    @classmethod
+    def of(cls, seen: FloatArray, k: int) -> Quadratic:
+        """Return those through what stencils show."""
+        ahead, behind = seen[:, 1 : 2 * k + 1 : 2], seen[:, 2 : 2 * k + 1 : 2]
+        bend = np.zeros((len(seen), k, k))
+        bend[:, range(k), range(k)] = ahead - 2.0 * seen[:, :1] + behind
+        for number, (i, j) in enumerate(combinations(range(k), 2)):
+            a, b, c, d = seen[:, 2 * k + 1 + 4 * number : 2 * k + 5 + 4 * number].T
+            bend[:, i, j] = bend[:, j, i] = 0.25 * (a - b - c + d)
+        return cls(seen[:, 0], 0.5 * (ahead - behind), bend)
+
+    def at(self, u: FloatArray) -> FloatArray:
+        """Return the values (r,) at places (r, k)."""
+        return np.asarray(self.value + (u * (self.slope + 0.5 * np.einsum("rij,rj->ri", self.bend, u))).sum(axis=-1))
+
+    def on(self, stencil: FloatArray) -> FloatArray:
+        """Return the values (r, n) at the places (n, k) of a stencil."""
+        bent = np.einsum("ni,rij,nj->rn", stencil, self.bend, stencil)
+        return np.asarray(self.value[:, None] + self.slope @ stencil.T + 0.5 * bent)
+
+    def top(self, low: FloatArray, high: FloatArray, start: FloatArray) -> FloatArray:
+        """Return a highest place (r, k) between bounds (r, k): stroke by stroke uphill, and a Newton step in those that are free."""
+        k = self.slope.shape[1]
+        u = np.clip(start, low, high)
+        for _ in range(3):
+            for axis in [*range(k)] * 3:
+                slope = self.slope[:, axis] + np.einsum("rj,rj->r", self.bend[:, axis], u) - self.bend[:, axis, axis] * u[:, axis]
+                bend, ends = self.bend[:, axis, axis], (low[:, axis], high[:, axis])
+                gain = [end * (slope + 0.5 * bend * end) for end in ends]
+                inner = np.clip(-slope / np.where(bend < 0.0, bend, -1.0), *ends)
+                u[:, axis] = np.where(bend < 0.0, inner, np.where(gain[1] > gain[0], ends[1], ends[0]))
+            u = self._newton(u, low, high)
+        return u
+
+    def falls(self, u: FloatArray, by: FloatArray) -> Mask:
+        """Return along which coordinates (r, k) a quadratic is steeper at places (r, k) than it bends, by so much (r,)."""
+        slope = np.abs(self.slope + np.einsum("rij,rj->ri", self.bend, u))
+        return np.asarray(slope > by[:, None] + 0.5 * np.abs(self.bend).sum(axis=-1))
+
+    def _newton(self, u: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
+        """Return the places after a Newton step in the free coordinates, where it stays in and is no loss."""
+        k = u.shape[1]
+        free = (u > low) & (u < high)
+        slope = self.slope + np.einsum("rij,rj->ri", self.bend, u)
+        matrix = np.where(free[:, :, None] & free[:, None, :], self.bend, 0.0)
+        size = np.abs(self.bend).max(axis=(1, 2))[:, None]
+        matrix[:, range(k), range(k)] -= np.where(free, 1e-13 * size, 1.0) + 1e-300
+        with np.errstate(all="ignore"):
+            step = np.linalg.solve(matrix, np.where(free, -slope, 0.0)[..., None])[..., 0]
+        new = np.where(np.isfinite(step), u + step, u)
+        good = ((new >= low) & (new <= high)).all(axis=-1) & (self.at(new) >= self.at(u))
+        return np.where(good[:, None], new, u)
+
+
+def snapped(unit: FloatArray) -> FloatArray:
+    """Return places in the unit box, those next to a border on it."""
+    unit = np.where(unit < 1e-14, 0.0, np.minimum(unit, 1.0))
+    return np.asarray(np.where(unit > 1.0 - 1e-14, 1.0, unit))
+
+
+def after_round(
+    climbs: Climbs, seen: FloatArray, k: int, least: FloatArray, places: FloatArray | None = None
+) -> tuple[Climbs, Mask, Mask]:
+    """Return the searches after a round, which have come to their top, and which are not smooth. `least` (r,) is what is no gain.
+
+    What they have `seen` is at `places` (r, n, k), where these are not those of the stencil.
+    """
+    rows, stencil = np.arange(len(seen)), stencil_of(k)
+    values = missing_lowest(seen)
+    pick = np.argmax(values, axis=-1)
+    gain = values[rows, pick] - climbs.value
+    centre, half = climbs.centre, climbs.half[:, None]
+    at = snapped(centre + half * stencil[pick]) if places is None else places[rows, pick]
+    climbs = replace(climbs, unit=np.where((gain > 0.0)[:, None], at, climbs.unit), value=np.fmax(climbs.value, values[rows, pick]))
+    smooth = np.asarray(np.isfinite(seen).all(axis=-1))
+    seen = np.where(smooth[:, None], seen, 0.0)
+    model = Quadratic.of(seen, k)
+    fixed, walls = np.arange(k) == climbs.axis[:, None], (-centre / half, (1.0 - centre) / half)
+    low, high = np.where(fixed, 0.0, np.maximum(-TRUST, walls[0])), np.where(fixed, 0.0, np.minimum(TRUST, walls[1]))
+    u = model.top(low, high, stencil[pick])
+    at_wall = fixed | (np.abs(u - walls[0]) < 1e-9) | (np.abs(u - walls[1]) < 1e-9)
+    inside = np.asarray((at_wall | (np.abs(u) < TRUST)).all(axis=-1))
+    error, misfit, spread = np.abs(model.value - climbs.expected), np.abs(model.on(stencil) - seen).max(axis=-1), np.ptp(seen, axis=-1)
+    trusted = smooth & ~(error > 0.25 * spread + least) & (misfit <= 0.25 * spread + least)
+    firm = (fixed | (at_wall & model.falls(u, 4.0 * np.fmax(error, misfit)))).all(axis=-1)
+    hoped = model.at(u)
+    done = trusted & (hoped - climbs.value <= least) & (misfit <= 0.05 * spread + least) & ((error <= 1e3 * least) | firm)
+    bound = np.fmax(climbs.value, hoped) + 2.0 * np.abs(hoped - climbs.value) + 2.0 * np.fmax(error, misfit)
+    idle = np.where(smooth & (gain > least), 0, climbs.idle + 1)
+    climbs = replace(climbs, bound=np.where(smooth, bound, np.inf), idle=idle)
+    climbs = moved_on(climbs, model, u, smooth & (hoped > climbs.value), smooth & inside, trusted, gain > 0.0)
+    rough = (idle > PATIENCE) & ~(trusted & inside)
+    return climbs, done, ~done & (rough | (climbs.half <= NARROW))
+
+
+def moved_on(climbs: Climbs, model: Quadratic, u: FloatArray, good: Mask, inside: Mask, trusted: Mask, better: Mask) -> Climbs:
+    """Return searches (r,) with their next stencils: about the quadratic's top `u` where that is `good`, else about the best place.
+
+    They are a quarter as wide where the top is `inside` and the quadratic `trusted`, as wide as before where it leads on to what is
+    `better`, else half as wide.
+    """
+    centre, half = climbs.centre, climbs.half[:, None]
+    goal = np.where(good[:, None], np.clip(centre + half * u, 0.0, 1.0), climbs.unit)
+    near = good | (np.abs(goal - (centre + half * u)) <= 0.5 * half).all(axis=-1)
+    new = climbs.half * np.where(trusted & inside & near, 0.25, np.where(good & trusted & better, 1.0, 0.5))
+    fixed = np.arange(u.shape[1]) == climbs.axis[:, None]
+    middle = np.where(fixed, climbs.unit, np.clip(goal, new[:, None], 1.0 - new[:, None]))
+    step = (middle - centre) / half
+    known = (good | inside) & (np.abs(step) <= 2.0).all(axis=-1)
+    return replace(climbs, centre=middle, half=new, expected=np.where(known, model.at(step), np.nan))
+
+
+def at_stencils(box: SeenBox, climbs: Climbs, offsets: FloatArray) -> FloatArray:
+    """Return what searches (r,) see at their centres plus offsets (n, k) times their halves, shape (r, n): equal stencils are one."""
+    keys = np.column_stack([climbs.design, climbs.centre, climbs.half])
+    _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    places = snapped(climbs.centre[first, None, :] + climbs.half[first, None, None] * offsets)
+    seen, _ = box.at(climbs.design[first], places)
+    return np.asarray(seen[climbs.function, inverse.reshape(-1)])
+
+
+def climbed(box: SeenBox) -> tuple[Climbs, Climbs, FloatArray]:
+    """Return the searches that came to a smooth top, those that did not, and (K, D) what is no gain."""
+    D = box.seen.shape[1]
+    finite = np.where(np.abs(box.seen) < -LOWEST, box.seen, np.nan)
+    size = np.fmax.reduce(np.abs(finite), axis=-1, initial=0.0)
+    span = np.fmax.reduce(finite, axis=-1, initial=-np.inf) - np.fmin.reduce(finite, axis=-1, initial=np.inf)
+    least = CLOSE * np.maximum(span, 0.0) + ROUNDED * size
+    going, seen = starts_of(box)
+    tops: list[Climbs] = [going.where(NONE)]
+    rough: list[Climbs] = [going.where(NONE)]
+    for _ in range(ROUNDS):
+        going, done, stuck = after_round(going, seen, box.k, least[going.function, going.design])
+        edge = ~np.isfinite(seen).all(axis=-1)  # next to what has no value: its border is followed on its own
+        tops.append(going.where(done | (stuck & edge)))
+        rough.append(going.where(stuck & ~done & ~edge))
+        known = Climbs.joined([*tops, *rough, going])
+        best = known.best(D)[-len(going.value) :] if len(going.value) else going.value
+        going = going.where(~done & ~stuck & ((going.bound >= best) | (going.value >= best)))
+        if not len(going.value):
+            break
+        seen = at_stencils(box, going, stencil_of(box.k))
+    rough.append(going)
+    return Climbs.joined(tops), Climbs.joined(rough), least
+
+
+# -- where it is not smooth: gradients that are sampled ------------------------------------------------------
+
+SLOPES, FALLS = 4, 60  # samples beyond two a stroke; rounds
+LENGTHS = np.ldexp(1.0, np.arange(-5, 6))  # of a search's half: how far it goes along a direction
+FAR_ON = 8  # from which of these lengths on the half is doubled
+
+
+def own_values(box: SeenBox, climbs: Climbs, places: FloatArray) -> FloatArray:
+    """Return the values (r, n) of each search's own function at its own places (r, n, k); those of equal searches are asked once."""
+    seen, _ = box.at(climbs.design, places)
+    return np.asarray(seen[climbs.function, np.arange(len(places))])
+
+
+def shortest(slopes: FloatArray, known: Mask) -> FloatArray:
+    """Return the shortest vectors (r, k) in the hulls of vectors (r, m, k), of those that are known (r, m)."""
+    rows = np.arange(len(slopes))
+    slopes = np.where(known[..., None], slopes, 0.0)
+    weight = known / np.maximum(known.sum(axis=-1, keepdims=True), 1)
+    found = np.einsum("rm,rmk->rk", weight, slopes)
+    for _ in range(80):
+        along = np.einsum("rmk,rk->rm", slopes, found)
+        least = np.argmin(np.where(known, along, np.inf), axis=-1)
+        most = np.argmax(np.where(weight > 0.0, along, -np.inf), axis=-1)
+        step = slopes[rows, least] - slopes[rows, most]
+        share = -(found * step).sum(axis=-1) / np.maximum((step * step).sum(axis=-1), 1e-300)
+        share = np.clip(np.nan_to_num(share), 0.0, weight[rows, most])
+        share = np.where(share > 1e-9, share, 0.0)
+        weight[rows, least] += share
+        weight[rows, most] -= share
+        found = found + share[:, None] * step
+        if not share.any():
+            break
+    return np.asarray(found)
+
+
+def ridden(box: SeenBox, climbs: Climbs, least: FloatArray) -> Climbs:
+    """Return searches (r,) after steps along the directions in which all slopes about them rise; `least` (r,) is what is no gain."""
+    k = box.k
+    m = 2 * k + SLOPES
+    half = np.full(len(climbs.value), 0.5 / (box.side - 1))
+    climbs, ended = replace(climbs, half=half), []
+    for number in range(FALLS):
+        cube = evenly(k, number * m, m)
+        wanted = climbs.unit[:, None] + climbs.half[:, None, None] * cube
+        places, slopes, values = slopes_about(box, climbs, wanted)
+        way = shortest(slopes, np.asarray(np.isfinite(slopes).all(axis=-1)))
+        climbs = stepped(box, climbs, way, places, values, least)
+        going = climbs.half >= NARROW
+        ended.append(climbs.where(~going))
+        climbs, least = climbs.where(going), least[going]
+        if not len(least):
+            break
+    return Climbs.joined([*ended, climbs])
+
+
+def evenly(k: int, first: int, count: int) -> FloatArray:
+    """Return so many points (count, k) of a sequence that fills the cube from -1 to 1 evenly. Source: H. Weyl, Math. Ann. 77 (1916)."""
+    root = 2.0
+    for _ in range(64):
+        root = (1.0 + root) ** (1.0 / (k + 1))
+    numbers = first + np.arange(count)[:, None]
+    return np.asarray(2.0 * ((0.5 + numbers * root ** -np.arange(1.0, k + 1)) % 1.0) - 1.0)
+
+
+def slopes_about(box: SeenBox, climbs: Climbs, wanted: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the places (r, m, k) in the box that are next to those wanted, the slopes there and the values (r, m).
+
+    Beyond a border of the box a function falls, ten times as steep as anywhere else.
+    """
+    k, places = box.k, np.clip(wanted, 0.0, 1.0)
+    delta = (1e-4 * climbs.half[:, None, None] * np.where(places > 0.5, -1.0, 1.0))[..., None] * np.eye(k)  # (r, m, k, k)
+    every = np.concatenate([places[:, :, None], places[:, :, None] + delta], axis=2)
+    seen = own_values(box, climbs, every.reshape(len(places), -1, k)).reshape(*places.shape[:2], k + 1)
+    slopes = (seen[..., 1:] - seen[..., :1]) / np.einsum("rmkk->rmk", delta)
+    steep = 10.0 * np.where(np.isfinite(slopes), np.abs(slopes), 0.0).max(axis=(1, 2))[:, None, None]
+    return places, np.where(wanted == places, slopes, -np.sign(wanted - places) * steep), seen[..., 0]
+
+
+def stepped(box: SeenBox, climbs: Climbs, way: FloatArray, near: FloatArray, seen: FloatArray, least: FloatArray) -> Climbs:
+    """Return searches at the best place along a way (r, k) or of those seen near them; nearer about it where that is little gain."""
+    rows, half = np.arange(len(way)), climbs.half
+    size = np.abs(way).max(axis=-1)
+    ahead = way / np.where(size > 0.0, size, 1.0)[:, None]
+    line = np.clip(climbs.unit[:, None] + (half[:, None] * LENGTHS)[..., None] * ahead[:, None], 0.0, 1.0)
+    values = missing_lowest(np.concatenate([own_values(box, climbs, line), seen], axis=1))
+    pick = np.argmax(values, axis=-1)
+    gain = values[rows, pick] - climbs.value
+    unit = np.where((gain > 0.0)[:, None], np.concatenate([line, near], axis=1)[rows, pick], climbs.unit)
+    moved = (gain > 0.02 * half * np.sqrt((way * way).sum(axis=-1))) & (gain > least)
+    far = moved & (pick >= FAR_ON) & (pick < len(LENGTHS))
+    half = np.where(far, np.minimum(2.0 * half, 0.5), np.where(moved, half, 0.25 * half))
+    return replace(climbs, unit=unit, value=np.fmax(climbs.value, values[rows, pick]), half=half)
+
+
+# -- the border of what has a value --------------------------------------------------------------------------
+
+FINE = 2e-7  # of the box: how narrow a stencil on a border gets
+EDGES, BORDERS, CUTS = 4, 4, 16  # borders of each function and design, along each stroke and in all; parts of a bisection
+ACROSS = np.linspace(-6.0, 6.0, 13)  # where a border is looked for, in halves of the stencil
+
+
+def border_starts(box: SeenBox) -> Climbs:
+    """Return searches at the grid points whose next along a stroke has no value, the best ones."""
+    K, D, _ = box.seen.shape
+    rows: list[tuple[int, int, int, int]] = []
+    for row, number in np.ndindex(K, D):
+        cube = missing_lowest(box.seen[row, number]).reshape([box.side] * box.k)
+        if not np.isneginf(cube).any():
+            continue
+        for axis, by in product(range(box.k), (-1, 1)):
+            beyond, behind = values_beside(cube, axis, by), values_beside(cube, axis, -by)
+            edge = (cube > -np.inf) & np.isneginf(beyond)
+            score = np.where(edge, cube + np.where(behind > LOWEST, np.maximum(cube - behind, 0.0), 0.0), -np.inf).ravel()
+            tops = np.flatnonzero(edge.ravel() & (score >= widened(score.reshape(cube.shape)).ravel()))
+            rows += [(row, number, int(top), axis) for top in tops[np.argsort(-score[tops])][:EDGES]]
+    function, design, point, along = np.array(rows, int).reshape(-1, 4).T
+    unit = np.stack(np.unravel_index(point, [box.side] * box.k), axis=-1) / (box.side - 1.0)
+    steps, _ = steps_to_neighbours(box.k, box.side)
+    near = np.clip(np.rint(unit * (box.side - 1)).astype(int)[:, None] + steps, 0, box.side - 1) @ weights_of(box.k, box.side)
+    value = box.seen[function, design, point]
+    rise = np.fmax.reduce(np.abs(box.seen[function[:, None], design[:, None], near] - value[:, None]), axis=-1, initial=0.0)
+    half, none = np.full(len(point), 1.0 / (box.side - 1)), np.full(len(point), np.nan)
+    return Climbs(function, design, unit, value, unit, half, none, 2.0 * rise, np.zeros(len(point), int), along)
+
+
+def values_beside(cube: FloatArray, axis: int, by: int) -> FloatArray:
+    """Return the values so many places on along an axis, NaN beyond the ends."""
+    found = np.full(cube.shape, np.nan)
+    into, out = [slice(None)] * cube.ndim, [slice(None)] * cube.ndim
+    into[axis], out[axis] = (slice(None, -by), slice(by, None)) if by > 0 else (slice(-by, None), slice(None, by))
+    found[tuple(into)] = cube[tuple(out)]
+    return found
+
+
+def on_border(box: SeenBox, alike: Index, climbs: Climbs, places: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the places (r, n, k) on the border next to places (r, n, k), along each search's stroke, and the values (r, n) there.
+
+    The border is looked for within six halves of the stencil; where there is none the value is NaN. Functions that are `alike`
+    (K,) have the same border.
+    """
+    keys = np.column_stack([alike[climbs.function], climbs.design, climbs.axis, climbs.half, places.reshape(len(places), -1)])
+    _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    inverse = inverse.reshape(-1)
+    found, there = border_crossings(box, climbs.where(first), places[first])
+    seen, _ = box.at(climbs.design[first], found)
+    return found[inverse], np.where(there[inverse], seen[climbs.function, inverse], np.nan)
+
+
+def border_crossings(box: SeenBox, climbs: Climbs, places: FloatArray) -> tuple[FloatArray, Mask]:
+    """Return the last places (r, n, k) with a value along each search's stroke, and whether there is a border (r, n)."""
+    r, _, k = places.shape
+    fixed = (np.arange(k) == climbs.axis[:, None])[:, None, None, :]
+    middle = np.take_along_axis(places, climbs.axis[:, None, None], axis=-1)[..., 0]
+
+    def missing_at(along: FloatArray) -> Mask:
+        at = np.where(fixed, along[..., None], places[:, :, None, :])
+        return np.isnan(own_values(box, climbs, at.reshape(r, -1, k)).reshape(along.shape))
+
+    along = np.clip(middle[..., None] + climbs.half[:, None, None] * ACROSS, 0.0, 1.0)
+    missing = missing_at(along)
+    change = missing[..., :-1] != missing[..., 1:]
+    away = np.where(change, np.abs(np.arange(ACROSS.size - 1) - ACROSS.size // 2 + 0.5), np.inf)
+    pick = np.argmin(away, axis=-1)[..., None]
+    first, last = (np.take_along_axis(along, pick + step, axis=-1)[..., 0] for step in (0, 1))
+    back = np.take_along_axis(missing, pick, axis=-1)[..., 0]
+    inside, outside = np.where(back, last, first), np.where(back, first, last)
+    outside = np.where(change.any(axis=-1), outside, inside)
+    while np.max(np.abs(outside - inside), initial=0.0) > 1e-13:
+        cut = inside[..., None] + (outside - inside)[..., None] * np.linspace(0.0, 1.0, CUTS + 1)
+        gone = np.concatenate([missing_at(cut[..., 1:-1]), np.ones((*inside.shape, 1), bool)], axis=-1)
+        pick = np.argmax(gone, axis=-1)[..., None]
+        new = [np.take_along_axis(cut, pick + step, axis=-1)[..., 0] for step in (0, 1)]
+        wide = np.abs(outside - inside) > 1e-13
+        if np.array_equal(new, [inside, outside]):
+            break
+        inside, outside = np.where(wide, new[0], inside), np.where(wide, new[1], outside)
+    return np.where(fixed[:, :, 0], inside[..., None], places), np.asarray(change.any(axis=-1))
+
+
+def hopeful_borders(box: SeenBox, alike: Index, known: FloatArray) -> Climbs:
+    """Return the searches on borders that may better what is known (K, D)."""
+    starts = border_starts(box)
+    places, values = on_border(box, alike, starts, starts.unit[:, None])
+    found, D = missing_lowest(values[:, 0]), box.seen.shape[1]
+    keys = np.column_stack([starts.function, starts.design, starts.unit])
+    _, point = np.unique(keys, axis=0, return_inverse=True)
+    away = np.where(np.isfinite(found), np.abs(places[:, 0] - starts.unit).sum(axis=-1), np.inf)
+    order = np.lexsort((away, point.reshape(-1)))
+    nearest = np.zeros(len(found), bool)
+    nearest[order[np.flatnonzero(np.diff(point.reshape(-1)[order], prepend=-1))]] = True
+    hope = found + np.abs(found - starts.value) + starts.bound
+    nearest &= (found > -np.inf) & (hope >= known[starts.function, starts.design])
+    going = replace(starts, unit=places[:, 0], centre=places[:, 0], value=found, half=0.5 * starts.half)
+    order = np.flatnonzero(nearest)
+    row = (going.function * D + going.design)[order]
+    order = order[np.lexsort((-found[order], row))]
+    row = np.sort(row)
+    order = order[np.arange(len(row)) - np.searchsorted(row, row) < BORDERS]
+    return going.where(order)
+
+
+def border_stencil(k: int, axis: Index) -> tuple[FloatArray, Index]:
+    """Return the different places (r, m, k) of stencils that stand still along a stroke (r,), and which of them (r, n) each place is."""
+    found = [np.unique(np.where(np.arange(k) == each, 0.0, stencil_of(k)), axis=0, return_inverse=True) for each in range(k)]
+    return np.array([offsets for offsets, _ in found])[axis], np.array([index.reshape(-1) for _, index in found])[axis]
+
+
+def turned(climbs: Climbs, lost: Mask, half: FloatArray) -> Climbs:
+    """Return searches that follow the border along the next stroke where it is `lost` along this one, as wide as before for each stroke."""
+    k = climbs.unit.shape[1]
+    axis = np.where(lost, (climbs.axis + 1) % k, climbs.axis)
+    width = np.where(lost & (axis > 0), half, climbs.half)
+    return replace(climbs, axis=axis, half=width, expected=np.where(lost, np.nan, climbs.expected))
+
+
+def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[Climbs, Climbs]:
+    """Return the searches along borders that came to a smooth top, and the others; those that may better what is known (K, D)."""
+    first: dict[bytes, int] = {}
+    alike = np.array([first.setdefault(np.isnan(row).tobytes(), number) for number, row in enumerate(box.seen)])
+    going = hopeful_borders(box, alike, known)
+    tops, ended = [going.where(NONE)], [going.where(NONE)]
+    for _ in range(ROUNDS):
+        if not len(going.value):
+            break
+        offsets, index = border_stencil(box.k, going.axis)
+        places, values = on_border(box, alike, going, snapped(going.centre[:, None] + going.half[:, None, None] * offsets))
+        places, values = np.take_along_axis(places, index[..., None], axis=1), np.take_along_axis(values, index, axis=1)
+        half = going.half
+        going, done, stuck = after_round(going, values, box.k, least[going.function, going.design], places)
+        beaten = going.value <= (known + least)[going.function, going.design]
+        stuck = (going.half < FINE) | (beaten & (going.idle > 2 * PATIENCE))
+        going = turned(going, np.asarray(~np.isfinite(values).all(axis=-1)), half)
+        tops.append(going.where(done))
+        ended.append(going.where(stuck & ~done))
+        best = Climbs.joined([*tops, *ended, going]).best(box.seen.shape[1])[-len(going.value) :]
+        best = np.maximum(best, known[going.function, going.design])
+        stay = ~(done | stuck) & ((going.bound >= best) | (going.value >= best))
+        going = going.where(stay)
+    return Climbs.joined(tops), Climbs.joined([*ended, going])
+
+
+# -- the search ----------------------------------------------------------------------------------------------
+
+
+@np.errstate(all="ignore")
+def highest_in(box: SeenBox) -> HighestInBox:
+    """Return the highest values in a box."""
+    K, D, _ = box.seen.shape
+    tops, rough, least = climbed(box)
+    best = best_of(Climbs.joined([tops, rough]), K, D, 1)
+    rough = best_of(rough, K, D, ROUGH)
+    rough = rough.where((rough.value > -np.inf) & (rough.bound >= value_of(best, K, D)[rough.function, rough.design]))
+    if len(rough.value):
+        rough = ridden(box, rough, least[rough.function, rough.design])
+    found = [tops, rough, best]
+    missing = np.isnan(box.seen)
+    if missing.any() and not missing.all():
+        found += along_borders(box, value_of(best_of(Climbs.joined(found), K, D, 1), K, D), least)
+    doubtful = best_of(Climbs.joined([rough, *found[4:]]), K, D, 1)
+    doubtful = doubtful.where(doubtful.value >= value_of(best_of(Climbs.joined(found), K, D, 1), K, D)[doubtful.function, doubtful.design])
+    grows = grows_in_box(box, doubtful)
+    best = best_of(Climbs.joined(found), K, D, 1)
+    value, unit = value_of(best, K, D), np.zeros((K, D, box.k))
+    unit[best.function, best.design] = best.unit
+    unbounded = np.isposinf(value)
+    unbounded[doubtful.function[grows], doubtful.design[grows]] = True
+    poles = doubtful.where(grows)
+    unit[poles.function, poles.design] = poles.unit
+    lost = missing.all(axis=-1)
+    value = np.where(lost, np.nan, np.where(unbounded, np.inf, np.where(value <= LOWEST, -np.inf, value)))
+    return HighestInBox(value, unit, unbounded)
+
+
+def best_of(climbs: Climbs, K: int, D: int, count: int) -> Climbs:
+    """Return the best of the searches of each function and design, so many."""
+    row = climbs.function * D + climbs.design
+    order = np.lexsort((-climbs.value, row))
+    row = row[order]
+    rank = np.arange(len(row)) - np.searchsorted(row, row)
+    return climbs.where(order[rank < count])
+
+
+def value_of(best: Climbs, K: int, D: int) -> FloatArray:
+    """Return the values (K, D) of the best searches, one each."""
+    value = np.full((K, D), -np.inf)
+    value[best.function, best.design] = best.value
+    return value
+
+
+def grows_in_box(box: SeenBox, climbs: Climbs) -> Mask:
+    """Return at which places (r,) a value grows beyond bounds along a stroke; see `line.grows_along_leg`."""
+    if not len(climbs.value):
+        return np.zeros(0, bool)
+    far = np.ldexp(1.0, -np.arange(1, 41))
+    ways = np.array([-1.0, 1.0])[:, None, None] * far[:, None] * np.eye(box.k)[:, None, None, :]  # (k, 2, n, k)
+    at = climbs.unit[:, None, None, None, :] + ways
+    on = ((at >= 0.0) & (at <= 1.0)).all(axis=-1)
+    found, reached = box.at(climbs.design, np.clip(at, 0.0, 1.0).reshape(len(at), -1, box.k))
+    seen = found[climbs.function, np.arange(len(at))]
+    seen, reached = np.where(on, seen.reshape(on.shape), np.nan), reached.reshape(on.shape) & on
+    poles = is_pole(np.broadcast_to(climbs.value[:, None], on.shape[:-2]), seen, reached, far, BORDER, SEEN)
+    return np.asarray(np.isposinf(climbs.value) | poles.any(axis=(-2, -1)))

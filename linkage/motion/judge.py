@@ -1,0 +1,781 @@
+"""The judge: questions about a machine, asked over all that it runs, in every load case and movement that occurs, on both sides.
+
+A question is split into smooth pieces: a quantity in one load case, in one movement, on one side of a cylinder. Each piece is looked for by
+itself over every `Over`; the worst one is the answer and is named. What has no value is told by the one who gives none: lost where the
+machine cannot be assembled or a law gives no number, unlimited where a law has no bound there, outside where a condition leaves it out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import product
+from typing import Any, TypeAlias, final
+
+import numpy as np
+
+from ..errors import DefinitionError, cited, told, unwarned
+from ..language import said
+from ..loads import PLAIN, Acting, ForceElement, LoadCase
+from ..plan import Mask, Plan
+from ..program import QUICKEST, FloatArray, Kernel
+from ..quantities import Quantity, Ref
+from ..vectors import Numbers
+from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
+from .evaluation import Evaluation
+from .limits import stroke_unit
+from .margins import LeastMargin, assembly_error_at, has_all_margins, least_margins
+from .measures import (
+    At,
+    Condition,
+    Constraint,
+    Integral,
+    Leaf,
+    Least,
+    Measure,
+    Reachable,
+    Worst,
+    conditions_of,
+    reachable,
+    strokes_behind,
+    traced,
+    words_of,
+)
+from .motion import Motion
+from .over import ALLOWED, PLAIN_CASE, Over
+from .requests import BoundRequest, Request, SmoothPiece, identity_of
+from .search import extremum, moving
+from .strokes import at_values
+
+Question: TypeAlias = "Measure | Condition"
+
+WIDTHS = {1: 1 / 4096, 2: 1 / 128, 3: 1 / 32, 4: 1 / 12, 5: 1 / 7, 6: 1 / 5}
+"""How broad a place is at the least, of each stroke, that is surely found: by the number of strokes that run."""
+INNER = 65
+"""Values of the stroke over which `worst` is taken."""
+PANELS = 4096
+"""Intervals of an integral, by Simpson's rule."""
+MET = 1e-9
+"""Of the size of its two sides: a condition that is missed by no more is kept, to rounding."""
+
+
+# Situations: which load cases and movements occur.
+
+
+@final
+@dataclass(frozen=True)
+class Situation:
+    """A load case and a movement that occur: the case's name, the direction, and the stroke that moves; "" for none."""
+
+    case: str = ""
+    direction: str = ""
+    drive: str = ""
+
+    @property
+    def acting(self) -> Acting:
+        """It as requests take it."""
+        case = None if self.case in ("", PLAIN_CASE) else self.case
+        return Acting(case=case, direction=self.direction or None, drive=self.drive or None)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Sought:
+    """A piece of a leaf in a situation, as something to look for: `sense` is 1.0 where its greatest value is the worst."""
+
+    leaf: Leaf
+    piece: SmoothPiece
+    situation: Situation
+    sense: float
+
+    @property
+    def is_reciprocal(self) -> bool:
+        """Whether one over it is looked for."""
+        return self.piece.reciprocal is not None and isinstance(self.leaf, Least)
+
+    @property
+    def request(self) -> Any:
+        """What is looked for."""
+        return self.piece.reciprocal if self.is_reciprocal else self.piece.request
+
+    @property
+    def sought(self) -> float:
+        """1.0 where the greatest value of what is looked for is the worst, else -1.0."""
+        return 1.0 if self.is_reciprocal else self.sense
+
+    def value(self, highest: FloatArray) -> FloatArray:
+        """Return its worst value from the highest of what is looked for times its sense; NaN where it has no bound anywhere."""
+        if self.is_reciprocal:
+            with np.errstate(all="ignore"):
+                return np.asarray(np.where(highest > 0.0, 1.0 / highest, np.nan))
+        return np.asarray(self.sense * highest)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class WorstPiece:
+    """The worst of a row over one `Over`: its value and strokes, arrays over the designs; shares of the places asked for."""
+
+    row: Sought
+    value: FloatArray
+    strokes: Mapping[str, FloatArray]
+    unbounded: Mask
+    lawless: float = 0.0
+    unlimited: float = 0.0
+
+
+@final
+class Domain:
+    """One `Over` of some designs: the motion that covers it, and what is lost there."""
+
+    def __init__(self, plan: Plan, designs: Mapping[str, Numbers], over: Over | Motion) -> None:
+        given = over if isinstance(over, Motion) else None
+        self.over = over if isinstance(over, Over) else over.over
+        self.plan, self.designs = plan, designs
+        with unwarned():
+            strokes = self.over.places(plan, self.number) if given is None else given.strokes
+            own = given is not None and given._grid.per_design
+            self.motion = Motion(plan, designs, strokes, "nan", per_design=own)
+
+    def number(self, quantity: Quantity) -> float:
+        """Return the value of a quantity of the design [SI]; DefinitionError for a batch."""
+        start = {name: np.asarray(value, float) for name, value in self.plan.sketch_strokes.items()}
+        found = Motion(self.plan, self.designs, start, "nan").value(quantity)
+        if np.size(found) != 1 or not np.all(np.isfinite(found)):
+            what = f"{self.plan.title}: {self.over}: {quantity.name or quantity} = {cited(found)}"
+            raise DefinitionError(f"{what}; one finite number is expected, of one design.")
+        return float(np.ravel(found)[0])
+
+    @cached_property
+    def running(self) -> tuple[str, ...]:
+        """The strokes that run."""
+        return moving(self.motion)
+
+    @property
+    def is_path(self) -> bool:
+        """Whether it is a path, along which several strokes go on together."""
+        return self.over.shape == "path" and len(self.motion.strokes) > 1
+
+    @property
+    def width(self) -> dict[str, float]:
+        """How broad a place is at the least that is surely found, of each stroke that runs; none where only poses are looked at."""
+        if self.over.shape == "poses":
+            return {}
+        count = 1 if self.is_path else len(self.running)
+        return dict.fromkeys(self.running, WIDTHS.get(count, 1 / 4))
+
+    def situations(self, request: Any, acting: Acting) -> list[Situation]:
+        """Return the load cases and movements in which a request is judged here; one without anything for what is of no force."""
+        if not isinstance(request, Request):
+            return [Situation()]
+        movements = request.movements(self.plan, rubs(self.plan, self.motion, acting))
+        if not movements and request.under(Acting(case=PLAIN_CASE), keep=True) is request:
+            return [Situation()]
+        directions = [acting.direction] if acting.direction is not None else [*movements] or [""]
+        drives: list[str] = [""]
+        if request.of_strokes and not self.is_path:
+            drives = [acting.drive] if acting.drive else [*(self.running or self.plan.strokes)]
+        found = [
+            Situation(case, direction, drive)
+            for case in self.cases(acting) for direction in directions
+            for drive in (drives if direction not in ("", "frictionless") else [""])
+        ]  # fmt: skip
+        return found
+
+    def cases(self, acting: Acting) -> list[str]:
+        """Return the load cases that are looked at, by name: the one asked for, else those that occur here."""
+        declared = self.plan.of_kind(LoadCase)
+        occurring = self.over.cases if self.over.cases is not None else (PLAIN_CASE, *declared)
+        if acting.case is None:
+            return [*occurring]
+        if isinstance(acting.case, LoadCase) and not any(each is acting.case for each in declared.values()):
+            return [PLAIN_CASE]  # one that is not of the class acts by itself
+        name = case_named(self.plan, acting.case)
+        if name not in occurring:
+            where = self.over.name or str(self.over)
+            raise DefinitionError(
+                f"{self.plan.title}: the load case {name} does not occur over {where}, where there are {', '.join(occurring)}."
+            )
+        return [name]
+
+    def extremes(self, rows: Sequence[Sought]) -> tuple[list[WorstPiece], Coverage]:
+        """Return the worst of every row, and what was seen on the way."""
+        asked = Asked(self, rows)
+        if self.over.shape == "poses" or not self.motion.strokes:
+            with np.errstate(all="ignore"):
+                return worst_at_poses(asked, self.motion), asked.seen
+        found = extremum(self.motion, asked, 1.0)
+        shape = (len(rows), *self.motion._design_shape)
+        value, unbounded = (np.broadcast_to(np.asarray(each), shape) for each in (found.value, found.unbounded))
+        strokes = {name: np.broadcast_to(np.asarray(each), shape) for name, each in found.strokes.items()}
+        return [
+            WorstPiece(
+                row,
+                row.value(value[k]),
+                {name: each[k] for name, each in strokes.items()},
+                unbounded[k],
+                asked.seen.lawless[k],
+                asked.seen.unlimited[k],
+            )
+            for k, row in enumerate(rows)
+        ], asked.seen
+
+    # -- what is lost ------------------------------------------------------------------------------------
+
+    @cached_property
+    def holes(self) -> list[LeastMargin]:
+        """The loops that come apart somewhere it is looked at, however narrow that place is."""
+        if self.over.shape == "poses" or self.motion._design_shape or not self.motion.strokes:
+            return []
+        with unwarned():
+            found = least_margins(self.motion, self.over.kept if self.over.only else None)
+        return [each for each in found if each.is_hole]
+
+    def lost(self, seen: Coverage) -> Lost:
+        """Return what cannot be assembled of the places asked for: what the grid sees, and holes between its places."""
+        if not (seen.lost_share or self.holes):
+            return NONE_LOST
+        if self.motion._design_shape:
+            return Lost(seen.lost_share, seen.deepest, "", not self.plan.groups)
+        with unwarned():
+            places = [each.strokes for each in self.holes] + ([seen.deepest] if seen.deepest else [])
+            errors = [(assembly_error_at(self.motion, place), place) for place in places]
+        known = [(error, place) for error, place in errors if error is not None]
+        if not known:
+            return Lost(seen.lost_share, seen.deepest, said("some poses are refused"), not self.plan.groups)
+        error, place = max(known, key=lambda each: each[0].shortfall or 0.0)
+        strokes = {name: float(value) for name, value in place.items()}
+        return Lost(seen.lost_share, strokes, " ".join(str(error).split()), has_all_margins(self.plan))
+
+
+def rubs(plan: Plan, motion: Motion, acting: Acting) -> bool:
+    """Return whether there is friction among the loads, or what acts otherwise while it moves."""
+    given = plan.of_kind(ForceElement).values() if acting.loads is None else acting.loads
+    listed = given if isinstance(given, (list, tuple)) or acting.loads is None else [given]
+    elements = [plan.members.get(each) if isinstance(each, str) else each for each in listed]
+    own = [each for each in elements if isinstance(each, ForceElement)]
+    with unwarned():
+        return any(each.feeds(plan.members) or each.frictions(motion) for each in own) or acting.rates is not None
+
+
+def case_named(plan: Plan, case: Any) -> str:
+    """Return the name of a load case of the class, by its name, its title or itself; DefinitionError for any other."""
+    cases = plan.of_kind(LoadCase)
+    for name, each in cases.items():
+        if each is case or case in (name, each.title):
+            return name
+    if case == PLAIN_CASE:
+        return PLAIN_CASE
+    raise DefinitionError(f"{plan.title}: the load case {cited(case)} is unknown; known are {', '.join((PLAIN_CASE, *cases))}.")
+
+
+# Rows as one function of a motion.
+
+
+@final
+@dataclass(eq=False)
+class Coverage:
+    """What was seen on the first grid: shares of its places that are lost, outside, and of each row without a value, or without a bound."""
+
+    lost_share: float = 0.0
+    outside: float = 0.0
+    deepest: Mapping[str, float] = field(default_factory=dict)
+    lawless: list[float] = field(default_factory=list)
+    unlimited: list[float] = field(default_factory=list)
+    count: int = 0
+
+    def joined(self, other: Coverage) -> Coverage:
+        """Return it with the poses of another look at the same places."""
+        return replace(self, count=self.count + other.count)
+
+
+@final
+class Asked:
+    """Rows as one function of a motion: each times its sense, shape (rows, ...); NaN where a place is not asked for or has no value."""
+
+    def __init__(self, place: Domain, rows: Sequence[Sought]) -> None:
+        self.place, self.rows, self.seen = place, rows, Coverage()
+        self.plan = place.plan
+        self._bound: dict[int, BoundRequest] = {}
+        for k, row in enumerate(rows):
+            bound = traced(self.plan, row.request)
+            if bound is not None:
+                self._bound[k] = bound
+
+    def __call__(self, motion: Motion) -> FloatArray:
+        kept = self.place.over.kept(motion)
+        values, unlimited = self.values(motion)
+        if not self.seen.count:
+            self.note(motion, kept, values, unlimited)
+        self.seen.count += motion.reached.size
+        for k, row in enumerate(self.rows):
+            values[k] *= row.sought
+        values[:, ~kept] = np.nan
+        return values
+
+    def values(self, motion: Motion) -> tuple[FloatArray, Mask]:
+        """Return the rows' values over a motion, and where they have no bound: one kernel for what has a program, the rest by itself."""
+        values, unlimited = np.full((len(self.rows), *motion.shape), np.nan), np.zeros((len(self.rows), *motion.shape), bool)
+        with unwarned(), np.errstate(all="ignore"):
+            if self._bound:
+                found = Evaluation(motion._grid, tuple(self._bound.values()), QUICKEST, "nan").run(None)
+                for k, each in zip(self._bound, found, strict=True):
+                    values[k] = np.broadcast_to(each, motion.shape)
+            for k, row in enumerate(self.rows):
+                if k not in self._bound:
+                    values[k] = values_over(motion, row.request)
+                if row.is_reciprocal:
+                    unlimited[k] = values[k] <= 0.0
+                elif (np.isnan(values[k]) & motion.reached).any():
+                    unlimited[k] = self.without_bound(k, motion) & np.isnan(values[k])
+        values[:, ~motion.reached] = np.nan
+        return values, unlimited & motion.reached
+
+    def without_bound(self, k: int, motion: Motion) -> Mask:
+        """Return where the law of a row has no bound: by its program, else as the request says."""
+        request = self.rows[k].request
+        if k in self._bound:
+            return without_bound(self.plan, self._bound[k], motion)
+        mask = request.unlimited(motion) if isinstance(request, Request) else None
+        return np.zeros(motion.shape, bool) if mask is None else np.asarray(np.broadcast_to(mask, motion.shape))
+
+    def note(self, motion: Motion, kept: Mask, values: FloatArray, unlimited: Mask) -> None:
+        """Note the shares of the places that have no value, and one of those that cannot be assembled."""
+        asked = kept | ~motion.reached if not self.place.over.only else kept
+        lost = asked & ~motion.reached
+        total = max(1, motion.reached.size)
+        self.seen.lost_share, self.seen.outside = float(lost.sum()) / total, float((~asked).sum()) / total
+        if lost.any():
+            first = np.argwhere(lost)[int(lost.sum()) // 2][len(motion._design_shape) :]
+            self.seen.deepest = {name: float(value[tuple(first)]) for name, value in motion.strokes.items()}
+        good = kept & motion.reached
+        count = max(1, int(good.sum()))
+        self.seen.lawless = [float((np.isnan(values[k]) & ~unlimited[k] & good).sum()) / count for k in range(len(self.rows))]
+        self.seen.unlimited = [float((unlimited[k] & good).sum()) / count for k in range(len(self.rows))]
+
+
+def without_bound(plan: Plan, bound: BoundRequest, motion: Motion) -> Mask:
+    """Return where the law of a request has no bound, by its program."""
+    kernel = plan.made(("gaps", bound.key), lambda twin: Kernel(nodes_without_bound(twin, bound)))
+    if not kernel.plan.outputs:
+        return np.zeros(motion.shape, bool)
+    found = motion._grid.full(kernel(motion._grid.flat, size=motion._grid.size).values)
+    return np.asarray((found <= 0.0).any(axis=0))
+
+
+def nodes_without_bound(plan: Plan, bound: BoundRequest) -> list[Any]:
+    """Return the nodes below zero where a request has no bound."""
+    bound.nodes(plan)
+    return [*bound.gaps(plan)]
+
+
+def values_over(motion: Motion, quantity: Any) -> FloatArray:
+    """Return a quantity over a motion's poses, infinite where a function says so; DefinitionError for no number a pose."""
+    if isinstance(quantity, Worst):
+        return worst_at(motion, quantity)
+    if callable(quantity) and not isinstance(quantity, (str, Quantity, Request)):
+        with told(f"{motion.plan.title}: {words_of(quantity)}"):
+            found = np.asarray(quantity(motion), float)
+    else:
+        found = np.asarray(motion[quantity], float)
+    try:
+        return np.broadcast_to(found, motion.shape)
+    except ValueError:
+        what = f"{words_of(quantity)} has the shape {found.shape} where {motion.shape} is expected"
+        raise DefinitionError(f"{motion.plan.title}: {what}; return a number for each pose.") from None
+
+
+def worst_at(motion: Motion, worst: Worst) -> FloatArray:
+    """Return the worst value of a quantity over another stroke at every pose of a motion."""
+    plan = motion.plan
+    if worst.over not in plan.strokes:
+        raise DefinitionError(f"{plan.title}: {worst}: {worst.over} is no stroke; its strokes are {', '.join(plan.strokes)}.")
+    stroke = plan.strokes[worst.over]
+    along = np.linspace(stroke.start, stroke.end, INNER)
+    strokes = {name: np.broadcast_to(value[..., None], (*value.shape, INNER)) for name, value in motion.strokes.items()}
+    strokes[worst.over] = np.broadcast_to(along, strokes[worst.over].shape)
+    inner = Motion(plan, motion.designs, strokes, "nan", per_design=motion._grid.per_design)
+    found = worst.sense * values_over(inner, worst.quantity)
+    best = np.max(np.where(np.isnan(found), -np.inf, found), axis=-1)
+    return np.asarray(worst.sense * np.where(np.isneginf(best), np.nan, best))
+
+
+def worst_at_poses(asked: Asked, motion: Motion) -> list[WorstPiece]:
+    """Return the worst of every row at some poses, and nothing between them."""
+    values = asked(motion)
+    designs = motion._design_shape
+    flat = values.reshape(len(values), *designs, -1)
+    place = np.argmax(np.where(np.isnan(flat), -np.inf, flat), axis=-1)[..., None]
+    best = np.take_along_axis(flat, place, axis=-1)[..., 0]
+    strokes = {name: np.broadcast_to(np.ravel(value), flat.shape) for name, value in motion.strokes.items()}
+    return [
+        WorstPiece(
+            row, row.value(best[k]), {name: np.take_along_axis(value[k], place[k], axis=-1)[..., 0] for name, value in strokes.items()},
+            np.isposinf(best[k]), asked.seen.lawless[k], asked.seen.unlimited[k],
+        )
+        for k, row in enumerate(asked.rows)
+    ]  # fmt: skip
+
+
+# Questions.
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """A question in one situation over one `Over`: its value, its margin (below zero where not kept), arrays over designs, and where."""
+
+    value: FloatArray
+    margin: FloatArray
+    strokes: Mapping[str, FloatArray]
+    unbounded: Mask
+    situation: Situation
+    side: str
+    place: Domain
+    seen: Coverage
+    lawless: float
+    unlimited: float
+
+
+@final
+class Judge:
+    """Who answers questions about some designs of a machine: over all of its `overs`, in all that acts."""
+
+    def __init__(
+        self, plan: Plan, designs: Mapping[str, Numbers], overs: Sequence[Over | Motion], acting: Acting | None = None, machine: Any = None
+    ) -> None:
+        if acting is not None and not isinstance(acting, Acting):
+            raise DefinitionError(f'{plan.title}: acting={cited(acting)}: a situation is expected, such as Acting(case="full").')
+        self.plan, self.designs, self.acting, self.machine = plan, designs, acting or PLAIN, machine
+        cases = [*plan.of_kind(LoadCase)]
+        for over in overs:
+            if isinstance(over, Over):
+                over.check(plan.title, plan.strokes, cases)
+        self.places = tuple(Domain(plan, designs, over) for over in overs)
+        self._found: list[dict[Any, tuple[Leaf, list[WorstPiece]]]] = [{} for _ in self.places]
+        self._seen: list[Coverage] = [Coverage() for _ in self.places]
+
+    def lost_allowed(self) -> Judge:
+        """Return the judge of the same for whom places that are lost are part of the machine; what is known already both know."""
+        found = object.__new__(Judge)
+        vars(found).update(vars(self) | {"places": tuple(tolerant(each) for each in self.places)})
+        return found
+
+    def of_design(self, number: int) -> Judge:
+        """Return the judge of one design of a batch, by its number among them."""
+        shape = self.places[0].motion._design_shape
+        designs = {name: float(np.broadcast_to(value, shape).ravel()[number]) for name, value in self.designs.items()}
+        return Judge(self.plan, designs, [place.over for place in self.places], self.acting, self.machine)
+
+    @property
+    def motion(self) -> Motion:
+        """The poses that cover the first of its overs."""
+        return self.places[0].motion
+
+    @property
+    def way(self) -> Motion | None:
+        """The motion of its one way, a stroke or a path, along which parts can be told; None where there are several, or a box."""
+        motion = self.motion
+        return motion if len(self.places) == 1 and len(motion._stroke_shape) <= 1 and self.places[0].over.shape != "poses" else None
+
+    def situation(self, answer: Answer) -> Acting:
+        """Return the situation of an answer of one design, as requests and forces take it."""
+        case = answer.case if answer.case not in ("", PLAIN_CASE) else None
+        return Acting(self.acting.loads, case or self.acting.case, answer.direction or None, self.acting.rates, answer.drive or None)
+
+    def there(self, answer: Answer) -> Motion:
+        """Return the pose of an answer of one design."""
+        return self.motion.moved({name: np.asarray(value) for name, value in answer.strokes.items()})
+
+    def answer(self, question: Question) -> Answer:
+        """Return the answer to one question."""
+        return self.answers([question])[0]
+
+    def answers(self, questions: Sequence[Question]) -> list[Answer]:
+        """Return the answers to some questions, the worst over all there is, in one pass for all; what was asked before is known."""
+        held = [(question, self.constraints(question)) for question in questions_of(self.plan, questions)]
+        leaves = tuple(dict.fromkeys(leaf for _, each in held for one in each for leaf in leaves_of(one)))
+        for number in range(len(self.places)):
+            self.find(number, leaves)
+        return [self.reached() if isinstance(question, Reachable) else self.worst(question, each) for question, each in held]
+
+    def constraints(self, question: Question) -> Sequence[Any]:
+        """Return the constraints that a question is, or the bare measure."""
+        return [question] if isinstance(question, Measure) else conditions_of([question], self.machine)
+
+    def find(self, number: int, leaves: Sequence[Leaf]) -> None:
+        """Look for the worst of some leaves over one `Over`, by its number, in one pass; what was found before is known."""
+        place, known = self.places[number], self._found[number]
+        asked = {key: leaf for leaf in leaves if (key := leaf_key(self.plan, leaf)) not in known}
+        rows = {key: self.rows(leaf, place) for key, leaf in asked.items()}
+        sought = [row for key, each in rows.items() if not isinstance(asked[key], (At, Integral)) for row in each]
+        if sought or not self._seen[number].count:
+            each_of, seen = place.extremes(sought or [Sought(Least(nothing), SmoothPiece(nothing), Situation(), -1.0)])
+            self._seen[number] = seen if not self._seen[number].count else self._seen[number].joined(seen)
+            found = dict(zip(map(id, sought), each_of, strict=False))
+        for key, leaf in asked.items():
+            if isinstance(leaf, At):
+                known[key] = leaf, [self.at_pose(row, place) for row in rows[key]]
+            elif isinstance(leaf, Integral):
+                known[key] = leaf, [integrated(row, place) for row in rows[key]]
+            else:
+                known[key] = leaf, [found[id(row)] for row in rows[key]]
+
+    def rows(self, leaf: Leaf, place: Domain) -> list[Sought]:
+        """Return the pieces of a leaf over one `Over`, each once."""
+        quantity = leaf.quantity
+        request = quantity.under(self.acting) if isinstance(quantity, Request) else quantity
+        sense = -1.0 if isinstance(leaf, Least) else 1.0
+        found: dict[Any, Sought] = {}
+        for situation in place.situations(request, self.acting):
+            situated = request.under(situation.acting, keep=True) if isinstance(request, Request) else request
+            pieces = situated.pieces(self.plan) if isinstance(situated, Request) else (SmoothPiece(situated),)
+            for piece in pieces:
+                key = key_of(self.plan, piece.request)
+                row = Sought(leaf, piece, situation, sense)
+                found[key] = row if key not in found else replace(found[key], situation=shared(found[key].situation, situation))
+        return [*found.values()]
+
+    def at_pose(self, row: Sought, place: Domain) -> WorstPiece:
+        """Return the value of a row at the one pose that its leaf says."""
+        leaf = row.leaf
+        assert isinstance(leaf, At)
+        only = next(iter(self.plan.strokes)) if len(self.plan.strokes) == 1 else ""
+        behind = strokes_behind(self.plan, leaf.quantity)
+        missing = [name for name in behind if name not in leaf.strokes]
+        if missing:
+            raise DefinitionError(f"{self.plan.title}: {leaf}: say the pose, {', '.join(f'{name}=...' for name in missing or [only])}.")
+        start = {name: stroke.start for name, stroke in self.plan.strokes.items()}
+        strokes = at_values(start | dict(leaf.strokes), self.plan)
+        motion = Motion(self.plan, self.designs, strokes, "nan")
+        with np.errstate(all="ignore"):
+            values, unlimited = Asked(place, [row]).values(motion)
+        value = np.asarray(values[0])
+        where = {name: np.broadcast_to(np.asarray(each), value.shape) for name, each in strokes.items()} if behind else {}
+        lost = float(np.isnan(value).all() and not unlimited.any())
+        return WorstPiece(row, value, where, np.isinf(value), lost, float(unlimited.any()))
+
+    # -- from leaves to questions ------------------------------------------------------------------------
+
+    def candidates(self, question: Any, number: int) -> list[Candidate]:
+        """Return a constraint, or a bare measure, in every situation over one `Over`, by its number."""
+        leaves, place, seen = leaves_of(question), self.places[number], self._seen[number]
+        made = []
+        for chosen in together([self._found[number][leaf_key(self.plan, leaf)][1] for leaf in leaves]):
+            values = {leaf: each.value for leaf, each in zip(leaves, chosen, strict=True)}
+
+            with np.errstate(all="ignore"):
+                value, margin = valued(question, values.__getitem__)
+            unbounded = np.any([each.unbounded for each in chosen], axis=0) if chosen else np.zeros((), bool)
+            where = next((each.strokes for each in chosen if each.strokes), {})
+            situation = next((each.row.situation for each in chosen if each.row.situation != Situation()), Situation())
+            side = next((each.row.piece.side for each in chosen if each.row.piece.side), "")
+            lawless = max((each.lawless for each in chosen), default=0.0)
+            unlimited = max((each.unlimited for each in chosen), default=0.0)
+            made.append(
+                Candidate(
+                    np.asarray(value), np.asarray(margin), where, np.asarray(unbounded), situation, side, place, seen, lawless, unlimited
+                )
+            )
+        return made
+
+    def worst(self, question: Any, constraints: Sequence[Any]) -> Answer:
+        """Return the answer to a question: the worst of what it is in every situation over every `Over`, of a batch for every design."""
+        candidates = [each for number in range(len(self.places)) for one in constraints for each in self.candidates(one, number)]
+        if not candidates:
+            raise DefinitionError(f"{self.plan.title}: {question}: there is nothing to ask it of.")
+        shape = np.broadcast_shapes(*(np.shape(each.margin) for each in candidates))
+        margins = np.stack([np.broadcast_to(each.margin, shape) for each in candidates])
+        if not shape:
+            return self.answered(question, candidates, margins)
+        each_of = []
+        for number in range(int(np.prod(shape))):
+            design = tuple(int(k) for k in np.unravel_index(number, shape))
+            own = margins.reshape(len(candidates), -1)[:, number]
+            each_of.append(self.answered(question, [of_one_design(each, design, shape) for each in candidates], own))
+
+        def over_designs(name: str, kind: Any = None) -> Any:
+            return np.array([getattr(each, name) for each in each_of], kind).reshape(shape)
+
+        strokes = {
+            name: np.array([float(each.strokes.get(name, np.nan)) for each in each_of]).reshape(shape) for name in each_of[0].strokes
+        }
+        return replace(
+            each_of[0], value=over_designs("value", float), ok=over_designs("ok"), status=over_designs("status"), strokes=strokes,
+            case=over_designs("case"), direction=over_designs("direction"), drive=over_designs("drive"), side=over_designs("side"),
+            over=over_designs("over"),
+        )  # fmt: skip
+
+    def answered(self, question: Any, candidates: Sequence[Candidate], margins: FloatArray) -> Answer:
+        """Return the answer of one design."""
+        is_bare = isinstance(question, Measure)
+        lost = next((found for each in candidates if (found := each.place.lost(each.seen))), NONE_LOST)
+        fatal = [each for each in candidates if each.place.over.lost != ALLOWED and (each.lawless or each.place.lost(each.seen))]
+        known = [k for k, each in enumerate(candidates) if not np.isnan(margins[k])]
+        if not known:
+            status = LOST if fatal or any(each.lawless for each in candidates) else NOTHING_LEFT
+            ok = None if is_bare or status == NOTHING_LEFT else False
+            return self.made(question, candidates[0], np.nan, ok, status, {}, candidates, lost)
+        worst = candidates[min(known, key=lambda k: margins[k])]
+        margin = float(min(margins[k] for k in known))
+        status = UNBOUNDED if (bool(worst.unbounded) and margin < 0.0) or (is_bare and bool(worst.unbounded)) else OF_VALUE
+        ok = None if is_bare else bool(margin >= 0.0) and not fatal
+        if not is_bare and fatal and margin >= 0.0:
+            status = LOST
+        strokes = {name: float(value) for name, value in worst.strokes.items()}
+        return self.made(question, worst, float(worst.value), ok, status, strokes, candidates, lost)
+
+    def made(
+        self, question: Any, worst: Candidate, value: float, ok: bool | None, status: str, strokes: Mapping[str, float],
+        candidates: Sequence[Candidate], lost: Lost,
+    ) -> Answer:  # fmt: skip
+        """Return an answer, with what has to be named as there are several."""
+        kinds: dict[str, set[Any]] = {
+            "case": {each.situation.case for each in candidates}, "direction": {each.situation.direction for each in candidates},
+            "drive": {each.situation.drive for each in candidates} - {""}, "over": {each.place.over for each in candidates},
+            "side": {each.side for each in candidates if each.situation.direction == worst.situation.direction},
+        }  # fmt: skip
+        named = frozenset(name for name, each in kinds.items() if len(each) > 1)
+        if not lost and worst.lawless:
+            lost = Lost(
+                worst.lawless, {}, said("it has no value at {share} of the places looked at", share=share_text(worst.lawless)), False
+            )
+        units = {name: stroke_unit(self.plan, name) for name in strokes}
+        count = sum(each.count for each in {id(one.seen): one.seen for one in candidates}.values())
+        return Answer(
+            question, value, ok, status, strokes, worst.situation.case, worst.situation.direction, worst.situation.drive, worst.side,
+            worst.place.over.name, lost, worst.unlimited, worst.seen.outside, worst.place.width, count, units,
+            measures_of(self.plan, question), named,
+        )  # fmt: skip
+
+    def reached(self) -> Answer:
+        """Return whether all places can be assembled."""
+        losses = [place.lost(seen) for place, seen in zip(self.places, self._seen, strict=True)]
+        number = max(range(len(self.places)), key=lambda each: (losses[each].share, bool(losses[each])))
+        place, seen, lost = self.places[number], self._seen[number], losses[number]
+        fatal = any(each and one.over.lost != ALLOWED for each, one in zip(losses, self.places, strict=True))
+        units = {name: stroke_unit(self.plan, name) for name in lost.strokes}
+        return Answer(
+            reachable, seen.lost_share, not fatal, LOST if lost else OF_VALUE, lost.strokes, over=place.over.name, lost=lost,
+            outside=seen.outside, width=place.width, count=sum(each.count for each in self._seen), units=units,
+            named=frozenset(["over"] if len(self.places) > 1 else []),
+        )  # fmt: skip
+
+
+def nothing(motion: Motion) -> FloatArray:
+    """Return zeros: what is looked at where only the places themselves are asked about."""
+    return np.zeros(motion.shape)
+
+
+def tolerant(place: Domain) -> Domain:
+    """Return the same place, of which lost parts are part of the machine."""
+    found = object.__new__(Domain)
+    vars(found).update(vars(place))
+    found.over = place.over.renewed(lost=ALLOWED)
+    return found
+
+
+def of_one_design(candidate: Candidate, place: tuple[Any, ...], shape: tuple[int, ...]) -> Candidate:
+    """Return a candidate of one design of a batch."""
+
+    def of(values: Any) -> Any:
+        return np.broadcast_to(values, shape)[place]
+
+    return replace(
+        candidate, value=of(candidate.value), margin=of(candidate.margin), unbounded=of(candidate.unbounded),
+        strokes={name: of(value) for name, value in candidate.strokes.items()},
+    )  # fmt: skip
+
+
+def questions_of(plan: Plan, given: Any) -> list[Any]:
+    """Return questions as a list; DefinitionError for what is none."""
+    listed = [given] if isinstance(given, (Measure, Condition)) else given
+    if not isinstance(listed, (list, tuple)):
+        raise DefinitionError(f"{plan.title}: answers({cited(given)}): a list of questions is expected, [most(...) <= 8 * deg].")
+    for each in listed:
+        if not isinstance(each, (Measure, Condition)):
+            said_of = (
+                f"{words_of(each)} has a value at every pose" if isinstance(each, (str, Quantity, Request)) else f"{cited(each)} is none"
+            )
+            raise DefinitionError(
+                f"{plan.title}: a question is a measure or a condition, and {said_of}; write least(...), most(...) >= ...."
+            )
+    return [*listed]
+
+
+def leaves_of(question: Any) -> tuple[Leaf, ...]:
+    """Return what is taken over the strokes by a constraint or a measure."""
+    found: tuple[Leaf, ...] = (question.margin if isinstance(question, Constraint) else question).leaves
+    return found
+
+
+def leaf_key(plan: Plan, leaf: Leaf) -> Any:
+    """Return what tells a leaf from others as long as it lives."""
+    quantity = leaf.quantity
+    inner = (key_of(plan, quantity.quantity), quantity.over, quantity.sense) if isinstance(quantity, Worst) else key_of(plan, quantity)
+    strokes = tuple(leaf.strokes.items()) if isinstance(leaf, At) else ()
+    return type(leaf).__name__, inner, strokes, leaf.by if isinstance(leaf, Integral) else None
+
+
+def key_of(plan: Plan, quantity: Any) -> Any:
+    """Return what tells a piece from others."""
+    identity = identity_of(plan, quantity) if isinstance(quantity, (str, Quantity, Request)) else None
+    return id(quantity) if identity is None else identity
+
+
+def shared(a: Situation, b: Situation) -> Situation:
+    """Return what two situations have in common: a piece that is the same in both is named by neither."""
+    return Situation(*("" if x != y else x for x, y in ((a.case, b.case), (a.direction, b.direction), (a.drive, b.drive))))
+
+
+def together(of_leaves: Sequence[Sequence[WorstPiece]]) -> Iterable[tuple[WorstPiece, ...]]:
+    """Yield the pieces of several leaves that occur at once: in the same load case and movement, where they name one."""
+    for chosen in product(*of_leaves):
+        cases = {each.row.situation.case for each in chosen} - {""}
+        ways = {(each.row.situation.direction, each.row.situation.drive) for each in chosen if each.row.situation.direction}
+        if len(cases) <= 1 and len(ways) <= 1:
+            yield chosen
+
+
+def valued(question: Any, number: Callable[[Leaf], FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """Return a question's value, and its margin: below zero where it is not kept; of a bare measure what makes the worst the least."""
+    if isinstance(question, Measure):
+        value = np.asarray(question.of(number), float)
+        return value, value if isinstance(question, Least) else -value
+    left, right = (np.asarray(each.of(number), float) for each in (question.left, question.right))
+    size = MET * np.maximum(np.abs(np.where(np.isfinite(left), left, 0.0)), np.abs(np.where(np.isfinite(right), right, 0.0)))
+    apart = {">=": left - right, "<=": right - left}.get(question.symbol)
+    margin = 1e3 * size - np.abs(left - right) if apart is None else apart
+    return left, np.where((margin < 0.0) & (margin >= -size), 0.0, margin)
+
+
+def measures_of(plan: Plan, question: Any) -> str:
+    """Return what the value of a question measures, where that is plain."""
+    measure = question.left if isinstance(question, Constraint) else question
+    if not isinstance(measure, Leaf) or isinstance(measure, Integral):
+        return ""
+    known = plan.members.get(measure.quantity) if isinstance(measure.quantity, str) else measure.quantity
+    known = plan.members.get(known.target) if isinstance(known, Ref) else known
+    return str(getattr(known, "measures", "")) if isinstance(known, (Quantity, Request)) else ""
+
+
+def integrated(row: Sought, place: Domain) -> WorstPiece:
+    """Return the integral of a row over the one stroke that runs."""
+    plan, leaf = place.plan, row.leaf
+    assert isinstance(leaf, Integral)
+    if place.over.shape != "box" or len(place.running) != 1 or (leaf.by or place.running[0]) != place.running[0]:
+        what = f"{plan.title}: {leaf}: an integral is over one stroke that runs, here run {', '.join(place.running) or 'none'}"
+        raise DefinitionError(f"{what}; hold the others, over=Over({leaf.by or next(iter(plan.strokes))}=(...), ...=0.0).")
+    (name,) = place.running
+    low, high = float(np.min(place.motion.strokes[name])), float(np.max(place.motion.strokes[name]))
+    along = np.linspace(low, high, PANELS + 1)
+    held = {each: float(np.min(value)) for each, value in place.motion.strokes.items()}
+    strokes = {each: along if each == name else np.full(along.shape, value) for each, value in held.items()}
+    motion = Motion(plan, place.designs, strokes, "nan")
+    with np.errstate(all="ignore"):
+        values, _ = Asked(place, [row]).values(motion)
+    weights = np.full(PANELS + 1, 2.0)
+    weights[1::2], weights[[0, -1]] = 4.0, 1.0
+    total = (values[0] * weights).sum(axis=-1) * (high - low) / PANELS / 3.0
+    return WorstPiece(row, np.asarray(total), {}, np.isinf(total), float(np.isnan(total).any()), 0.0)

@@ -1,0 +1,258 @@
+"""Where something is looked at: the box of the strokes, a path through places, or some poses; and which load cases occur there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, ClassVar, Self, final
+
+import numpy as np
+
+from ..errors import DefinitionError, cited, unknown
+from ..frozen import FrozenDict
+from ..language import said
+from ..loads import LoadCase
+from ..plan import Mask, Plan
+from ..program import FloatArray
+from ..quantities import Member, PoseCondition, Quantity, Stroke, is_number, name_of, needs, quantity, real
+from .grid import MotionLike
+from .limits import place_text, span_text, stroke_unit
+from .strokes import check_magnitude
+
+PLAIN_CASE = "plain"
+"""The name of the machine's own loads, without a load case."""
+OPTIONS = ("only", "cases", "lost")
+"""What an `Over` takes beside strokes: no stroke of a machine may be called so."""
+ALLOWED = "allowed"
+
+
+@final
+class Over(Member):
+    """Where a machine is looked at. Declared in the class it is what the machine really runs: `loading = Over.path(phi=[...], t=[...])`.
+
+    `Over(phi=(15 * deg, 80 * deg), t=0.0)` is a box: a pair runs, a number is held, strokes that are not named run over their range.
+    `Over.path(phi=[...], psi=[...])` are straight legs through places in this order, `Over.poses(...)` these poses and nothing between.
+
+    `only=[x("T") <= 4]` are conditions on poses: what lies outside is not asked. `cases=("full",)` are the load cases that occur there,
+    "plain" the machine's own loads; default all declared and the plain one. With `lost="allowed"` places that cannot be assembled are
+    part of the machine. Values in SI; the ends of a box may be quantities of the design.
+    """
+
+    kind: ClassVar[str] = "over"
+    shape: str
+    strokes: Mapping[str, Any]
+    only: tuple[PoseCondition, ...]
+    cases: tuple[str, ...] | None
+    lost: str
+
+    def __init__(
+        self, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[Any] | None = None, lost: str = "", **strokes: Any
+    ) -> None:
+        self._hold("box", {name: box_ends(name, value) for name, value in strokes.items()}, only, cases, lost)
+
+    @classmethod
+    def path(
+        cls, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[Any] | None = None, lost: str = "", **strokes: Any
+    ) -> Self:
+        """Return straight legs through places in this order: an array of values for each stroke, as many each; a number is held."""
+        return cls._of_places("path", strokes, only, cases, lost)
+
+    @classmethod
+    def poses(
+        cls, *, only: Sequence[PoseCondition] | PoseCondition = (), cases: Sequence[Any] | None = None, lost: str = "", **strokes: Any
+    ) -> Self:
+        """Return these poses and nothing between them: an array of values for each stroke, as many each; a number is held."""
+        return cls._of_places("poses", strokes, only, cases, lost)
+
+    @classmethod
+    def _of_places(cls, shape: str, strokes: Mapping[str, Any], only: Any, cases: Any, lost: Any) -> Self:
+        found = cls()
+        object.__setattr__(found, "_name", "")
+        values = {name: place_values(shape, name, value) for name, value in strokes.items()}
+        counts = {len(value) for value in values.values() if isinstance(value, tuple)}
+        if len(counts) > 1:
+            each = ", ".join(f"{name} has {len(value)}" for name, value in values.items() if isinstance(value, tuple))
+            raise DefinitionError(f"Over.{shape}: {each} values; give each stroke as many, or one number where it is held.")
+        found._hold(shape, values, only, cases, lost)
+        return found
+
+    def _hold(self, shape: str, strokes: Mapping[str, Any], only: Any, cases: Any, lost: Any) -> None:
+        """Keep what was given; DefinitionError for what is no condition, no list of cases or no word."""
+        listed = (only,) if isinstance(only, PoseCondition) else only
+        if not isinstance(listed, (list, tuple)) or not all(isinstance(each, PoseCondition) for each in listed):
+            wrong = (
+                next((each for each in listed if not isinstance(each, PoseCondition)), only) if isinstance(listed, (list, tuple)) else only
+            )
+            raise DefinitionError(f'Over(only=...): {cited(wrong)} is no condition on poses; write comparisons, only=[x("T") <= 4].')
+        if isinstance(cases, (str, LoadCase)):
+            raise DefinitionError(f"Over(cases={cited(cases)}): a list of load cases is expected, cases=({cited(cases)},).")
+        if cases is not None and not (
+            isinstance(cases, (list, tuple)) and cases and all(isinstance(each, (str, LoadCase)) for each in cases)
+        ):
+            raise DefinitionError(f'Over(cases={cited(cases)}): names of load cases are expected, cases=("full",); leave it out for all.')
+        if lost not in ("", ALLOWED):
+            raise DefinitionError(f'Over(lost={cited(lost)}): "allowed" is expected, or nothing: places that are lost are then a fault.')
+        names = None if cases is None else tuple(map(name_of, cases))
+        for name, value in (("shape", shape), ("strokes", FrozenDict(strokes)), ("only", tuple(listed)), ("cases", names), ("lost", lost)):
+            object.__setattr__(self, name, value)
+
+    def parts(self) -> tuple[Any, ...]:
+        return ()
+
+    def examine(self, members: Mapping[str, Member], title: str) -> None:
+        """Raise DefinitionError for strokes and load cases that a class has not, and for conditions on what it has not."""
+        self.check(
+            title, [name for name, each in members.items() if isinstance(each, Stroke)],
+            [name for name, each in members.items() if isinstance(each, LoadCase)],
+        )  # fmt: skip
+        for each in self.only:
+            for name in (name for side in (each.left, each.right) if isinstance(side, (str, Quantity)) for name in needs(quantity(side))):
+                if name not in members:
+                    raise unknown("Name", name, members, where=f"{title}.{self.name}: only={each}")
+
+    def check(self, title: str, strokes: Iterable[str], cases: Iterable[str]) -> None:
+        """Raise DefinitionError for strokes and load cases that there are not, and for a path that leaves a stroke open."""
+        known, where = list(strokes), f"{title}.{self.name}" if self.name else f"{title}: {self}"
+        for name in self.strokes:
+            if name not in known:
+                error = unknown("Stroke", name, known, where=where)
+                raise DefinitionError(f"{error} Designs are varied by vary=, not by over=.")
+        missing = [name for name in known if name not in self.strokes] if self.shape != "box" else []
+        if missing:
+            example = ", ".join(f"{name}=..." for name in missing)
+            raise DefinitionError(
+                f"{where}: it does not say where {', '.join(missing)} stand; give {example}, one number where it is held."
+            )
+        for name in self.cases or ():
+            if name not in (PLAIN_CASE, *cases):
+                raise unknown("Load case", name, (PLAIN_CASE, *cases), where=where)
+
+    # -- of a machine ------------------------------------------------------------------------------------
+
+    def places(self, plan: Plan, number: Callable[[Quantity], float]) -> dict[str, FloatArray]:
+        """Return strokes [m or rad] that span it, arrays of one shape; `number` gives the value of a quantity of the design.
+
+        Of a box its corners, an axis for each stroke that runs; of a path the places in an array of one axis; poses in one of two.
+        """
+        if self.shape != "box":
+            values = dict(zip(plan.strokes, np.broadcast_arrays(*(real(self.strokes[name]) for name in plan.strokes)), strict=True))
+            apart = self.shape == "poses" and len(values) > 1
+            return {name: np.array(value.reshape(-1, 1) if apart else np.atleast_1d(value)) for name, value in values.items()}
+        ends = {name: self.ends(name, plan, number) for name in plan.strokes}
+        moving = [name for name, (low, high) in ends.items() if high > low]
+        axes = np.meshgrid(*(np.array(ends[name]) for name in moving), indexing="ij") if moving else []
+        shape = axes[0].shape if axes else ()
+        whole = (*shape, 1) if len(shape) == 1 and len(ends) > 1 else shape  # with an axis more these poses are no path
+        values = dict(zip(moving, axes, strict=True))
+        return {name: np.array(np.broadcast_to(values.get(name, low), shape)).reshape(whole) for name, (low, _) in ends.items()}
+
+    def ends(self, name: str, plan: Plan, number: Callable[[Quantity], float]) -> tuple[float, float]:
+        """Return the least and the greatest value of a stroke in a box [m or rad]; DefinitionError for an end that follows a stroke."""
+        stroke = plan.strokes[name]
+        given = self.strokes.get(name, (stroke.start, stroke.end))
+        found = []
+        for each in given if isinstance(given, tuple) else (given, given):
+            if not is_number(each):
+                followed = quantity(each)
+                behind = next((one for one in plan.strokes if one == followed.name or one in plan.reaches(followed)), "")
+                if behind:
+                    what = f"{plan.title}: {self}: {followed.name or followed} depends on the stroke {behind} itself"
+                    raise DefinitionError(f"{what}; give a quantity of the design.")
+            found.append(float(each) if is_number(each) else number(quantity(each)))
+        check_magnitude(name, (found[0], found[1]), plan)
+        return min(found), max(found)
+
+    def kept(self, motion: MotionLike) -> Mask:
+        """Return the mask of poses that are asked for: those that keep all conditions, and those of which nothing says that they do not.
+
+        A condition without a value is not kept where the machine stands; where it cannot be assembled, it leaves nothing out.
+        """
+        found = np.ones(motion.shape, bool)
+        for each in self.only:
+            margin = each.margin
+            with np.errstate(all="ignore"):
+                at_pose = isinstance(margin, Quantity) and not margin.name
+                value = motion._reading.value(margin) if at_pose else motion[margin]
+                value = np.broadcast_to(value, motion.shape)
+                found &= np.where(motion.reached, value >= 0.0, ~(value < 0.0))
+        return found
+
+    # -- in words ----------------------------------------------------------------------------------------
+
+    @property
+    def title(self) -> str:
+        """Its name in the class; "" for one that is not of it."""
+        return self.name
+
+    def words(self, motion: MotionLike) -> str:
+        """Return its strokes in words: `phi = 15 to 80 deg, t = 0 m`; of a path from place to place."""
+        plan = motion.plan
+        ends = [f"{name} = {span_text(values, stroke_unit(plan, name))}" for name, values in motion.strokes.items()]
+        if self.shape == "path" and len(motion.strokes) > 1:
+            places = [
+                ", ".join(f"{name} = {place_text(float(value[k]), stroke_unit(plan, name))}" for name, value in motion.strokes.items())
+                for k in (0, -1)
+            ]
+            text = said("the path from {start} to {end}", start=places[0], end=places[1])
+        elif self.shape == "poses":
+            text = said("{count} poses, {spans}", count=motion.reached.size, spans=", ".join(ends))
+        else:
+            text = ", ".join(ends)
+        return said("{spans}, where {conditions}", spans=text, conditions=", ".join(map(str, self.only))) if self.only else text
+
+    def __str__(self) -> str:
+        word = "Over" if self.shape == "box" else f"Over.{self.shape}"
+        given = [f"{name}={ends_text(value)}" for name, value in self.strokes.items()]
+        given += [f"only=[{', '.join(map(str, self.only))}]"] if self.only else []
+        given += [f"cases={self.cases!r}"] if self.cases is not None else []
+        return f"{word}({', '.join([*given, *([f'lost={self.lost!r}'] if self.lost else [])])})"
+
+    def __repr__(self) -> str:
+        return str(self)
+
+
+def ends_text(value: Any) -> str:
+    """Return the value of a stroke as it is written."""
+    if isinstance(value, tuple):
+        return f"({', '.join(map(ends_text, value))})"
+    return repr(float(value)) if is_number(value) else str(getattr(value, "name", "") or value)
+
+
+def box_ends(name: str, value: Any) -> Any:
+    """Return what a stroke of a box is given: a number, a quantity or its name, or two of such; DefinitionError for anything else."""
+
+    def is_end(end: Any) -> bool:
+        return is_number(end) or isinstance(end, (str, Quantity))
+
+    if isinstance(value, (list, tuple, np.ndarray)):
+        if len(value) == 2 and all(map(is_end, value)):
+            return tuple(float(each) if is_number(each) else each for each in value)
+        if len(value) > 2 and all(map(is_number, value)):
+            raise DefinitionError(
+                f"Over({name}={cited(value)}): (low, high) or one value is expected; places in an order are Over.path(...)."
+            )
+    elif is_end(value):
+        return float(value) if is_number(value) else value
+    if isinstance(value, PoseCondition):
+        raise DefinitionError(f"Over({name}={value}): conditions on poses go into a list, only=[{value}].")
+    raise DefinitionError(f"Over({name}={cited(value)}): (low, high) or one value is expected, in SI.")
+
+
+def place_values(shape: str, name: str, value: Any) -> Any:
+    """Return what a stroke of a path is given: numbers in their order, or one where it is held."""
+    try:
+        found = real(value)
+    except ValueError:
+        found = np.empty(0)
+    if found.ndim > 1 or not found.size or not np.all(np.isfinite(found)):
+        raise DefinitionError(f"Over.{shape}({name}={cited(value)}): finite numbers in their order are expected, or one, in SI.")
+    return tuple(found.tolist()) if found.ndim else float(found)
+
+
+def over_of(strokes: Mapping[str, FloatArray], per_design: bool) -> Over:
+    """Return where poses are: of one stroke its range, of several in arrays of one axis their path, of a grid the box."""
+    several = sum(float(np.ptp(value)) > 0.0 for value in strokes.values()) > 1
+    if several and not per_design and all(value.ndim == 1 for value in strokes.values()):
+        return Over.path(**{name: value.tolist() for name, value in strokes.items()})
+    ends = {name: (float(np.min(value)), float(np.max(value))) for name, value in strokes.items()}
+    given: dict[str, Any] = {name: pair if pair[0] < pair[1] else pair[0] for name, pair in ends.items()}
+    return Over(**given)

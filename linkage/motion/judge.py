@@ -23,6 +23,7 @@ from ..program import QUICKEST, FloatArray, Kernel
 from ..quantities import Quantity, Ref
 from ..vectors import Numbers
 from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
+from .box import values_a_stroke
 from .evaluation import Evaluation
 from .limits import stroke_unit
 from .line import SAMPLES
@@ -47,7 +48,7 @@ from .measures import (
 from .motion import Motion
 from .over import ALLOWED, Over
 from .requests import BoundRequest, Request, SmoothPiece, identity_of
-from .search import extremum, moving, side_of
+from .search import extremum, moving
 from .strokes import at_values
 
 Question: TypeAlias = "Measure | Condition"
@@ -168,7 +169,7 @@ class Domain:
         if self.over.shape == "poses":
             return {}
         count = 1 if self.is_path else len(self.running)
-        steps = SAMPLES if count < 2 else side_of(count, self.motion._grid.size[0]) - 1
+        steps = SAMPLES if count < 2 else values_a_stroke(count, self.motion._grid.size[0]) - 1
         return dict.fromkeys(self.running, 1.0 / steps)
 
     def situations(self, request: Any, acting: Acting) -> list[Situation]:

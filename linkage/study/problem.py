@@ -89,16 +89,19 @@ def ranges_of(machine: Mechanism, over: Any) -> dict[str, Range]:
 @final
 @dataclass(eq=False)
 class PoseSet:
-    """Poses at which some quantities are looked at: the parts of each stroke's range (0 to 1) along the axes, or one pose.
+    """Poses at which some quantities are looked at: the parts of each stroke's range (0 to 1) along the axes, or single poses.
 
-    `weights` are an integral's; `inner` names a last axis over which the worst is taken.
+    `singles` are the strokes [SI] of single poses, all of which are looked at together; `weights` are an integral's; `inner` names a last
+    axis over which the worst is taken.
     """
 
     axes: dict[str, FloatArray]
-    fixed: Mapping[str, float] = field(default_factory=dict)
+    singles: list[Mapping[str, float]] = field(default_factory=list)
     weights: FloatArray | None = None
     inner: str = ""
     quantities: list[Any] = field(default_factory=list)
+    alone: bool = False
+    """Whether its single pose is kept apart from others."""
 
     def place(self, quantity: Any) -> int:
         """Return the number of a quantity, entered where it is new."""
@@ -108,10 +111,11 @@ class PoseSet:
         self.quantities.append(quantity)
         return len(self.quantities) - 1
 
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """The shape of the poses."""
-        return tuple(map(len, self.axes.values()))
+    def single(self, strokes: Mapping[str, float]) -> int:
+        """Return the number of a single pose, entered where it is new."""
+        if strokes not in self.singles:
+            self.singles.append(strokes)
+        return self.singles.index(strokes)
 
 
 @final
@@ -157,12 +161,13 @@ class Problem:
         """How many designs were looked at, each look at one counted."""
         self.leaves = tuple(dict.fromkeys(leaf for each in (*objectives, *(one.margin for one in constraints)) for leaf in each.leaves))
         self.sets: list[PoseSet] = []
-        self._of_leaf: dict[Leaf, tuple[PoseSet, int]] = {}
+        self._of_leaf: dict[Leaf, tuple[PoseSet, int, int]] = {}
+        """Where a leaf's values are: its poses, the number of its quantity there, and that of its single pose, -1 where it has all."""
         moving = tuple(name for name, one in self.ranges.items() if not (is_number(one.low) and one.low == one.high))
         for leaf in self.leaves:
-            poses = self._poses(leaf, moving)
+            poses, single = self._poses(leaf, moving)
             inner = leaf.quantity.quantity if isinstance(leaf.quantity, Worst) else leaf.quantity
-            self._of_leaf[leaf] = poses, poses.place(inner)
+            self._of_leaf[leaf] = poses, poses.place(inner), single
         self.whole = self._set(moving)
         self.follow = tuple(dict.fromkeys(end for one in self.ranges.values() for end in one.follows))
         self.owners = tuple(dict.fromkeys(each.owner for each in space.variables))
@@ -200,8 +205,8 @@ class Problem:
 
     # -- the poses ---------------------------------------------------------------------------------------
 
-    def _poses(self, leaf: Leaf, moving: Sequence[str]) -> PoseSet:
-        """Return the poses of a leaf, shared with others that are looked at at the same."""
+    def _poses(self, leaf: Leaf, moving: Sequence[str]) -> tuple[PoseSet, int]:
+        """Return the poses of a leaf, shared with others that are looked at at the same, and which single one it is, -1 for all."""
         title, quantity = self.plan.title, leaf.quantity
         inner = quantity.over if isinstance(quantity, Worst) else ""
         if inner and inner not in self.plan.strokes:
@@ -217,13 +222,17 @@ class Problem:
             others = [name for name in axes if name != by]
             if others:
                 raise DefinitionError(f"{title}: {leaf} depends on {', '.join(others)} too: hold it by over={{...}}, or take worst(...).")
-            return self._set((by,), inner, integral=True)
+            return self._set((by,), inner, integral=True), -1
         if not axes and not inner:
             return self._single(At(quantity, {}), (), inner)
-        return self._set(axes, inner)
+        return self._set(axes, inner), -1
 
-    def _single(self, leaf: At, depends: Sequence[str], inner: str) -> PoseSet:
-        """Return the poses of a value at one pose."""
+    def _single(self, leaf: At, depends: Sequence[str], inner: str) -> tuple[PoseSet, int]:
+        """Return the poses of a value at one pose, and the number of that.
+
+        Quantities of the program are looked at together at all single poses. A function of a motion has its pose for itself: it may do
+        with several what it will.
+        """
         unknown = [name for name in leaf.strokes if name not in self.plan.strokes]
         if unknown:
             known = ", ".join(self.plan.strokes) or "none"
@@ -235,18 +244,19 @@ class Problem:
         if missing:
             raise DefinitionError(f"{self.plan.title}: {leaf}: say the pose, {', '.join(f'{name}=...' for name in missing)}.")
         fixed = held | {name: float(value) for name, value in leaf.strokes.items()}
+        alone = bool(inner) or traced(self.plan, leaf.quantity) is None
         for each in self.sets:
-            if each.fixed == fixed and not each.axes.keys() - {inner} and each.inner == inner:
-                return each
+            if each.singles and each.inner == inner and each.alone is alone and (not alone or each.singles == [fixed]):
+                return each, each.single(fixed) if not inner else -1
         axes = {inner: np.linspace(0.0, 1.0, INNER)} if inner else {}
-        self.sets.append(PoseSet(axes, fixed, inner=inner))
-        return self.sets[-1]
+        self.sets.append(PoseSet(axes, [fixed], inner=inner, alone=alone))
+        return self.sets[-1], -1 if inner else 0
 
     def _set(self, names: Sequence[str], inner: str = "", *, integral: bool = False) -> PoseSet:
         """Return the poses over some strokes."""
         wanted = {*names, *([inner] if inner else [])}
         for each in self.sets:
-            if each.axes.keys() == wanted and each.inner == inner and (each.weights is not None) == integral and not each.fixed:
+            if each.axes.keys() == wanted and each.inner == inner and (each.weights is not None) == integral and not each.singles:
                 return each
         count = self.counts.get(len(names), 3)
         places, weights = gauss(np.linspace(0.0, 1.0, PANELS + 1)) if integral else (np.linspace(0.0, 1.0, count), None)
@@ -298,7 +308,7 @@ class Problem:
         n = len(self.space.variables)
         rows = {}
         for leaf in self.leaves:
-            poses, _ = self._of_leaf[leaf]
+            poses, *_ = self._of_leaf[leaf]
             axes = [len(axis) for name, axis in poses.axes.items() if name != poses.inner]
             count = 1 if isinstance(leaf, Integral) else int(np.prod(axes))
             rows[leaf] = Rows(np.full((1, count), np.nan), np.zeros((n, count)) if slopes else None)
@@ -357,7 +367,7 @@ class Problem:
         """Return a pose set's grid."""
         follows = any(self.ranges[name].follows for name in poses.axes)
         arrays = np.meshgrid(*poses.axes.values(), indexing="ij") if poses.axes else []
-        shape = arrays[0].shape if arrays else (1,)
+        shape = arrays[0].shape if arrays else (len(poses.singles) or 1,)
         parts = dict(zip(poses.axes, arrays, strict=True))
         strokes = {}
         m = max((np.size(value) for value in designs.values()), default=1)
@@ -368,22 +378,24 @@ class Problem:
                 low, high = (self._end(end, ends, m if batch else 0, len(shape)) for end in (one.low, one.high))
                 value = low + parts[name] * (high - low)
             else:
-                value = np.full(shape, poses.fixed.get(name, one.low if is_number(one.low) else stroke.start))
+                rest = one.low if is_number(one.low) else stroke.start
+                value = np.resize([each.get(name, rest) for each in poses.singles or ({},)], shape)
             strokes[name] = np.asarray(np.broadcast_to(value, (*batch, *shape) if follows else shape), float)
         joining = None if poses.axes else self._joined_on_the_way(poses, designs)
         return Grid(self.plan, designs, strokes, per_design=follows, joining=joining)
 
     def _joined_on_the_way(self, poses: PoseSet, designs: Mapping[str, Any]) -> JoinedTo | None:
-        """Return how the angles of a single pose join those on the way to it from where the ranges begin, as a sweep gives them."""
-        if not poses.fixed:
+        """Return how the angles of single poses join those on the way to each from where the ranges begin, as a sweep gives them."""
+        if not any(poses.singles):
             return None
         way = np.linspace(0.0, 1.0, ON_THE_WAY)
         strokes = {}
         for name, stroke in self.plan.strokes.items():
             low = self.ranges[name].low
             start = float(low) if is_number(low) else float(stroke.start)
-            strokes[name] = start + way * (float(poses.fixed.get(name, start)) - start)
-        return JoinedTo(Grid(self.plan, designs, strokes, joining=joined_in_order), ON_THE_WAY - 1)
+            strokes[name] = np.array([start + way * (float(each.get(name, start)) - start) for each in poses.singles])
+        last = np.arange(1, len(poses.singles) + 1) * ON_THE_WAY - 1
+        return JoinedTo(Grid(self.plan, designs, strokes, joining=joined_in_order), last)
 
     @staticmethod
     def _end(end: Any, ends: Mapping[int, tuple[FloatArray, FloatArray | None]], m: int, axes: int) -> Any:
@@ -418,7 +430,7 @@ class Problem:
         self, leaf: Leaf, found: Mapping[int, tuple[Seen, SampledSlopes | None]], ends: Mapping[int, tuple[FloatArray, FloatArray | None]]
     ) -> Rows:
         """Return the rows of a leaf."""
-        poses, place = self._of_leaf[leaf]
+        poses, place, single = self._of_leaf[leaf]
         seen, slope = found[self.sets.index(poses)]
         values, slopes = seen.values[place], None
         if slope is not None:
@@ -426,6 +438,8 @@ class Problem:
         if poses.inner:
             assert isinstance(leaf.quantity, Worst)
             values, slopes = worst_along(values, slopes, len(poses.axes[poses.inner]), leaf.quantity.sense)
+        if single >= 0:
+            values, slopes = values[:, [single]], None if slopes is None else slopes[:, [single]]
         return self._integrated(values, slopes, poses, ends) if isinstance(leaf, Integral) else Rows(values, slopes)
 
     def _integrated(
@@ -531,7 +545,7 @@ class Problem:
         counts = {each: count if each < 2 else max(SAMPLES.get(each, 3), 33 // each) for each in range(6)}
         alone = Problem(self.machine, [kind(leaf.quantity)], [], NOWHERE, over=self.over, counts=counts)
         asked = alone.leaves[0]
-        poses, _ = alone._of_leaf[asked]
+        poses, *_ = alone._of_leaf[asked]
         names = [name for name in poses.axes if name != poses.inner]
         if not names:
             return None
@@ -545,10 +559,10 @@ class Problem:
 
     # -- the whole truth ---------------------------------------------------------------------------------
 
-    def motion(self, design: Mapping[str, Any], names: Sequence[str], fixed: Mapping[str, float], count: int = 33) -> Motion:
+    def motion(self, design: Mapping[str, Any], names: Sequence[str], count: int = 33) -> Motion:
         """Return the motion of one design over some strokes' ranges, the others held."""
         ends = self._ends(design, slopes=False)
-        poses = PoseSet({name: np.linspace(0.0, 1.0, count if len(names) == 1 else 5) for name in names}, fixed)
+        poses = PoseSet({name: np.linspace(0.0, 1.0, count if len(names) == 1 else 5) for name in names})
         return motion_of(self._grid(poses, design, ends))
 
     def true(self, leaf: Leaf, design: Mapping[str, Any], *, quick: bool = False) -> tuple[float, dict[str, float]]:
@@ -556,17 +570,18 @@ class Problem:
 
         As a motion gives it, or `quick` by the plan's program, which the search itself follows.
         """
-        poses, _ = self._of_leaf[leaf]
+        poses, _, single = self._of_leaf[leaf]
         names = tuple(name for name in poses.axes if name != poses.inner)
         if isinstance(leaf, Integral):
             return self.panels(leaf, design)[0] * self.span_of(leaf, design), {}
         if isinstance(leaf, At) and not poses.inner and not quick:
-            here = motion_of(self._grid(poses, design, self._ends(design, slopes=False)))
+            alone = PoseSet({}, [poses.singles[single]])
+            here = motion_of(self._grid(alone, design, self._ends(design, slopes=False)))
             return float(np.ravel(eager(here, leaf.quantity))[0]), {}
         if poses.inner or isinstance(leaf, At) or not names:
             look = self.look(design)
             return float(reduced(leaf, look.rows[leaf].values)[0]), {}
-        motion = self.motion(design, names, poses.fixed)
+        motion = self.motion(design, names)
         value = quickly_on(self.plan, leaf.quantity) if quick else value_on(leaf.quantity)
         found = (lowest if isinstance(leaf, Least) else greatest)(motion, value)
         parts = {}
@@ -581,7 +596,7 @@ class Problem:
 
     def tops(self, leaf: Leaf, design: Mapping[str, Any]) -> list[float]:
         """Return where between its samples a leaf of one design has tops that come near its worst value, as parts of its stroke's range."""
-        poses, place = self._of_leaf[leaf]
+        poses, place, _ = self._of_leaf[leaf]
         if len(poses.axes) != 1 or poses.inner:
             return []
         ((name, axis),) = poses.axes.items()
@@ -589,7 +604,7 @@ class Problem:
         sense = -1.0 if isinstance(leaf, Least) else 1.0
 
         def values(at: FloatArray) -> FloatArray:
-            found = sampling.seen(self._grid(PoseSet({name: at}, poses.fixed), design, ends)).values[place, 0]
+            found = sampling.seen(self._grid(PoseSet({name: at}), design, ends)).values[place, 0]
             return np.where(np.isfinite(found), sense * found, -np.inf)
 
         seen = values(axis)
@@ -607,13 +622,13 @@ class Problem:
 
     def panels(self, leaf: Leaf, design: Mapping[str, Any]) -> tuple[float, FloatArray]:
         """Return an integral of one design over the parts (0 to 1) of its stroke, and the panels that it takes: fine where it has kinks."""
-        poses, place = self._of_leaf[leaf]
+        poses, place, _ = self._of_leaf[leaf]
         (name,) = [each for each in poses.axes if each != poses.inner]
         sampling, ends = self._sampling(self.sets.index(poses)), self._ends(design, slopes=False)
 
         def values(places: FloatArray) -> FloatArray:
             axes = {name: places} | ({poses.inner: poses.axes[poses.inner]} if poses.inner else {})
-            found = sampling.seen(self._grid(PoseSet(axes, poses.fixed, None, poses.inner), design, ends)).values[place]
+            found = sampling.seen(self._grid(PoseSet(axes, weights=None, inner=poses.inner), design, ends)).values[place]
             if poses.inner:
                 assert isinstance(leaf.quantity, Worst)
                 found, _ = worst_along(found, None, len(poses.axes[poses.inner]), leaf.quantity.sense)
@@ -639,7 +654,7 @@ class Problem:
 
     def refined_panels(self, leaf: Leaf, design: Mapping[str, Any]) -> bool:
         """Look at an integral in panels that are fine enough for one design; return whether they are others than before."""
-        poses, _ = self._of_leaf[leaf]
+        poses, *_ = self._of_leaf[leaf]
         (name,) = [each for each in poses.axes if each != poses.inner]
         places, weights = gauss(self.panels(leaf, design)[1])
         if len(places) <= len(poses.axes[name]):
@@ -649,7 +664,7 @@ class Problem:
 
     def span_of(self, leaf: Leaf, design: Mapping[str, Any]) -> float:
         """Return how long the range of an integral's stroke is [SI]."""
-        poses, _ = self._of_leaf[leaf]
+        poses, *_ = self._of_leaf[leaf]
         (name,) = [each for each in poses.axes if each != poses.inner]
         ends, one = self._ends(design, slopes=False), self.ranges[name]
         low, high = (float(np.ravel(self._end(end, ends, 0, 0))[0]) for end in (one.low, one.high))
@@ -662,7 +677,7 @@ class Problem:
 
     def refined(self, leaf: Leaf, parts: Mapping[str, float]) -> bool:
         """Add a pose between the samples to those of a leaf; return whether it is new."""
-        poses, _ = self._of_leaf[leaf]
+        poses, *_ = self._of_leaf[leaf]
         new = False
         for name, part in parts.items():
             axis = poses.axes[name]

@@ -12,6 +12,8 @@ from typing import Self, cast, final
 
 from linkage.errors import DefinitionError, known_name, unknown
 from linkage.mechanism import Mechanism
+from linkage.motion import require_motion
+from linkage.motion.grid import MotionLike
 from linkage.plan import Plan
 from linkage.quantities import Quantity, Reference, distance, name_of, quantity
 from linkage.statics import AnyMotion, Case, LawRequest, case_words, loads_identity, same
@@ -157,6 +159,12 @@ def circuit_name(circuit: Reference | None) -> str:
     return "" if circuit is None else name_of(circuit)
 
 
+def without_limit(request: CircuitRequest, motion: MotionLike) -> Array:
+    """Return the mask of poses at which a cylinder carries something and what is asked of it has no value: the load drives there."""
+    carried = request.ram(motion.plan).thrust(require_motion(motion), case=request.case)
+    return np.asarray(np.isfinite(carried) & np.isnan(request.of(motion)))
+
+
 @final
 @dataclass(frozen=True, eq=False)
 class Reserve(CircuitRequest):
@@ -172,6 +180,9 @@ class Reserve(CircuitRequest):
     def law(self, motion: AnyMotion) -> Array:
         circuit, ram = self.circuit_of(motion.plan), self.ram(motion.plan)
         return circuit.reserve(motion, cylinder=ram, case=self.case, direction=self.direction)
+
+    def unlimited(self, motion: MotionLike) -> Array:
+        return without_limit(self, motion)
 
 
 def reserve(cylinder: Reference, *, case: Case = None, circuit: Reference | None = None, direction: str | None = None) -> Reserve:
@@ -205,6 +216,9 @@ class Capacity(CircuitRequest):
     def law(self, motion: AnyMotion) -> Array:
         circuit, ram = self.circuit_of(motion.plan), self.ram(motion.plan)
         return circuit.capacity(motion, self.point, along=self.along, share=self.share, cylinder=ram, case=self.case)
+
+    def unlimited(self, motion: MotionLike) -> Array:
+        return without_limit(self, motion)
 
 
 def capacity(

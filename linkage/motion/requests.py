@@ -9,6 +9,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
+from functools import reduce
 from types import MappingProxyType
 from typing import Any, NoReturn, TypeAlias, final
 
@@ -59,6 +60,10 @@ class Request(Arithmetic):
     def in_case(self, case: object) -> Request:
         """Return the request with the forces of a load case, where it is of forces and names no case itself."""
         return self
+
+    def unlimited(self, motion: MotionLike) -> Mask | None:
+        """Return the mask of poses at which its law has no bound, such as where the load drives; None where it always has one."""
+        return None
 
 
 RequestLike: TypeAlias = str | Member | Request
@@ -360,6 +365,10 @@ class Combined(Request):
     def in_case(self, case: object) -> Combined:
         parts = tuple(each.in_case(case) if isinstance(each, Request) else each for each in self.parts)
         return self if all(a is b for a, b in zip(parts, self.parts, strict=True)) else Combined(self.function, parts)
+
+    def unlimited(self, motion: MotionLike) -> Mask | None:
+        found = [mask for each in self.parts if isinstance(each, Request) and (mask := each.unlimited(motion)) is not None]
+        return reduce(np.logical_or, found) if found else None
 
     def bound(self, plan: Plan) -> CombinedOf:
         return CombinedOf(self, tuple(each if isinstance(each, float) else bound(plan, each) for each in self.parts))

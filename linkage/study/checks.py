@@ -73,8 +73,11 @@ def request_values(motion: Motion, request: Request) -> FloatArray:
         return motion[request]
 
 
-def quantity_values(motion: Motion, quantity: QuantityLike) -> FloatArray:
-    """Return a quantity at every pose of a motion, NaN where it has no value; nearness to a dead point is told by the study."""
+def quantity_values(motion: Motion, quantity: QuantityLike, *, endless: bool = False) -> FloatArray:
+    """Return a quantity at every pose of a motion, NaN where it has no value; nearness to a dead point is told by the study.
+
+    An infinite one is none, unless it may be `endless`.
+    """
     title = motion.plan.title
     if isinstance(quantity, type) or not (callable(quantity) or isinstance(quantity, (str, Quantity, Request))):
         raise DefinitionError(f"{title}: {cited(quantity)} is no output, quantity or function of a motion; give one, such as 'tilt'.")
@@ -90,4 +93,4 @@ def quantity_values(motion: Motion, quantity: QuantityLike) -> FloatArray:
     if result.shape != motion.shape:
         what = f"{title_of(quantity)} has the shape {result.shape} where {motion.shape} is expected"
         raise DefinitionError(f"{motion.plan.title}: {what}; ask for a number such as an output, or lambda motion: motion.y('G').")
-    return np.where(np.isfinite(result) & motion.reached, result, np.nan)
+    return np.where((~np.isnan(result) if endless else np.isfinite(result)) & motion.reached, result, np.nan)

@@ -262,7 +262,7 @@ class Journal:
                 return None
         except (KeyError, TypeError, ValueError):
             return None
-        problem.looked_at += looked_at
+        problem.count.designs += looked_at
         return found
 
     def keep(self, task: str, found: Found, looked_at: int) -> None:
@@ -466,9 +466,11 @@ class DesignSearch:
         known = self.journal.result(task, self.problem)
         if known is not None:
             return known
-        before = self.problem.looked_at
+        count = self.problem.count
+        before = count.designs
         found = self.locally(combination, np.ravel(unit))
-        self.journal.keep(task, found, self.problem.looked_at - before)
+        if not count.is_spent:
+            self.journal.keep(task, found, count.designs - before)
         return found
 
     def locally(self, combination: tuple[int, ...], unit: FloatArray) -> Found:
@@ -485,7 +487,6 @@ class DesignSearch:
                 found = min(found, again, key=lambda each: (not each.feasible, each.missing))
         else:
             found = local.judged(unit)
-        self.problem.looked_at += problem.looked_at
         return found
 
     # -- the winner -----------------------------------------------------------------------------------------
@@ -496,8 +497,6 @@ class DesignSearch:
         for each in sorted((one for one in ended if one.found.feasible), key=lambda one: sense * one.found.value):
             try:
                 everyone = [one.found for one in ended if one.combination == each.combination]
-                self.problem.looked_at += self.coarse.looked_at
-                self.coarse.looked_at = 0
                 best = polished(self.problem, each.combination, each.found, everyone, searched, self.plan.solver, self.cut)
                 return replace(best, tried=self.tried(ended))
             except AssemblyError as error:

@@ -24,9 +24,9 @@ from .box import unit_points
 from .checks import unit_of
 from .measured import measure_of
 from .measures import Constraint, Given, Integral, Leaf, Measure, Worst
-from .problem import Problem
+from .problem import Numbers, Problem
 from .result_rows import ResultRow, result_text, write_result
-from .solver import MET, Found, Local, missing_of, scale_of, scales_of
+from .solver import MET, Found, Local, missing_of, scale_of, scales_of, true_worth
 from .space import Space, Varied, size_of_machine
 from .tried import Tried, tried_header, tried_names, tried_rows
 
@@ -228,12 +228,12 @@ def polished(
     if not found.feasible:
         raise AssemblyError(f"{problem.plan.title}: the design on its steps misses the conditions.")
     now = true_values(problem, machine)
-    if not np.isfinite(problem.value(lambda leaf: now[leaf])):
+    value = true_worth(problem, now)
+    if not np.isfinite(value):
         raise AssemblyError(f"{problem.plan.title}: {', '.join(map(str, problem.objectives))} has no value of the best design.")
     local = Local(problem, combination, found.unit)
     local.refine(found.unit)
     prices, ends = multipliers(local, found.unit)
-    value = float(problem.value(lambda leaf: now[leaf]))
     part = local.size / (abs(value) or 1.0)
     conditions = tuple(
         as_kept(problem, each, now, part * price / scale, scale)
@@ -252,7 +252,7 @@ def polished(
     return Optimum(
         machine, problem.machine, value, start_value, start_missing, conditions, tuple(bounds),
         {each.name: float(at) for each, at in zip(problem.space.variables, values, strict=True)},
-        max(agreed, 1), len(ended), searched, tuple(cut), problem.looked_at, problem, found.unit, tuple(combination),
+        max(agreed, 1), len(ended), searched, tuple(cut), problem.count.designs, problem, found.unit, tuple(combination),
     )  # fmt: skip
 
 
@@ -268,9 +268,9 @@ def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float],
     return Kept(constraint, left, right, spare, by, price * by if price * by > SHOWN else 0.0, unit_of_constraint(problem.plan, constraint))
 
 
-def true_values(problem: Problem, machine: Mechanism) -> dict[Leaf, float]:
+def true_values(problem: Problem, machine: Mechanism) -> Numbers:
     """Return the leaves' numbers of a machine, between the poses too."""
-    return {leaf: problem.true(leaf, machine.dimensions)[0] for leaf in problem.leaves}
+    return Numbers({leaf: problem.true(leaf, machine.dimensions) for leaf in problem.leaves})
 
 
 def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
@@ -281,7 +281,7 @@ def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
         return float("nan"), float("inf")
     values = true_values(problem, machine)
     scales = scales_of(problem, problem.look(machine.dimensions, slopes=True))
-    return float(problem.value(lambda leaf: values[leaf])), missing_of(problem.constraints, scales, values)
+    return true_worth(problem, values), missing_of(problem.constraints, scales, values)
 
 
 def worth_in_order(problem: Problem, found: Found) -> tuple[bool, float]:
@@ -355,7 +355,6 @@ def on_steps(problem: Problem, combination: Sequence[int], found: Found, solver:
         raise AssemblyError(f"{problem.plan.title}: none of the steps about the design can be assembled.")
     best = search.seen[search.best]
     assert best is not None
-    best[0].looked_at = problem.looked_at + sum(each[0].looked_at for each in search.seen.values() if each is not None)
     return best
 
 

@@ -83,7 +83,7 @@ def front(problem: Problem, seed: int, solver: str, tell: Progress) -> Front:
     ]
     measures = tuple(measure for measure, _ in shown)
     units = tuple(unit_of_measure(problem.plan, each) for each in measures)
-    return Front(problem.plan.title, measures, units, tuple(points), problem.looked_at + coarse.looked_at)
+    return Front(problem.plan.title, measures, units, tuple(points), problem.count.designs)
 
 
 def from_pymoo() -> Any:
@@ -145,7 +145,7 @@ def on_front(
     objectives = problem.objectives
     limits = [] if held is None else [Constraint(each, "<=", Given(float(limit))) for each, limit in zip(objectives, held, strict=True)]
     own = [*problem.constraints, *(each for number, each in enumerate(limits) if number != place)]
-    one = Problem(problem.machine, [objectives[place]], own, problem.space, 1.0, problem.over)
+    one = Problem(problem.machine, [objectives[place]], own, problem.space, 1.0, problem.over, count=problem.count)
     try:
         local = Local(one, combination, unit)
         result = local.run(solver) if problem.space.variables else local.judged(unit)
@@ -153,7 +153,6 @@ def on_front(
         problem.assembled(machine)
     except (AssemblyError, LinkageError):
         return None
-    problem.looked_at += one.looked_at
     values = true_values(problem, machine)
     scales = scales_of(problem, problem.look(machine.dimensions, slopes=True))
     if missing_of(problem.constraints, scales, values) > MET:

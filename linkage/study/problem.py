@@ -7,14 +7,15 @@ Source: R. Hettich, K. O. Kortanek, Semi-infinite programming, SIAM Review 35 (1
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, final
+from typing import Any, NamedTuple, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, StudyError, cited
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, greatest, lowest
 from ..motion.grid import JoinedTo, joined_in_order
@@ -22,7 +23,20 @@ from ..motion.strokes import check_magnitude
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import Quantity, is_number
 from .measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most, Worst, words_of
-from .sampling import SampledSlopes, Sampling, Seen, eager, motion_of, quickly_on, strokes_behind, traced, value_on, with_values
+from .sampling import (
+    SampledSlopes,
+    Sampling,
+    Seen,
+    divisors_of,
+    eager,
+    motion_of,
+    quickly_on,
+    strokes_behind,
+    traced,
+    unlimited,
+    value_on,
+    with_values,
+)
 from .space import Space
 
 SAMPLES = {0: 1, 1: 49, 2: 17, 3: 9, 4: 5}
@@ -121,10 +135,11 @@ class PoseSet:
 @final
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """A leaf at its poses: values (m, n), and of one design derivatives (p, n)."""
+    """A leaf at its poses: values (m, n), of one design derivatives (p, n), and of which designs (m,) it is lost: without a value."""
 
     values: FloatArray
     slopes: FloatArray | None
+    lost: Any
 
 
 @final
@@ -137,6 +152,97 @@ class Evaluated:
     margin_slopes: FloatArray | None
     whole: Any
     reached: FloatArray
+
+
+class LimitReachedError(StudyError):
+    """A search has looked at as many designs as it may."""
+
+
+@final
+class Count:
+    """How many designs a search and its parts have looked at, each look at one counted, and how many they may, None for any number."""
+
+    def __init__(self) -> None:
+        self.designs, self.limit = 0, None
+
+    designs: int
+    limit: int | None
+
+    @property
+    def is_spent(self) -> bool:
+        """Whether no more designs may be looked at."""
+        return self.limit is not None and self.designs >= self.limit
+
+    def add(self, designs: int) -> None:
+        """Count designs that are about to be looked at; LimitReachedError where there may be no more. The last ones may go beyond."""
+        if self.is_spent:
+            raise LimitReachedError(f"The limit of {self.limit} designs is reached.")
+        self.designs += designs
+
+    @contextmanager
+    def unlimited(self) -> Iterator[None]:
+        """Look at designs whatever the limit, as at the best one in the end."""
+        kept, self.limit = self.limit, None
+        try:
+            yield
+        finally:
+            self.limit = kept
+
+
+class Truth(NamedTuple):
+    """A leaf's number of one design: where, in parts (0 to 1) of the strokes' ranges, and whether it is lost, without a value somewhere."""
+
+    value: float
+    parts: Mapping[str, float]
+    lost: bool
+
+
+@final
+class Numbers(dict[Leaf, float]):
+    """The leaves' numbers of one design; `lost` are those that have no value at a pose."""
+
+    def __init__(self, found: Mapping[Leaf, Truth]) -> None:
+        super().__init__({leaf: each.value for leaf, each in found.items()})
+        self.lost = frozenset(leaf for leaf, each in found.items() if each.lost)
+
+
+@final
+class Watched:
+    """A quantity as a function of a motion that notes whether it had no value where it is reached, or a divisor passes zero."""
+
+    def __init__(self, plan: Plan, quantity: Any, value: Callable[[Motion], FloatArray]) -> None:
+        self.quantity, self.value = quantity, value
+        self.divisors = [quickly_on(plan, each) for each in divisors_of(plan, quantity)]
+        self.signs = [(np.inf, -np.inf)] * len(self.divisors)
+        self.is_empty = False
+
+    def __call__(self, motion: Motion) -> FloatArray:
+        found = self.value(motion)
+        empty = np.isnan(found) & motion.reached
+        if not self.is_empty and empty.any():
+            free = unlimited(motion, self.quantity)
+            self.is_empty = bool((empty if free is None else empty & ~free).any())
+        for place, divisor in enumerate(self.divisors):
+            values = divisor(motion)[motion.reached]
+            low, high = self.signs[place]
+            self.signs[place] = float(np.nanmin(values, initial=low)), float(np.nanmax(values, initial=high))
+        return found
+
+    @property
+    def lost(self) -> bool:
+        """Whether there is no value somewhere."""
+        return self.is_empty or any(low <= 0.0 <= high for low, high in self.signs)
+
+
+def is_free(motion: Motion, quantity: Any) -> bool:
+    """Return whether nothing limits a quantity at the poses of a motion."""
+    free = unlimited(motion, quantity)
+    return free is not None and bool(free.all())
+
+
+def joined_rows(parts: Sequence[Rows]) -> Rows:
+    """Return the rows of several designs as one, without derivatives."""
+    return Rows(np.concatenate([each.values for each in parts]), None, np.concatenate([each.lost for each in parts]))
 
 
 @final
@@ -152,13 +258,13 @@ class Problem:
         sense: float = 1.0,
         over: Any = None,
         counts: Mapping[int, int] = SAMPLES,
+        count: Count | None = None,
     ) -> None:
         self.machine, self.plan, self.space, self.sense, self.over = machine, machine.plan, space, sense, over
         self.objectives, self.constraints = tuple(objectives), tuple(constraints)
         self.ranges = ranges_of(machine, over)
         self.counts = counts
-        self.looked_at = 0
-        """How many designs were looked at, each look at one counted."""
+        self.count = count or Count()
         self.leaves = tuple(dict.fromkeys(leaf for each in (*objectives, *(one.margin for one in constraints)) for leaf in each.leaves))
         self.sets: list[PoseSet] = []
         self._of_leaf: dict[Leaf, tuple[PoseSet, int, int]] = {}
@@ -178,11 +284,11 @@ class Problem:
 
     def with_counts(self, counts: Mapping[int, int]) -> Problem:
         """Return the same problem at another number of samples."""
-        return Problem(self.machine, self.objectives, self.constraints, self.space, self.sense, self.over, counts)
+        return Problem(self.machine, self.objectives, self.constraints, self.space, self.sense, self.over, counts, self.count)
 
     def with_space(self, space: Space) -> Problem:
         """Return the same problem with other variables and choices."""
-        return Problem(self.machine, self.objectives, self.constraints, space, self.sense, self.over, self.counts)
+        return Problem(self.machine, self.objectives, self.constraints, space, self.sense, self.over, self.counts, self.count)
 
     @property
     def facts(self) -> str:
@@ -277,7 +383,7 @@ class Problem:
         why. What is refused of the machine as it is set too is a mistake in the question.
         """
         m = max((np.size(value) for value in designs.values()), default=1)
-        self.looked_at += m
+        self.count.add(m)
         try:
             return self._look(designs, m, slopes=slopes)
         except DefinitionError as error:
@@ -286,10 +392,11 @@ class Problem:
             self.refusal = str(error)
             if m == 1:
                 return self._nothing(slopes=slopes)
-        parts = [self.look({name: float(value[k]) if np.ndim(value) else value for name, value in designs.items()}) for k in range(m)]
-        self.looked_at -= m
+        self.count.designs -= m
+        with self.count.unlimited():
+            parts = [self.look({name: float(value[k]) if np.ndim(value) else value for name, value in designs.items()}) for k in range(m)]
         return Evaluated(
-            {leaf: Rows(np.concatenate([each.rows[leaf].values for each in parts]), None) for leaf in self.leaves},
+            {leaf: joined_rows([each.rows[leaf] for each in parts]) for leaf in self.leaves},
             np.concatenate([each.margins for each in parts]), None,
             np.concatenate([each.whole for each in parts]), np.concatenate([each.reached for each in parts]),
         )  # fmt: skip
@@ -311,7 +418,7 @@ class Problem:
             poses, *_ = self._of_leaf[leaf]
             axes = [len(axis) for name, axis in poses.axes.items() if name != poses.inner]
             count = 1 if isinstance(leaf, Integral) else int(np.prod(axes))
-            rows[leaf] = Rows(np.full((1, count), np.nan), np.zeros((n, count)) if slopes else None)
+            rows[leaf] = Rows(np.full((1, count), np.nan), np.zeros((n, count)) if slopes else None, np.zeros(1, bool))
         return Evaluated(rows, np.zeros((1, 0)), np.zeros((n, 0)) if slopes else None, np.zeros(1, bool), np.zeros(1))
 
     def _look(self, designs: Mapping[str, Any], m: int, *, slopes: bool) -> Evaluated:
@@ -440,7 +547,12 @@ class Problem:
             values, slopes = worst_along(values, slopes, len(poses.axes[poses.inner]), leaf.quantity.sense)
         if single >= 0:
             values, slopes = values[:, [single]], None if slopes is None else slopes[:, [single]]
-        return self._integrated(values, slopes, poses, ends) if isinstance(leaf, Integral) else Rows(values, slopes)
+        lost = seen.lost[place]
+        if single >= 0 and len(poses.singles) > 1:
+            lost = np.isnan(seen.values[place][:, single])
+        if isinstance(leaf, Integral):
+            return replace(self._integrated(values, slopes, poses, ends), lost=lost)
+        return Rows(values, slopes, lost)
 
     def _integrated(
         self, values: FloatArray, slopes: FloatArray | None, poses: PoseSet, ends: Mapping[int, tuple[FloatArray, FloatArray | None]]
@@ -453,14 +565,14 @@ class Problem:
         span = np.reshape(high - low, (-1, 1))
         mean = (values * poses.weights).sum(axis=-1, keepdims=True)
         if slopes is None:
-            return Rows(mean * span, None)
+            return Rows(mean * span, None, None)
         grown = np.zeros((len(slopes), 1))
         for end, sign in ((one.low, -1.0), (one.high, 1.0)):
             if not is_number(end):
                 moved = ends[id(end)][1]
                 assert moved is not None
                 grown[:, 0] += sign * (self._by_owner @ moved)
-        return Rows(mean * span, (slopes * poses.weights).sum(axis=-1, keepdims=True) * float(span[0, 0]) + grown * mean[0])
+        return Rows(mean * span, (slopes * poses.weights).sum(axis=-1, keepdims=True) * float(span[0, 0]) + grown * mean[0], None)
 
     def merits(self, combination: Sequence[int], unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return of designs (m, n) the objective, what is missing in parts of the conditions' sizes, and the part reached, all (m,)."""
@@ -478,6 +590,10 @@ class Problem:
             sizes = self._sizes_of_constraints(look, numbers)
             for each, size in zip(self.constraints, sizes, strict=True):
                 missing = np.maximum(missing, missed(each, numbers, size))
+                lost = np.any([look.rows[leaf].lost for leaf in each.margin.leaves], axis=0)
+                missing = np.where(lost, np.inf, missing)
+        lost = [np.any([look.rows[leaf].lost for leaf in each.leaves], axis=0) for each in self.objectives]
+        values = np.where(np.array(lost).reshape(len(values), -1), np.nan, values)
         return np.where(look.whole, values, np.nan), np.where(look.whole, missing, np.nan), look.reached
 
     def _sizes_of_constraints(self, look: Evaluated, numbers: Mapping[Leaf, FloatArray]) -> list[float]:
@@ -565,24 +681,26 @@ class Problem:
         poses = PoseSet({name: np.linspace(0.0, 1.0, count if len(names) == 1 else 5) for name in names})
         return motion_of(self._grid(poses, design, ends))
 
-    def true(self, leaf: Leaf, design: Mapping[str, Any], *, quick: bool = False) -> tuple[float, dict[str, float]]:
-        """Return the value of a leaf of one design, between the poses too, and where: parts (0 to 1) of the strokes' ranges.
+    def true(self, leaf: Leaf, design: Mapping[str, Any], *, quick: bool = False) -> Truth:
+        """Return the value of a leaf of one design, between the poses too.
 
         As a motion gives it, or `quick` by the plan's program, which the search itself follows.
         """
         poses, _, single = self._of_leaf[leaf]
         names = tuple(name for name in poses.axes if name != poses.inner)
         if isinstance(leaf, Integral):
-            return self.panels(leaf, design)[0] * self.span_of(leaf, design), {}
+            lost = bool(self.look(design).rows[leaf].lost[0])
+            return Truth(self.panels(leaf, design)[0] * self.span_of(leaf, design), {}, lost)
         if isinstance(leaf, At) and not poses.inner and not quick:
             alone = PoseSet({}, [poses.singles[single]])
             here = motion_of(self._grid(alone, design, self._ends(design, slopes=False)))
-            return float(np.ravel(eager(here, leaf.quantity))[0]), {}
+            value = float(np.ravel(eager(here, leaf.quantity))[0])
+            return Truth(value, {}, bool(np.isnan(value)) and not is_free(here, leaf.quantity))
         if poses.inner or isinstance(leaf, At) or not names:
-            look = self.look(design)
-            return float(reduced(leaf, look.rows[leaf].values)[0]), {}
+            rows = self.look(design).rows[leaf]
+            return Truth(float(reduced(leaf, rows.values)[0]), {}, bool(rows.lost[0]))
         motion = self.motion(design, names)
-        value = quickly_on(self.plan, leaf.quantity) if quick else value_on(leaf.quantity)
+        value = Watched(self.plan, leaf.quantity, quickly_on(self.plan, leaf.quantity) if quick else value_on(leaf.quantity))
         found = (lowest if isinstance(leaf, Least) else greatest)(motion, value)
         parts = {}
         for name in names:
@@ -592,7 +710,7 @@ class Problem:
             turned = is_number(given.low) and is_number(given.high) and given.low > given.high
             part = (float(found.strokes[name]) - low) / (high - low) if high > low else 0.0
             parts[name] = 1.0 - part if turned else part
-        return float(found.value), parts
+        return Truth(float(found.value), parts, value.lost)
 
     def tops(self, leaf: Leaf, design: Mapping[str, Any]) -> list[float]:
         """Return where between its samples a leaf of one design has tops that come near its worst value, as parts of its stroke's range."""

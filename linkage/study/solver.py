@@ -18,7 +18,7 @@ import numpy as np
 from ..errors import DefinitionError
 from ..program import FloatArray
 from .measures import Constraint, Given, Integral, Leaf, Least, Measure, Most
-from .problem import Evaluated, Problem, reduced, scale_among, size_of_rows, terms_size
+from .problem import Evaluated, Numbers, Problem, reduced, scale_among, size_of_rows, terms_size
 
 FAR = 10.0
 """The loss for the whole of a box's side towards designs that cannot be assembled, in scaled numbers."""
@@ -198,7 +198,7 @@ class Local:
 
     def _usable(self, look: Evaluated) -> bool:
         """Return whether the objectives and equations have values; an inequality without one says nothing."""
-        return all(bool(np.isfinite(rows.values).any()) for leaf, rows in look.rows.items() if leaf in self._needed)
+        return all(bool(np.isfinite(rows.values).any()) and not rows.lost[0] for leaf, rows in look.rows.items() if leaf in self._needed)
 
     def _safe(self, z: FloatArray) -> tuple[Evaluated, FloatArray, float]:
         """Return a look that can be worked with, the way from it to the point that is asked, and the loss there."""
@@ -459,14 +459,15 @@ class Local:
         look = self.look(unit)
         if not bool(look.whole[0]):
             return Found(unit, np.nan, np.inf, False), False
-        known, values, worse = self.leaf_values(look), {}, False
+        known, truth, worse = self.leaf_values(look), {}, False
         for leaf in problem.leaves:
-            values[leaf], parts = problem.true(leaf, design, quick=True)
-            if not isinstance(leaf, Integral) and self._is_worse(leaf, values[leaf], known[leaf]) and problem.refined(leaf, parts):
+            truth[leaf] = found = problem.true(leaf, design, quick=True)
+            if not isinstance(leaf, Integral) and self._is_worse(leaf, found.value, known[leaf]) and problem.refined(leaf, found.parts):
                 worse = True
         if worse:
             self._cache.clear()
-        value = float(problem.value(lambda leaf: values[leaf]))
+        values = Numbers(truth)
+        value = true_worth(problem, values)
         return Found(unit, value, missing_of(problem.constraints, self.scales, values), True), worse
 
 
@@ -557,11 +558,21 @@ def scales_of(problem: Problem, look: Evaluated) -> list[float]:
     return found
 
 
-def missing_of(constraints: Sequence[Constraint], scales: Sequence[float], values: Mapping[Leaf, float]) -> float:
+def true_worth(problem: Problem, values: Numbers) -> float:
+    """Return the objective [SI] of the leaves' numbers; NaN where one of them is lost."""
+    is_lost = any(leaf in values.lost for each in problem.objectives for leaf in each.leaves)
+    with np.errstate(all="ignore"):
+        return float("nan") if is_lost else float(problem.value(lambda leaf: np.float64(values[leaf])))
+
+
+def missing_of(constraints: Sequence[Constraint], scales: Sequence[float], values: Numbers) -> float:
     """Return by how much the worst of some constraints is missed, in parts of its size; infinite where one has no value."""
     missing = 0.0
     for each, scale in zip(constraints, scales, strict=True):
-        margin = float(each.margin.of(lambda leaf: values[leaf])) / scale
+        with np.errstate(all="ignore"):
+            margin = float(each.margin.of(lambda leaf: np.float64(values[leaf]))) / scale
+        if values.lost.intersection(each.margin.leaves):
+            return np.inf
         if np.isnan(margin):
             if all(np.isfinite(values[leaf]) for leaf in each.margin.leaves) or each.symbol == "==":
                 return np.inf

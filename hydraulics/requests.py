@@ -10,6 +10,8 @@ from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from typing import Self, cast, final
 
+import numpy as np
+
 from linkage.errors import DefinitionError, known_name, unknown
 from linkage.mechanism import Mechanism
 from linkage.motion import require_motion
@@ -161,8 +163,8 @@ def circuit_name(circuit: Reference | None) -> str:
 
 def without_limit(request: CircuitRequest, motion: MotionLike) -> Array:
     """Return the mask of poses at which a cylinder carries something and what is asked of it has no value: the load drives there."""
-    carried = request.ram(motion.plan).thrust(require_motion(motion), case=request.case)
-    return np.asarray(np.isfinite(carried) & np.isnan(request.of(motion)))
+    carried, value = (require_motion(motion)._requested(each) for each in (Thrust(request.cylinder, request.case), request))
+    return np.asarray(np.isfinite(carried) & np.isnan(value))
 
 
 @final

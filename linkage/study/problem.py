@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from math import prod
 from typing import Any, NamedTuple, final
 
 import numpy as np
@@ -73,6 +74,11 @@ class Range:
     def follows(self) -> tuple[Any, ...]:
         """The ends that follow the design."""
         return tuple(end for end in (self.low, self.high) if not is_number(end))
+
+
+def is_still(one: Range) -> bool:
+    """Return whether a stroke is held at one value."""
+    return is_number(one.low) and bool(one.low == one.high)
 
 
 def ranges_of(machine: Mechanism, over: Any) -> dict[str, Range]:
@@ -180,6 +186,15 @@ class Count:
         self.designs += designs
 
     @contextmanager
+    def at_most(self, designs: int) -> Iterator[None]:
+        """Look at so many more designs at the most."""
+        kept, self.limit = self.limit, self.designs + max(designs, 1)
+        try:
+            yield
+        finally:
+            self.limit = kept
+
+    @contextmanager
     def unlimited(self) -> Iterator[None]:
         """Look at designs whatever the limit, as at the best one in the end."""
         kept, self.limit = self.limit, None
@@ -269,7 +284,7 @@ class Problem:
         self.sets: list[PoseSet] = []
         self._of_leaf: dict[Leaf, tuple[PoseSet, int, int]] = {}
         """Where a leaf's values are: its poses, the number of its quantity there, and that of its single pose, -1 where it has all."""
-        moving = tuple(name for name, one in self.ranges.items() if not (is_number(one.low) and one.low == one.high))
+        moving = tuple(name for name, one in self.ranges.items() if not is_still(one))
         for leaf in self.leaves:
             poses, single = self._poses(leaf, moving)
             inner = leaf.quantity.quantity if isinstance(leaf.quantity, Worst) else leaf.quantity
@@ -281,6 +296,11 @@ class Problem:
         self._sizes: list[float] | None = None
         self.refusal = ""
         """Why the latest design that was refused was so."""
+
+    @property
+    def poses(self) -> int:
+        """At how many poses a design is looked at."""
+        return sum(prod(map(len, each.axes.values())) * max(len(each.singles), 1) for each in self.sets)
 
     def with_counts(self, counts: Mapping[int, int]) -> Problem:
         """Return the same problem at another number of samples."""
@@ -345,7 +365,7 @@ class Problem:
             raise DefinitionError(f"{self.plan.title}: {leaf}: there is no stroke {unknown[0]!r}; its strokes are {known}.")
         for name, value in leaf.strokes.items():
             check_magnitude(name, (float(value), float(value)), self.plan)
-        held = {name: float(one.low) for name, one in self.ranges.items() if is_number(one.low) and one.low == one.high}
+        held = {name: float(one.low) for name, one in self.ranges.items() if is_still(one)}
         missing = [name for name in depends if name not in leaf.strokes and name not in held and name != inner]
         if missing:
             raise DefinitionError(f"{self.plan.title}: {leaf}: say the pose, {', '.join(f'{name}=...' for name in missing)}.")

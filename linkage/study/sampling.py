@@ -237,7 +237,7 @@ def unlimited(motion: Motion, quantity: Any) -> Mask | None:
     try:
         with unwarned(), np.errstate(all="ignore"):
             found = quantity.unlimited(motion)
-    except AssemblyError:  # what it would say is refused there
+    except (AssemblyError, UntracedError):  # what it would say is refused there, or depends on more than the pose
         return None
     return None if found is None else np.asarray(np.broadcast_to(found, motion.shape))
 

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import final
 
 import numpy as np
 
 from ..errors import LinkageError, StudyError
 from ..mechanism import Mechanism
+from ..program import FloatArray
 from ..units import show
 from .measures import Constraint
 from .optimum import in_units, multipliers, no_value, true_values, unit_of_constraint
-from .problem import Problem, is_still
+from .problem import COARSE, Problem, is_still
 from .solver import Found, Local, scales_of
 
+NOTHING: Mapping[tuple[int, ...], FloatArray] = MappingProxyType({})
 MISSED = 1e-6
 TRIED = 2
 """Ends of local searches from which is looked for the least that has to give way."""
@@ -56,8 +59,13 @@ class InfeasibleError(StudyError):
         self.alternatives = tuple(alternatives)
 
 
-def infeasible_error(problem: Problem, ended: Sequence[tuple[tuple[int, ...], Found]]) -> StudyError:
-    """Return the error of a search that found no design which keeps everything."""
+def infeasible_error(
+    problem: Problem, ended: Sequence[tuple[tuple[int, ...], Found]], looked: Mapping[tuple[int, ...], FloatArray] = NOTHING
+) -> StudyError:
+    """Return the error of a search that found no design which keeps everything.
+
+    `ended` are the ends of local searches, `looked` the unit coordinates (m, n) of designs of each combination that were looked at.
+    """
     reached = sorted((each for each in ended if each[1].whole), key=lambda each: each[1].missing)
     title = problem.plan.title
     if not reached:
@@ -75,7 +83,7 @@ def infeasible_error(problem: Problem, ended: Sequence[tuple[tuple[int, ...], Fo
     said = "; ".join(each.sentence for each in relaxations)
     limits = ", ".join(shown(problem, each) for each in pulling)
     against = f" It pulls against {limits}." if pulling else ""
-    alternatives = alternatives_to(problem, best, [*(each.condition for each in relaxations), *pulling])
+    alternatives = alternatives_to(problem, best, looked.get(best.combination))
     instead = "; or ".join(each.sentence for each in alternatives)
     alone = f" Where one condition alone gives way: {instead}." if instead else ""
     text = f"{title}: no design found in the box keeps all conditions. The one that misses least: {said}.{against}{alone}"
@@ -152,15 +160,28 @@ def given_way(
     return GivenWay(tuple(combination), found, machine, total, tuple(relaxations), tuple(pulling))
 
 
-def alternatives_to(problem: Problem, best: GivenWay, conditions: Sequence[Constraint]) -> list[Relaxation]:
-    """Return the conditions of which one alone can give way, with all others kept, the one that gives way least first."""
-    if not problem.space.variables or len(problem.constraints) < 2:
+def alternatives_to(problem: Problem, best: GivenWay, looked: FloatArray | None) -> list[Relaxation]:
+    """Return the conditions of which one alone can give way, with all others kept, the one that gives way least first.
+
+    Each is looked for from the best design found, and from that of those looked at which comes nearest to it.
+    """
+    many = len(problem.constraints)
+    if not problem.space.variables or many < 2:
         return []
+    coarse = problem.with_counts(COARSE)
+    missing = None if looked is None or not len(looked) else coarse.missing_of_each(best.combination, looked)
     found: list[tuple[float, Relaxation]] = []
-    for each in conditions[:ALTERNATIVES]:
+    for row, each in list(enumerate(problem.constraints))[:ALTERNATIVES]:
         if len(best.relaxations) == 1 and best.relaxations[0].condition is each:
             continue  # it is that already
-        alone = given_way(problem, best.combination, best.found, [each])
-        if alone is not None and [one.condition for one in alone.relaxations] == [each]:
-            found.append((alone.total, alone.relaxations[0]))
+        starts = [best.found]
+        if missing is not None and looked is not None:
+            others = np.delete(missing, row, axis=0).max(axis=0)
+            near = int(np.lexsort((missing[row], others))[0])
+            starts.insert(0, Found(looked[near], np.nan, float(missing[:, near].max()), bool(np.isfinite(others[near]))))
+        ends = [given_way(problem, best.combination, start, [each]) for start in starts if start.whole]
+        alone = [end for end in ends if end is not None and [one.condition for one in end.relaxations] == [each]]
+        if alone:
+            least = min(alone, key=lambda end: end.total)
+            found.append((least.total, least.relaxations[0]))
     return [each for _, each in sorted(found, key=lambda one: one[0])]

@@ -114,7 +114,7 @@ def as_measure(given: object) -> Measure:
     if isinstance(given, Measure):
         return given
     if is_number(given):
-        return Given(float(given))
+        return Given(float(given), getattr(given, "measures", ""))
     if isinstance(given, (Quantity, Request, str, Worst)):
         raise DefinitionError(f"{words_of(given)} has a value at every pose: say which is meant, least(...), most(...), at(..., S=...).")
     raise DefinitionError(f"{cited(given)} is no measure and no number; write one such as least(...) or 35 * kN.")
@@ -123,9 +123,10 @@ def as_measure(given: object) -> Measure:
 @final
 @dataclass(frozen=True, eq=False)
 class Given(Measure):
-    """A number."""
+    """A number [SI]; `measures` is what it measures, "length", where it was written with a unit."""
 
     value: float
+    measures: str = ""
 
     @property
     def leaves(self) -> tuple[Leaf, ...]:

@@ -393,7 +393,7 @@ class DesignSearch:
         hopeless = self.hopeless(screened)
         if hopeless:
             with self.problem.count.unlimited():
-                raise infeasible_error(self.problem, hopeless)
+                raise infeasible_error(self.problem, hopeless, self.spread())
         tasks = [(each.combination, number, unit) for each in screened for number, unit in enumerate(self.starts(each, len(screened)))]
         return self.chosen([*self.ends(tasks), *self.best_looked_at(screened)], searched=len(screened))
 
@@ -449,6 +449,10 @@ class DesignSearch:
                     return []
                 found.append((each.combination, least))
         return found
+
+    def spread(self) -> dict[tuple[int, ...], FloatArray]:
+        """Return the designs that were looked at first, by their combination."""
+        return {each.combination: each.unit for each in reversed(self.looked)}
 
     def is_cut(self, combination: tuple[int, ...]) -> bool:
         """Return whether a combination cannot keep some condition of the design alone, whatever the variables; noted in words."""
@@ -590,7 +594,7 @@ class DesignSearch:
         if lost:
             raise StudyError(f"{self.problem.plan.title}: no design that was found can be kept. {lost[0]}")
         with self.problem.count.unlimited():
-            raise infeasible_error(self.problem, [(each.combination, each.found) for each in ended])
+            raise infeasible_error(self.problem, [(each.combination, each.found) for each in ended], self.spread())
 
     def tried(self, ended: Sequence[Ended]) -> tuple[Tried, ...]:
         """Return the designs that were looked at, then what the local searches came to."""

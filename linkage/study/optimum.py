@@ -22,6 +22,7 @@ from ..shown import Shown
 from ..units import deg, display_unit, mm, show
 from .box import unit_points
 from .checks import unit_of
+from .kinds import unit_of as unit_of_kind
 from .measured import measure_of
 from .measures import Constraint, Given, Integral, Leaf, Measure, Worst, words_of
 from .problem import LimitReachedError, Numbers, Problem, size_of_rows, terms_size
@@ -719,14 +720,14 @@ def unit_of_measure(plan: Plan, measure: Measure) -> str:
     """Return the unit that a measure is shown in; "" for SI."""
     units = {unit_of_leaf(plan, leaf) for leaf in measure.leaves}
     simple = isinstance(measure, Leaf) or getattr(measure, "symbol", "") in ("+", "-")
-    return units.pop() if len(units) == 1 and simple else ""
+    return (units.pop() if len(units) == 1 and simple else "") or unit_of_kind(plan, measure)
 
 
 def unit_of_constraint(plan: Plan, constraint: Constraint) -> str:
     """Return the unit that a constraint's sides are shown in."""
     sides = [side for side in (constraint.left, constraint.right) if side.leaves]
     units = {unit_of_measure(plan, side) for side in sides}
-    return units.pop() if len(units) == 1 else ""
+    return units.pop() if len(units) == 1 else unit_of_kind(plan, constraint)
 
 
 def unit_of_leaf(plan: Plan, leaf: Leaf) -> str:

@@ -23,6 +23,7 @@ from ..motion.grid import JoinedTo, joined_in_order
 from ..motion.strokes import check_magnitude
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import Quantity, is_number
+from .kinds import check_kinds
 from .measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most, Worst, words_of
 from .sampling import (
     SampledSlopes,
@@ -281,6 +282,7 @@ class Problem:
         self.counts = counts
         self.count = count or Count()
         self.leaves = tuple(dict.fromkeys(leaf for each in (*objectives, *(one.margin for one in constraints)) for leaf in each.leaves))
+        check_kinds(self.plan, self.objectives, self.constraints)
         self.sets: list[PoseSet] = []
         self._of_leaf: dict[Leaf, tuple[PoseSet, int, int]] = {}
         """Where a leaf's values are: its poses, the number of its quantity there, and that of its single pose, -1 where it has all."""
@@ -606,15 +608,25 @@ class Problem:
         shape = look.reached.shape
         with np.errstate(all="ignore"):
             values = np.array([np.broadcast_to(np.asarray(each.of(lambda leaf: numbers[leaf]), float), shape) for each in self.objectives])
-            missing = np.zeros(shape)
-            sizes = self._sizes_of_constraints(look, numbers)
-            for each, size in zip(self.constraints, sizes, strict=True):
-                missing = np.maximum(missing, missed(each, numbers, size))
-                lost = np.any([look.rows[leaf].lost for leaf in each.margin.leaves], axis=0)
-                missing = np.where(lost, np.inf, missing)
+        missing = self._missing(look, numbers).max(axis=0, initial=0.0)
         lost = [np.any([look.rows[leaf].lost for leaf in each.leaves], axis=0) for each in self.objectives]
         values = np.where(np.array(lost).reshape(len(values), -1), np.nan, values)
         return np.where(look.whole, values, np.nan), np.where(look.whole, missing, np.nan), look.reached
+
+    def missing_of_each(self, combination: Sequence[int], unit: FloatArray) -> FloatArray:
+        """Return by what part of its size each condition is missed by designs (m, n), shape (conditions, m); infinite out of reach."""
+        look = self.look(self.designs(unit, combination))
+        numbers = {leaf: reduced(leaf, rows.values) for leaf, rows in look.rows.items()}
+        return np.where(look.whole, self._missing(look, numbers), np.inf)
+
+    def _missing(self, look: Evaluated, numbers: Mapping[Leaf, FloatArray]) -> FloatArray:
+        """Return by what part of its size each condition is missed, zero where it is kept, shape (conditions, m)."""
+        found = np.zeros((len(self.constraints), *look.reached.shape))
+        with np.errstate(all="ignore"):
+            for row, (each, size) in enumerate(zip(self.constraints, self._sizes_of_constraints(look, numbers), strict=True)):
+                lost = np.any([look.rows[leaf].lost for leaf in each.margin.leaves], axis=0)
+                found[row] = np.where(lost, np.inf, np.maximum(missed(each, numbers, size), 0.0))
+        return found
 
     def _sizes_of_constraints(self, look: Evaluated, numbers: Mapping[Leaf, FloatArray]) -> list[float]:
         """Return what the conditions' numbers are measured with: their size over the first designs that were looked at."""

@@ -46,7 +46,7 @@ from ..study.measures import (
 )
 from ..study.problem import NOWHERE, Problem
 from ..study.sampling import strokes_behind
-from ..units import UNITS
+from ..units import UNITS, Amount
 from .callables import request_function
 from .expression import BINARY, CONSTANTS, NUMBER, Grammar, tokens
 
@@ -123,18 +123,6 @@ def checked_text(text: Any) -> str:
 def check_measures(machine: Mechanism, measures: list[Measure], constraints: list[Constraint], over: Mapping[str, Any] | None) -> None:
     """Raise DefinitionError where measures or constraints ask for what a machine has not: an unknown point, no such stroke."""
     Problem(machine, measures, constraints, NOWHERE, over=over)
-
-
-@final
-class Amount(float):
-    """A number that was written with a unit [SI]; `measures` is what that measures."""
-
-    measures: str
-
-    def __new__(cls, value: float, measures: str) -> Amount:
-        found = super().__new__(cls, value)
-        found.measures = measures
-        return found
 
 
 @final

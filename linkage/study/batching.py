@@ -15,7 +15,7 @@ from typing import Any, Protocol, TypeAlias, final
 
 import numpy as np
 
-from ..errors import LinkageError, StudyError
+from ..errors import DefinitionError, LinkageError, StudyError, cited, told
 from .checkpoint import Checkpoint
 from .designs import Array, Batch, Designs, Task, check_same_results, measure_batch
 
@@ -256,11 +256,23 @@ Progress: TypeAlias = Callable[[int, int], object]
 """Called with (done, total) designs, once at the start and after every batch."""
 
 
+def check_progress(progress: object) -> None:
+    """Raise DefinitionError for what says neither whether progress is shown nor what is told of it."""
+    if not isinstance(progress, bool) and (not callable(progress) or isinstance(progress, type)):
+        raise DefinitionError(f"progress={cited(progress)}: say True for a bar, or give a function of (done, total) designs.")
+
+
 @contextmanager
 def progress_told(progress: bool | Progress, title: str) -> Iterator[Progress]:
     """Yield what is told how far a study is: the function given, a bar where it is True, nothing where it is False."""
     if callable(progress):
-        yield progress
+        given = progress
+
+        def tell(done: int, total: int) -> None:
+            with told("progress=: the function"):
+                given(done, total)
+
+        yield tell
     elif not progress:
         yield lambda done, total: None
     else:

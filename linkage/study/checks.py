@@ -88,6 +88,13 @@ def request_values(motion: Motion, request: Request) -> FloatArray:
         return motion[request]
 
 
+def real_numbers(found: Any) -> FloatArray:
+    """Return what a function gives as an array of floats; TypeError for complex numbers, of which a part would be lost."""
+    if np.iscomplexobj(found):
+        raise TypeError("complex numbers")
+    return np.asarray(found, float)
+
+
 def quantity_values(motion: Motion, quantity: QuantityLike, *, endless: bool = False) -> FloatArray:
     """Return a quantity at every pose of a motion, NaN where it has no value; nearness to a dead point is told by the study.
 
@@ -102,7 +109,7 @@ def quantity_values(motion: Motion, quantity: QuantityLike, *, endless: bool = F
         else:
             found = request_values(motion, quantity) if isinstance(quantity, Request) else motion[quantity]
     try:
-        result = np.asarray(found, float)
+        result = real_numbers(found)
     except (TypeError, ValueError):
         raise DefinitionError(f"{title}: {title_of(quantity)} gives {cited(found)}; a number for each pose is expected.") from None
     if result.shape != motion.shape:

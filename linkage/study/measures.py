@@ -16,6 +16,8 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any, ClassVar, NoReturn, TypeAlias, final
 
+import numpy as np
+
 from ..errors import DefinitionError, cited
 from ..motion import Motion, Request
 from ..program import FloatArray
@@ -102,6 +104,9 @@ class Measure(ABC):
     def __ne__(self, other: object) -> NoReturn:
         raise DefinitionError(f"{self} != {cited(other)}: a condition is written with >=, <= or ==.")
 
+    def __repr__(self) -> str:
+        return str(self)
+
     def __bool__(self) -> NoReturn:
         raise DefinitionError(f"{self}: a measure has no value before a machine is looked at; ask measured(machine, ...).")
 
@@ -121,7 +126,7 @@ def as_measure(given: object) -> Measure:
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Given(Measure):
     """A number [SI]; `measures` is what it measures, "length", where it was written with a unit."""
 
@@ -144,7 +149,7 @@ class Given(Measure):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class CombinedMeasure(Measure):
     """Two measures joined by an operator."""
 
@@ -161,7 +166,11 @@ class CombinedMeasure(Measure):
         return (*self.left.numbers, *self.right.numbers)
 
     def of(self, value: Callable[[Leaf], Any]) -> Any:
-        return OPERATIONS[self.symbol](self.left.of(value), self.right.of(value))
+        left, right = self.left.of(value), self.right.of(value)
+        if isinstance(left, float) and isinstance(right, float):  # by NumPy's rules, where nothing is raised
+            with np.errstate(all="ignore"):
+                return float(OPERATIONS[self.symbol](np.float64(left), np.float64(right)))
+        return OPERATIONS[self.symbol](left, right)
 
     @property
     def binds(self) -> int:
@@ -173,7 +182,7 @@ class CombinedMeasure(Measure):
         return f"{left} {self.symbol} {right}"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Leaf(Measure):
     """What is taken of one quantity over the stroke."""
 
@@ -192,7 +201,7 @@ class Leaf(Measure):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Least(Leaf):
     """The least value over the stroke."""
 
@@ -200,7 +209,7 @@ class Least(Leaf):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Most(Leaf):
     """The greatest value over the stroke."""
 
@@ -208,7 +217,7 @@ class Most(Leaf):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Integral(Leaf):
     """The integral over a stroke."""
 
@@ -217,7 +226,7 @@ class Integral(Leaf):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class At(Leaf):
     """The value at one pose."""
 
@@ -233,7 +242,7 @@ class At(Leaf):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Worst:
     """The greatest (`sense` 1.0) or the least (-1.0) value of a quantity over another stroke: again a quantity, of the others."""
 
@@ -243,6 +252,8 @@ class Worst:
 
     def __str__(self) -> str:
         return f"worst({words_of(self.quantity)}, over={self.over}{'' if self.sense > 0.0 else ', by=least'})"
+
+    __repr__ = __str__
 
 
 def least(quantity: MeasuredQuantity) -> Measure:
@@ -311,12 +322,15 @@ class Condition(ABC):
     def constraints(self, machine: Any) -> tuple[Constraint, ...]:
         """Return the constraints that it is, for a machine; none for what every search keeps anyway."""
 
+    def __repr__(self) -> str:
+        return str(self)
+
     def __bool__(self) -> NoReturn:
         raise DefinitionError(f"{self}: a condition is neither true nor false before a machine is looked at; write two, not a <= q <= b.")
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Constraint(Condition):
     """A measure compared with another: `least(q) >= 35 * kN`."""
 

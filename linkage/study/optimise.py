@@ -20,8 +20,9 @@ from ..motion import Request
 from ..program import FloatArray, fixed_backend
 from ..quantities import Quantity, is_number, is_whole, ref
 from ..statics import Case
+from ..statics.acting import case_of
 from ..units import show
-from .batching import Progress, progress_told
+from .batching import Progress, check_progress, progress_told
 from .box import unit_points
 from .checkpoint import measure_text
 from .checks import check_one_design
@@ -45,6 +46,8 @@ SCREENED_IN_ALL = 1 << 14
 STARTS = 6
 LOCAL_DESIGNS, POSES_AS_ONE = 40_000, 70
 """Designs of local searches where no limit is given, of few poses; poses that take as long as a design without any."""
+FRONT_DESIGNS = 6000
+"""Designs that the genetic search of a front looks at, of each combination."""
 SEARCHED = 64
 """Combinations searched from at the most, the most promising ones of more."""
 GENERATIONS = 200
@@ -85,10 +88,15 @@ def optimise(
     one_word("method", method, METHODS)
     one_word("solver", solver, SOLVERS)
     check_counts(title, starts, seed, limit)
+    check_progress(progress)
     objectives, sense = objectives_of(machine, minimise, maximise)
     space = Space.of(machine, vary)
     constraints = conditions_of(subject_to, machine)
     cases = list(case) if isinstance(case, (list, tuple)) else [case]
+    if not cases:
+        raise DefinitionError(f"{title}: case={cited(case)}: a load case or several are expected; leave it out for the machine's own loads.")
+    for each in cases:
+        case_of(machine.plan, each)
     held = list(dict.fromkeys(found for each in cases for found in (constraint_in_case(one, each) for one in constraints)))
     plan = SearchPlan(method, solver, starts or STARTS, seed)
     if len(objectives) > 1:
@@ -97,7 +105,7 @@ def optimise(
         from .pareto import front
 
         problem = Problem(machine, [in_case(each, cases[0]) for each in objectives], held, space, 1.0, over)
-        problem.count.limit = limit or default_limit(problem, plan)
+        problem.count.limit = limit or default_limit(problem, replace(plan, is_front=True))
         with progress_told(progress, machine.plan.heading) as tell:
             return front(problem, plan.seed, solver, tell)
     problem = Problem(machine, [in_case(objectives[0], each) for each in cases], held, space, sense, over)
@@ -114,7 +122,9 @@ def default_limit(problem: Problem, plan: SearchPlan) -> int:
     A design with derivatives takes about 1.5 ms, and one more for some 70 poses of it.
     """
     count, n = problem.space.count, len(problem.space.variables)
-    spread = max(SCREENED, SCREENED_IN_ALL // max(count, 1)) * min(count, SCREENED_IN_ALL)
+    spread = max(min(SCREENED, SCREENED_IN_ALL // count), 16) * count
+    if plan.is_front:
+        spread += FRONT_DESIGNS * count
     if plan.method == "evolution":
         spread += (GENERATIONS + 1) * max(15 * n, 16) * count
     return spread + int(LOCAL_DESIGNS / (1.0 + problem.poses / POSES_AS_ONE))
@@ -322,6 +332,7 @@ class SearchPlan:
     solver: str
     starts: int
     seed: int
+    is_front: bool = False
 
 
 @final

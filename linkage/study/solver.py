@@ -57,7 +57,8 @@ class Graded:
 
     def __add__(self, other: Any) -> Graded:
         other = Graded.of(other)
-        return Graded(self.value + other.value, self.slope + other.slope)
+        with np.errstate(all="ignore"):
+            return Graded(self.value + other.value, self.slope + other.slope)
 
     __radd__ = __add__
 
@@ -72,7 +73,8 @@ class Graded:
 
     def __mul__(self, other: Any) -> Graded:
         other = Graded.of(other)
-        return Graded(self.value * other.value, self.slope * other.value + other.slope * self.value)
+        with np.errstate(all="ignore"):
+            return Graded(self.value * other.value, self.slope * other.value + other.slope * self.value)
 
     __rmul__ = __mul__
 

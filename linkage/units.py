@@ -59,7 +59,7 @@ class Amount(float):
         return Amount(found, self.measures) if getattr(other, "measures", None) == self.measures and isinstance(found, float) else found
 
 
-class Unit(Amount):
+class UnitFactor(Amount):
     """What a number is multiplied with to be an amount: `mm` in `80 * mm`."""
 
     __slots__ = ()
@@ -71,28 +71,28 @@ class Unit(Amount):
     __rmul__ = __mul__
 
 
-m = Unit(1.0, "length")
-mm = Unit(1e-3, "length")
-cm = Unit(1e-2, "length")
-inch = Unit(0.0254, "length")
-ft = Unit(12 * inch, "length")
-rad = Unit(1.0, "angle")
-deg = Unit(math.pi / 180.0, "angle")
+m = UnitFactor(1.0, "length")
+mm = UnitFactor(1e-3, "length")
+cm = UnitFactor(1e-2, "length")
+inch = UnitFactor(0.0254, "length")
+ft = UnitFactor(12 * inch, "length")
+rad = UnitFactor(1.0, "angle")
+deg = UnitFactor(math.pi / 180.0, "angle")
 s = 1.0
 minute = 60.0
 kg = 1.0
 lb = 0.45359237  # avoirdupois pound (international yard and pound agreement, 1959)
 g0 = 9.80665  # standard gravity, m/s2 (ISO 80000-4)
-N = Unit(1.0, "force")
-kN = Unit(1e3, "force")
-kgf = Unit(g0, "force")
-lbf = Unit(lb * g0, "force")
-Pa = Unit(1.0, "pressure")
-kPa = Unit(1e3, "pressure")
-MPa = Unit(1e6, "pressure")
-bar = Unit(1e5, "pressure")
-kgf_cm2 = Unit(kgf / cm**2, "pressure")
-psi = Unit(lbf / inch**2, "pressure")
+N = UnitFactor(1.0, "force")
+kN = UnitFactor(1e3, "force")
+kgf = UnitFactor(g0, "force")
+lbf = UnitFactor(lb * g0, "force")
+Pa = UnitFactor(1.0, "pressure")
+kPa = UnitFactor(1e3, "pressure")
+MPa = UnitFactor(1e6, "pressure")
+bar = UnitFactor(1e5, "pressure")
+kgf_cm2 = UnitFactor(kgf / cm**2, "pressure")
+psi = UnitFactor(lbf / inch**2, "pressure")
 litre = 1e-3
 gal = 231 * inch**3  # the US liquid gallon
 cm3 = 1e-6

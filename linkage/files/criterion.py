@@ -26,7 +26,7 @@ from ..motion.requests import Combined
 from ..plan import plan_measure
 from ..quantities import Number, Quantity, angle, distance, is_number, x, y
 from ..steps import Point
-from ..study.kinds import KINDS, Kind, kind_of_quantity, of_one_kind
+from ..study.kinds import KINDS, MeasureKind, common_kind, kind_of_quantity
 from ..study.measures import (
     CombinedMeasure,
     Condition,
@@ -205,11 +205,11 @@ class CriterionParser(Grammar):
     def check_sum(self, sign: str, a: Any, b: Any) -> None:
         """Raise DefinitionError where a number with a unit is added to a quantity of another kind."""
         kinds = [
-            Kind(KINDS[each.measures]) if isinstance(each, Amount) and each.measures in KINDS
+            MeasureKind(KINDS[each.measures]) if isinstance(each, Amount) and each.measures in KINDS
             else kind_of_quantity(self.plan, each) if isinstance(each, (Quantity, Request)) else None
             for each in (a, b)
         ]  # fmt: skip
-        of_one_kind(self.plan, f"{self.words(a)} {sign} {self.words(b)}", *kinds)
+        common_kind(self.plan, f"{self.words(a)} {sign} {self.words(b)}", *kinds)
 
     def negative(self, part: Any) -> Any:
         if isinstance(part, str):

@@ -52,13 +52,13 @@ def check_one_design(machine: Mechanism) -> None:
         raise DefinitionError(f"{type(machine).__name__}: a study starts from one design, this is a batch; choose one of them.")
 
 
-POSES = {1: 101, 2: 25, 3: 13, 4: 8, 5: 6, 6: 5}
+WHOLE_POSES = {1: 101, 2: 25, 3: 13, 4: 8, 5: 6, 6: 5}
 """Poses of each stroke at which a machine is looked at that is to be assembled over all of them."""
 
 
 def why_not_assembled(machine: Mechanism) -> str:
     """Return why a machine cannot be assembled over the box of its whole strokes, in one line; "" of one that can."""
-    count = POSES.get(len(machine.strokes), 3)
+    count = WHOLE_POSES.get(len(machine.strokes), 3)
     axes = [np.linspace(each.start, each.end, count) for each in machine.strokes.values()]
     try:
         machine.at(**dict(zip(machine.strokes, np.meshgrid(*axes, indexing="ij"), strict=True)))

@@ -72,7 +72,7 @@ def infeasible_error(
         return StudyError(f"{title}: no search came to a design that can be assembled over the whole stroke; widen vary=.")
     nowhere = [each for each in problem.constraints if all(is_lost(problem, each, one) for one in reached)]
     if nowhere:
-        what = f"{shown(problem, nowhere[0])} is kept by no design that was found, for {reason(problem, nowhere[0])}"
+        what = f"{shown(problem, nowhere[0])} is kept by no design that was found, for {why_no_value(problem, nowhere[0])}"
         return StudyError(f"{title}: {what}. Ask for what has a value there, or widen vary=.")
     tried = [each for combination, found in reached[:TRIED] if (each := given_way(problem, combination, found, problem.constraints))]
     if not tried:
@@ -104,7 +104,7 @@ def is_lost(problem: Problem, constraint: Constraint, end: tuple[tuple[int, ...]
     return any(bool(look.rows[leaf].lost[0]) for leaf in constraint.margin.leaves)
 
 
-def reason(problem: Problem, constraint: Constraint) -> str:
+def why_no_value(problem: Problem, constraint: Constraint) -> str:
     """Return in words why a condition has no value."""
     return " and ".join(no_value(problem, leaf) for leaf in constraint.margin.leaves)
 

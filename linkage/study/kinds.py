@@ -2,14 +2,14 @@
 
 >>> from linkage import *
 >>> from mechanisms.three_point_hitch import ThreePointHitch
->>> unit_of(ThreePointHitch().plan, integral(drive_force()))
+>>> measure_unit(ThreePointHitch().plan, integral(drive_force()))
 'kNm'
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, final
+from typing import Any, TypeAlias, final
 
 from ..errors import DefinitionError
 from ..motion import stroke_unit
@@ -20,7 +20,7 @@ from ..statics import DriveForce
 from ..steps import Point
 from .measured import CHOOSING, measure_of
 from .measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Measure, Worst, words_of
-from .sampling import operation, plain_number
+from .sampling import constant_part, operation
 
 KINDS = {
     "length": (1.0, 0.0, 0.0), "force": (0.0, 1.0, 0.0), "angle": (0.0, 0.0, 1.0), "pressure": (-2.0, 1.0, 0.0),
@@ -38,20 +38,20 @@ APART = ("length", "angle", "force", "pressure")
 
 @final
 @dataclass(frozen=True)
-class Kind:
+class MeasureKind:
     """The powers of length, force and angle; `is_sure` where no number without a unit stands in a product, which may have had one."""
 
     powers: tuple[float, float, float]
     is_sure: bool = True
 
-    def times(self, other: Kind, sign: float = 1.0) -> Kind:
+    def times(self, other: MeasureKind, sign: float = 1.0) -> MeasureKind:
         """Return the kind of a product, with sign -1.0 of a quotient."""
         powers = tuple(a + sign * b for a, b in zip(self.powers, other.powers, strict=True))
-        return Kind(powers, self.is_sure and other.is_sure)  # type: ignore[arg-type]
+        return MeasureKind(powers, self.is_sure and other.is_sure)  # type: ignore[arg-type]
 
-    def to_the(self, power: float) -> Kind:
+    def to_the(self, power: float) -> MeasureKind:
         """Return the kind of a power."""
-        return Kind(tuple(power * each for each in self.powers), self.is_sure)  # type: ignore[arg-type]
+        return MeasureKind(tuple(power * each for each in self.powers), self.is_sure)  # type: ignore[arg-type]
 
     @property
     def name(self) -> str:
@@ -61,10 +61,10 @@ class Kind:
         return next((name for each in among for name, powers in KINDS.items() if powers == each), "")
 
 
-def kind_of_measure(plan: Plan, measure: Measure) -> Kind | None:
+def kind_of_measure(plan: Plan, measure: Measure) -> MeasureKind | None:
     """Return the kind of a measure; None where it is not known, and of a number. DefinitionError where parts are added that differ."""
     if isinstance(measure, Given):
-        return Kind(KINDS[measure.measures]) if measure.measures in KINDS else None
+        return MeasureKind(KINDS[measure.measures]) if measure.measures in KINDS else None
     if isinstance(measure, Integral):
         by = measure.by or (next(iter(plan.strokes)) if len(plan.strokes) == 1 else "")
         inner = kind_of_quantity(plan, measure.quantity)
@@ -74,14 +74,14 @@ def kind_of_measure(plan: Plan, measure: Measure) -> Kind | None:
     assert isinstance(measure, CombinedMeasure)
     left, right = (kind_of_measure(plan, each) for each in (measure.left, measure.right))
     if measure.symbol in ("+", "-"):
-        return of_one_kind(plan, str(measure), left, right)
+        return common_kind(plan, str(measure), left, right)
     if measure.symbol == "**":
         power = measure.right.value if isinstance(measure.right, Given) else None
         return None if left is None or power is None else left.to_the(power)
-    return product_of(measure.symbol == "/", (left, number_of(measure.left)), (right, number_of(measure.right)))
+    return product_of(measure.symbol == "/", (left, unitless_number(measure.left)), (right, unitless_number(measure.right)))
 
 
-def kind_of_quantity(plan: Plan, quantity: Any) -> Kind | None:
+def kind_of_quantity(plan: Plan, quantity: Any) -> MeasureKind | None:
     """Return the kind of a quantity or request; None where it is not known, and of a number. DefinitionError as for a measure."""
     known = plan.members.get(quantity) if isinstance(quantity, str) else quantity
     if isinstance(known, Worst):
@@ -91,61 +91,65 @@ def kind_of_quantity(plan: Plan, quantity: Any) -> Kind | None:
     if known is None and isinstance(quantity, str):
         owner = plan.table.spellings.get(quantity)
         found = plan_measure(plan, owner[0]) if owner else ""
-        return Kind(KINDS[found]) if found in KINDS else None
+        return MeasureKind(KINDS[found]) if found in KINDS else None
     sign, parts = operation(known)
     if not sign:
         return kind_of_one(plan, known)
-    kinds = [kind_of_quantity(plan, each) for each in parts if plain_number(each) is None]
+    kinds = [kind_of_quantity(plan, each) for each in parts if constant_part(each) is None]
     if sign in ("add", "subtract", *CHOOSING, "hypot", "negative"):
         found_kind = kinds[0] if kinds else None
         for each in kinds[1:]:
-            found_kind = of_one_kind(plan, words_of(known), found_kind, each)
+            found_kind = common_kind(plan, words_of(known), found_kind, each)
         return found_kind
     if sign in ("multiply", "divide"):
-        a, b = ((kind_of_quantity(plan, each), plain_number(each)) for each in parts)
+        a, b = ((kind_of_quantity(plan, each), constant_part(each)) for each in parts)
         return product_of(sign == "divide", a, b)
     if sign in ("power", "sqrt") and kinds and kinds[0] is not None:
-        power = 0.5 if sign == "sqrt" else plain_number(parts[1])
+        power = 0.5 if sign == "sqrt" else constant_part(parts[1])
         return None if power is None else kinds[0].to_the(power)
-    return Kind(KINDS["angle"]) if sign == "arctan2" else None
+    return MeasureKind(KINDS["angle"]) if sign == "arctan2" else None
 
 
-def kind_of_one(plan: Plan, known: Any) -> Kind | None:
+def kind_of_one(plan: Plan, known: Any) -> MeasureKind | None:
     """Return the kind of a quantity or request that is made of no others."""
     if isinstance(known, Ratio):
         target = plan.members.get(known.target) if isinstance(known.target, str) else known.target
-        inner = Kind(KINDS["length"]) if isinstance(target, Point) else kind_of_quantity(plan, known.target)
+        inner = MeasureKind(KINDS["length"]) if isinstance(target, Point) else kind_of_quantity(plan, known.target)
         by = kind_of_stroke(plan, stroke_of(plan, known.wrt))
         return None if inner is None else inner.times(by.to_the(float(known.order)), -1.0)
     if isinstance(known, DriveForce):
         is_length = stroke_unit(plan, stroke_of(plan, known.drive, "drive")) == "m"
-        return Kind(KINDS["force" if is_length else "moment"])
+        return MeasureKind(KINDS["force" if is_length else "moment"])
     found = measure_of(plan, known) if isinstance(known, (Quantity, Combined)) or hasattr(known, "measures") else ""
-    return Kind(KINDS[found]) if found in KINDS else None
+    return MeasureKind(KINDS[found]) if found in KINDS else None
 
 
-def kind_of_stroke(plan: Plan, name: str) -> Kind:
+def kind_of_stroke(plan: Plan, name: str) -> MeasureKind:
     """Return the kind of a stroke."""
-    return Kind(KINDS["length" if stroke_unit(plan, name) == "m" else "angle"])
+    return MeasureKind(KINDS["length" if stroke_unit(plan, name) == "m" else "angle"])
 
 
-def number_of(measure: Measure) -> float | None:
+def unitless_number(measure: Measure) -> float | None:
     """Return a number without a unit; None of any other measure."""
     return measure.value if isinstance(measure, Given) and not measure.measures else None
 
 
-def product_of(divided: bool, left: tuple[Kind | None, float | None], right: tuple[Kind | None, float | None]) -> Kind | None:
+Part: TypeAlias = "tuple[MeasureKind | None, float | None]"
+"""A part of a product: its kind, and the number that it is, if it is one."""
+
+
+def product_of(divided: bool, left: Part, right: Part) -> MeasureKind | None:
     """Return the kind of a product or a quotient of two parts, each a kind and the number that it is, if it is one."""
     (a, number), (b, other) = left, right
     if number is not None and b is not None:
         found = b.to_the(-1.0) if divided else b
-        return Kind(found.powers, found.is_sure and number in (1.0, -1.0))
+        return MeasureKind(found.powers, found.is_sure and number in (1.0, -1.0))
     if other is not None and a is not None:
-        return Kind(a.powers, a.is_sure and other in (1.0, -1.0))
+        return MeasureKind(a.powers, a.is_sure and other in (1.0, -1.0))
     return None if a is None or b is None else a.times(b, -1.0 if divided else 1.0)
 
 
-def of_one_kind(plan: Plan, what: str, left: Kind | None, right: Kind | None) -> Kind | None:
+def common_kind(plan: Plan, what: str, left: MeasureKind | None, right: MeasureKind | None) -> MeasureKind | None:
     """Return the kind of a sum, or of two sides that are compared; DefinitionError where they cannot be added."""
     if left is None or right is None:
         return left or right
@@ -162,10 +166,10 @@ def check_kinds(plan: Plan, measures: Any, constraints: Any) -> None:
     for each in measures:
         kind_of_measure(plan, each)
     for constraint in constraints:
-        of_one_kind(plan, str(constraint), *(kind_of_measure(plan, side) for side in (constraint.left, constraint.right)))
+        common_kind(plan, str(constraint), *(kind_of_measure(plan, side) for side in (constraint.left, constraint.right)))
 
 
-def unit_of(plan: Plan, measure: Measure | Constraint) -> str:
+def measure_unit(plan: Plan, measure: Measure | Constraint) -> str:
     """Return the unit that a measure, or both sides of a condition, are shown in; "" for a plain number and what is not known."""
     sides = (measure.left, measure.right) if isinstance(measure, Constraint) else (measure,)
     found = {SHOWN.get(kind.name, "") for each in sides if (kind := kind_of_measure(plan, each)) is not None}

@@ -4,12 +4,13 @@
 >>> print(least(ref("tilt")) >= 2 * deg)
 least(tilt) >= 0.0349066
 >>> print(most(abs(ref("tilt"))) / 2 - at("tilt", S=0.1))
-most(absolute(tilt)) / 2 - at(tilt, S=0.1)
+most(abs(tilt)) / 2 - at(tilt, S=0.1)
 """
 
 from __future__ import annotations
 
 import operator
+import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -303,13 +304,21 @@ def require_quantity(quantity: Any, word: str) -> Any:
 
 
 def words_of(quantity: object) -> str:
-    """Return a quantity in words."""
+    """Return a quantity in words, as one writes it: `abs(tilt)`, numbers with six digits."""
     if isinstance(quantity, (str, Worst, Request)):
-        return str(quantity)
+        return as_typed(str(quantity))
     if isinstance(quantity, Quantity):
-        return str(quantity.name or quantity)
+        return as_typed(str(quantity.name or quantity))
     name = str(getattr(quantity, "__name__", ""))
     return name.replace("_", " ") if name.isidentifier() else "the quantity"
+
+
+_LONG = re.compile(r"(?<![\w.])\d+\.\d{6,}(?:e[-+]?\d+)?")
+
+
+def as_typed(text: str) -> str:
+    """Return the text of a quantity without NumPy's own names and digits that nobody reads."""
+    return _LONG.sub(lambda number: f"{float(number[0]):.6g}", text).replace("absolute(", "abs(")
 
 
 # Conditions.

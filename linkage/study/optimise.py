@@ -94,7 +94,7 @@ def optimise(
     constraints = conditions_of(subject_to, machine)
     cases = list(case) if isinstance(case, (list, tuple)) else [case]
     if not cases:
-        raise DefinitionError(f"{title}: case={cited(case)}: a load case or several are expected; leave it out for the machine's own loads.")
+        raise DefinitionError(f"{title}: case={cited(case)}: a load case or several are expected; leave it out for the own loads.")
     for each in cases:
         case_of(machine.plan, each)
     held = list(dict.fromkeys(found for each in cases for found in (constraint_in_case(one, each) for one in constraints)))
@@ -383,6 +383,7 @@ class DesignSearch:
         self.problem, self.plan, self.journal, self.tell = problem, plan, journal, tell
         self.coarse = problem.with_counts(COARSE)
         self.cut: list[str] = []
+        self.spread_words = ""
         self.looked: list[Screened] = []
         self.present = problem.space.present(problem.machine)
 
@@ -433,7 +434,8 @@ class DesignSearch:
                 for place in each.order[:KEPT]:
                     if each.begins[place]:
                         with suppress(LinkageError):
-                            found.append(Ended(each.combination, Local(problem, each.combination, each.unit[place]).judged(each.unit[place])))
+                            unit = each.unit[place]
+                            found.append(Ended(each.combination, Local(problem, each.combination, unit).judged(unit)))
         return found
 
     def hopeless(self, screened: Sequence[Screened]) -> list[tuple[tuple[int, ...], Found]]:
@@ -487,7 +489,9 @@ class DesignSearch:
         count = 1 << max(4, (min(SCREENED, SCREENED_IN_ALL // space.count) or 1).bit_length() - 1)
         limit = self.problem.count.limit
         if limit is not None:  # half of what may be looked at is left for the local searches
-            count = min(count, 1 << max(0, (limit // (2 * space.count) or 1).bit_length() - 1))
+            fewer = min(count, 1 << max(0, (limit // (2 * space.count) or 1).bit_length() - 1))
+            self.spread_words = "" if fewer == count else f" of {fewer}"  # of other designs other searches begin
+            count = fewer
         unit = unit_points(count, len(space.variables), "sobol", self.plan.seed)
         present = space.unit(self.present)
         if self.plan.method == "local":
@@ -559,7 +563,7 @@ class DesignSearch:
 
     def ended(self, combination: tuple[int, ...], unit: FloatArray, number: int) -> Found:
         """Return what the local search from a start comes to, or came to before."""
-        task = f"{list(combination)} {number}"
+        task = f"{list(combination)} {number}{self.spread_words}"
         known = self.journal.result(task, self.problem)
         if known is not None:
             return known

@@ -22,12 +22,12 @@ from ..shown import Shown
 from ..units import deg, display_unit, mm, show
 from .box import unit_points
 from .checks import unit_of
-from .kinds import unit_of as unit_of_kind
+from .kinds import measure_unit
 from .measured import measure_of
 from .measures import Constraint, Given, Integral, Leaf, Measure, Worst, words_of
 from .problem import LimitReachedError, Numbers, Problem, size_of_rows, terms_size
-from .sampling import divisors_of
 from .result_rows import ResultRow, result_text, write_result
+from .sampling import divisors_of
 from .solver import MET, Found, Local, divisors, missing_of, scale_of, scales_of, true_worth
 from .space import Space, Varied, size_of_machine
 from .tried import Tried, tried_header, tried_names, tried_rows
@@ -288,12 +288,17 @@ def described(
 def check_bounded(problem: Problem, now: Numbers) -> None:
     """Raise StudyError where the objective grows without bounds, because a number that it is divided by comes to zero in the box."""
     asked = divisors(problem.objectives)
-    sizes = {leaf: size_of_rows(rows.values) for leaf, rows in problem.look(problem.machine.dimensions).rows.items()} if asked else {}
+    if not asked:
+        return
+    n, combination = len(problem.space.variables), [0] * len(problem.space.choices)
+    looks = [problem.look(problem.designs(np.full(n, part), combination)) for part in (0.1, 0.5, 0.9)]
+    sizes = {leaf: max(size_of_rows(look.rows[leaf].values) for look in looks) for leaf in problem.leaves}
     for each in asked:
         small = abs(float(each.of(lambda leaf: now[leaf])))
         size = terms_size(each, sizes, now)
         if small <= NEXT_TO_NOTHING * size:
-            what = f"{problem.plan.title}: {', '.join(map(str, problem.objectives))} has no bound in the box, for {each} comes to zero there"
+            named = ", ".join(map(str, problem.objectives))
+            what = f"{problem.plan.title}: {named} has no bound in the box, for {each} comes to zero there"
             raise StudyError(f"{what}; keep it away from zero, subject_to=[{each} >= ...], or take vary= narrower.")
 
 
@@ -404,16 +409,16 @@ def edges(problem: Problem, combination: Sequence[int], unit: FloatArray, prices
     """
     for way in (-prices.left, -prices.reach):
         size = float(np.abs(way).max(initial=0.0))
-        if part * size * EDGE > SHOWN and (found := edge(problem, combination, unit, way / size)):
+        if part * size * EDGE > SHOWN and (found := edge_words(problem, combination, unit, way / size)):
             return [found]
     return []
 
 
-def edge(problem: Problem, combination: Sequence[int], unit: FloatArray, way: FloatArray) -> str:
+def edge_words(problem: Problem, combination: Sequence[int], unit: FloatArray, way: FloatArray) -> str:
     """Return what stops a design on a way (n,) in unit coordinates; "" where nothing near it does."""
     for step in STEPS_BEYOND:
         beyond = np.clip(unit + step * way, 0.0, 1.0)
-        reason = refusal(problem, combination, beyond)
+        reason = stopped_by(problem, combination, beyond)
         if reason:
             moved = [each for each, by in zip(problem.space.variables, beyond - unit, strict=True) if abs(by) >= 0.3 * step]
             values = dict(zip(problem.space.variables, problem.space.values(unit), strict=True))
@@ -422,7 +427,7 @@ def edge(problem: Problem, combination: Sequence[int], unit: FloatArray, way: Fl
     return ""
 
 
-def refusal(problem: Problem, combination: Sequence[int], unit: FloatArray) -> str:
+def stopped_by(problem: Problem, combination: Sequence[int], unit: FloatArray) -> str:
     """Return why a design is none: refused, not assembled, or without a value of what is asked; "" of one that is."""
     try:
         machine = problem.machine_of(unit, combination)
@@ -720,14 +725,14 @@ def unit_of_measure(plan: Plan, measure: Measure) -> str:
     """Return the unit that a measure is shown in; "" for SI."""
     units = {unit_of_leaf(plan, leaf) for leaf in measure.leaves}
     simple = isinstance(measure, Leaf) or getattr(measure, "symbol", "") in ("+", "-")
-    return (units.pop() if len(units) == 1 and simple else "") or unit_of_kind(plan, measure)
+    return (units.pop() if len(units) == 1 and simple else "") or measure_unit(plan, measure)
 
 
 def unit_of_constraint(plan: Plan, constraint: Constraint) -> str:
     """Return the unit that a constraint's sides are shown in."""
     sides = [side for side in (constraint.left, constraint.right) if side.leaves]
     units = {unit_of_measure(plan, side) for side in sides}
-    return units.pop() if len(units) == 1 else unit_of_kind(plan, constraint)
+    return units.pop() if len(units) == 1 else measure_unit(plan, constraint)
 
 
 def unit_of_leaf(plan: Plan, leaf: Leaf) -> str:

@@ -21,6 +21,7 @@ from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, greatest, lowest
 from ..motion.grid import JoinedTo, joined_in_order
 from ..motion.strokes import check_magnitude
+from ..plan import Plan
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import Quantity, is_number
 from .kinds import check_kinds

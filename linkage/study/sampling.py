@@ -17,7 +17,7 @@ from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level
 from ..quantities import Function, Negative, Number, Quantity, Ref, Sum
 from ..quantities.quantity import Operation
-from .checks import quantity_values, title_of
+from .checks import quantity_values
 from .measures import words_of
 
 DIFFERENCE = 6e-6
@@ -262,26 +262,26 @@ def divisors_of(plan: Plan, quantity: Any) -> tuple[Any, ...]:
         return ()
     found = [each for part in (parts if sign != "power" else parts[:1]) for each in divisors_of(plan, part)]
     if sign == "divide":
-        found += factors_of(plan, parts[1])
-    if sign == "power" and isinstance(power := plain_number(parts[1]), float) and power < 0.0:
-        found += factors_of(plan, parts[0])
+        found += zero_factors(plan, parts[1])
+    if sign == "power" and isinstance(power := constant_part(parts[1]), float) and power < 0.0:
+        found += zero_factors(plan, parts[0])
     return tuple(found)
 
 
-def factors_of(plan: Plan, divisor: Any) -> list[Any]:
+def zero_factors(plan: Plan, divisor: Any) -> list[Any]:
     """Return the factors of a divisor, each of which makes it zero, without the sizes and powers about them."""
     known = plan.members.get(divisor) if isinstance(divisor, str) else divisor
     if isinstance(known, Ref):
-        return factors_of(plan, known.target)
+        return zero_factors(plan, known.target)
     sign, parts = operation(known)
     if sign in ("absolute", "power", "sqrt", "negative"):
-        return factors_of(plan, parts[0])
+        return zero_factors(plan, parts[0])
     if sign == "multiply":
-        return [each for part in parts for each in factors_of(plan, part)]
-    return [divisor] if isinstance(divisor, (str, Quantity, Request)) and plain_number(divisor) is None else []
+        return [each for part in parts for each in zero_factors(plan, part)]
+    return [divisor] if isinstance(divisor, (str, Quantity, Request)) and constant_part(divisor) is None else []
 
 
-def plain_number(part: Any) -> float | None:
+def constant_part(part: Any) -> float | None:
     """Return a number that stands in a quantity; None of anything else."""
     return part.number if isinstance(part, Number) else part if isinstance(part, float) else None
 

@@ -64,7 +64,8 @@ def settings_for(
     """Return every value of a dimension in a range at which a quantity has a target value [SI], at one pose of one design.
 
     `settings_for(hitch, "MK", "tilt", 0.0, between=(0.5, 1.3), S=0.1)`. Roots are found to rounding; two that lie closer than a
-    thousandth of the range may be missed. Settings that cannot be assembled over the whole stroke are no answer. `unit` is the quantity's in the sentence.
+    thousandth of the range may be missed. Settings that cannot be assembled over the whole stroke are no answer. `unit` is the
+    quantity's in the sentence.
 
     Of several dimensions and targets, `settings_for(hitch, {"MK": (0.5, 1.3), "M": [(0.22, 1.05), (0.22, 0.95)]}, targets)` with a list of
     targets such as `Target("tilt", 0.0, S=0.1)` returns all `Solutions` in the box that are found from `points` of it, for every choice,

@@ -8,7 +8,7 @@ way, so that the solver turns back.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, final
 from warnings import catch_warnings, simplefilter
@@ -38,7 +38,7 @@ OTHER_SIZE = 4.0
 HALVINGS = 40
 STEEP = 1e3
 """What an infinite derivative counts, of scaled numbers by unit coordinates."""
-LINES, WIDENED = 64, 6
+LINES, WIDENED = 24, 8
 """Lines of a constraint that trust-constr is given at most, and how often others are added that its end misses."""
 
 

@@ -31,9 +31,9 @@ from linkage import (
     x,
     y,
 )
-from linkage.study import Target, Tolerance, monte_carlo, settings_for, sobol, spread, survey, tornado, zone
 from linkage.motion import Request
 from linkage.quantities import Quantity
+from linkage.study import Target, Tolerance, monte_carlo, settings_for, sobol, spread, survey, tornado, zone
 from linkage.study.measures import Condition, Measure
 from tests.uses.machines import batch, lifting, two
 

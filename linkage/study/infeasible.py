@@ -85,7 +85,7 @@ def infeasible_error(
     against = f" It pulls against {limits}." if pulling else ""
     alternatives = alternatives_to(problem, best, looked.get(best.combination))
     instead = "; or ".join(each.sentence for each in alternatives)
-    alone = f" Where one condition alone gives way: {instead}." if instead else ""
+    alone = f" Or one condition gives way alone: {instead}." if instead else ""
     text = f"{title}: no design found in the box keeps all conditions. The one that misses least: {said}.{against}{alone}"
     return InfeasibleError(
         f"{text} Give way there by so much, or widen vary=.", best.machine, relaxations,
@@ -152,7 +152,7 @@ def given_way(
         units = unit_of_constraint(problem.plan, each)
         if short > MISSED * scale:
             way = "off" if each.symbol == "==" else "too much" if each.symbol == "<=" else "short"
-            text = f"{in_units(each, units)} gets {show(left, units, 4)}, {show(short, units, 3)} {way}"
+            text = f"{in_units(each, units)} gets {show(left, units, 4)}, {show(short, units, 4)} {way}"
             relaxations.append(Relaxation(each, short, text, machine))
             total += short / scale
         elif price > 0.0:

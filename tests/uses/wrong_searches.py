@@ -71,26 +71,31 @@ def complex_height(motion):
 
 
 JUNK = [
-    None, True, 0, -1, 3, 1.5, nan, inf, -inf, 10**400, 1e300, 1e-300, 1j, "", "a", "OB", "tilt", "S", b"a", [], [1], ["a"], (), (0.1,), (0.3, 0.2),
-    (0.2, 0.3), (nan, 0.3), (-1.0, 1.0), {}, {"OB": 3}, {"OB": (0.28, 0.32)}, {"S": (0.0, 0.1)}, {"S": 0.1}, {"Q": 1}, {3: 4}, {"OB": None},
-    {"OB": (0.28, 0.32, 0.01)}, {"OB": [0.28, nan]}, {"B": around(10 * mm)}, {"tilt": (0.0, 1.0)}, {"OB": around(0.3)}, {"lift.bore": (0.0, 0.1)},
-    {"A.x": (-0.5, 0.5)}, {("OB", "OG"): [(0.3, 0.5)]}, {"load.mass": (-10.0, 10.0)}, np.array([0.1, 0.2]), np.array([]), np.float64(0.3), object(), int,
-    Mechanism, lambda: 3, lambda motion: motion.y("G"), raising, named, shapeless, endless, empty, complex_height, lifting, batch, two, ref("tilt"),
-    ref("nothing"), y("G"), x("Q"), np.sqrt(ref("tilt") - 10 * deg), 1 / ref("tilt"), np.log(ref("tilt")), drive_force(), drive_force("T"), pin_force("O"),
-    pin_force("Q"), ratio("G"), ratio(y("G"), order=2), transmission("B"), gap("AB", "OBG"), gap("G", "O"), pressure("lift"), reserve("lift"),
-    capacity("lift", "G"), capacity("lift", "O"), thrust("lift"), buckling("lift"), reserve("nothing"), least("tilt"), most(y("G")), least(y("Q")),
-    integral("tilt"), integral("tilt", by="T"), at("tilt"), at("tilt", S=0.1), at("tilt", S=9.0), at("tilt", S=1e200), at("OB"), worst("tilt", over="S"),
-    least("tilt") ** 0.5, least("tilt") / least(y("G")), 1 / at(y("A"), S=0.1), most("tilt") ** most(y("G")), least("tilt") * 1e300, least(endless),
-    most(empty), least(raising), most(named), least(shapeless), least("tilt") >= 1.0, least("tilt") >= 1e300,
-    least("tilt") <= most(y("G")), most(pressure("lift")) <= 0.0, most(y("G")) == 0.3, least(np.sqrt(ref("tilt") - 10 * deg)) >= 5.0, reachable,
-    fits("lift"), fits("nothing"), [least("tilt") >= 10.0], [3], LoadCase("a"), LoadCase("b", scale={"load": 0.0}), "transport", ["transport", None],
-    Tolerance(0.1), Tolerance((0.0, 0.0)), {"OB": Tolerance(0.01)}, {"OB": 0.1 * mm}, {"OB": 1.0}, {"OB": -1.0}, {"load.mass": 5.0}, {"circuit.pressure": 1e5},
-    Target("tilt", 2.0, S=0.1), [Target("tilt", 2.0, S=0.1)], [Target(y("G"), 3 * kN, S=0.1)], [Target("nothing", 1.0, S=0.1)], [Target("tilt", 1.0)],
+    None, True, 0, -1, 3, 1.5, nan, inf, -inf, 10**400, 1e300, 1e-300, 1j, "", "a", "OB", "tilt", "S", b"a", [], [1], ["a"], (), (0.1,),
+    (0.3, 0.2), (0.2, 0.3), (nan, 0.3), (-1.0, 1.0), {}, {"OB": 3}, {"OB": (0.28, 0.32)}, {"S": (0.0, 0.1)}, {"S": 0.1}, {"Q": 1}, {3: 4},
+    {"OB": None}, {"OB": (0.28, 0.32, 0.01)}, {"OB": [0.28, nan]}, {"B": around(10 * mm)}, {"tilt": (0.0, 1.0)}, {"OB": around(0.3)},
+    {"lift.bore": (0.0, 0.1)}, {"A.x": (-0.5, 0.5)}, {("OB", "OG"): [(0.3, 0.5)]}, {"load.mass": (-10.0, 10.0)}, np.array([0.1, 0.2]),
+    np.array([]), np.float64(0.3), object(), int, Mechanism, lambda: 3, lambda motion: motion.y("G"), raising, named, shapeless, endless,
+    empty, complex_height, lifting, batch, two, ref("tilt"), ref("nothing"), y("G"), x("Q"), np.sqrt(ref("tilt") - 10 * deg),
+    1 / ref("tilt"), np.log(ref("tilt")), drive_force(), drive_force("T"), pin_force("O"), pin_force("Q"), ratio("G"),
+    ratio(y("G"), order=2), transmission("B"), gap("AB", "OBG"), gap("G", "O"), pressure("lift"), reserve("lift"), capacity("lift", "G"),
+    capacity("lift", "O"), thrust("lift"), buckling("lift"), reserve("nothing"), least("tilt"), most(y("G")), least(y("Q")),
+    integral("tilt"), integral("tilt", by="T"), at("tilt"), at("tilt", S=0.1), at("tilt", S=9.0), at("tilt", S=1e200), at("OB"),
+    worst("tilt", over="S"), least("tilt") ** 0.5, least("tilt") / least(y("G")), 1 / at(y("A"), S=0.1), most("tilt") ** most(y("G")),
+    least("tilt") * 1e300, least(endless), most(empty), least(raising), most(named), least(shapeless), least("tilt") >= 1.0,
+    least("tilt") >= 1e300, least("tilt") <= most(y("G")), most(pressure("lift")) <= 0.0, most(y("G")) == 0.3,
+    least(np.sqrt(ref("tilt") - 10 * deg)) >= 5.0, reachable, fits("lift"), fits("nothing"), [least("tilt") >= 10.0], [3], LoadCase("a"),
+    LoadCase("b", scale={"load": 0.0}), "transport", ["transport", None], Tolerance(0.1), Tolerance((0.0, 0.0)), {"OB": Tolerance(0.01)},
+    {"OB": 0.1 * mm}, {"OB": 1.0}, {"OB": -1.0}, {"load.mass": 5.0}, {"circuit.pressure": 1e5}, Target("tilt", 2.0, S=0.1),
+    [Target("tilt", 2.0, S=0.1)], [Target(y("G"), 3 * kN, S=0.1)], [Target("nothing", 1.0, S=0.1)], [Target("tilt", 1.0)],
 ]  # fmt: skip
 """What a part is exchanged for: of all kinds, many of them right elsewhere."""
 
 OPTIONS = {
-    "optimise": ("minimise", "maximise", "vary", "subject_to", "case", "over", "robust", "sigmas", "method", "solver", "starts", "seed", "limit", "progress"),
+    "optimise": (
+        "minimise", "maximise", "vary", "subject_to", "case", "over", "robust", "sigmas", "method", "solver", "starts", "seed", "limit",
+        "progress",
+    ),
     "pareto": ("minimise", "vary", "subject_to", "over", "limit", "seed", "solver"),
     "settings": ("name", "quantity", "target", "between", "unit", "S", "points"),
     "targets": ("name", "quantity", "points"),
@@ -100,7 +105,7 @@ OPTIONS = {
     "tornado": ("quantity", "tolerances", "unit", "S"),
     "sobol": ("quantity", "tolerances", "count", "seed", "S"),
     "spread": ("designs", "quantity", "tolerances", "strokes"),
-}
+}  # fmt: skip
 RIGHT = {
     "optimise": lambda: dict(minimise=most(pressure("lift")), vary={"OB": (0.28, 0.32)}, starts=1, limit=40),
     "pareto": lambda: dict(minimise=[most(pressure("lift")), most(y("G"))], vary={"OB": (0.28, 0.32)}, limit=200),
@@ -118,7 +123,8 @@ RIGHT = {
 
 FITTING = {
     **dict.fromkeys(("minimise", "maximise"), Measure), **dict.fromkeys(("subject_to",), Condition),
-    **dict.fromkeys(("vary", "over", "robust", "tolerances"), dict), **dict.fromkeys(("of", "quantity", "measure"), (Request, Quantity, FunctionType, Measure)),
+    **dict.fromkeys(("vary", "over", "robust", "tolerances"), dict),
+    **dict.fromkeys(("of", "quantity", "measure"), (Request, Quantity, FunctionType, Measure)),
 }  # fmt: skip
 """What stands in the place of a part at least: what is exchanged for it is of that kind more often than not."""
 

@@ -16,7 +16,7 @@ from linkage.errors import DefinitionError, known_name, unknown
 from linkage.mechanism import Mechanism
 from linkage.motion import require_motion
 from linkage.motion.grid import MotionLike
-from linkage.plan import Plan
+from linkage.plan import Mask, Plan
 from linkage.quantities import Quantity, Reference, distance, name_of, quantity
 from linkage.statics import AnyMotion, Case, LawRequest, case_words, loads_identity, same
 from linkage.study import at, least, most
@@ -161,7 +161,7 @@ def circuit_name(circuit: Reference | None) -> str:
     return "" if circuit is None else name_of(circuit)
 
 
-def without_limit(request: CircuitRequest, motion: MotionLike) -> Array:
+def without_limit(request: CircuitRequest, motion: MotionLike) -> Mask:
     """Return the mask of poses at which a cylinder carries something and what is asked of it has no value: the load drives there."""
     carried, value = (require_motion(motion)._requested(each) for each in (Thrust(request.cylinder, request.case), request))
     return np.asarray(np.isfinite(carried) & np.isnan(value))
@@ -183,7 +183,7 @@ class Reserve(CircuitRequest):
         circuit, ram = self.circuit_of(motion.plan), self.ram(motion.plan)
         return circuit.reserve(motion, cylinder=ram, case=self.case, direction=self.direction)
 
-    def unlimited(self, motion: MotionLike) -> Array:
+    def unlimited(self, motion: MotionLike) -> Mask:
         return without_limit(self, motion)
 
 
@@ -219,7 +219,7 @@ class Capacity(CircuitRequest):
         circuit, ram = self.circuit_of(motion.plan), self.ram(motion.plan)
         return circuit.capacity(motion, self.point, along=self.along, share=self.share, cylinder=ram, case=self.case)
 
-    def unlimited(self, motion: MotionLike) -> Array:
+    def unlimited(self, motion: MotionLike) -> Mask:
         return without_limit(self, motion)
 
 

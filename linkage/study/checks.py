@@ -61,7 +61,8 @@ def why_not_assembled(machine: Mechanism) -> str:
     count = WHOLE_POSES.get(len(machine.strokes), 3)
     axes = [np.linspace(each.start, each.end, count) for each in machine.strokes.values()]
     try:
-        machine.at(**dict(zip(machine.strokes, np.meshgrid(*axes, indexing="ij"), strict=True)))
+        at: dict[str, Any] = dict(zip(machine.strokes, np.meshgrid(*axes, indexing="ij"), strict=True))
+        machine.at(**at)
     except AssemblyError as error:
         return " ".join(str(error).split())
     return ""

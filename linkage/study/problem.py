@@ -733,8 +733,8 @@ class Problem:
             rows = self.look(design).rows[leaf]
             return Truth(float(reduced(leaf, rows.values)[0]), {}, bool(rows.lost[0]))
         motion = self.motion(design, names)
-        value = Watched(self.plan, leaf.quantity, quickly_on(self.plan, leaf.quantity) if quick else value_on(leaf.quantity))
-        found = (lowest if isinstance(leaf, Least) else greatest)(motion, value)
+        watched = Watched(self.plan, leaf.quantity, quickly_on(self.plan, leaf.quantity) if quick else value_on(leaf.quantity))
+        found = (lowest if isinstance(leaf, Least) else greatest)(motion, watched)
         parts = {}
         for name in names:
             values = motion.strokes[name]
@@ -743,7 +743,7 @@ class Problem:
             turned = is_number(given.low) and is_number(given.high) and given.low > given.high
             part = (float(found.strokes[name]) - low) / (high - low) if high > low else 0.0
             parts[name] = 1.0 - part if turned else part
-        return Truth(float(found.value), parts, value.lost)
+        return Truth(float(found.value), parts, watched.lost)
 
     def tops(self, leaf: Leaf, design: Mapping[str, Any]) -> list[float]:
         """Return where between its samples a leaf of one design has tops that come near its worst value, as parts of its stroke's range."""

@@ -95,8 +95,8 @@ class Sampling:
 
     def _lost(self, grid: Grid, values: FloatArray, reached: Mask) -> Mask:
         """Return which quantities (k, m) have no value at a pose that is reached, though nothing leaves them unlimited there."""
-        empty = np.isnan(values) & reached
-        lost = empty.any(axis=2)
+        empty: Mask = np.asarray(np.isnan(values) & reached)
+        lost: Mask = np.asarray(empty.any(axis=2))
         for place in np.flatnonzero(lost.any(axis=1)):
             free = unlimited(motion_of(grid), self.quantities[place])
             if free is not None:

@@ -35,6 +35,7 @@ from linkage import (
     y,
 )
 from linkage.files.criterion import condition_said, measure_said
+from linkage.files.survey_measures import TextMeasures
 from linkage.study import InfeasibleError, Target, settings_for
 from linkage.study.kinds import measure_unit
 from linkage.study.problem import Problem
@@ -237,6 +238,15 @@ def test_a_condition_without_a_value_is_not_kept(condition):
     with pytest.raises(StudyError) as caught:
         optimise(Boom(), minimise=most(pressure("lift")), vary={"OB": (0.25, 0.35)}, subject_to=[condition], starts=2)
     assert " nan" not in str(caught.value)
+
+
+def test_nor_is_it_in_a_survey():
+    """The root has a value where tilt stays above 10 deg; the tilt of the shortest arm falls below it."""
+    machine = Boom(BOG=[100 * deg, 170 * deg, 200 * deg, 215 * deg])
+    texts = {"root": "least(sqrt(tilt - 10 deg)) >= 0", "plain": "least(tilt - 10 deg) >= 0"}
+    found = TextMeasures(texts, 33)(machine)
+    assert found["root"].tolist() == found["plain"].tolist()
+    assert set(found["root"].tolist()) == {False, True}
 
 
 def test_infinity_on_the_good_side_is_kept_and_so_is_what_nothing_limits():

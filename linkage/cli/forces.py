@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError
-from ..motion import Column, Motion, columns_of, geometry_verdicts
+from ..motion import Column, Motion, Over, columns_of, geometry_verdicts, limits
 from ..reports import force_columns, is_loaded
 from ..statics import PinForces
 from .command import Command, machine_arguments, motion_arguments
@@ -24,7 +24,9 @@ from .settings import (
     judged_over,
     motion_at,
     over_argument,
+    overs_of,
     plain_value,
+    poses_at,
     verdicts_of,
 )
 from .table import csv_argument, pins_of, worst_pins, write_table
@@ -99,14 +101,16 @@ class LimitsCommand(Command):
         parser.add_argument(
             "--at", dest="strokes", metavar="S=0.6", action="append", default=[], help="where other strokes are held; repeatable"
         )
+        over_argument(parser)
         check_argument(parser)
 
     def run(self, options: Namespace) -> int:
         machine = design(find(options.machine), options.settings)
         if not machine.strokes:
             raise DefinitionError(f"{machine.plan.title} has no stroke, so there is nothing that goes; declare one, S = Stroke(0, 0.25).")
-        over = motion_at(machine, options.strokes, POSES, unreachable="nan")
-        print(over.limits())
+        motion = machine.at(unreachable="nan", **poses_at(machine, options.strokes, POSES))
+        over = judged_over(machine, options, motion)
+        print(limits(motion, overs_of(machine, options.over) or [Over()]))
         print(f"mobility {machine.mobility}; Gruebler count {machine.gruebler}")
         for each in machine.four_bars:
             print(each)

@@ -14,7 +14,7 @@ from ..errors import AssemblyError, DefinitionError, SingularError, cited, known
 from ..language import said, said_of
 from ..loads import DIRECTIONS, PLAIN, Acting, LoadCase
 from ..mechanism import Mechanism
-from ..motion import PLAIN_CASE, Column, Motion, Over, Request, RequestLike, columns_of, stroke_unit
+from ..motion import PLAIN_CASE, Column, Motion, Over, Request, RequestLike, columns_of, out_of_reach, stroke_unit
 from ..plan import Plan, plan_measure
 from ..quantities import Dimension, Quantity, Stroke
 from ..reports import NOTHING, At, force_columns, results, run_of
@@ -164,11 +164,16 @@ def motion_at(machine: Mechanism, texts: Sequence[str], count: int) -> Motion:
 
     Several that take more than one value make a grid. Places that cannot be assembled are gaps, and one remark says so.
     """
+    return with_gaps(machine, poses_at(machine, texts, count))
+
+
+def poses_at(machine: Mechanism, texts: Sequence[str], count: int) -> dict[str, Any]:
+    """Return the strokes of such a motion, arrays of one shape."""
     given = dict(stroke_values(machine.plan, text) for text in texts)
     axes = {name: given.get(name, np.linspace(stroke.start, stroke.end, count)) for name, stroke in machine.strokes.items()}
     many = {name: axis for name, axis in axes.items() if len(axis) > 1 or name not in given}
     grids = dict(zip(many, np.meshgrid(*many.values(), indexing="ij"), strict=True)) if many else {}
-    return with_gaps(machine, {name: grids.get(name, axis[0]) for name, axis in axes.items()})
+    return {name: grids.get(name, axis[0]) for name, axis in axes.items()}
 
 
 def with_gaps(machine: Mechanism, strokes: Mapping[str, Any]) -> Motion:
@@ -184,9 +189,15 @@ def with_gaps(machine: Mechanism, strokes: Mapping[str, Any]) -> Motion:
         motion = machine.at(unreachable="nan", **strokes)
         if not motion.reached.any():
             raise
-        gaps = "" if motion.reached.all() else said("What cannot be assembled is left empty.")
-        remark(f"{error} {gaps}")
+        tell_gaps(motion, error)
         return motion
+
+
+def tell_gaps(motion: Motion, error: AssemblyError | None = None) -> None:
+    """Say in one remark where a motion cannot be assembled, what is missing there and the remedy; `error` is what says so."""
+    if error is not None or not motion.reached.all():
+        gaps = "" if motion.reached.all() else said("What cannot be assembled is left empty.")
+        remark(f"{error or out_of_reach(motion)} {gaps}")
 
 
 def motion_along(machine: Mechanism, count: int, at: At = NOTHING) -> Motion:

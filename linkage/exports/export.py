@@ -12,7 +12,7 @@ import numpy as np
 from ..disk import Place, check_place, replacing
 from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism, require_mechanism
-from ..motion import Column, Motion, columns_of
+from ..motion import Column, Motion, columns_of, out_of_reach
 from ..pictures.strokes import stroke_words
 from ..reports import NOTHING, first_stroke, results, run_of, stroke_middles, write_csv
 from .calculation import Calculation
@@ -95,14 +95,21 @@ def csv(what: Mechanism | Motion, at: Mapping[str, Any], count: int, columns: Se
 
 
 def over_strokes(machine: Mechanism, at: Mapping[str, Any], count: int) -> Motion:
-    """Return a motion over the strokes that `at` does not name, at `count` poses each: a grid where there are several."""
+    """Return a motion over the strokes that `at` does not name, at `count` poses each: a grid where there are several; with gaps."""
     first_stroke(machine)
     free = {name: np.linspace(each.start, each.end, count) for name, each in machine.strokes.items()}
     axes = {name: np.atleast_1d(at.get(name, values)) for name, values in free.items()}
     many = {name: axis for name, axis in axes.items() if len(axis) > 1 or name not in at}
     grids = dict(zip(many, np.meshgrid(*many.values(), indexing="ij"), strict=True)) if many else {}
     unknown_names = {name: at[name] for name in at if name not in axes}
-    return machine.at(**{name: grids.get(name, axis[0]) for name, axis in axes.items()}, **unknown_names)
+    return reached_somewhere(machine.at(unreachable="nan", **{name: grids.get(name, axis[0]) for name, axis in axes.items()}, **unknown_names))
+
+
+def reached_somewhere(motion: Motion) -> Motion:
+    """Return a motion, NaN where it cannot be assembled; AssemblyError where it cannot anywhere."""
+    if not motion.reached.any():
+        raise out_of_reach(motion)
+    return motion
 
 
 def drawing_of(
@@ -120,7 +127,7 @@ def drawing_of(
         moving = max(at, key=lambda name: np.size(at[name])) if at else first
         values: dict[str, Any] = stroke_middles(what) | {first: what.strokes[first].start} | dict(at)
         values = {name: np.atleast_1d(value) for name, value in values.items()}
-        motion = what.at(**values)
+        motion = reached_somewhere(what.at(unreachable="nan", **values))
         held = {name: float(np.ravel(value)[0]) for name, value in values.items()}
         end = what.strokes.get(moving, what.strokes[first])
         swept = what.at(unreachable="nan", **{**held, moving: np.linspace(end.start, end.end, count)}) if trace else motion

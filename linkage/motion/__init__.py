@@ -16,6 +16,7 @@ from .over import OPTIONS, PLAIN_CASE, Over
 from .peaks import highest, last_holding
 from .poles import whole_body
 from .pose_requests import condition, transmission
+from .reach import limits
 from .requests import BoundRequest, Piece, Ratio, Request, RequestLike, Value, ratio
 from .strokes import at_values, check_any, float_array, rates_of, sweep_values
 from .table import Column, Tabled, columns_of

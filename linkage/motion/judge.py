@@ -26,7 +26,7 @@ from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, 
 from .evaluation import Evaluation
 from .extremes import extremum, moving
 from .limits import stroke_unit
-from .margins import LeastMargin, has_all_margins, least_margins, missing_at
+from .margins import LeastMargin, assembly_error_at, has_all_margins, least_margins
 from .measures import (
     At,
     Condition,
@@ -240,7 +240,7 @@ class Place:
             return Lost(seen.lost_share, seen.deepest, "", not self.plan.groups)
         with unwarned():
             places = [each.strokes for each in self.holes] + ([seen.deepest] if seen.deepest else [])
-            errors = [(missing_at(self.motion, place), place) for place in places]
+            errors = [(assembly_error_at(self.motion, place), place) for place in places]
         known = [(error, place) for error, place in errors if error is not None]
         if not known:
             return Lost(seen.lost_share, seen.deepest, said("some poses are refused"), not self.plan.groups)

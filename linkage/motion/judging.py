@@ -13,6 +13,7 @@ from ..language import said
 from ..quantities import Member
 from ..units import deg, show
 from ..verdict import Verdict
+from . import scan
 from .answer import share_text
 from .judge import Judge, Question
 from .limits import StrokeLimits, place_text
@@ -68,7 +69,7 @@ def geometry_verdicts(judge: Judge) -> list[str]:
     first = next((place.motion for place in judge.places if place.motion.reached.any()), None)
     if first is None:
         return assembly_verdicts(judge)
-    limits = first.limits().values()
+    limits = scan.limits(first).values()
     dead = [each for one in limits for each in dead_point_verdicts(one)]
     return [*assembly_verdicts(judge), *dead, *transmission_words(judge)]
 

@@ -15,7 +15,7 @@ import numpy as np
 from linkage.errors import DefinitionError, known_name, unknown
 from linkage.language import said, said_of, with_and
 from linkage.loads import FRICTIONLESS, Acting
-from linkage.motion import Answer, Judge, Motion, Span, below_zero, least, most, reached, require_motion
+from linkage.motion import Answer, Judge, Motion, Question, Span, below_zero, least, most, reached, require_motion
 from linkage.statics import Case, Loads, elements_of, same
 from linkage.units import UNITS, show
 from linkage.verdict import Verdict
@@ -23,7 +23,7 @@ from linkage.verdict import Verdict
 from .cylinder import standard_bores
 from .inputs import not_negative, one_number
 from .line import LiftLine
-from .member import PISTON, SIDES, Cylinder, Thrust, one_design, one_size
+from .member import PISTON, SIDES, Cylinder, Thrust, is_loaded, one_design, one_size
 from .requests import GoingBack, Pressure, Reserve
 
 TRIES = 4
@@ -63,6 +63,14 @@ def line_verdicts(circuit: LiftLine, judge: Judge, resistance: float = 0.0, unit
         *(with_name(each.holding(), each.ram, several) for each in cylinders),
         *(with_name(each.going_back(resistance), each.ram, several) for each in cylinders),
     ]
+
+
+def line_questions(circuit: LiftLine, judge: Judge) -> list[Question]:
+    """Return what the verdicts on a circuit ask of each of its cylinders at first; nothing where nothing acts."""
+    if not is_loaded(judge):
+        return []
+    cylinders = [LiftingCylinder(judge, circuit, ram) for ram in circuit.rams(judge.motion)]
+    return [question for each in cylinders for question in each.questions()]
 
 
 def the_circuit(circuit: LiftLine | str, motion: Motion) -> LiftLine:
@@ -125,6 +133,13 @@ class LiftingCylinder:
     def asked(self) -> tuple[Cylinder, Acting, LiftLine]:
         """What a request of it begins with."""
         return self.ram, Acting(), self.circuit
+
+    def questions(self) -> list[Question]:
+        """Return what its verdicts ask at first."""
+        thrust = Thrust(self.ram, Acting())
+        standing = [most(Pressure(self.ram, Acting(direction=FRICTIONLESS), self.circuit, side)) for side in SIDES]
+        ends = [least(thrust), most(thrust)] if self.ram.works == "both" else []
+        return [most(abs(thrust)), least(Reserve(*self.asked)), *standing, *ends]
 
     def show(self, pressure: Any) -> str:
         """Return a pressure in the unit of the sentences."""
@@ -277,7 +292,7 @@ class LiftingCylinder:
         """Return where it does not go back, in words."""
         way = self.judge.way
         if way is None:
-            return said("everywhere it runs")
+            return said("anywhere") if self.judge.answer(least(back)).value > 0.0 else said("in places")
         stuck, whole = below_zero(way, lambda at: -np.nan_to_num(back.of(at), nan=-1.0)), reached(way)
         everywhere = len(stuck) == len(whole) and all(str(a) == str(b) for a, b in zip(stuck, whole, strict=True))
         return said("anywhere") if everywhere or not stuck else with_and(stuck)

@@ -23,7 +23,7 @@ from linkage.errors import DefinitionError, known_name, one_word
 from linkage.frozen import refuses_changes
 from linkage.loads import DIRECTIONS, Force, ForceElement, Load, Parameter, Poses, require_poses
 from linkage.loads.element import Formulas
-from linkage.motion import Judge, Motion
+from linkage.motion import Judge, Motion, Question
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of
 from linkage.statics import AnyMotion, Case, Loads, elements_of
@@ -42,7 +42,7 @@ from .inputs import (
     positive,
     proper_share,
 )
-from .judged import line_verdicts
+from .judged import line_questions, line_verdicts
 from .line import Choice, Holding, LiftLine, Lowering, Work
 from .member import Cylinder, Reading, the_cylinder, thrust_along
 
@@ -230,6 +230,10 @@ class LiftCircuit(LiftLine):
 
     def reserve_of(self, cylinder: Cylinder, motion: AnyMotion, case: Case, direction: str | None) -> Array | None:
         return self.reserve(motion, cylinder=cylinder, case=case, direction=direction)
+
+    def questions(self, judge: Judge) -> list[Question]:
+        """Return what is asked of each of its cylinders: whether it carries anything, lifts, holds."""
+        return line_questions(self, judge)
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the verdicts on lifting, oil, holding and lowering."""

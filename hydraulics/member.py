@@ -39,7 +39,7 @@ from linkage.loads import (
     require_poses,
 )
 from linkage.loads.element import Formulas
-from linkage.motion import Column, Judge, Judging, Motion, Request, Tabled, greatest, least, lowest, most, require_motion
+from linkage.motion import Column, Judge, Judging, Motion, Question, Request, Tabled, greatest, least, lowest, most, require_motion
 from linkage.plan import Plan
 from linkage.quantities import Member, Reference, distance, label, name_of
 from linkage.statics import AnyMotion, Case, LawRequest, Loads, case_words, elements_of, loads_identity, member_thrust, same
@@ -243,12 +243,16 @@ class Cylinder(TwoPoint, Tabled, Judging):
         reserve = None if circuit is None else circuit.reserve_of(self, motion, case, direction)
         return found if reserve is None else [*found, Column(noted("reserve"), reserve, "", 3)]
 
+    def questions(self, judge: Judge) -> list[Question]:
+        """Return its least and greatest length, and the utilisation of its rod."""
+        ends = distance(self.A, self.B)
+        return [least(ends), most(ends), *([most(BucklingUse(self, Acting()))] if is_loaded(judge) else [])]
+
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it fits wherever the machine runs, is of a standard size, and whether a rod that carries something buckles."""
-        motion = judge.motion
-        carries = any(each.loads(motion) or each.pushes(motion, AT_REST) for each in motion.plan.of_kind(ForceElement).values())
         try:
-            return [*self.length_verdicts(judge), self.standard(motion), *(self.buckling_verdicts(judge) if carries else [])]
+            rod = self.buckling_verdicts(judge) if is_loaded(judge) else []
+            return [*self.length_verdicts(judge), self.standard(judge.motion), *rod]
         except DefinitionError as error:
             return [Verdict("cylinder", False, " ".join(str(error).split()))]
 
@@ -604,6 +608,12 @@ class Circuit(ForceElement, Judging):
 def changes_in_motion(motion: AnyMotion, loads: Loads) -> bool:
     """Return whether there is friction among some loads, or an element that acts otherwise while it moves."""
     return any(each.frictions(motion) or each.feeds(motion.plan.members) for _, each in elements_of(motion.plan, loads))
+
+
+def is_loaded(judge: Judge) -> bool:
+    """Return whether anything acts on a machine by itself."""
+    motion = judge.motion
+    return any(each.loads(motion) or each.pushes(motion, AT_REST) for each in motion.plan.of_kind(ForceElement).values())
 
 
 def judge_of(motion: Motion, acting: Acting | None = None) -> Judge:

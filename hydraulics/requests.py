@@ -161,7 +161,8 @@ class Reserve(CircuitRequest):
     def pieces(self, plan: Plan) -> tuple[Piece, ...]:
         if self.acting.direction not in self.ram(plan).driven:
             return (Piece(self),)
-        return (Piece(replace(self, is_judged=True), side_of(self.acting.direction)),)
+        use = Use(self.cylinder, self.acting, self.circuit, self.bore)
+        return (Piece(replace(self, is_judged=True), side_of(self.acting.direction), use),)
 
     def law(self, motion: AnyMotion) -> Array:
         circuit, given = self.circuit_of(motion.plan), self.acting
@@ -184,6 +185,28 @@ class Reserve(CircuitRequest):
     def unlimited(self, motion: MotionLike) -> Mask:
         work = self.work(require_motion(motion))
         return np.asarray(np.isfinite(work.thrust) & ~(self.against(work) > 0.0))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Use(CircuitRequest):
+    """One over the reserve of the side that drives a cylinder in a direction; below zero where the load drives."""
+
+    bore: float = 0.0
+    word = "use"
+
+    @property
+    def options(self) -> tuple[Hashable, ...]:
+        return *super().options, self.bore
+
+    def law(self, motion: AnyMotion) -> Array:
+        circuit, given, ram = self.circuit_of(motion.plan), self.acting, self.ram(motion.plan)
+        size, k_m = ram.sized(motion), circuit.efficiency(motion, "mechanical")
+        size = CylinderSize(self.bore, size.rod, size.count, size.works) if self.bore else size
+        thrust = ram.thrust(motion, given.loads, case=given.case, direction=given.movement)
+        sense = 1.0 if given.direction == "extending" else -1.0
+        most = circuit.most(motion, Work(np.asarray(sense), np.asarray(sense), size, k_m))
+        return np.asarray(sense * thrust / (k_m * most))[()]
 
 
 def reserve(

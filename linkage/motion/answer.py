@@ -134,13 +134,13 @@ class Answer:
     @property
     def lost_words(self) -> str:
         """What is lost, in words."""
-        share = said("{share} of the places are lost", share=share_text(self.lost.share)) if self.lost.share else said("places are lost")
+        share = said("{share} of the places is lost", share=share_text(self.lost.share))
         return f"{share}: {self.lost.sentence}" if self.lost.sentence else share
 
 
 def share_text(share: float) -> str:
     """Return a share of the places as a percentage."""
-    return f"{100.0 * share:.3g} %"
+    return f"{100.0 * share:.3g} %" if share > 0.0 else said("a narrow part")
 
 
 def places_text(strokes: Mapping[str, Any], units: Mapping[str, str]) -> str:

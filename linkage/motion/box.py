@@ -32,10 +32,11 @@ STARTS, ROUGH = 24, 3  # of each function and design; of these, how many go on w
 ROUNDS, PATIENCE = 40, 3  # of stencils; rounds that gain nothing before a start counts as not smooth
 CLOSE, ROUNDED = 1e-12, 16.0 * float(np.finfo(float).eps)  # of the range of the values, and of their size: what is no gain
 NARROW = 1e-9  # of the box: how narrow a stencil gets
+NONE = np.zeros(0, int)
 SEEN, BORDER = 1e-7, 1e-8  # how near a value must keep growing to be unbounded, and how near its border is known; of the box
 
 
-class Box(Protocol):
+class SeenBox(Protocol):
     """Functions in the unit box: `seen` (K, D, side^k) on the grid, and values and reached poses anywhere else."""
 
     k: int
@@ -61,7 +62,7 @@ def moving(motion: Motion) -> tuple[str, ...]:
     return tuple(name for name, value in motion.strokes.items() if np.ptp(value) > 0.0)
 
 
-def side_of(k: int, designs: int) -> int:
+def values_a_stroke(k: int, designs: int) -> int:
     """Return how many values a stroke has on the grid: fewer only where the grids of all designs would be too large."""
     side = SIDES.get(k, MORE)
     while side > 3 and designs * side**k > max(MOST_POSES, SIDES[2] ** 2):
@@ -78,7 +79,7 @@ class InBox:
         self.low = {name: float(np.min(value)) for name, value in motion.strokes.items()}
         self.high = {name: float(np.max(value)) for name, value in motion.strokes.items()}
         self.k = len(self.names)
-        self.side = side_of(self.k, motion._grid.size[0])
+        self.side = values_a_stroke(self.k, motion._grid.size[0])
         grid = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, self.side)] * self.k, indexing="ij"), axis=-1)
         self.first = Motion(motion.plan, motion.designs, self.strokes(grid), "nan", joining=joined_in_order)
         seen = sense * values_of(f, self.first, everywhere=everywhere)
@@ -119,7 +120,7 @@ class InBox:
     def _near(self, unit: FloatArray) -> Index:
         """Return the nearest reached of the grid points about places (D, c, n, k), by their number; the nearest where none is."""
         at = unit * (self.side - 1)
-        weights = self.side ** np.arange(self.k - 1, -1, -1)
+        weights = weights_of(self.k, self.side)
         if self._all_reached:
             return np.asarray(np.rint(at).astype(int) @ weights)
         low = np.clip(np.floor(at), 0, self.side - 2)
@@ -166,7 +167,7 @@ class Climbs:
         row = self.function * rows + self.design
         found = np.full(int(row.max(initial=0)) + 1, -np.inf)
         np.maximum.at(found, row, self.value)
-        return found[row]
+        return np.asarray(found[row])
 
 
 def stencil_of(k: int) -> FloatArray:
@@ -177,10 +178,15 @@ def stencil_of(k: int) -> FloatArray:
     return np.array([np.zeros(k), *axes, *pairs, *corners])
 
 
-def neighbours(k: int, side: int) -> tuple[FloatArray, Index]:
+def weights_of(k: int, side: int) -> Index:
+    """Return by how much a step along each stroke (k,) is further on in the numbers of a grid's points."""
+    return np.asarray(side ** np.arange(k - 1, -1, -1))
+
+
+def steps_to_neighbours(k: int, side: int) -> tuple[Index, Index]:
     """Return the steps (n, k) to the neighbours of a grid point, and by how much these are further on in its numbers (n,)."""
     steps = np.array([each for each in product((-1, 0, 1), repeat=k) if any(each)])
-    return steps, steps @ side ** np.arange(k - 1, -1, -1)
+    return steps, steps @ weights_of(k, side)
 
 
 def widened(cube: FloatArray) -> FloatArray:
@@ -197,7 +203,7 @@ def widened(cube: FloatArray) -> FloatArray:
 
 def firsts(values: FloatArray, point: Index, k: int, side: int) -> Index:
     """Return those of some tops of a grid, values (side^k,), that are the first ones of a level part."""
-    steps, by = neighbours(k, side)
+    steps, by = steps_to_neighbours(k, side)
     steps, by = steps[by < 0], by[by < 0]
     index = np.stack(np.unravel_index(point, [side] * k), axis=-1)[:, None] + steps
     inside = ((index >= 0) & (index < side)).all(axis=-1)
@@ -229,10 +235,10 @@ def hopeful(seen: FloatArray, k: int, side: int) -> tuple[Index, FloatArray]:
     """Return the tops of a grid, values (side^k,), that may win, the highest first, and the most that each may come to."""
     values = missing_lowest(seen)
     cube = values.reshape([side] * k)
-    tops = (cube >= widened(cube)) & (cube > -np.inf)
+    tops = np.asarray((cube >= widened(cube)) & (cube > -np.inf))
     for axis in range(k):  # of a level part one point is enough
-        first, here = (np.moveaxis(each, axis, 0) for each in (tops, cube))
-        first[1:] &= here[1:] > here[:-1]
+        here = np.moveaxis(cube, axis, 0)
+        np.moveaxis(tops, axis, 0)[1:] &= here[1:] > here[:-1]
     point = np.flatnonzero(tops)
     if not point.size:
         return point, np.zeros(0)
@@ -244,7 +250,7 @@ def hopeful(seen: FloatArray, k: int, side: int) -> tuple[Index, FloatArray]:
     return point[order], bound[order]
 
 
-def starts_of(box: Box) -> tuple[Climbs, FloatArray]:
+def starts_of(box: SeenBox) -> tuple[Climbs, FloatArray]:
     """Return the searches from the grid, and what their first stencils show, (r, n): values that the grid has."""
     K, D, _ = box.seen.shape
     found = [hopeful(box.seen[row], box.k, box.side) for row in np.ndindex(K, D)]
@@ -254,7 +260,7 @@ def starts_of(box: Box) -> tuple[Climbs, FloatArray]:
     index = np.stack(np.unravel_index(point, [box.side] * box.k), axis=-1)
     steps = box.side - 1.0
     middle = np.clip(index, 1, box.side - 2)
-    stencil = (middle[:, None, :] + stencil_of(box.k).astype(int)) @ box.side ** np.arange(box.k - 1, -1, -1)
+    stencil = (middle[:, None, :] + stencil_of(box.k).astype(int)) @ weights_of(box.k, box.side)
     full, none = np.full(len(point), 1.0 / steps), np.full(len(point), np.nan)
     climbs = Climbs(
         function, design, index / steps, box.seen[function, design, point], middle / steps, full, none, bound,
@@ -330,7 +336,7 @@ def snapped(unit: FloatArray) -> FloatArray:
     return np.asarray(np.where(unit > 1.0 - 1e-14, 1.0, unit))
 
 
-def fitted(
+def after_round(
     climbs: Climbs, seen: FloatArray, k: int, least: FloatArray, places: FloatArray | None = None
 ) -> tuple[Climbs, Mask, Mask]:
     """Return the searches after a round, which have come to their top, and which are not smooth. `least` (r,) is what is no gain.
@@ -345,7 +351,7 @@ def fitted(
     at = snapped(centre + half * stencil[pick]) if places is None else places[rows, pick]
     unit = np.where(better[:, None], at, climbs.unit)
     value = np.where(better, values[rows, pick], climbs.value)
-    smooth = np.isfinite(seen).all(axis=-1)
+    smooth = np.asarray(np.isfinite(seen).all(axis=-1))
     model = Quadratic.of(np.where(smooth[:, None], seen, 0.0), k)
     walls = -centre / half, (1.0 - centre) / half
     low, high = np.where(fixed, 0.0, np.maximum(-1.5, walls[0])), np.where(fixed, 0.0, np.minimum(1.5, walls[1]))
@@ -374,7 +380,7 @@ def fitted(
     return after, done, rough | ((new_half <= NARROW) & ~done)
 
 
-def at_stencils(box: Box, climbs: Climbs, offsets: FloatArray) -> FloatArray:
+def at_stencils(box: SeenBox, climbs: Climbs, offsets: FloatArray) -> FloatArray:
     """Return what searches (r,) see at their centres plus offsets (n, k) times their halves, shape (r, n): equal stencils are one."""
     keys = np.column_stack([climbs.design, climbs.centre, climbs.half])
     _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
@@ -383,7 +389,7 @@ def at_stencils(box: Box, climbs: Climbs, offsets: FloatArray) -> FloatArray:
     return np.asarray(seen[climbs.function, inverse.reshape(-1)])
 
 
-def climbed(box: Box) -> tuple[Climbs, Climbs, FloatArray]:
+def climbed(box: SeenBox) -> tuple[Climbs, Climbs, FloatArray]:
     """Return the searches that came to a smooth top, those that did not, and (K, D) what is no gain."""
     D = box.seen.shape[1]
     finite = np.where(np.abs(box.seen) < -LOWEST, box.seen, np.nan)
@@ -391,10 +397,10 @@ def climbed(box: Box) -> tuple[Climbs, Climbs, FloatArray]:
     span = np.fmax.reduce(finite, axis=-1, initial=-np.inf) - np.fmin.reduce(finite, axis=-1, initial=np.inf)
     least = CLOSE * np.maximum(span, 0.0) + ROUNDED * size
     going, seen = starts_of(box)
-    tops: list[Climbs] = [going.where(slice(0, 0))]
-    rough: list[Climbs] = [going.where(slice(0, 0))]
+    tops: list[Climbs] = [going.where(NONE)]
+    rough: list[Climbs] = [going.where(NONE)]
     for _ in range(ROUNDS):
-        going, done, stuck = fitted(going, seen, box.k, least[going.function, going.design])
+        going, done, stuck = after_round(going, seen, box.k, least[going.function, going.design])
         tops.append(going.where(done))
         rough.append(going.where(stuck & ~done))
         known = Climbs.joined([*tops, *rough, going])
@@ -410,10 +416,11 @@ def climbed(box: Box) -> tuple[Climbs, Climbs, FloatArray]:
 # -- where it is not smooth: gradients that are sampled ------------------------------------------------------
 
 SLOPES, FALLS = 4, 60  # samples beyond two a stroke; rounds
-LENGTHS = np.ldexp(1.0, np.arange(-5, 6))  # of the radius: how far one goes along a direction
+LENGTHS = np.ldexp(1.0, np.arange(-5, 6))  # of a search's half: how far it goes along a direction
+FAR_ON = 8  # from which of these lengths on the half is doubled
 
 
-def own_values(box: Box, climbs: Climbs, places: FloatArray) -> FloatArray:
+def own_values(box: SeenBox, climbs: Climbs, places: FloatArray) -> FloatArray:
     """Return the values (r, n) of each search's own function at its own places (r, n, k); those of equal searches are asked once."""
     seen, _ = box.at(climbs.design, places)
     return np.asarray(seen[climbs.function, np.arange(len(places))])
@@ -432,53 +439,72 @@ def shortest(slopes: FloatArray, known: Mask) -> FloatArray:
         step = slopes[rows, least] - slopes[rows, most]
         share = -(found * step).sum(axis=-1) / np.maximum((step * step).sum(axis=-1), 1e-300)
         share = np.clip(np.nan_to_num(share), 0.0, weight[rows, most])
+        share = np.where(share > 1e-9, share, 0.0)
         weight[rows, least] += share
         weight[rows, most] -= share
         found = found + share[:, None] * step
-        if not np.any(share > 1e-9):
+        if not share.any():
             break
-    return found
+    return np.asarray(found)
 
 
-def ridden(box: Box, climbs: Climbs, least: FloatArray) -> Climbs:
+def ridden(box: SeenBox, climbs: Climbs, least: FloatArray) -> Climbs:
     """Return searches (r,) after steps along the directions in which all slopes about them rise; `least` (r,) is what is no gain."""
-    k, rows = box.k, np.arange(len(climbs.value))
+    k = box.k
     m = 2 * k + SLOPES
-    radius = np.full(len(rows), 0.5 / (box.side - 1))
+    half = np.full(len(climbs.value), 0.5 / (box.side - 1))
+    climbs, ended = replace(climbs, half=half), []
+    for number in range(FALLS):
+        cube = evenly(k, number * m, m)
+        wanted = climbs.unit[:, None] + climbs.half[:, None, None] * cube
+        places, slopes, values = slopes_about(box, climbs, wanted)
+        way = shortest(slopes, np.asarray(np.isfinite(slopes).all(axis=-1)))
+        climbs = stepped(box, climbs, way, places, values, least)
+        going = climbs.half >= NARROW
+        ended.append(climbs.where(~going))
+        climbs, least = climbs.where(going), least[going]
+        if not len(least):
+            break
+    return Climbs.joined([*ended, climbs])
+
+
+def evenly(k: int, first: int, count: int) -> FloatArray:
+    """Return so many points (count, k) of a sequence that fills the cube from -1 to 1 evenly. Source: H. Weyl, Math. Ann. 77 (1916)."""
     root = 2.0
     for _ in range(64):
         root = (1.0 + root) ** (1.0 / (k + 1))
-    number = 0
-    for _ in range(FALLS):
-        cube = 2.0 * ((0.5 + (number + np.arange(m))[:, None] * root ** -np.arange(1.0, k + 1)) % 1.0) - 1.0
-        number += m
-        wanted = climbs.unit[:, None] + radius[:, None, None] * cube
-        base = np.clip(wanted, 0.0, 1.0)
-        delta = (1e-4 * radius[:, None, None] * np.where(base > 0.5, -1.0, 1.0))[..., None] * np.eye(k)  # (r, m, k, k)
-        places = np.concatenate([base[:, :, None], base[:, :, None] + delta], axis=2)
-        seen = own_values(box, climbs, places.reshape(len(rows), -1, k)).reshape(len(rows), m, k + 1)
-        slopes = (seen[..., 1:] - seen[..., :1]) / np.einsum("rmkk->rmk", delta)
-        known = np.isfinite(slopes).all(axis=-1)
-        steep = 10.0 * np.abs(np.where(known[..., None], slopes, 0.0)).max(axis=(1, 2))
-        slopes = np.where(wanted != base, -np.sign(wanted - base) * steep[:, None, None], slopes)
-        way = shortest(slopes, known)
-        rise = np.sqrt((way * way).sum(axis=-1))
-        size = np.abs(way).max(axis=-1)
-        ahead = way / np.where(size > 0.0, size, 1.0)[:, None]
-        line = np.clip(climbs.unit[:, None] + (radius[:, None] * LENGTHS)[..., None] * ahead[:, None], 0.0, 1.0)
-        values = missing_lowest(np.concatenate([own_values(box, climbs, line), seen[..., 0]], axis=1))
-        line = np.concatenate([line, base], axis=1)
-        pick = np.argmax(values, axis=-1)
-        gain = values[rows, pick] - climbs.value
-        better = gain > 0.0
-        unit = np.where(better[:, None], line[rows, pick], climbs.unit)
-        climbs = replace(climbs, unit=unit, value=np.where(better, values[rows, pick], climbs.value))
-        moved = better & (gain > 0.02 * radius * rise) & (gain > least)
-        far = moved & (pick >= 8) & (pick < len(LENGTHS))
-        radius = np.where(far, np.minimum(2.0 * radius, 0.5), np.where(moved, radius, 0.25 * radius))
-        if radius.max(initial=0.0) < NARROW:
-            break
-    return climbs
+    numbers = first + np.arange(count)[:, None]
+    return np.asarray(2.0 * ((0.5 + numbers * root ** -np.arange(1.0, k + 1)) % 1.0) - 1.0)
+
+
+def slopes_about(box: SeenBox, climbs: Climbs, wanted: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the places (r, m, k) in the box that are next to those wanted, the slopes there and the values (r, m).
+
+    Beyond a border of the box a function falls, ten times as steep as anywhere else.
+    """
+    k, places = box.k, np.clip(wanted, 0.0, 1.0)
+    delta = (1e-4 * climbs.half[:, None, None] * np.where(places > 0.5, -1.0, 1.0))[..., None] * np.eye(k)  # (r, m, k, k)
+    every = np.concatenate([places[:, :, None], places[:, :, None] + delta], axis=2)
+    seen = own_values(box, climbs, every.reshape(len(places), -1, k)).reshape(*places.shape[:2], k + 1)
+    slopes = (seen[..., 1:] - seen[..., :1]) / np.einsum("rmkk->rmk", delta)
+    steep = 10.0 * np.where(np.isfinite(slopes), np.abs(slopes), 0.0).max(axis=(1, 2))[:, None, None]
+    return places, np.where(wanted == places, slopes, -np.sign(wanted - places) * steep), seen[..., 0]
+
+
+def stepped(box: SeenBox, climbs: Climbs, way: FloatArray, near: FloatArray, seen: FloatArray, least: FloatArray) -> Climbs:
+    """Return searches at the best place along a way (r, k) or of those seen near them; nearer about it where that is little gain."""
+    rows, half = np.arange(len(way)), climbs.half
+    size = np.abs(way).max(axis=-1)
+    ahead = way / np.where(size > 0.0, size, 1.0)[:, None]
+    line = np.clip(climbs.unit[:, None] + (half[:, None] * LENGTHS)[..., None] * ahead[:, None], 0.0, 1.0)
+    values = missing_lowest(np.concatenate([own_values(box, climbs, line), seen], axis=1))
+    pick = np.argmax(values, axis=-1)
+    gain = values[rows, pick] - climbs.value
+    unit = np.where((gain > 0.0)[:, None], np.concatenate([line, near], axis=1)[rows, pick], climbs.unit)
+    moved = (gain > 0.02 * half * np.sqrt((way * way).sum(axis=-1))) & (gain > least)
+    far = moved & (pick >= FAR_ON) & (pick < len(LENGTHS))
+    half = np.where(far, np.minimum(2.0 * half, 0.5), np.where(moved, half, 0.25 * half))
+    return replace(climbs, unit=unit, value=np.fmax(climbs.value, values[rows, pick]), half=half)
 
 
 # -- the border of what has a value --------------------------------------------------------------------------
@@ -487,31 +513,31 @@ EDGES, BORDERS, CUTS = 4, 4, 8  # borders of each function and design, along eac
 ACROSS = np.linspace(-1.0, 1.0, 9)
 
 
-def border_starts(box: Box) -> Climbs:
+def border_starts(box: SeenBox) -> Climbs:
     """Return searches at the grid points whose next along a stroke has no value, the best ones."""
     K, D, _ = box.seen.shape
     rows: list[tuple[int, int, int, int]] = []
-    for function, design in np.ndindex(K, D):
-        cube = missing_lowest(box.seen[function, design]).reshape([box.side] * box.k)
+    for row, number in np.ndindex(K, D):
+        cube = missing_lowest(box.seen[row, number]).reshape([box.side] * box.k)
         if not np.isneginf(cube).any():
             continue
         for axis, by in product(range(box.k), (-1, 1)):
-            beyond, behind = shifted(cube, axis, by), shifted(cube, axis, -by)
+            beyond, behind = values_beside(cube, axis, by), values_beside(cube, axis, -by)
             edge = (cube > -np.inf) & np.isneginf(beyond)
             score = np.where(edge, cube + np.where(behind > LOWEST, np.maximum(cube - behind, 0.0), 0.0), -np.inf).ravel()
             tops = np.flatnonzero(edge.ravel() & (score >= widened(score.reshape(cube.shape)).ravel()))
-            rows += [(function, design, int(point), axis) for point in tops[np.argsort(-score[tops])][:EDGES]]
-    function, design, point, axis = np.array(rows, int).reshape(-1, 4).T
+            rows += [(row, number, int(top), axis) for top in tops[np.argsort(-score[tops])][:EDGES]]
+    function, design, point, along = np.array(rows, int).reshape(-1, 4).T
     unit = np.stack(np.unravel_index(point, [box.side] * box.k), axis=-1) / (box.side - 1.0)
-    steps, _ = neighbours(box.k, box.side)
-    near = np.clip(np.rint(unit * (box.side - 1)).astype(int)[:, None] + steps, 0, box.side - 1) @ box.side ** np.arange(box.k - 1, -1, -1)
+    steps, _ = steps_to_neighbours(box.k, box.side)
+    near = np.clip(np.rint(unit * (box.side - 1)).astype(int)[:, None] + steps, 0, box.side - 1) @ weights_of(box.k, box.side)
     value = box.seen[function, design, point]
     rise = np.fmax.reduce(np.abs(box.seen[function[:, None], design[:, None], near] - value[:, None]), axis=-1, initial=0.0)
     half, none = np.full(len(point), 1.0 / (box.side - 1)), np.full(len(point), np.nan)
-    return Climbs(function, design, unit, value, unit, half, none, 2.0 * rise, np.zeros(len(point), int), axis)
+    return Climbs(function, design, unit, value, unit, half, none, 2.0 * rise, np.zeros(len(point), int), along)
 
 
-def shifted(cube: FloatArray, axis: int, by: int) -> FloatArray:
+def values_beside(cube: FloatArray, axis: int, by: int) -> FloatArray:
     """Return the values so many places on along an axis, NaN beyond the ends."""
     found = np.full(cube.shape, np.nan)
     into, out = [slice(None)] * cube.ndim, [slice(None)] * cube.ndim
@@ -520,7 +546,7 @@ def shifted(cube: FloatArray, axis: int, by: int) -> FloatArray:
     return found
 
 
-def on_border(box: Box, alike: Index, climbs: Climbs, places: FloatArray) -> tuple[FloatArray, FloatArray]:
+def on_border(box: SeenBox, alike: Index, climbs: Climbs, places: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the places (r, n, k) on the border next to places (r, n, k), along each search's stroke, and the values (r, n) there.
 
     The border is looked for within two halves of the stencil; where there is none the value is NaN. Functions that are `alike`
@@ -529,12 +555,12 @@ def on_border(box: Box, alike: Index, climbs: Climbs, places: FloatArray) -> tup
     keys = np.column_stack([alike[climbs.function], climbs.design, climbs.axis, climbs.half, places.reshape(len(places), -1)])
     _, first, inverse = np.unique(keys, axis=0, return_index=True, return_inverse=True)
     inverse = inverse.reshape(-1)
-    found, there = crossed(box, climbs.where(first), places[first])
+    found, there = border_crossings(box, climbs.where(first), places[first])
     seen, _ = box.at(climbs.design[first], found)
     return found[inverse], np.where(there[inverse], seen[climbs.function, inverse], np.nan)
 
 
-def crossed(box: Box, climbs: Climbs, places: FloatArray) -> tuple[FloatArray, Mask]:
+def border_crossings(box: SeenBox, climbs: Climbs, places: FloatArray) -> tuple[FloatArray, Mask]:
     """Return the last places (r, n, k) with a value along each search's stroke, and whether there is a border (r, n)."""
     r, _, k = places.shape
     fixed = (np.arange(k) == climbs.axis[:, None])[:, None, None, :]
@@ -558,13 +584,14 @@ def crossed(box: Box, climbs: Climbs, places: FloatArray) -> tuple[FloatArray, M
         gone = np.concatenate([missing_at(cut[..., 1:-1]), np.ones((*inside.shape, 1), bool)], axis=-1)
         pick = np.argmax(gone, axis=-1)[..., None]
         new = [np.take_along_axis(cut, pick + step, axis=-1)[..., 0] for step in (0, 1)]
+        wide = np.abs(outside - inside) > 1e-13
         if np.array_equal(new, [inside, outside]):
             break
-        inside, outside = new
+        inside, outside = np.where(wide, new[0], inside), np.where(wide, new[1], outside)
     return np.where(fixed[:, :, 0], inside[..., None], places), np.asarray(change.any(axis=-1))
 
 
-def hopeful_borders(box: Box, alike: Index, known: FloatArray) -> Climbs:
+def hopeful_borders(box: SeenBox, alike: Index, known: FloatArray) -> Climbs:
     """Return the searches on borders that may better what is known (K, D)."""
     starts = border_starts(box)
     places, values = on_border(box, alike, starts, starts.unit[:, None])
@@ -586,18 +613,18 @@ def hopeful_borders(box: Box, alike: Index, known: FloatArray) -> Climbs:
     return going.where(order)
 
 
-def along_borders(box: Box, known: FloatArray, least: FloatArray) -> Climbs:
+def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> Climbs:
     """Return searches along the borders of what has a value, those that may better what is known (K, D)."""
     first: dict[bytes, int] = {}
     alike = np.array([first.setdefault(np.isnan(row).tobytes(), number) for number, row in enumerate(box.seen)])
     going = hopeful_borders(box, alike, known)
-    ended = [going.where(slice(0, 0))]
+    ended = [going.where(NONE)]
     for _ in range(ROUNDS):
         if not len(going.value):
             break
         stencil = np.where((np.arange(box.k) == going.axis[:, None])[:, None], 0.0, stencil_of(box.k))
         places, values = on_border(box, alike, going, snapped(going.centre[:, None] + going.half[:, None, None] * stencil))
-        going, done, stuck = fitted(going, values, box.k, least[going.function, going.design], places)
+        going, done, stuck = after_round(going, values, box.k, least[going.function, going.design], places)
         stuck = going.half < BORDER
         lost = ~np.isfinite(values).all(axis=-1)  # the border runs along this stroke: it is followed along another
         going = replace(going, axis=np.where(lost, (going.axis + 1) % box.k, going.axis), expected=np.where(lost, np.nan, going.expected))
@@ -612,7 +639,7 @@ def along_borders(box: Box, known: FloatArray, least: FloatArray) -> Climbs:
 
 
 @np.errstate(all="ignore")
-def highest_in(box: Box) -> HighestInBox:
+def highest_in(box: SeenBox) -> HighestInBox:
     """Return the highest values in a box."""
     K, D, _ = box.seen.shape
     tops, rough, least = climbed(box)
@@ -655,7 +682,7 @@ def value_of(best: Climbs, K: int, D: int) -> FloatArray:
     return value
 
 
-def grows_in_box(box: Box, climbs: Climbs) -> Mask:
+def grows_in_box(box: SeenBox, climbs: Climbs) -> Mask:
     """Return at which places (r,) a value grows beyond bounds along a stroke; see `peaks.grows_along_leg`."""
     if not len(climbs.value):
         return np.zeros(0, bool)

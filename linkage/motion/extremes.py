@@ -2,7 +2,7 @@
 
 What is looked at is the range that the poses cover: of a single stroke from its least to its greatest value; of several strokes in arrays
 of one axis the path through the poses in their order; of a grid the box from the least to the greatest value of each. See `peaks` for
-how and how closely it is looked at; grids are looked at by `highest_in`, at the end of this file.
+how and how closely it is looked at along a way, and `box` for boxes of several strokes.
 """
 
 from __future__ import annotations
@@ -65,6 +65,10 @@ def greatest(motion: Motion, f: Function) -> Extremum:
     to 1e-4 of the stroke, for every bump from 1/2000 of the range wide, and the same from however many poses. Where it jumps the larger
     side counts; where it grows beyond bounds up to a pose that is refused or out of reach it is infinite, and told as `unbounded`.
     Poses out of reach are passed over, whatever the motion was asked for with.
+
+    Over a box of several strokes the highest part is found if what is higher than all else holds a box of 1/128 of each of two strokes,
+    1/32 of three, 1/12 of four, 1/7 of five, 1/5 of six; the value is right to 1e-9 of its range where f is smooth, to 1e-6 on borders
+    of what is reached, to 1e-3 on kinks.
     """
     return extremum(motion, f, 1.0)
 

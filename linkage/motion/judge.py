@@ -26,6 +26,7 @@ from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, 
 from .evaluation import Evaluation
 from .extremes import extremum, moving
 from .limits import stroke_unit
+from .margins import LeastMargin, has_all_margins, least_margins, missing_at
 from .measures import (
     At,
     Condition,
@@ -38,10 +39,11 @@ from .measures import (
     Worst,
     bound_quantity,
     conditions_of,
+    reachable,
     strokes_behind,
     words_of,
 )
-from .motion import Motion, out_of_reach
+from .motion import Motion
 from .over import ALLOWED, PLAIN_CASE, Over
 from .requests import BoundRequest, Piece, Request, identity_of
 from .strokes import at_values
@@ -86,6 +88,28 @@ class Row:
     piece: Piece
     situation: Situation
     sense: float
+
+    @property
+    def is_reciprocal(self) -> bool:
+        """Whether one over it is looked for."""
+        return self.piece.reciprocal is not None and isinstance(self.leaf, Least)
+
+    @property
+    def request(self) -> Any:
+        """What is looked for."""
+        return self.piece.reciprocal if self.is_reciprocal else self.piece.request
+
+    @property
+    def sought(self) -> float:
+        """1.0 where the greatest value of what is looked for is the worst, else -1.0."""
+        return 1.0 if self.is_reciprocal else self.sense
+
+    def value(self, highest: FloatArray) -> FloatArray:
+        """Return its worst value from the highest of what is looked for times its sense; NaN where it has no bound anywhere."""
+        if self.is_reciprocal:
+            with np.errstate(all="ignore"):
+                return np.asarray(np.where(highest > 0.0, 1.0 / highest, np.nan))
+        return np.asarray(self.sense * highest)
 
 
 @final
@@ -188,7 +212,7 @@ class Place:
         return [
             Found(
                 row,
-                row.sense * value[k],
+                row.value(value[k]),
                 {name: each[k] for name, each in strokes.items()},
                 unbounded[k],
                 asked.seen.lawless[k],
@@ -199,15 +223,30 @@ class Place:
 
     # -- what is lost ------------------------------------------------------------------------------------
 
-    def lost(self, seen: Seen) -> Lost:
-        """Return what cannot be assembled of the places asked for."""
-        if not seen.lost_share:
-            return NONE_LOST
+    @cached_property
+    def holes(self) -> list[LeastMargin]:
+        """The loops that come apart somewhere it is looked at, however narrow that place is."""
+        if self.over.shape == "poses" or self.motion._design_shape:
+            return []
         with unwarned():
-            deepest = seen.deepest
-            there = Motion(self.plan, self.designs, {name: np.asarray(value) for name, value in deepest.items()}, "nan")
-            sentence = " ".join(str(out_of_reach(there)).split()) if not self.motion._design_shape and not there.reached.all() else ""
-        return Lost(seen.lost_share, deepest, sentence, not self.plan.groups)
+            found = least_margins(self.motion, self.over.kept if self.over.only else None)
+        return [each for each in found if each.is_hole]
+
+    def lost(self, seen: Seen) -> Lost:
+        """Return what cannot be assembled of the places asked for: what the grid sees, and holes between its places."""
+        if not (seen.lost_share or self.holes):
+            return NONE_LOST
+        if self.motion._design_shape:
+            return Lost(seen.lost_share, seen.deepest, "", not self.plan.groups)
+        with unwarned():
+            places = [each.strokes for each in self.holes] + ([seen.deepest] if seen.deepest else [])
+            errors = [(missing_at(self.motion, place), place) for place in places]
+        known = [(error, place) for error, place in errors if error is not None]
+        if not known:
+            return Lost(seen.lost_share, seen.deepest, said("some poses are refused"), not self.plan.groups)
+        error, place = max(known, key=lambda each: each[0].shortfall or 0.0)
+        strokes = {name: float(value) for name, value in place.items()}
+        return Lost(seen.lost_share, strokes, " ".join(str(error).split()), has_all_margins(self.plan))
 
 
 def rubs(plan: Plan, motion: Motion, acting: Acting) -> bool:
@@ -246,6 +285,10 @@ class Seen:
     unlimited: list[float] = field(default_factory=list)
     count: int = 0
 
+    def joined(self, other: Seen) -> Seen:
+        """Return it with the poses of another look at the same places."""
+        return replace(self, count=self.count + other.count)
+
 
 @final
 class Asked:
@@ -256,7 +299,7 @@ class Asked:
         self.plan = place.plan
         self._bound: dict[int, BoundRequest] = {}
         for k, row in enumerate(rows):
-            bound = as_bound(self.plan, row.piece.request)
+            bound = as_bound(self.plan, row.request)
             if bound is not None:
                 self._bound[k] = bound
 
@@ -267,9 +310,8 @@ class Asked:
             self.note(motion, kept, values, unlimited)
         self.seen.count += motion.reached.size
         for k, row in enumerate(self.rows):
-            values[k] *= row.sense
+            values[k] *= row.sought
         values[:, ~kept] = np.nan
-        values[unlimited] = np.nan
         return values
 
     def values(self, motion: Motion) -> tuple[FloatArray, Mask]:
@@ -278,16 +320,25 @@ class Asked:
         with unwarned(), np.errstate(all="ignore"):
             if self._bound:
                 found = Evaluation(motion._grid, tuple(self._bound.values()), QUICKEST, "nan").run(None)
-                for (k, bound), each in zip(self._bound.items(), found, strict=True):
+                for k, each in zip(self._bound, found, strict=True):
                     values[k] = np.broadcast_to(each, motion.shape)
-                    unlimited[k] = without_bound(self.plan, bound, motion)
             for k, row in enumerate(self.rows):
                 if k not in self._bound:
-                    values[k] = value_at(motion, row.piece.request)
-                    mask = row.piece.request.unlimited(motion) if isinstance(row.piece.request, Request) else None
-                    unlimited[k] = False if mask is None else np.broadcast_to(mask, motion.shape) & np.isnan(values[k])
+                    values[k] = value_at(motion, row.request)
+                if row.is_reciprocal:
+                    unlimited[k] = values[k] <= 0.0
+                elif (np.isnan(values[k]) & motion.reached).any():
+                    unlimited[k] = self.without_bound(k, motion) & np.isnan(values[k])
         values[:, ~motion.reached] = np.nan
         return values, unlimited & motion.reached
+
+    def without_bound(self, k: int, motion: Motion) -> Mask:
+        """Return where the law of a row has no bound: by its program, else as the request says."""
+        request = self.rows[k].request
+        if k in self._bound:
+            return without_bound(self.plan, self._bound[k], motion)
+        mask = request.unlimited(motion) if isinstance(request, Request) else None
+        return np.zeros(motion.shape, bool) if mask is None else np.asarray(np.broadcast_to(mask, motion.shape))
 
     def note(self, motion: Motion, kept: Mask, values: FloatArray, unlimited: Mask) -> None:
         """Note the shares of the places that have no value, and one of those that cannot be assembled."""
@@ -375,7 +426,7 @@ def at_poses(asked: Asked, motion: Motion) -> list[Found]:
     strokes = {name: np.broadcast_to(np.ravel(value), flat.shape) for name, value in motion.strokes.items()}
     return [
         Found(
-            row, row.sense * best[k], {name: np.take_along_axis(value[k], place[k], axis=-1)[..., 0] for name, value in strokes.items()},
+            row, row.value(best[k]), {name: np.take_along_axis(value[k], place[k], axis=-1)[..., 0] for name, value in strokes.items()},
             np.isposinf(best[k]), asked.seen.lawless[k], asked.seen.unlimited[k],
         )
         for k, row in enumerate(asked.rows)
@@ -417,12 +468,13 @@ class Judge:
             if isinstance(over, Over):
                 over.check(plan.title, plan.strokes, cases)
         self.places = tuple(Place(plan, designs, over) for over in overs)
-        self._known: dict[Any, Answer] = {}
+        self._found: list[dict[Any, tuple[Leaf, list[Found]]]] = [{} for _ in self.places]
+        self._seen: list[Seen] = [Seen() for _ in self.places]
 
     def lost_allowed(self) -> Judge:
-        """Return the judge of the same for whom places that are lost are part of the machine."""
+        """Return the judge of the same for whom places that are lost are part of the machine; what is known already both know."""
         found = object.__new__(Judge)
-        vars(found).update(vars(self) | {"_known": {}, "places": tuple(tolerant(each) for each in self.places)})
+        vars(found).update(vars(self) | {"places": tuple(tolerant(each) for each in self.places)})
         return found
 
     def of_design(self, number: int) -> Judge:
@@ -457,41 +509,33 @@ class Judge:
 
     def answers(self, questions: Sequence[Question]) -> list[Answer]:
         """Return the answers to some questions, the worst over all there is, in one pass for all; what was asked before is known."""
-        listed = questions_of(self.plan, questions)
-        held = {question: self.constraints(question) for question in listed if question not in self._known}
-        leaves = tuple(dict.fromkeys(leaf for each in held.values() for one in each for leaf in leaves_of(one)))
-        candidates: dict[Any, list[Candidate]] = {question: [] for question in held}
-        seen_of: list[tuple[Place, Seen]] = []
-        for place in self.places:
-            found, seen = self.found_over(place, leaves)
-            seen_of.append((place, seen))
-            for question, constraints in held.items():
-                for one in constraints:
-                    candidates[question] += self.candidates(one, found, place, seen)
-        for question, each in candidates.items():
-            if isinstance(question, Reachable):
-                self._known[question] = self.reached(question, seen_of)
-            else:
-                self._known[question] = self.worst(question, each)
-        return [self._known[question] for question in listed]
+        held = [(question, self.constraints(question)) for question in questions_of(self.plan, questions)]
+        leaves = tuple(dict.fromkeys(leaf for _, each in held for one in each for leaf in leaves_of(one)))
+        for number in range(len(self.places)):
+            self.find(number, leaves)
+        return [self.reached() if isinstance(question, Reachable) else self.worst(question, each) for question, each in held]
 
     def constraints(self, question: Question) -> Sequence[Any]:
         """Return the constraints that a question is, or the bare measure."""
         return [question] if isinstance(question, Measure) else conditions_of([question], self.machine)
 
-    def found_over(self, place: Place, leaves: Sequence[Leaf]) -> tuple[dict[Leaf, list[Found]], Seen]:
-        """Return what was found of every leaf over one `Over`, and what was seen there."""
-        rows = [row for leaf in leaves if not isinstance(leaf, (At, Integral)) for row in self.rows(leaf, place)]
-        each_of, seen = place.extremes(rows or [Row(Least(nothing), Piece(nothing), Situation(), -1.0)])
-        found: dict[Leaf, list[Found]] = {leaf: [] for leaf in leaves}
-        for each in each_of if rows else ():
-            found[each.row.leaf].append(each)
-        for leaf in leaves:
+    def find(self, number: int, leaves: Sequence[Leaf]) -> None:
+        """Look for the worst of some leaves over one `Over`, by its number, in one pass; what was found before is known."""
+        place, known = self.places[number], self._found[number]
+        asked = {key: leaf for leaf in leaves if (key := leaf_key(self.plan, leaf)) not in known}
+        rows = {key: self.rows(leaf, place) for key, leaf in asked.items()}
+        sought = [row for key, each in rows.items() if not isinstance(asked[key], (At, Integral)) for row in each]
+        if sought or not self._seen[number].count:
+            each_of, seen = place.extremes(sought or [Row(Least(nothing), Piece(nothing), Situation(), -1.0)])
+            self._seen[number] = seen if not self._seen[number].count else self._seen[number].joined(seen)
+            found = dict(zip(map(id, sought), each_of, strict=False))
+        for key, leaf in asked.items():
             if isinstance(leaf, At):
-                found[leaf] = [self.at_pose(row, place) for row in self.rows(leaf, place)]
+                known[key] = leaf, [self.at_pose(row, place) for row in rows[key]]
             elif isinstance(leaf, Integral):
-                found[leaf] = [integrated(row, place) for row in self.rows(leaf, place)]
-        return found, seen
+                known[key] = leaf, [integrated(row, place) for row in rows[key]]
+            else:
+                known[key] = leaf, [found[id(row)] for row in rows[key]]
 
     def rows(self, leaf: Leaf, place: Place) -> list[Row]:
         """Return the pieces of a leaf over one `Over`, each once."""
@@ -529,18 +573,15 @@ class Judge:
 
     # -- from leaves to questions ------------------------------------------------------------------------
 
-    def candidates(self, question: Any, found: Mapping[Leaf, list[Found]], place: Place, seen: Seen) -> list[Candidate]:
-        """Return a constraint, or a bare measure, in every situation over one `Over`."""
-        leaves = leaves_of(question)
+    def candidates(self, question: Any, number: int) -> list[Candidate]:
+        """Return a constraint, or a bare measure, in every situation over one `Over`, by its number."""
+        leaves, place, seen = leaves_of(question), self.places[number], self._seen[number]
         made = []
-        for chosen in together([found[leaf] for leaf in leaves]):
-            of_leaf = {each.row.leaf: each for each in chosen}
-
-            def number(leaf: Leaf, of_leaf: Mapping[Leaf, Found] = of_leaf) -> FloatArray:
-                return of_leaf[leaf].value
+        for chosen in together([self._found[number][leaf_key(self.plan, leaf)][1] for leaf in leaves]):
+            values = {leaf: each.value for leaf, each in zip(leaves, chosen, strict=True)}
 
             with np.errstate(all="ignore"):
-                value, margin = valued(question, number)
+                value, margin = valued(question, values.__getitem__)
             unbounded = np.any([each.unbounded for each in chosen], axis=0) if chosen else np.zeros((), bool)
             where = next((each.strokes for each in chosen if each.strokes), {})
             situation = next((each.row.situation for each in chosen if each.row.situation != Situation()), Situation())
@@ -554,8 +595,9 @@ class Judge:
             )
         return made
 
-    def worst(self, question: Any, candidates: Sequence[Candidate]) -> Answer:
-        """Return the answer to a question: the worst of its candidates, of a batch for every design."""
+    def worst(self, question: Any, constraints: Sequence[Any]) -> Answer:
+        """Return the answer to a question: the worst of what it is in every situation over every `Over`, of a batch for every design."""
+        candidates = [each for number in range(len(self.places)) for one in constraints for each in self.candidates(one, number)]
         if not candidates:
             raise DefinitionError(f"{self.plan.title}: {question}: there is nothing to ask it of.")
         shape = np.broadcast_shapes(*(np.shape(each.margin) for each in candidates))
@@ -583,8 +625,8 @@ class Judge:
     def answered(self, question: Any, candidates: Sequence[Candidate], margins: FloatArray) -> Answer:
         """Return the answer of one design."""
         is_bare = isinstance(question, Measure)
-        lost = next((each.place.lost(each.seen) for each in candidates if each.seen.lost_share), NONE_LOST)
-        fatal = [each for each in candidates if each.place.over.lost != ALLOWED and (each.seen.lost_share or each.lawless)]
+        lost = next((found for each in candidates if (found := each.place.lost(each.seen))), NONE_LOST)
+        fatal = [each for each in candidates if each.place.over.lost != ALLOWED and (each.lawless or each.place.lost(each.seen))]
         known = [k for k, each in enumerate(candidates) if not np.isnan(margins[k])]
         if not known:
             status = LOST if fatal or any(each.lawless for each in candidates) else NOTHING_LEFT
@@ -622,17 +664,17 @@ class Judge:
             measures_of(self.plan, question), named,
         )  # fmt: skip
 
-    def reached(self, question: Reachable, seen_of: Sequence[tuple[Place, Seen]]) -> Answer:
+    def reached(self) -> Answer:
         """Return whether all places can be assembled."""
-        worst = max(seen_of, key=lambda each: each[1].lost_share)
-        place, seen = worst
-        lost = place.lost(seen)
-        fatal = any(one.lost_share and each.over.lost != ALLOWED for each, one in seen_of)
+        losses = [place.lost(seen) for place, seen in zip(self.places, self._seen, strict=True)]
+        number = max(range(len(self.places)), key=lambda each: (losses[each].share, bool(losses[each])))
+        place, seen, lost = self.places[number], self._seen[number], losses[number]
+        fatal = any(each and one.over.lost != ALLOWED for each, one in zip(losses, self.places, strict=True))
         units = {name: stroke_unit(self.plan, name) for name in lost.strokes}
         return Answer(
-            question, seen.lost_share, not fatal, LOST if lost else OF_VALUE, lost.strokes, over=place.over.name, lost=lost,
-            outside=seen.outside, width=place.width, count=sum(each.count for _, each in seen_of), units=units,
-            named=frozenset(["over"] if len(seen_of) > 1 else []),
+            reachable, seen.lost_share, not fatal, LOST if lost else OF_VALUE, lost.strokes, over=place.over.name, lost=lost,
+            outside=seen.outside, width=place.width, count=sum(each.count for each in self._seen), units=units,
+            named=frozenset(["over"] if len(self.places) > 1 else []),
         )  # fmt: skip
 
 
@@ -681,6 +723,14 @@ def leaves_of(question: Any) -> tuple[Leaf, ...]:
     """Return what is taken over the strokes by a constraint or a measure."""
     found: tuple[Leaf, ...] = (question.margin if isinstance(question, Constraint) else question).leaves
     return found
+
+
+def leaf_key(plan: Plan, leaf: Leaf) -> Any:
+    """Return what tells a leaf from others as long as it lives."""
+    quantity = leaf.quantity
+    inner = (key_of(plan, quantity.quantity), quantity.over, quantity.sense) if isinstance(quantity, Worst) else key_of(plan, quantity)
+    strokes = tuple(leaf.strokes.items()) if isinstance(leaf, At) else ()
+    return type(leaf).__name__, inner, strokes, leaf.by if isinstance(leaf, Integral) else None
 
 
 def key_of(plan: Plan, quantity: Any) -> Any:

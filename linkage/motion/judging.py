@@ -14,9 +14,9 @@ from ..quantities import Member
 from ..units import deg, show
 from ..verdict import Verdict
 from .answer import share_text
-from .judge import Judge
+from .judge import Judge, Question
 from .limits import StrokeLimits, place_text
-from .measures import least, reachable
+from .measures import Measure, least, reachable
 from .motion import out_of_reach
 from .pose_requests import transmission
 
@@ -28,6 +28,10 @@ JUDGED = 200
 
 class Judging(Member):
     """A member that has something to say of a machine, such as a cylinder: its base beside that of its kind."""
+
+    def questions(self, judge: Judge) -> list[Question]:
+        """Return what its verdicts ask of every machine, so that all members' questions are looked at in one pass."""
+        return []
 
     @abstractmethod
     def verdicts(self, judge: Judge) -> list[Verdict]:
@@ -43,6 +47,8 @@ def judge_verdicts(judge: Judge) -> list[str]:
         return batch_verdicts(judge)
     if not any(place.motion.reached.any() for place in judge.places):
         return assembly_verdicts(judge)
+    members = judge.plan.of_kind(Judging).values()
+    judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
     lost = judge.answer(reachable).ok is False
     return [*geometry_verdicts(judge), *member_verdicts(judge.lost_allowed() if lost else judge)]
 
@@ -130,11 +136,18 @@ def away_text(value: float, unit: str, near: float) -> str:
     return said("{distance} beyond it", distance=show(value, "deg" if unit == "rad" else "mm", 3))
 
 
+def transmissions(judge: Judge) -> dict[str, Measure]:
+    """Return the least transmission angle of every joint that has one and moves, as a question."""
+    joints = (name for name in judge.motion._joints if not judge.plan.reaches(name).isdisjoint(judge.plan.strokes))
+    return {name: least(transmission(name)) for name in joints}
+
+
 def transmission_words(judge: Judge) -> list[str]:
     """Return the least transmission angle, where it is poor; it is no fault as such, a toggle lives of it."""
-    joints = [name for name in judge.places[0].motion._joints if not judge.plan.reaches(name).isdisjoint(judge.plan.strokes)]
-    answers = judge.answers([least(transmission(name)) for name in joints])
-    found = [(float(each.value), name, each) for name, each in zip(joints, answers, strict=True) if each.value < POOR]
+    asked = transmissions(judge)
+    found = [
+        (float(each.value), name, each) for name, each in zip(asked, judge.answers([*asked.values()]), strict=True) if each.value < POOR
+    ]
     if not found:
         return []
     angle, joint, where = min(found, key=lambda each: each[0])

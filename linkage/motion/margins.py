@@ -6,14 +6,14 @@ extremes, and with it a part of the strokes that is out of reach and far narrowe
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, final
 
 import numpy as np
 
 from ..errors import AssemblyError
-from ..plan import Loop, Plan
+from ..plan import Loop, Mask, Plan
 from ..program import FloatArray
 from .course import ON_ARRAYS, ROUNDING, Clearances
 from .extremes import places_text, searched
@@ -22,7 +22,7 @@ from .motion import Motion, out_of_reach
 
 @final
 @dataclass(frozen=True, eq=False)
-class Margin:
+class LeastMargin:
     """The least margin of one loop, and where: floats, or arrays over the designs.
 
     `value` is the squared sine of the angle between two links, or two guides, and the length where that follows others [m]; below zero
@@ -41,8 +41,10 @@ class Margin:
         return f"{self.step}: {np.min(self.value):.3g} at {places_text(self.strokes, self.units)}"
 
 
-def least_margins(motion: Motion) -> list[Margin]:
+def least_margins(motion: Motion, kept: Callable[[Motion], Mask] | None = None) -> list[LeastMargin]:
     """Return the least margin of every loop that moves, over the range, the path or the box that a motion covers.
+
+    `kept` says which poses are asked for, all where it is None.
 
     A hole down to 1e-5 of the strokes is found. Groups have no such margin, and laws that give no value somewhere have none either:
     see `has_all_margins`.
@@ -50,14 +52,19 @@ def least_margins(motion: Motion) -> list[Margin]:
     known = motion.plan.made("clearances", Clearances.of)
     if not (known.loops and motion.strokes):
         return []
-    found = searched(motion, lambda each: margins(each, known), -1.0, everywhere=True)
+
+    def asked(each: Motion) -> FloatArray:
+        found = margins(each, known)
+        return found if kept is None else np.where(kept(each), found, np.nan)
+
+    found = searched(motion, asked, -1.0, everywhere=True)
     shape = (len(known.loops), *motion._design_shape)
-    noise = np.array([of_place(motion, known, {name: value[row] for name, value in found.strokes.items()})[row] for row in range(shape[0])])
+    places = [{name: value[row] for name, value in found.strokes.items()} for row in range(shape[0])]
+    noise = np.array([rounding_at(motion, known, place)[row] for row, place in enumerate(places)])
     holes = np.asarray(found.value < -noise.reshape(shape))
     return [
-        Margin(loop.step, loop.kind, found.value[row], holes[row], {name: value[row] for name, value in found.strokes.items()}, found.units)
-        for row, loop in enumerate(known.loops)
-    ]  # fmt: skip
+        LeastMargin(loop.step, loop.kind, found.value[row], holes[row], places[row], found.units) for row, loop in enumerate(known.loops)
+    ]
 
 
 def has_all_margins(plan: Plan) -> bool:
@@ -81,7 +88,7 @@ def is_squared(loop: Loop) -> bool:
     return loop.kind in ("guides", "meeting")
 
 
-def of_place(motion: Motion, known: Clearances, strokes: Mapping[str, Any]) -> FloatArray:
+def rounding_at(motion: Motion, known: Clearances, strokes: Mapping[str, Any]) -> FloatArray:
     """Return by how much rounding moves the margins of loops, shape (loops, ...), at a place of each design."""
     there = {name: np.reshape(value, (*motion._design_shape, 1)) for name, value in strokes.items()}
     grid = Motion(motion.plan, motion.designs, there, "nan", per_design=True)._grid
@@ -90,7 +97,7 @@ def of_place(motion: Motion, known: Clearances, strokes: Mapping[str, Any]) -> F
     return found
 
 
-def missing_at(motion: Motion, strokes: Mapping[str, float]) -> AssemblyError | None:
+def assembly_error_at(motion: Motion, strokes: Mapping[str, float]) -> AssemblyError | None:
     """Return why a motion's one design cannot be assembled at strokes [m or rad], as that pose says it; None where it can.
 
     Its text names the step, what is missing there and the remedy; `point` is the step, `shortfall` what is missing [m].

@@ -96,10 +96,15 @@ RequestLike: TypeAlias = str | Member | Request
 @final
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """A smooth piece of a question: what has a value at every pose, and the side of the cylinder that it is of, "" for none."""
+    """A smooth piece of a question: what has a value at every pose, and the side of the cylinder that it is of, "" for none.
+
+    `reciprocal` is one over it, where that goes on smoothly through zero where the request has no bound: then its greatest value is looked
+    for in the place of the request's least.
+    """
 
     request: Any
     side: str = ""
+    reciprocal: Any = None
 
 
 class BoundRequest(ABC):

@@ -1,10 +1,12 @@
 """The least margins of loops: holes far narrower than any grid are found, and none where there is none."""
 
+from importlib.metadata import entry_points
+
 import numpy as np
 import pytest
 
 from linkage import LEFT, Crank, Dimension, Dyad, Ground, Mechanism, Stroke
-from linkage.motion.margins import least_margins, missing_at
+from linkage.motion.margins import assembly_error_at, least_margins
 
 
 class One(Mechanism):
@@ -74,7 +76,7 @@ def check_hole(seed, k):
     found = of(least_margins(motion))
     assert found.is_hole and found.value < 0.0
     assert [found.strokes[name] for name in "uvw"[:k]] == pytest.approx(at, abs=1e-4)
-    error = missing_at(motion, found.strokes)
+    error = assembly_error_at(motion, found.strokes)
     assert error is not None and error.point == "D" and error.shortfall == pytest.approx(short, rel=0.02, abs=1e-13)
     longer, _, _ = hole(seed, k, depth=-1.0)
     found = of(least_margins(longer))
@@ -92,3 +94,49 @@ def test_holes_are_found(k):
 def test_many_holes_are_found(k):
     for seed in range(34, 34 + 534):
         check_hole(seed, k)
+
+
+SHIPPED = [point.load() for point in entry_points(group="hydrolinkage.machines")]
+
+
+@pytest.mark.parametrize("machine", [each for each in SHIPPED if each.plan.strokes], ids=lambda machine: machine.__name__)
+def test_no_false_alarm(machine):
+    """The shipped machines are assembled over the whole of their strokes, some of them up to a dead point."""
+    motion = machine().sweep(**dict.fromkeys(machine.plan.strokes, 5))
+    found = least_margins(motion)
+    assert not any(each.is_hole for each in found) and not any(each.value < -1e-12 for each in found)
+    assert {each.step for each in found} <= set(machine.plan.members)
+
+
+def test_a_margin_by_hand():
+    """The squared sine between the links is least where the ends are farthest from each other, or nearest."""
+    motion = One(AD=2.0, QD=2.5, a=0.0, p=3.0).sweep(5)
+    (found,) = least_margins(motion)
+    turn = np.linspace(0.0, 3.0, 100_001)
+    square = 1.0 + 9.0 - 6.0 * np.cos(turn)
+    cosine = (4.0 + 6.25 - square) / 10.0
+    assert found.value == pytest.approx((1.0 - cosine**2).min(), rel=1e-6) and not found.is_hole
+    assert str(found).startswith("D: ") and found.units == {"u": "m"}
+
+
+def test_margins_of_a_batch_and_of_a_path():
+    lengths = np.array([1.6, 2.0, 2.4])
+    batch = least_margins(Two(AD=lengths, p=3.0, q=3.0).sweep(u=3, v=3, unreachable="nan"))
+    for row, AD in enumerate(lengths):
+        (alone,) = least_margins(Two(AD=AD, p=3.0, q=3.0).sweep(u=3, v=3, unreachable="nan"))
+        assert batch[0].value[row] == pytest.approx(alone.value, abs=1e-12) and batch[0].is_hole[row] == alone.is_hole
+    machine = Two(AD=1.9, QB=0.7, p=np.pi, q=1.0)
+    over_box, along_path = (
+        least_margins(machine.at(**strokes, unreachable="nan"))[0]
+        for strokes in ({"u": [[0.0], [1.0]], "v": [[0.0, 1.0]]}, {"u": [0.0, 1.0], "v": [1.0, 0.0]})
+    )  # fmt: skip
+    assert over_box.value <= along_path.value
+
+
+def test_what_is_missing_is_told():
+    motion, at, short = hole(5, 2, depth=2000.0)
+    (found,) = least_margins(motion)
+    error = assembly_error_at(motion, found.strokes)
+    assert "D = Dyad(A, B) cannot be assembled at u = " in str(error) and "mm short of AB" in str(error)
+    assert assembly_error_at(motion, {"u": 0.0, "v": 0.0}) is None
+    assert found.strokes["u"] == pytest.approx(at[0], abs=1e-6) and error.shortfall == pytest.approx(short, rel=1e-3)

@@ -216,19 +216,21 @@ class PinForce(ForceRequest):
     point: str = ""
     on: str = ""
     component: str = "size"
+    by: str = ""
     measures = "force"
 
     def identity(self, plan: Plan) -> Hashable:
-        return self.identified("pin force", self.point, self.on, self.component)
+        return self.identified("pin force", self.point, self.on, self.component, self.by)
 
     def of(self, motion: MotionLike) -> FloatArray:
         known_name("Component", self.component, COMPONENTS, where=f"{motion.plan.title}: the force at {self.point}")
-        force = pin_forces_under(require_motion(motion), self.acting).force(self.point, self.on)
+        force = pin_forces_under(require_motion(motion), self.acting).force(self.point, self.on, self.by)
         return np.asarray(COMPONENTS[self.component](force[0], force[1]))
 
     def __str__(self) -> str:
         component = [] if self.component == "size" else [f"component={self.component}"]
-        return f"pin_force({', '.join([self.point, *([self.on] if self.on else []), *component, *self.acting_words])})"
+        bodies = [*([self.on] if self.on else []), *([f"by={self.by}"] if self.by else [])]
+        return f"pin_force({', '.join([self.point, *bodies, *component, *self.acting_words])})"
 
     def bound(self, plan: Plan) -> PinForceOf:
         return self.bound_to(plan, self._bound)
@@ -238,8 +240,8 @@ class PinForce(ForceRequest):
         loads, case = self.acting.loads, self.acting.case
         traced = TracedLoads.apart(plan, loads, case)
         structure = Structure(plan, traced.acting.elements, traced.acting.thrusts)
-        request = replace(self, on=structure.full_name(self.on))
-        _, joint, _ = contact_of(structure, self.point, request.on)
+        request = replace(self, on=structure.full_name(self.on), by=structure.full_name(self.by))
+        _, joint, _ = contact_of(structure, request)
         spans = tuple((strut.name, strut.P, strut.Q) for strut in structure.struts)
         length = plan.made(("checked length", spans), lambda _: checked_length(plan, traced.acting))
         return PinForceOf(loads, case, request, (*traced.key, spans), length, str(joint))
@@ -260,19 +262,21 @@ def pin_forces_under(motion: Motion, acting: Acting) -> PinForces:
 
 
 def pin_force(
-    point: str, on: str = "", component: str = "size", loads: Loads = None, case: Case = None, *, acting: Acting | None = None
-) -> PinForce:
+    point: str, on: str = "", component: str = "size", loads: Loads = None, case: Case = None, *, acting: Acting | None = None,
+    by: str = "",
+) -> PinForce:  # fmt: skip
     """Return the request for a joint force [N], in `evaluate`, `function` and `gradient`: its "size", or its part along "x" or "y".
 
-    It is that of `pin_forces(motion, loads, case=case).force(point, on)`, frictionless: on the body `on` from the other one.
+    It is that of `pin_forces(motion, loads, case=case).force(point, on)`, frictionless: on the body `on` from the other one, `by`
+    where several meet there.
     `acting` says loads and case in one, with a direction, a drive or rates too; then it has values and no derivatives.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
-    names: tuple[object, ...] = point, on
+    names: tuple[object, ...] = point, on, by
     if not all(isinstance(each, str) for each in names):
         said = "the names of a point and of a body are expected"
         raise DefinitionError(f'pin_force({cited(point)}, {cited(on)}): {said}, such as pin_force("G", "arm").')
-    return PinForce(acting_of(acting, "pin_force", loads=loads, case=case), point, on, component)
+    return PinForce(acting_of(acting, "pin_force", loads=loads, case=case), point, on, component, by)
 
 
 @final
@@ -287,14 +291,14 @@ class PinForceOf(ForceOf):
 
     @property
     def key(self) -> Hashable:
-        return "pin force", self.request.point, self.request.on, self.request.component, self.loads_key
+        return "pin force", self.request.point, self.request.on, self.request.by, self.request.component, self.loads_key
 
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
         traced = self.traced(plan)
         structure, motion = traced.structure, traced.motion
         system = System(structure, traced.poses, traced.acting.loads, length=self.length)
         u = eliminated_forces(system, motion)
-        contact, _, sign = contact_of(structure, self.request.point, self.request.on)
+        contact, _, sign = contact_of(structure, self.request)
         force, _ = Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), []).transmitted(contact)
         return (motion.node(COMPONENTS[self.request.component](*(sign * force[:, 0]))),)
 
@@ -309,8 +313,8 @@ class PinForceOf(ForceOf):
         return f"{what} of the force at {self.joint}"
 
 
-def contact_of(structure: Structure, point: str, on: str) -> tuple[Contact, JointForce, float]:
+def contact_of(structure: Structure, request: PinForce) -> tuple[Contact, JointForce, float]:
     """Return the contact that is meant, its joint without a value, and the sign of its force on the body."""
     joints = joints_of(structure, [(np.zeros(2), np.zeros(()))] * len(structure.contacts))
-    joint, sign = joint_on(joints, point, on, structure.plan.title)
+    joint, sign = joint_on(joints, request.point, request.on, structure.plan.title, request.by)
     return structure.contacts[joints.index(joint)], joint, sign

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, SingularError, cited, known_name, told, unknown
 from ..loads import Damper, ForceElement, Friction, Load, LoadCase, Poses, Rate, Rates, TwoPinned
-from ..motion import Motion, rates_of, require_motion
+from ..motion import PLAIN_CASE, Motion, rates_of, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray
@@ -195,14 +195,14 @@ def acting_elements(plan: Plan, loads: Loads, case: Case, without: str = "") -> 
 
 
 def case_of(plan: Plan, case: Case) -> LoadCase:
-    """Return the load case that is meant; the plain one for None."""
-    if case is None:
-        return LoadCase("own loads")
+    """Return the load case that is meant; the machine's own loads for None and for "plain"."""
     if isinstance(case, LoadCase):
         return case
+    if case is None or case == PLAIN_CASE:
+        return LoadCase("own loads")
     cases = plan.of_kind(LoadCase)
     titled = {each.label: each for each in cases.values()}
-    return (titled | cases)[known_name("Load case", case, dict(cases) | titled, where=plan.title)]
+    return (titled | cases)[known_name("Load case", case, [PLAIN_CASE, *cases, *titled], where=plan.title)]
 
 
 def elements_of(plan: Plan, loads: Loads) -> list[tuple[str, ForceElement]]:

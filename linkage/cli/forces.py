@@ -27,7 +27,6 @@ from .settings import (
     overs_of,
     plain_value,
     poses_at,
-    verdicts_of,
 )
 from .table import csv_argument, pins_of, worst_pins, write_table
 
@@ -68,7 +67,7 @@ class ForcesCommand(Command):
         print(f"residual of equilibrium {pins.residual:.0e}", *pins.remarks, sep="\n")
         if not options.check:
             return 0
-        verdicts = verdicts_of(machine, over)
+        verdicts = machine.verdicts(over=over)
         print("", *verdicts, sep="\n")
         return judged_code(verdicts, options)
 

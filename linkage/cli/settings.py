@@ -93,15 +93,6 @@ def judged_over(machine: Mechanism, options: Namespace, motion: Motion) -> list[
     return [*chosen] if chosen else [motion] if options.strokes else None
 
 
-def verdicts_of(machine: Mechanism, over: Sequence[Over | Motion] | None) -> list[str]:
-    """Return a machine's verdicts over what is given, else over all that it runs; DefinitionError where its `rules` are no sentences."""
-    verdicts: Any = machine.verdicts(over=over)
-    if not all(isinstance(each, str) for each in verdicts):
-        wrong = next(each for each in verdicts if not isinstance(each, str))
-        raise DefinitionError(f"{machine.plan.title}: rules(motion) gives {cited(wrong)}; a list of sentences is expected.")
-    return list(verdicts)
-
-
 def judged_code(verdicts: Sequence[str], options: Namespace) -> int:
     """Return the exit code of what was judged: 1 where that is asked for and a verdict fails; a plain sentence does not.
 

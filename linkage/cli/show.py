@@ -15,7 +15,7 @@ from ..quantities import Dimension
 from ..reports import design_rows, stroke_rows
 from .command import Command, lined_up, machine_arguments, picture, picture_argument
 from .machines import find
-from .settings import check_argument, design, judged_code, over_argument, overs_of, stroke_values, verdicts_of
+from .settings import check_argument, design, judged_code, over_argument, overs_of, stroke_values
 
 if TYPE_CHECKING:
     from ..formulas import Equations
@@ -58,7 +58,7 @@ class ShowCommand(Command):
             print_section(title, lines)
         if options.equations:
             print_section("Equations", str(listed(machine, options)).splitlines())
-        verdicts = verdicts_of(machine, over)
+        verdicts = machine.verdicts(over=over)
         print_section("Verdict", verdicts)
         return judged_code(verdicts, options)
 

@@ -30,7 +30,6 @@ from .settings import (
     over_argument,
     plain_value,
     ratio_columns,
-    verdicts_of,
 )
 
 COLUMNS = "only these columns (default: all), or what is asked for in words: 'pressure(lift)', 'ratio(G.y)'"
@@ -74,7 +73,7 @@ class TableCommand(Command):
             print(f"\n{poses.limits()}")
         if not options.check:
             return 0
-        verdicts = verdicts_of(machine, over)
+        verdicts = machine.verdicts(over=over)
         if options.csv != "-":
             print("", *verdicts, sep="\n")
         return judged_code(verdicts, options)

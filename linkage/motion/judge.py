@@ -15,12 +15,12 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError, LawError, UntracedError, cited, told, unwarned
+from ..errors import DefinitionError, LawError, UntracedError, cited, known_name, told, unwarned
 from ..language import said
 from ..loads import PLAIN, Acting, ForceElement, LoadCase
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel
-from ..quantities import Quantity
+from ..quantities import PoseCondition, Quantity
 from ..vectors import Numbers
 from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
 from .evaluation import Evaluation
@@ -464,6 +464,10 @@ class Judge:
             raise DefinitionError(f'{plan.title}: acting={cited(acting)}: a situation is expected, such as Acting(case="full").')
         self.plan, self.designs, self.acting, self.machine = plan, designs, acting or PLAIN, machine
         cases = [*plan.of_kind(LoadCase)]
+        if self.acting.case is not None and not isinstance(self.acting.case, LoadCase):
+            case_named(plan, self.acting.case)
+        if self.acting.drive is not None:
+            known_name("Stroke", self.acting.drive, plan.strokes, where=f"{plan.title}: acting.drive")
         for over in overs:
             if isinstance(over, Over):
                 over.check(plan.title, plan.strokes, cases)
@@ -710,9 +714,10 @@ def questions_of(plan: Plan, given: Any) -> list[Any]:
         raise DefinitionError(f"{plan.title}: answers({cited(given)}): a list of questions is expected, [most(...) <= 8 * deg].")
     for each in listed:
         if not isinstance(each, (Measure, Condition)):
-            said_of = (
-                f"{words_of(each)} has a value at every pose" if isinstance(each, (str, Quantity, Request)) else f"{cited(each)} is none"
-            )
+            at_poses = isinstance(each, (str, Quantity, Request, Worst))
+            said_of = f"{words_of(each)} has a value at every pose" if at_poses else f"{cited(each)} is none"
+            if isinstance(each, PoseCondition):
+                said_of = f"{each} is kept at some poses and not at others; say which value is meant, or where, Over(only=[...])"
             raise DefinitionError(
                 f"{plan.title}: a question is a measure or a condition, and {said_of}; write least(...), most(...) >= ...."
             )

@@ -202,7 +202,7 @@ def case_of(plan: Plan, case: Case) -> LoadCase:
         return LoadCase("own loads")
     cases = plan.of_kind(LoadCase)
     titled = {each.label: each for each in cases.values()}
-    return (titled | cases)[known_name("Load case", case, [PLAIN_CASE, *cases, *titled], where=plan.title)]
+    return (titled | cases)[known_name("Load case", case, [*dict.fromkeys((PLAIN_CASE, *cases, *titled))], where=plan.title)]
 
 
 def elements_of(plan: Plan, loads: Loads) -> list[tuple[str, ForceElement]]:

@@ -52,6 +52,17 @@ def check_one_design(machine: Mechanism) -> None:
         raise DefinitionError(f"{type(machine).__name__}: a study starts from one design, this is a batch; choose one of them.")
 
 
+def check_vary(machine: Mechanism, what: str, over: Any) -> None:
+    """Raise DefinitionError where the designs of a study, or strokes, are given as `over`."""
+    if over is None:
+        return
+    title = machine.plan.title
+    if isinstance(over, Mapping) and any(name in machine for name in over):
+        raise DefinitionError(f"{title}: {what}(over={cited(over)}): dimensions are varied by vary=, strokes run by over=; write vary=.")
+    remedy = "name its strokes, such as S=[0.0, 0.1]" if what == "zone" else "let measure(machine) say at which strokes it looks"
+    raise DefinitionError(f"{title}: {what}(over={cited(over)}): a {what} varies designs, vary=, and has no over=; {remedy}.")
+
+
 def poses_of(machine: Mechanism, settings: Mapping[str, Any], base: Motion, place: Any) -> Motion:
     """Return the poses of some settings (m,) of a machine, each at one of the poses (n,) of it as it is set, by its place (m,)."""
     strokes = {name: value[place] for name, value in base.strokes.items()}

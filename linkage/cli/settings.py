@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError, SingularError, cited, known_name, unknown
+from ..errors import AssemblyError, DefinitionError, SingularError, known_name, unknown
 from ..language import said, said_of
 from ..loads import DIRECTIONS, PLAIN, Acting, LoadCase
 from ..mechanism import Mechanism

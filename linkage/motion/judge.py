@@ -364,7 +364,7 @@ def as_bound(plan: Plan, quantity: Any) -> BoundRequest | None:
         if bound.rows > 1:
             name = words_of(quantity)
             raise DefinitionError(f'{plan.title}: {name} has two components; say which, x("{name}") or y("{name}").')
-        plan.made(("traced", bound.key), lambda twin: len(bound.nodes(twin)))
+        plan.made(("traced", bound.traced_with), lambda twin: len(bound.nodes(twin)))
     except (UntracedError, LawError):
         return None
     return bound

@@ -142,7 +142,7 @@ def traced(plan: Plan, quantity: Any) -> BoundRequest | None:
         name = words_of(quantity)
         raise DefinitionError(f'{plan.title}: {name} has two components; say which, x("{name}") or y("{name}").')
     try:
-        plan.made(("traced", request.key), lambda twin: len(request.nodes(twin)))
+        plan.made(("traced", request.traced_with), lambda twin: len(request.nodes(twin)))
     except (UntracedError, LawError):
         return None
     return request

@@ -83,7 +83,9 @@ def survey(
 ) -> Survey:
     """Return what `measure` gives for many designs: `survey(hitch, {"OB": array, "M": (xs, ys)}, measure)["travel"]`, shape (m,).
 
-    `vary` are dimensions by name [SI], each an array (m,); `over`, which elsewhere says where strokes run, is refused. `measure(machine)` is called with some designs at a time, in arrays, and
+    `vary` are dimensions by name [SI], each an array (m,); `over`, which elsewhere says where strokes run, is refused.
+
+    `measure(machine)` is called with some designs at a time, in arrays, and
     returns numbers or truth values for each of them, arrays (designs,) by name; what it returns for a design must not depend on
     the others.
 

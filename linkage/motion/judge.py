@@ -26,7 +26,7 @@ from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, 
 from .evaluation import Evaluation
 from .extremes import extremum, moving
 from .limits import stroke_unit
-from .margins import LeastMargin, has_all_margins, least_margins, missing_at
+from .margins import LeastMargin, assembly_error_at, has_all_margins, least_margins
 from .measures import (
     At,
     Condition,
@@ -56,6 +56,8 @@ INNER = 65
 """Values of the stroke over which `worst` is taken."""
 PANELS = 4096
 """Intervals of an integral, by Simpson's rule."""
+COARSE = 5
+"""Values of each stroke of a coarse grid."""
 MET = 1e-9
 """Of the size of its two sides: a condition that is missed by no more is kept, to rounding."""
 
@@ -240,7 +242,7 @@ class Place:
             return Lost(seen.lost_share, seen.deepest, "", not self.plan.groups)
         with unwarned():
             places = [each.strokes for each in self.holes] + ([seen.deepest] if seen.deepest else [])
-            errors = [(missing_at(self.motion, place), place) for place in places]
+            errors = [(assembly_error_at(self.motion, place), place) for place in places]
         known = [(error, place) for error, place in errors if error is not None]
         if not known:
             return Lost(seen.lost_share, seen.deepest, said("some poses are refused"), not self.plan.groups)
@@ -493,6 +495,31 @@ class Judge:
         """The motion of its one way, a stroke or a path, along which parts can be told; None where there are several, or a box."""
         motion = self.motion
         return motion if len(self.places) == 1 and len(motion._stroke_shape) <= 1 and self.places[0].over.shape != "poses" else None
+
+    @property
+    def cases(self) -> list[str]:
+        """The load cases that are looked at, by name, "plain" the machine's own loads."""
+        return [*dict.fromkeys(case for place in self.places for case in place.cases(self.acting))]
+
+    def actings(self, request: Request) -> list[Acting]:
+        """Return the situations in which a request is judged over all its overs, as requests and forces take them."""
+        asked = request.under(self.acting)
+        found = dict.fromkeys(each for place in self.places for each in place.situations(asked, self.acting))
+        return [each.acting.within(self.acting) for each in found]
+
+    @property
+    def pose(self) -> Motion | None:
+        """A pose that is reached, of those that are looked at; None where none is found on a coarse grid."""
+        for place in self.places:
+            axes = [np.linspace(np.min(value), np.max(value), COARSE) for value in place.motion.strokes.values()]
+            grid = dict(zip(place.motion.strokes, np.meshgrid(*axes, indexing="ij"), strict=True))
+            coarse = place.motion if place.over.shape != "box" else Motion(self.plan, self.designs, grid, "nan")
+            for motion in (place.motion, coarse):
+                reached = motion.reached.reshape(-1, *motion._stroke_shape).all(axis=0)
+                if reached.any():
+                    strokes = {name: np.broadcast_to(value, motion._stroke_shape) for name, value in motion.strokes.items()}
+                    return motion.moved({name: value[reached][0] for name, value in strokes.items()})
+        return None
 
     def situation(self, answer: Answer) -> Acting:
         """Return the situation of an answer of one design, as requests and forces take it."""

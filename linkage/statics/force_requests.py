@@ -247,6 +247,27 @@ class PinForce(ForceRequest):
         return PinForceOf(loads, case, request, (*traced.key, spans), length, str(joint))
 
 
+@final
+@dataclass(frozen=True, eq=False)
+class MemberThrust(ForceRequest):
+    """What a driven length or a two-point element carries, as something to ask for: of `pin_forces(motion).thrusts`, by its name."""
+
+    member: str = ""
+    measures = "force"
+
+    def identity(self, plan: Plan) -> Hashable:
+        return self.identified("member thrust", self.member)
+
+    def of(self, motion: MotionLike) -> FloatArray:
+        return np.asarray(pin_forces_under(require_motion(motion), self.acting).thrusts[self.member])
+
+    def __str__(self) -> str:
+        return f"thrust({', '.join([self.member, *self.acting_words])})"
+
+    def bound(self, plan: Plan) -> BoundRequest:
+        raise UntracedError(f"{plan.title}: {self}: it has values, and no program that gives derivatives.")
+
+
 def pin_forces_under(motion: Motion, acting: Acting) -> PinForces:
     """Return all joint forces of a motion in a situation, worked out once for all that ask for one of them."""
 

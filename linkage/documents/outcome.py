@@ -14,9 +14,9 @@ from matplotlib.axes import Axes
 from ..errors import LinkageError, unknown, unwarned
 from ..language import noted, said, translated
 from ..loads import Acting
-from ..motion import Answer, Column, Measure, Motion, Request, Tabled, least, most, stroke_display_unit
+from ..motion import PLAIN_CASE, Answer, Column, Measure, Motion, Request, Tabled, least, most, stroke_display_unit
 from ..motion.limits import StrokeLimits
-from ..motion.measures import Least
+from ..motion.measures import Least, Most
 from ..pictures import mechanism
 from ..pictures.curves import limit_of, panel
 from ..pictures.dimensioned import dimensioned
@@ -159,13 +159,17 @@ BEYOND = 1e-6
 
 
 def wider_answers(looked: Looked, columns: Mapping[str, Column], limits: Mapping[str, Sequence[Any]]) -> dict[str, list[Answer]]:
-    """Return, by column, the least and the greatest over all that the machine runs, those beyond the curve; of a limit its side."""
+    """Return, by column, the least and the greatest over all that the machine runs, those beyond the curve; of a limit its side.
+
+    They are asked for of what has a limit, of forces and what hangs on them, and of the first column.
+    """
     asked: list[tuple[str, Measure]] = []
     for name in columns:
-        fails = limit_of(limits[name]).fails if name in limits else ""
         quantity = looked.quantities.get(name)
-        sides = [side for side, word in ((least, "below"), (most, "above")) if quantity is not None and fails in ("", word)]
-        asked += [(name, side(quantity)) for side in sides]
+        of_forces = isinstance(quantity, Request) and quantity.under(Acting(case=PLAIN_CASE), keep=True) is not quantity
+        if quantity is not None and (of_forces or name in limits or name == next(iter(columns))):
+            fails = {"below": (least,), "above": (most,)}.get(limit_of(limits[name]).fails, ()) if name in limits else sides_of(quantity)
+            asked += [(name, side(quantity)) for side in fails]
     try:
         with unwarned():
             answers = looked.judge.answers([question for _, question in asked])
@@ -245,19 +249,35 @@ def members_section(looked: Looked) -> Section | None:
     with unwarned():
         columns = list(member_tables(looked.machine, looked.curve))
         asked = [column.request if column.request is not None else values_of(looked, name, column) for name, column in columns]
+        questions = [[side(quantity) for side in sides_of(quantity)] for quantity in asked]
         try:
-            answers = looked.judge.answers([each(quantity) for quantity in asked for each in (least, most)])
+            answers = iter(looked.judge.answers([question for each in questions for question in each]))
         except LinkageError as error:
             return Section(said("Hydraulics"), (Paragraph(str(error)),))
-    pairs = zip(columns, answers[::2], answers[1::2], strict=True)
+    found = [[next(answers) for _ in each] for each in questions]
     rows = tuple(
-        (name, column.heading, amount(low, column), low.place, amount(high, column), high.place) for (name, column), low, high in pairs
+        (name, column.heading, *end_cells(each, Least, column), *end_cells(each, Most, column))
+        for (name, column), each in zip(columns, found, strict=True)
     )
     shown = dict.fromkeys(name for name, _ in columns)
     refused = [Paragraph(why) for name in members if name not in shown and (why := why_refused(looked, name))]
     heads = (said("member"), said("quantity"), said("least"), said("situation and place"), said("greatest"), said("situation and place"))
-    table = [TableBlock(said("Cylinders, over all that the machine runs"), heads, rows, "llrlrl")] if rows else []
+    table = [TableBlock(said("Cylinders, over all that the machine runs"), heads, rows, "llrmrm")] if rows else []
     return Section(said("Hydraulics"), (*table, *refused))
+
+
+def end_cells(answers: Sequence[Answer], end: type[Measure], column: Column) -> tuple[str, str]:
+    """Return the least or the greatest as cells, its value and its place; dashes where it was not asked for."""
+    return next(((amount(each, column), each.place) for each in answers if isinstance(each.question, end)), ("–", ""))
+
+
+def sides_of(quantity: object) -> tuple[Callable[[Any], Measure], ...]:
+    """Return what is asked of a quantity: its least and its greatest; of one that is unlimited in places, such as a reserve, the least.
+
+    Of a pressure the greatest: the least is nought, on the side that does not hold.
+    """
+    is_open = isinstance(quantity, Request) and type(quantity).unlimited is not Request.unlimited
+    return (least,) if is_open else (most,) if getattr(quantity, "measures", "") == "pressure" else (least, most)
 
 
 def values_of(looked: Looked, member: str, column: Column) -> Callable[[Motion], FloatArray]:
@@ -316,11 +336,11 @@ def forces_section(looked: Looked) -> Section | None:
         said("pin"), said("joint"), said("on body"), said("from body"), said("Fx, {unit}", unit=unit), said("Fy, {unit}", unit=unit),
         said("F, {unit}", unit=unit), said("x axis"), said("strokes"), said("load case"), said("motion"),
     )  # fmt: skip
-    table = TableBlock(said("Largest pin forces, for FEM"), heads, tuple(map(pin_row, rows)), "llllrrrllll")
+    table = TableBlock(said("Largest pin forces, for FEM"), heads, tuple(map(pin_row, rows)), "llllrrrlmml")
     drives = (
         said("drive or member"), said("unit"), said("least"), said("situation and place"), said("greatest"), said("situation and place")
     )  # fmt: skip
-    forces = TableBlock(said("Driving forces and thrusts, over all that the machine runs"), drives, ranges, "llrlrl")
+    forces = TableBlock(said("Driving forces and thrusts, over all that the machine runs"), drives, ranges, "llrmrm")
     remarks = [Paragraph(each) for each in dict.fromkeys(remark for one in found for remark in one.remarks)]
     return Section(title, (forces, looks, table, *remarks))
 

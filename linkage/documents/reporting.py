@@ -172,8 +172,8 @@ def verdict_section(looked: Looked, limits: Mapping[str, Sequence[Any]]) -> tupl
     domain = Paragraph(said("Judged over {domain}, in all load cases and directions of motion that occur there.", domain=looked.domain))
     heads = (said("rule"), said("result"), said("what was found"))
     table = TableBlock(said("Rules, over all that the machine runs"), heads, tuple(map(verdict_row, found)), "llm")
-    places = [(each.heading, each.answer) for each in judged if isinstance(each.answer, Answer)]
-    worst = worst_places([*places, *limited])
+    places = [(each.heading, each.ok, each.answer) for each in judged if isinstance(each.answer, Answer)]
+    worst = worst_places([*places, *((name, each.ok, each) for name, each in limited)])
     return Section(title, (domain, table, *([worst] if worst is not None else []))), rules_mark(judged)
 
 
@@ -216,16 +216,16 @@ def limit_answers(looked: Looked, limits: Mapping[str, Sequence[Any]]) -> list[t
     return [(heading_of(name), each) for name, each in zip(asked, looked.judge.answers([*asked.values()]), strict=True)]
 
 
-def worst_places(answers: Sequence[tuple[str, Answer]]) -> TableBlock | None:
-    """Return the table of the worst places of some answers, those that are not kept first, then by how far the limit is used."""
-    known = [(rule, each) for rule, each in answers if each.strokes and np.ndim(each.value) == 0 and not np.isnan(each.value)]
-    ranked = sorted(known, key=lambda each: (each[1].ok is not False, -used(each[1])))
+def worst_places(answers: Sequence[tuple[str, bool | None, Answer]]) -> TableBlock | None:
+    """Return the table of the worst places of some rules, those that are not kept first, then by how far the limit is used."""
+    known = [each for each in answers if each[2].strokes and not np.isnan(each[2].value)]
+    ranked = sorted(known, key=lambda each: (each[1] is not False, -used(each[2])))
     rows = tuple(
-        (rule, verdict_mark(each.ok), each.amount, each.situation or "–", places_text(each.strokes, each.units))
-        for rule, each in ranked[:MOST_PLACES]
+        (rule, verdict_mark(ok), each.amount, each.situation or "–", places_text(each.strokes, each.units))
+        for rule, ok, each in ranked[:MOST_PLACES]
     )
     heads = (said("rule"), said("result"), said("value"), said("situation"), said("strokes"))
-    return TableBlock(said("The worst places"), heads, rows, "llrll") if rows else None
+    return TableBlock(said("The worst places"), heads, rows, "llrmm") if rows else None
 
 
 def used(answer: Answer) -> float:

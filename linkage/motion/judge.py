@@ -24,7 +24,6 @@ from ..quantities import Quantity
 from ..vectors import Numbers
 from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
 from .evaluation import Evaluation
-from .extremes import extremum, moving
 from .limits import stroke_unit
 from .margins import LeastMargin, assembly_error_at, has_all_margins, least_margins
 from .measures import (
@@ -46,6 +45,7 @@ from .measures import (
 from .motion import Motion
 from .over import ALLOWED, PLAIN_CASE, Over
 from .requests import BoundRequest, Piece, Request, identity_of
+from .search import extremum, moving
 from .strokes import at_values
 
 Question: TypeAlias = "Measure | Condition"

@@ -250,7 +250,8 @@ def place_values(shape: str, name: str, value: Any) -> Any:
 
 def over_of(strokes: Mapping[str, FloatArray], per_design: bool) -> Over:
     """Return where poses are: of one stroke its range, of several in arrays of one axis their path, of a grid the box."""
-    if len(strokes) > 1 and not per_design and all(value.ndim == 1 and value.size > 1 for value in strokes.values()):
+    several = sum(float(np.ptp(value)) > 0.0 for value in strokes.values()) > 1
+    if several and not per_design and all(value.ndim == 1 for value in strokes.values()):
         return Over.path(**{name: value.tolist() for name, value in strokes.items()})
     ends = {name: (float(np.min(value)), float(np.max(value))) for name, value in strokes.items()}
     given: dict[str, Any] = {name: pair if pair[0] < pair[1] else pair[0] for name, pair in ends.items()}

@@ -22,6 +22,7 @@ ALLOWED = {
     "hydraulics/accumulator.py": "a given number in a message; vessels, not poses",
     "linkage/motion/scan.py": "whether an angle moves at all",
     "linkage/motion/poles.py": "the points of a body that are farthest apart",
+    "linkage/statics/table.py": "a door to the search, of results of pin_forces; a machine's table asks the judge",
     "linkage/statics/joint_forces.py": "the residual of the equations, and words on poses that were asked for",
     "linkage/statics/work.py": "the residual of the equations",
     "linkage/documents/checks.py": "residuals of a calculation's own checks",
@@ -50,9 +51,7 @@ def calls_of(tree):
 def loops_of(tree):
     """Yield what is looped over, as nodes."""
     for node in ast.walk(tree):
-        if isinstance(node, ast.For):
-            yield node.iter
-        elif isinstance(node, ast.comprehension):
+        if isinstance(node, (ast.For, ast.comprehension)):
             yield node.iter
 
 
@@ -62,7 +61,7 @@ def halved_strokes(tree):
         if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Mult, ast.Div)):
             names = {each.attr for each in ast.walk(node) if isinstance(each, ast.Attribute)}
             numbers = {each.value for each in ast.walk(node) if isinstance(each, ast.Constant)}
-            if {"start", "end"} <= names and numbers & {0.5, 2, 2.0} and any(isinstance(each, ast.Add) for each in ast.walk(node)):
+            if {"start", "end"} <= names and numbers & {0.5, 2} and any(isinstance(each, ast.Add) for each in ast.walk(node)):
                 yield node.lineno
 
 
@@ -99,6 +98,6 @@ MIDDLES = {
 }
 
 
-@pytest.mark.parametrize("path", sources(), ids=lambda path: path.relative_to(ROOT).as_posix())
+@pytest.mark.parametrize("path", [*sources()], ids=lambda path: path.relative_to(ROOT).as_posix())
 def test_only_the_judge_looks_for_extremes_and_loops_over_cases_and_directions(path):
     assert not found_in(path), "\n".join(found_in(path))

@@ -201,7 +201,7 @@ class Over(Member):
 
     def __str__(self) -> str:
         word = "Over" if self.shape == "box" else f"Over.{self.shape}"
-        given = [f"{name}={value_text(value)}" for name, value in self.strokes.items()]
+        given = [f"{name}={ends_text(value)}" for name, value in self.strokes.items()]
         given += [f"only=[{', '.join(map(str, self.only))}]"] if self.only else []
         given += [f"cases={self.cases!r}"] if self.cases is not None else []
         return f"{word}({', '.join([*given, *([f'lost={self.lost!r}'] if self.lost else [])])})"
@@ -210,10 +210,10 @@ class Over(Member):
         return str(self)
 
 
-def value_text(value: Any) -> str:
+def ends_text(value: Any) -> str:
     """Return the value of a stroke as it is written."""
     if isinstance(value, tuple):
-        return f"({', '.join(map(value_text, value))})"
+        return f"({', '.join(map(ends_text, value))})"
     return repr(float(value)) if is_number(value) else str(getattr(value, "name", "") or value)
 
 

@@ -368,3 +368,14 @@ def test_the_driving_force_goes_by_its_own_direction():
     motion = machine.sweep(S=5, T=5)
     asked = drive_force("S", acting=Acting(case="carry", direction="retracting"))
     assert_allclose(motion[asked], driving_force(motion, drive="S", case="carry", direction="retracting"))
+
+
+def test_a_machine_without_strokes_is_judged_as_it_stands():
+    class Frame(Mechanism):
+        A, B = Ground(0.0, 0.0), Ground(1.0, 0.0)
+        C = Dyad(A, B, AC=0.8, BC=0.7, side=LEFT)
+        load = Weight(C, mass=10)
+
+    height, force, whole = Frame().answers([most(y("C")), most(pin_force("C")), reachable])
+    assert_allclose([height.value, force.value], [Frame().at().y("C"), np.hypot(*pin_forces(Frame().at()).force("C"))])
+    assert whole.ok and Frame().verdicts() == []

@@ -21,7 +21,7 @@ from ..pictures.curves import limit_of
 from ..pictures.poses import named_points
 from ..pictures.strokes import column_shown
 from ..reports import NOTHING, At
-from ..statics import acting_of
+from ..statics import situation_of
 from ..units import current_system, show, shown_number, unit_system
 from ..verdict import Verdict
 from .calculation import calculated, calculation_section, has_loads
@@ -67,7 +67,7 @@ def report_document(
     start: int = 1,
 ) -> Document:
     """Return what a report says, before it is written as a file."""
-    looked = Looked.at(machine, at, count, over, acting_of(acting, "report", case=case))
+    looked = Looked.at(machine, at, count, over, situation_of(acting, "report", case=case))
     if not isinstance(title_block, Mapping) or not all(isinstance(each, str) for pair in title_block.items() for each in pair):
         raise DefinitionError(f'title_block={cited(title_block)}: rows of text are expected, title_block={{"Checked by": "N. N."}}.')
     with speaking(language, units):

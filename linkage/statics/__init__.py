@@ -1,11 +1,16 @@
 """Forces: the drive's by virtual work, the joints' by equilibrium of every body, supports, friction. N and Nm."""
 
 from .acting import Case, Loads, elements_of
-<<<<<<< HEAD
-from .force_requests import DriveForce, MemberThrust, acting_of, case_words, drive_force, loads_identity, pin_force, pin_forces_under
-=======
-from .force_requests import DriveForce, case_words, drive_force, loads_identity, pin_force, situation_of
->>>>>>> main
+from .force_requests import (
+    DriveForce,
+    MemberThrust,
+    case_words,
+    drive_force,
+    loads_identity,
+    pin_force,
+    pin_forces_under,
+    situation_of,
+)
 from .holding import same, stroke_followed
 from .joint_forces import JointForce, PinForces, pin_forces
 from .law_requests import LawRequest, TracedLaw

@@ -298,11 +298,7 @@ def pin_force(
     if not all(isinstance(each, str) for each in names):
         said = "the names of a point and of a body are expected"
         raise DefinitionError(f'pin_force({cited(point)}, {cited(on)}): {said}, such as pin_force("G", "arm").')
-<<<<<<< HEAD
-    return PinForce(acting_of(acting, "pin_force", loads=loads, case=case), point, on, component, by)
-=======
-    return PinForce(situation_of(acting, "pin_force", loads=loads, case=case), point, on, component)
->>>>>>> main
+    return PinForce(situation_of(acting, "pin_force", loads=loads, case=case), point, on, component, by)
 
 
 @final

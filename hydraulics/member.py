@@ -246,12 +246,12 @@ class Cylinder(TwoPoint, Tabled, Judging):
     def questions(self, judge: Judge) -> list[Question]:
         """Return its least and greatest length, and the utilisation of its rod."""
         ends = distance(self.A, self.B)
-        return [least(ends), most(ends), *([most(BucklingUse(self, Acting()))] if is_loaded(judge) else [])]
+        return [least(ends), most(ends), *([most(BucklingUse(self, Acting())) <= 1.0] if carries_loads(judge) else [])]
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it fits wherever the machine runs, is of a standard size, and whether a rod that carries something buckles."""
         try:
-            rod = self.buckling_verdicts(judge) if is_loaded(judge) else []
+            rod = self.buckling_verdicts(judge) if carries_loads(judge) else []
             return [*self.length_verdicts(judge), self.standard(judge.motion), *rod]
         except DefinitionError as error:
             return [Verdict("cylinder", False, " ".join(str(error).split()))]
@@ -317,10 +317,12 @@ class Cylinder(TwoPoint, Tabled, Judging):
         closed, stroke = (None if each is None else one_number(np.squeeze(each), "Length") for each in self.closed_and_stroke(judge.motion))
         if closed is None and stroke is None:
             return []
-        low, high = (float(each.value) for each in judge.answers([least(distance(self.A, self.B)), most(distance(self.A, self.B))]))
+        ends = judge.answers([least(distance(self.A, self.B)), most(distance(self.A, self.B))])
+        low, high = (float(each.value) for each in ends)
         if closed is not None:
-            return [self._reaches(low, high, closed, closed + stroke if stroke is not None else np.inf)]
-        return [] if stroke is None else [self._travels(high - low, stroke)]
+            opened = closed + stroke if stroke is not None else np.inf
+            return [self._reaches(low, high, closed, opened).answered(ends[0] if low - closed < opened - high else ends[1])]
+        return [] if stroke is None else [self._travels(high - low, stroke).answered(ends[1])]
 
     def travelled(self, judge: Judge) -> float:
         """Return greatest less least length over all that a judge looks at [m], of one design."""
@@ -394,14 +396,14 @@ class Cylinder(TwoPoint, Tabled, Judging):
     def buckling_verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the same over all that a judge looks at."""
         rod = Buckling(one_size(self.sized(judge.motion)).rod, self.mounting, self.safety)
-        worst = judge.answer(most(BucklingUse(self, Acting())))
+        worst = judge.answer(most(BucklingUse(self, Acting())) <= 1.0)
         if np.isnan(worst.value) or not worst.value > 0.0:
             return [never_pushed()]
         with unwarned():  # the verdict itself says what comes of it
             place, acting = judge.there(worst), judge.situation(worst)
             push = float(self.thrust(place, acting.loads, case=acting.case, direction=acting.movement)) / self.count
             length = float(place.distance(self.A, self.B))
-        return [rod.judged(length, push, worst.place, unbounded=bool(worst.unbounded))]
+        return [rod.judged(length, push, worst.place, unbounded=bool(worst.unbounded)).answered(worst)]
 
     def buckling_use(self, motion: AnyMotion, loads: Loads = None, *, case: Case = None, direction: str | None = None) -> Array:
         """Return the utilisation of a rod, shape (...): a cylinder's push times the safety over the force at which it buckles; 0 in a pull.
@@ -610,7 +612,7 @@ def changes_in_motion(motion: AnyMotion, loads: Loads) -> bool:
     return any(each.frictions(motion) or each.feeds(motion.plan.members) for _, each in elements_of(motion.plan, loads))
 
 
-def is_loaded(judge: Judge) -> bool:
+def carries_loads(judge: Judge) -> bool:
     """Return whether anything acts on a machine by itself."""
     motion = judge.motion
     return any(each.loads(motion) or each.pushes(motion, AT_REST) for each in motion.plan.of_kind(ForceElement).values())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
@@ -17,10 +18,12 @@ from .reports import NOTHING
 if TYPE_CHECKING:
     from os import PathLike
 
+    import networkx as nx
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
     from .formulas import Equations
+    from .loads import Acting
     from .motion.measures import Measure
     from .pictures import Drawing
     from .pictures.film import Progress
@@ -55,8 +58,10 @@ def draw(
     velocities: Mapping[str, Any] | None = ...,
     pole: bool | str | tuple[str, str] = ...,
 ) -> Figure: ...
+@overload
+def draw(machine: nx.MultiGraph) -> Figure: ...
 def draw(
-    machine: Mechanism | Motion | Optimum | Sequence[Assembly] | Sequence[Mechanism],
+    machine: Mechanism | Motion | Optimum | nx.MultiGraph | Sequence[Assembly] | Sequence[Mechanism],
     at: Any = None,
     path: Sequence[str] = (),
     count: int = 101,
@@ -95,8 +100,10 @@ def draw(
     mode with the line of code that chooses it.
 
     Of the result of a search, the machine before, faint, and after, bold, at both ends of its stroke, with how far each pin moved.
+
+    Of `machine.graph`, the kinematic chain: its bodies, and the pins and slides between them.
     """
-    from .pictures import draw, draw_designs, draw_modes, draw_optimum
+    from .pictures import draw, draw_chain, draw_designs, draw_modes, draw_optimum
     from .study import Optimum
 
     is_laid = bool(ax is not None or pose or faint or forces or velocities is not None or pole)
@@ -108,6 +115,10 @@ def draw(
                 "draw([...]): one or more designs, with at=, path= and count= if wanted, or machine.assemblies() are expected."
             )
         return draw_designs(designs, at, path, count) if designs else draw_modes(modes)
+    if "networkx" in sys.modules and isinstance(machine, sys.modules["networkx"].MultiGraph):
+        if at is not None or path or is_laid:
+            raise DefinitionError("draw(machine.graph): a graph has no poses; it is drawn by itself.")
+        return draw_chain(machine)
     if isinstance(machine, Mechanism) and not is_laid and any(map(np.ndim, machine.dimensions.values())):
         return draw_designs([machine], at, path, count)
     if isinstance(machine, Optimum):
@@ -286,6 +297,8 @@ def report(
     language: str | None = None,
     units: str | None = None,
     case: Any = None,
+    over: Any = None,
+    acting: Acting | None = None,
     at: Mapping[str, Any] = NOTHING,
     count: int = 11,
     columns: Sequence[str] | None = None,
@@ -298,10 +311,11 @@ def report(
 
     It has the inputs with units and sources, drawings with dimensions, the numbered equations with numbers filled in, from `start` on,
     tables and curves, the largest pin forces, limits of motion, checks with their measured figures, verdicts, the version and a hash of
-    the inputs. The same inputs give the same bytes.
+    the inputs. The same inputs give the same bytes. Tables and curves run along one stroke; what is judged, the verdicts, the largest
+    forces and the worst places, is over all that the machine runs, its `overs` or what is given as `over`.
 
     `language` ("en", "ru") and `units` ("si", "bar-mm", "kgf", "us") are those that hold already unless named. `case` names one load
-    case; without it all are looked at. `at` holds strokes or says between which values one runs [m or rad], as for `animate`; `count` is
+    case; without it all are looked at, or `acting` says loads, case and direction in one. `at` holds strokes or says between which values one runs [m or rad], as for `animate`; `count` is
     the number of rows of the tables, `columns` the results shown, `trace` the points whose paths are drawn, `limits` as `plot` takes
     them. `title_block` adds rows to the title block, `{"Checked by": "N. N.", "Date": "2026-05-01"}`. What stood at the path is replaced
     whole. Raises DefinitionError for a batch of designs, another kind of file or an unknown name, AssemblyError where no pose is in reach.
@@ -309,8 +323,8 @@ def report(
     from .documents import report
 
     return report(
-        machine, path, language=language, units=units, case=case, at=at, count=count, columns=columns, trace=trace, limits=limits,
-        title_block=title_block, start=start,
+        machine, path, language=language, units=units, case=case, over=over, acting=acting, at=at, count=count, columns=columns,
+        trace=trace, limits=limits, title_block=title_block, start=start,
     )  # fmt: skip
 
 

@@ -18,6 +18,7 @@ from ..errors import DefinitionError, cited, told, unwarned
 from ..language import said
 from ..plan import Mask
 from ..program import FloatArray
+from .answer import places_text
 from .box import highest_in, values_a_stroke, weights_of
 from .grid import JoinedTo, joined_in_order
 from .limits import place_text, stroke_unit
@@ -52,11 +53,6 @@ class Extremum:
         if np.isnan(self.value):
             return said("no value at any pose")
         return f"{said('without bounds') if self.unbounded else f'{self.value:.6g}'} {self.where}"
-
-
-def places_text(strokes: Mapping[str, Any], units: Mapping[str, str]) -> str:
-    """Return values of strokes as a place is read: `S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges."""
-    return ", ".join(f"{name} = {place_text(value, units[name])}" for name, value in strokes.items())
 
 
 def greatest(motion: Motion, f: Function) -> Extremum:

@@ -13,9 +13,8 @@ from ..errors import DefinitionError, cited, unwarned
 from ..language import noted, said, translated
 from ..loads import FRICTIONLESS, Acting
 from ..mechanism import Mechanism
-from ..motion import Answer, Judge, Motion, Over, greatest, most, stroke_unit
+from ..motion import Answer, Judge, Over, greatest, most, stroke_unit
 from ..motion.limits import place_text
-from ..program import FloatArray
 from ..units import shown_number, unit_sign
 from .force_requests import pin_force
 from .joint_forces import JointForce, PinForces, pin_forces
@@ -123,20 +122,14 @@ def max_table(
 
 def judged_table(judge: Judge) -> tuple[PinLoad, ...]:
     """Return, for every joint, its largest force over all that a judge looks at, in all that acts there."""
-    motion = next((place.motion for place in judge.places if place.motion.reached.any()), None)
-    if motion is None:
-        raise DefinitionError("There are no joint forces to tabulate: no pose is reached.")
     with unwarned():
-        pose = motion.moved({name: value[motion.reached][:1] for name, value in broadcast_strokes(motion).items()})
+        pose = judge.pose
+        if pose is None:
+            raise DefinitionError("There are no joint forces to tabulate: no pose is reached.")
         joints = {key_of(each): each for each in pin_forces(pose, judge.acting.loads, case=judge.acting.case).joints if each.has_force}
         answers = judge.answers([most(pin_force(point, on, by=by)) for point, on, by, _ in joints])
         rows = [judged_row(judge, key, answer) for key, answer in zip(joints, answers, strict=True)]
     return tuple(row for row in rows if row is not None)
-
-
-def broadcast_strokes(motion: Motion) -> dict[str, FloatArray]:
-    """Return the strokes of a motion, each of the shape of its poses."""
-    return {name: np.broadcast_to(value, motion.shape) for name, value in motion.strokes.items()}
 
 
 def judged_row(judge: Judge, key: tuple[str, str, str, str], answer: Answer) -> PinLoad | None:

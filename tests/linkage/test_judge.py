@@ -23,6 +23,7 @@ from linkage import (
     Weight,
     at,
     distance,
+    drive_force,
     driving_force,
     integral,
     least,
@@ -35,7 +36,7 @@ from linkage import (
     x,
     y,
 )
-from linkage.units import bar, deg, kN, mm
+from linkage.units import bar, kN, mm
 
 
 class Loader(Mechanism):
@@ -69,7 +70,7 @@ def brute(machine, request, cases=(None, "carry", "dig"), count=61, **strokes):
 
 
 def test_the_worst_load_case_is_found_and_named():
-    answer = Loader().answers([most(pin_force("C", "D C" if False else ""))])[0] if False else Loader().answers([most(pressure("tilt"))])[0]
+    (answer,) = Loader().answers([most(pressure("tilt"))])
     every = brute(Loader(), lambda case: thrust("tilt", case=case))
     size = Loader.plan.members["tilt"].size
     standing = np.maximum(every, 0.0) / size.push_area, np.maximum(-every, 0.0) / size.pull_area
@@ -83,7 +84,7 @@ def test_the_worst_load_case_is_found_and_named():
 def test_a_case_alone_is_asked_by_acting_and_refused_where_it_is_said_twice():
     machine = Loader()
     whole, alone = (machine.answers([least(reserve("lift"))], acting=acting)[0] for acting in (None, Acting(case="dig")))
-    assert alone.value >= whole.value and alone.case == "dig" and "case" not in alone.named
+    assert alone.value >= whole.value * (1 - 1e-12) and alone.case == "dig" and "case" not in alone.named
     with pytest.raises(DefinitionError, match=r"case='dig' stands in it, and acting= says case='carry'"):
         machine.answers([least(reserve("lift", case="dig"))], acting=Acting(case="carry"))
     with pytest.raises(DefinitionError, match="the load case carry does not occur over"):
@@ -94,7 +95,7 @@ def test_a_case_alone_is_asked_by_acting_and_refused_where_it_is_said_twice():
 
 def test_friction_is_judged_in_both_directions_of_every_stroke():
     machine = Rubbing()
-    answer = machine.answers([most(pin_force("A", "lift" if False else ""))])[0]
+    (answer,) = machine.answers([most(pin_force("A"))])
     found = [
         float(np.max(np.hypot(*pin_forces(machine.sweep(S=9, T=9), case=case, direction=way, drive=drive).force("A"))))
         for case in (None, "carry", "dig")
@@ -112,7 +113,7 @@ def test_a_path_rubs_along_its_tangent_and_a_held_stroke_moves_nothing():
     expected = max(
         float(np.max(np.hypot(*pin_forces(motion, case=case, direction=way).force("A")))) for case in (None, "carry", "dig") for way in ways
     )
-    assert_allclose(along.value, expected, rtol=1e-6)
+    assert expected * (1 - 1e-12) <= along.value <= expected * (1 + 1e-4)
     assert along.drive == ""
     held = machine.answers([most(pin_force("A"))], over=Over(T=0.1))[0]
     assert held.drive in ("", "S") and held.strokes["T"] == 0.1
@@ -122,7 +123,7 @@ def test_a_path_rubs_along_its_tangent_and_a_held_stroke_moves_nothing():
 
 
 QUESTIONS = [
-    least(reserve("lift")), most(pressure("lift")), most(pressure("tilt")), most(buckling("tilt")), most(pin_force("O", "frame")),
+    least(reserve("lift")), most(pressure("lift")), most(pressure("tilt")), most(buckling("tilt")), most(pin_force("O", "OBC")),
     most(y("D")), least(distance("A", "D")), most(thrust("tilt")),
 ]  # fmt: skip
 BADLY = [1, -1, -1, -1, -1, -1, 1, -1]  # 1 where less is worse
@@ -165,8 +166,8 @@ def test_a_case_scaled_to_zero_answers_as_without_that_load():
     class Scaled(Loader):
         none = LoadCase("none", scale={"pushed": 0.0})
 
-    without = Less().answers([least(reserve("lift")), most(pin_force("O", "frame"))])
-    scaled = Scaled().answers([least(reserve("lift")), most(pin_force("O", "frame"))], acting=Acting(case="none"))
+    without = Less().answers([least(reserve("lift")), most(pin_force("O", "OBC"))])
+    scaled = Scaled().answers([least(reserve("lift")), most(pin_force("O", "OBC"))], acting=Acting(case="none"))
     for a, b in zip(without, scaled, strict=True):
         assert_allclose(a.value, b.value, rtol=1e-12)
 
@@ -188,7 +189,7 @@ def test_random_poses_never_beat_an_answer():
     motion = machine.at(S=rng.uniform(0.0, 0.3, 10_000), T=rng.uniform(0.0, 0.2, 10_000))
     asked = {
         0: lambda case: reserve("lift", case=case), 3: lambda case: buckling("tilt", case=case),
-        4: lambda case: pin_force("O", "frame", case=case), 7: lambda case: thrust("tilt", case=case),
+        4: lambda case: pin_force("O", "OBC", case=case), 7: lambda case: thrust("tilt", case=case),
     }  # fmt: skip
     for k, of in asked.items():
         seen = np.array([motion[of(case)] for case in (None, "carry", "dig")])
@@ -365,8 +366,16 @@ def test_motions_say_where_they_are():
 def test_the_driving_force_goes_by_its_own_direction():
     machine = Rubbing()
     motion = machine.sweep(S=5, T=5)
-    from linkage import drive_force
-
     asked = drive_force("S", acting=Acting(case="carry", direction="retracting"))
     assert_allclose(motion[asked], driving_force(motion, drive="S", case="carry", direction="retracting"))
-    assert deg  # units stay importable beside
+
+
+def test_a_machine_without_strokes_is_judged_as_it_stands():
+    class Frame(Mechanism):
+        A, B = Ground(0.0, 0.0), Ground(1.0, 0.0)
+        C = Dyad(A, B, AC=0.8, BC=0.7, side=LEFT)
+        load = Weight(C, mass=10)
+
+    height, force, whole = Frame().answers([most(y("C")), most(pin_force("C")), reachable])
+    assert_allclose([height.value, force.value], [Frame().at().y("C"), np.hypot(*pin_forces(Frame().at()).force("C"))])
+    assert whole.ok and Frame().verdicts() == []

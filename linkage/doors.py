@@ -315,10 +315,11 @@ def report(
     forces and the worst places, is over all that the machine runs, its `overs` or what is given as `over`.
 
     `language` ("en", "ru") and `units` ("si", "bar-mm", "kgf", "us") are those that hold already unless named. `case` names one load
-    case; without it all are looked at, or `acting` says loads, case and direction in one. `at` holds strokes or says between which values one runs [m or rad], as for `animate`; `count` is
-    the number of rows of the tables, `columns` the results shown, `trace` the points whose paths are drawn, `limits` as `plot` takes
-    them. `title_block` adds rows to the title block, `{"Checked by": "N. N.", "Date": "2026-05-01"}`. What stood at the path is replaced
-    whole. Raises DefinitionError for a batch of designs, another kind of file or an unknown name, AssemblyError where no pose is in reach.
+    case; without it all are looked at, or `acting` says loads, case and direction in one. `at` holds strokes or says between which
+    values one runs [m or rad], as for `animate`; `count` is the number of rows of the tables, `columns` the results shown, `trace` the
+    points whose paths are drawn, `limits` as `plot` takes them. `title_block` adds rows to the title block, `{"Checked by": "N. N.",
+    "Date": "2026-05-01"}`. What stood at the path is replaced whole. Raises DefinitionError for a batch of designs, another kind of file
+    or an unknown name, AssemblyError where no pose is in reach.
     """
     from .documents import report
 

@@ -11,13 +11,13 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, LinkageError, SingularError, cited, unwarned
 from ..language import said
-from ..loads import Acting, LoadCase
+from ..loads import Acting, ForceElement, LoadCase
 from ..mechanism import Mechanism, require_mechanism
 from ..motion import PLAIN_CASE, Column, Judge, Motion, RequestLike, Tabled, stroke_display_unit
 from ..quantities import is_whole
 from ..reports import At, ColumnOf, Run, column_requests, run_of
 from ..reports.results import asked_by_name
-from ..statics import PinForces, drive_force, pin_forces_under
+from ..statics import PinForces, drive_force, pin_forces, pin_forces_under
 from ..units import show
 
 CURVE = 121

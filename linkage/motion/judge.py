@@ -519,6 +519,12 @@ class Judge:
         """Return the pose of an answer of one design."""
         return self.motion.moved({name: np.asarray(value) for name, value in answer.strokes.items()})
 
+    @property
+    def is_reached(self) -> bool:
+        """Whether any place that it looks at can be assembled."""
+        self.answers([reachable])
+        return any(seen.lost_share < 1.0 for seen in self._seen)
+
     def answer(self, question: Question) -> Answer:
         """Return the answer to one question."""
         return self.answers([question])[0]

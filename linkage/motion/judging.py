@@ -46,7 +46,7 @@ def judge_verdicts(judge: Judge) -> list[str]:
     """Return what can be said of any machine over all that it runs; of a batch, how many designs fail."""
     if any(map(np.ndim, judge.designs.values())):
         return batch_verdicts(judge)
-    if not any(place.motion.reached.any() for place in judge.places):
+    if not judge.is_reached:
         return assembly_verdicts(judge)
     members = judge.plan.of_kind(Judging).values()
     judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
@@ -66,11 +66,12 @@ def geometry_verdicts(judge: Judge) -> list[str]:
     """Return whether one design is assembled over all that it runs, its dead points, and its least transmission angle where it is poor."""
     if not judge.plan.strokes or not judge.plan.moving:
         return []
-    first = next((place.motion for place in judge.places if place.motion.reached.any()), None)
-    if first is None:
+    if not judge.is_reached:
         return assembly_verdicts(judge)
-    limits = scan.limits(first).values()
-    dead = [each for one in limits for each in dead_point_verdicts(one)]
+    first = next((place.motion for place in judge.places if place.motion.reached.any()), judge.motion)
+    spans = {name: (float(np.min(value)), float(np.max(value))) for name, value in first.strokes.items()}
+    limits = (one for name, one in scan.limits(first).items() if spans[name][0] < spans[name][1] or len(spans) == 1)
+    dead = [each for one in limits for each in dead_point_verdicts(one, spans[one.stroke])]
     return [*assembly_verdicts(judge), *dead, *transmission_words(judge)]
 
 
@@ -86,7 +87,7 @@ def assembly_verdicts(judge: Judge) -> list[str]:
     ]
     if not answer.lost:
         return [Verdict("assembly", True, said("it is assembled over {spans}.", spans="; ".join(named)), answer=answer)]
-    if not any(place.motion.reached.any() for place in judge.places):
+    if not judge.is_reached:
         return [Verdict("assembly", False, one_line(out_of_reach(judge.places[0].motion)), answer=answer)]
     text = said(
         "over {spans} {share} cannot be assembled, deepest {place}: {why}", spans="; ".join(named), share=share_text(answer.lost.share),
@@ -98,9 +99,9 @@ def assembly_verdicts(judge: Judge) -> list[str]:
     return [Verdict("assembly", False, f"{text.rstrip('.')}; {remedy}", answer=answer)]
 
 
-def dead_point_verdicts(limits: StrokeLimits) -> Iterator[Verdict]:
-    """Yield what stops or turns a motion along one stroke: within its range a fault, beyond its ends how far away it is."""
-    low, high = sorted((limits.start, limits.end))
+def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float]) -> Iterator[Verdict]:
+    """Yield what stops or turns a motion along one stroke: within the part that runs a fault, beyond its ends how far away it is."""
+    low, high = span if span[0] < span[1] else sorted((limits.start, limits.end))
     near = 1e-9 * (high - low)
     points = dict.fromkeys(limits.dead_points)
     inside = [place_of(limits, value, step) for value, step in points if low + near < value < high - near]

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError
 from ..frozen import FrozenDict, refuses_changes
-from ..language import noted, said, said_of
+from ..language import said, said_of
 from ..plan import ArrayReading, Mask, Plan, failures, missing_words, opening
 from ..program import FloatArray
 from ..shown import Shown
@@ -150,13 +150,14 @@ class LoopMargin:
     def __str__(self) -> str:
         if self.is_hole:
             return said("{step} comes apart, most of all at {place}", step=self.step, place=self.place)
-        clear = show(self.clear, "deg" if self.kind in ("links", "guides") else "mm", 4)
-        template = {
-            "links": noted("the links of {step} are at least {clear} out of line, at {place}"),
-            "guides": noted("the guides of {step} are at least {clear} from parallel, at {place}"),
-            "meeting": noted("the points that {step} takes a direction between are at least {clear} apart, at {place}"),
-        }.get(self.kind, noted("the length behind {step} is at least {clear}, at {place}"))
-        return said(template, step=self.step, clear=clear, place=self.place)
+        clear, where = show(self.clear, "deg" if self.kind in ("links", "guides") else "mm", 4), {"step": self.step, "place": self.place}
+        if self.kind == "links":
+            return said("the links of {step} are at least {clear} out of line, at {place}", clear=clear, **where)
+        if self.kind == "guides":
+            return said("the guides of {step} are at least {clear} from parallel, at {place}", clear=clear, **where)
+        if self.kind == "meeting":
+            return said("the points that {step} takes a direction between are at least {clear} apart, at {place}", clear=clear, **where)
+        return said("the length behind {step} is at least {clear}, at {place}", clear=clear, **where)
 
 
 @final

@@ -1,7 +1,7 @@
 """A tail-lift with a corner that it does not reach: while it stands low the tilt cylinder is drawn in farther than the links let it."""
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import LEFT, RIGHT, Dyad, Ground, LoadCase, Mechanism, OnLink, Over, Stroke, Weight
+from linkage import LEFT, RIGHT, Dyad, Ground, LoadCase, Mechanism, OnLink, Over, Stroke, Weight, y
 from linkage.units import bar, deg, mm
 
 
@@ -33,3 +33,9 @@ class Declared(TailLift):
 
     level = Over(S2=(0.0, 0.1), cases=("plain",))
     whole = Over(lost="allowed")
+
+
+class Nowhere(TailLift):
+    """The same where nothing is asked: no rule has anything to judge, beside those of the numbers alone."""
+
+    nowhere = Over(S2=(0.0, 0.05), only=[y("Z") >= 100.0])

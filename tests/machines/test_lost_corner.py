@@ -96,13 +96,20 @@ def test_nothing_but_lost_places_ends_with_exit_code_2(said, command):
 
 
 def test_show_says_what_is_lost_and_judges_the_rest(said):
-    code, out, err = said(f"show {LIFT}")
+    code, out, err = said(f"show {LIFT} --check")
     (line,) = (each.strip() for each in out.splitlines() if each.strip().startswith("FAIL assembly"))
-    assert code == 0 and not err and "C = Dyad(D, B)" in line and "161 mm short" in line and "what follows holds for the rest" in line
+    assert code == 1 and not err and "C = Dyad(D, B)" in line and "161 mm short" in line and "what follows holds for the rest" in line
     assert "at S1 = 0.0000 m, S2 = 0.3400 m" in line and "ok   length lift: " in out
-    assert said(f"show {LIFT} --check")[0] == 1
 
 
+def test_rule_that_says_nothing_does_not_fail_and_is_counted(said):
+    code, out, err = said("show tests.machines.lost_corner:Nowhere --check")
+    silent = re.findall(r"^  --   ", out, re.MULTILINE)
+    assert code == 0 and silent and "FAIL" not in out
+    assert err.strip() == f"hydrolinkage: remark: {len(silent)} rules say nothing: nothing is left to judge."
+
+
+@pytest.mark.slow
 def test_report_goes_on_and_says_what_is_lost(said, tmp_path):
     code, _, _ = said(f"report {LIFT} -o out.md --at S2=0.3")
     assert code == 0 and "161 mm short" in (tmp_path / "out.md").read_text(encoding="utf-8")

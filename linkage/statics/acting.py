@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, SingularError, cited, known_name, told, unknown
-from ..loads import Damper, ForceElement, Friction, Load, LoadCase, Poses, Rate, Rates, TwoPinned, check_together
+from ..loads import PLAIN_CASE, Damper, ForceElement, Friction, Load, LoadCase, Poses, Rate, Rates, TwoPinned, check_together
 from ..loads.case import check_factor
 from ..motion import PLAIN_CASE, Motion, rates_of, require_motion
 from ..motion.requests import stroke_of

@@ -123,7 +123,7 @@ def figure_path(options: Namespace, machine: type[Mechanism], command: str) -> P
 # What is said beside the results, on stderr, so that they can go into a pipe.
 
 
-def remark(text: str) -> None:
+def say_remark(text: str) -> None:
     """Say on stderr, in one line, what is to be known of the results."""
     print(f"hydrolinkage: {said('remark')}: {' '.join(text.split())}", file=sys.stderr)
 

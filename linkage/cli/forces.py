@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 
 from ..errors import DefinitionError
-from ..motion import Column, Motion, Over, columns_of, geometry_verdicts, limits
+from ..motion import Column, Motion, Over, columns_of, geometry_verdicts, limits_over
 from ..reports import force_columns, is_loaded
 from ..statics import PinForces
 from .command import Command, machine_arguments, motion_arguments
@@ -109,7 +109,7 @@ class LimitsCommand(Command):
             raise DefinitionError(f"{machine.plan.title} has no stroke, so there is nothing that goes; declare one, S = Stroke(0, 0.25).")
         motion = machine.at(unreachable="nan", **poses_at(machine, options.strokes, POSES))
         over = judged_over(machine, options, motion)
-        print(limits(motion, overs_of(machine, options.over) or [Over()]))
+        print(limits_over(motion, overs_of(machine, options.over) or [Over()]))
         print(f"mobility {machine.mobility}; Gruebler count {machine.gruebler}")
         for each in machine.four_bars:
             print(each)

@@ -12,16 +12,16 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, SingularError, known_name, unknown
 from ..language import said, said_of
-from ..loads import DIRECTIONS, PLAIN, Acting, LoadCase
+from ..loads import DIRECTIONS, PLAIN, PLAIN_CASE, Acting, LoadCase
 from ..mechanism import Mechanism
-from ..motion import PLAIN_CASE, Column, Motion, Over, Request, RequestLike, columns_of, out_of_reach, stroke_unit
+from ..motion import Column, Motion, Over, Request, RequestLike, columns_of, out_of_reach, stroke_unit
 from ..plan import Plan, plan_measure
 from ..quantities import Dimension, Quantity, Stroke
 from ..reports import NOTHING, At, force_columns, results, run_of
 from ..steps import Point
 from ..units import UNITS, parse
 from ..verdict import Verdict
-from .command import remark
+from .command import say_remark
 
 FAILED = 1
 """The exit code of `--check` where a verdict fails."""
@@ -103,7 +103,7 @@ def judged_code(verdicts: Sequence[str], options: Namespace) -> int:
     judged = [each for each in verdicts if isinstance(each, Verdict)]
     silent = sum(each.ok is None for each in judged)
     if silent:
-        remark(said_of(silent, "{n} rule says nothing: nothing is left to judge.", "{n} rules say nothing: nothing is left to judge."))
+        say_remark(said_of(silent, "{n} rule says nothing: nothing is left to judge.", "{n} rules say nothing: nothing is left to judge."))
     return FAILED if any(each.ok is False for each in judged) else 0
 
 
@@ -188,7 +188,7 @@ def tell_gaps(motion: Motion, error: AssemblyError | None = None) -> None:
     """Say in one remark where a motion cannot be assembled, what is missing there and the remedy; `error` is what says so."""
     if error is not None or not motion.reached.all():
         gaps = "" if motion.reached.all() else said("What cannot be assembled is left empty.")
-        remark(f"{error or out_of_reach(motion)} {gaps}")
+        say_remark(f"{error or out_of_reach(motion)} {gaps}")
 
 
 def motion_along(machine: Mechanism, count: int, at: At = NOTHING) -> Motion:

@@ -19,7 +19,7 @@ SHAPES = ("path", "poses")
 _COMPARED = re.compile(r"([^<>=!]+)(<=|>=)([^<>=!]+)")
 
 
-def over_of(given: Any, names: Names) -> Over:
+def over_read(given: Any, names: Names) -> Over:
     """Return where is looked, as a table says it; DefinitionError, with the key, for what it is not."""
     if not isinstance(given, Mapping):
         raise DefinitionError(f'{shortened(given)} is not a table of strokes, such as {{ phi = ["15 deg", "80 deg"], t = 0.0 }}.')

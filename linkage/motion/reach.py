@@ -18,7 +18,7 @@ from .motion import Motion
 from .over import Over
 
 
-def limits(motion: Motion, overs: Sequence[Over | Motion] = (Over(),)) -> Limits:
+def limits_over(motion: Motion, overs: Sequence[Over | Motion] = (Over(),)) -> Limits:
     """Return the limits along every stroke of one design, and what is lost over the box of all, or over what is given."""
     strokes = scan.limits(motion)
     return Limits(strokes, box_limits(Judge(motion.plan, motion.designs, overs))) if strokes else strokes
@@ -48,4 +48,4 @@ def loop_margin(plan: Plan, least: LeastMargin) -> LoopMargin:
     return LoopMargin(called(plan, least.step), least.kind, clear, bool(least.is_hole), strokes, places_text(strokes, least.units))
 
 
-Motion.limits_of = limits  # a motion's limits ask the judge, who is made with motions
+Motion.limits_of = limits_over  # a motion's limits ask the judge, who is made with motions

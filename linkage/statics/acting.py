@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ..errors import DefinitionError, SingularError, cited, known_name, told, unknown
 from ..loads import PLAIN_CASE, Damper, ForceElement, Friction, Load, LoadCase, Poses, Rate, Rates, TwoPinned, check_together
 from ..loads.case import check_factor
-from ..motion import PLAIN_CASE, Motion, rates_of, require_motion
+from ..motion import Motion, rates_of, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Plan
 from ..program import FloatArray

@@ -85,7 +85,7 @@ def max_headings() -> tuple[str, ...]:
     )  # fmt: skip
 
 
-OverLike: TypeAlias = Over | Mapping[str, Any] | Sequence[Over] | None
+OverLike: TypeAlias = Over | Mapping[str, Any] | Sequence[Over | Motion] | None
 
 
 @overload

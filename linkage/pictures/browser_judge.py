@@ -21,8 +21,8 @@ from ..motion.over import ALLOWED
 from ..motion.requests import bound
 from ..plan import Plan
 from ..program import Node
-from ..units import display_unit
-from .curves import limit_of
+from ..units import display_unit, factor, shown_in
+from .curves import limit_of, typeset
 
 MOST = 5000
 """Poses that a page looks at for all its questions together."""
@@ -77,7 +77,7 @@ class LiveQuestions:
         self.machine, self.judge = machine, machine.judge()
         self.by_name: dict[str, RequestLike] = {}
         self.only = [self.rows_of_conditions(place.over.only) for place in self.judge.places]
-        self.asked: list[tuple[str, list[Constraint], dict[Leaf, list[Any]], str]] = []
+        self.asked: list[tuple[str, list[Constraint], dict[Leaf, list[Any]]]] = []
         with unwarned():
             for rule, condition in self.conditions().items():
                 self.ask(rule, condition)
@@ -85,7 +85,7 @@ class LiveQuestions:
             _, request, why = columns[name]
             limit = limit_of(given)
             if not why:
-                self.ask(name, least(request) >= limit.value if limit.fails == "below" else most(request) <= limit.value, limit.text)
+                self.ask(name, least(request) >= limit.value if limit.fails == "below" else most(request) <= limit.value)
 
     def conditions(self) -> dict[str, Condition]:
         """Return the rules of the machine's members that are plain conditions, with a member's name where several have the same one."""
@@ -98,7 +98,7 @@ class LiveQuestions:
         count = Counter(rule for _, rule, _ in found)
         return {rule if count[rule] == 1 else f"{rule} {name}": one for name, rule, one in found}
 
-    def ask(self, rule: str, condition: Condition, words: str = "") -> None:
+    def ask(self, rule: str, condition: Condition) -> None:
         """Note a question and its pieces; nothing where it cannot be split."""
         constraints = conditions_of([condition], self.machine)
         leaves = list(dict.fromkeys(leaf for each in constraints for leaf in (*each.left.leaves, *each.right.leaves)))
@@ -106,7 +106,7 @@ class LiveQuestions:
             pieces = {leaf: self.pieces(leaf) for leaf in leaves}
         except LinkageError:
             return
-        self.asked.append((rule, constraints, pieces, words))
+        self.asked.append((rule, constraints, pieces))
 
     def pieces(self, leaf: Leaf) -> list[Any]:
         """Return the pieces of a leaf with the names of their rows, over every `Over`; of a value at one pose the row alone."""
@@ -146,7 +146,7 @@ class LiveQuestions:
         return {"overs": overs, "questions": [each for each in asked if each], "most": MOST}
 
     def question(
-        self, live: LiveText, rule: str, constraints: list[Constraint], pieces: Mapping[Leaf, list[Any]], words: str
+        self, live: LiveText, rule: str, constraints: list[Constraint], pieces: Mapping[Leaf, list[Any]]
     ) -> dict[str, Any]:
         """Return a question as data; nothing where the program does not give one of its pieces."""
         names = [name for each in pieces.values() for _, _, name in each]
@@ -157,10 +157,9 @@ class LiveQuestions:
         with language("ru"):
             russian = heading_of(rule)
         return {
-            "rule": rule,
-            "ru": russian,
-            "unit": unit,
-            "words": words,
+            "rule": typeset(rule),
+            "ru": typeset(russian),
+            "unit": {"unit": typeset(shown_in(unit)), "factor": factor(shown_in(unit))},
             "leaves": [{"at": int(isinstance(leaf, At)), "pieces": [piece_of(live, *each) for each in pieces[leaf]]} for leaf in leaves],
             "constraints": [
                 {"symbol": each.symbol, "left": tree(each.left, leaves), "right": tree(each.right, leaves)} for each in constraints

@@ -93,7 +93,7 @@ def number(value):
 def check(machine, designs, n=9):
     """Compare the page's answers with Python's over the same poses; return how many were compared, and what was kept."""
     questions, data, found = asked_in_node(machine, [(design, n, False) for design in designs])
-    known = {rule: constraints for rule, constraints, _, _ in questions.asked}
+    known = {rule: constraints for rule, constraints, _ in questions.asked}
     count, kept = 0, set()
     for design, said in zip(designs, found, strict=True):
         other = machine.replaced(**design)

@@ -50,7 +50,7 @@ SAID = (
     noted("its length stands still at about {where}, where its thrust moves nothing"),
     noted("needs up to {pressure} at {where}"),
     noted("all live verdicts hold"),
-    noted("all {all} verdicts hold"),
+    noted("{ok} of {all} verdicts hold"),
     noted("{ok} of {all} verdicts hold; silent: {open}"),
     noted("the live verdicts hold; as delivered or silent: {open}"),
     noted("does not hold"),

@@ -544,7 +544,7 @@ function situationText(each) {
 function answerText({ rule, unit }, each) {
   if (each.unknown) return say("as delivered: with these sizes the page does not follow it");
   if (each.ok === null) return say("says nothing: no place is left to judge");
-  if (!(abs(each.value) >= 0)) return say("it has no value at places that were looked at");
+  if (!(abs(each.value) >= 0) || (each.kept === false && each.margin >= 0)) return say("it has no value at places that were looked at");
   const size = (value) => (isNumber(value) ? shown(value, unit, 4) : say("without bounds")), words = { value: size(each.value), place: situationText(each), limit: size(each.limit) };
   const text = each.symbol === "<=" ? say("greatest {value}, {place}; not above {limit}", words) : say("least {value}, {place}; not below {limit}", words);
   return data.limits[rule] ? `${text} (${limitText(data.limits[rule])})` : text;
@@ -658,7 +658,7 @@ function count(found) {
   if (fails.length === 1) badge.textContent = `\u2715 ${fails[0]}: ${say("does not hold")}`;
   else if (fails.length) badge.textContent = say("{count} verdicts fail", counts);
   else if (changed) badge.textContent = open ? say("the live verdicts hold; as delivered or silent: {open}", counts) : say("all live verdicts hold");
-  else badge.textContent = open ? say("{ok} of {all} verdicts hold; silent: {open}", counts) : states.length ? say("all {all} verdicts hold", counts) : say("all live verdicts hold");
+  else badge.textContent = open ? say("{ok} of {all} verdicts hold; silent: {open}", counts) : states.length ? say("{ok} of {all} verdicts hold", counts) : say("all live verdicts hold");
 }
 function list(parent, found) {
   parent.replaceChildren(...found.map(({ ok, rule, text }) => {

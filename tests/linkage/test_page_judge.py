@@ -2,13 +2,12 @@
 
 import json
 import subprocess
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import LEFT, RIGHT, Dyad, Ground, LoadCase, Mechanism, OnLink, Over, Stroke, Weight, deg, page
+from linkage import LEFT, RIGHT, Dyad, Ground, LoadCase, Mechanism, OnLink, Over, Stroke, Weight, deg
 from linkage.motion import live_text
 from linkage.pictures.browser import page_part
 from linkage.pictures.browser_data import PageRequests, page_data

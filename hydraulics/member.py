@@ -41,6 +41,8 @@ from linkage.loads import (
 from linkage.loads.element import Formulas
 from linkage.motion import (
     Column,
+    Condition,
+    Constraint,
     Judge,
     Judging,
     Motion,
@@ -48,6 +50,7 @@ from linkage.motion import (
     Request,
     SmoothPiece,
     Tabled,
+    at,
     greatest,
     least,
     lowest,
@@ -265,6 +268,17 @@ class Cylinder(TwoPoint, Tabled, Judging):
         ends = distance(self.A, self.B)
         return [least(ends), most(ends), *([most(BucklingUse(self, Acting())) <= 1.0] if carries_loads(judge) else [])]
 
+    def conditions(self, judge: Judge) -> Mapping[str, Condition]:
+        """Return that it fits, where its stroke is declared, and that its rod does not buckle."""
+        found: dict[str, Condition] = {}
+        ends = distance(self.A, self.B)
+        closed, stroke = (at(Gauge(f"{self.name} {name}", partial(self._length_given, name))) for name in ("closed", "stroke"))
+        if self.stroke is not None and self.closed is None:
+            found["length"] = most(ends) - least(ends) <= stroke
+        elif self.closed is not None:
+            found["length"] = AllOf((least(ends) >= closed, *((most(ends) <= closed + stroke,) if self.stroke is not None else ())))
+        return found | ({"buckling": most(BucklingUse(self.name, Acting())) <= 1.0} if carries_loads(judge) else {})
+
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it fits wherever the machine runs, is of a standard size, and whether a rod that carries something buckles."""
         try:
@@ -285,7 +299,7 @@ class Cylinder(TwoPoint, Tabled, Judging):
 
     def _length_given(self, name: str, motion: AnyMotion) -> Array:
         """Return its closed length or its stroke as it is given [m]."""
-        return positive(stroke_in_metres(number_set(self, motion, name), LENGTHS[name], self.sized(motion).bore), LENGTHS[name])
+        return positive(stroke_in_metres(number_set(self, motion, name), LENGTHS[name]), LENGTHS[name])
 
     def formulas(self, written: Formulas) -> None:
         """Write its area, and its pressure where no circuit says it."""
@@ -441,6 +455,20 @@ class Cylinder(TwoPoint, Tabled, Judging):
     @property
     def _pins(self) -> str:
         return "".join(label(end) for end in (self.A, self.B))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class AllOf(Condition):
+    """Several conditions as one: the worst counts."""
+
+    each: tuple[Condition, ...]
+
+    def constraints(self, machine: Any) -> tuple[Constraint, ...]:
+        return tuple(one for condition in self.each for one in condition.constraints(machine))
+
+    def __str__(self) -> str:
+        return " and ".join(map(str, self.each))
 
 
 # What is asked of one cylinder.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from . import scan
 from .answer import share_text
 from .judge import Judge, Question
 from .limits import StrokeLimits, place_text
-from .measures import Measure, least, reachable
+from .measures import Condition, Measure, least, reachable
 from .motion import out_of_reach
 from .pose_requests import transmission
 
@@ -33,6 +33,10 @@ class Judging(Member):
     def questions(self, judge: Judge) -> list[Question]:
         """Return what its verdicts ask of every machine, so that all members' questions are looked at in one pass."""
         return []
+
+    def conditions(self, judge: Judge) -> Mapping[str, Condition]:
+        """Return those of its rules that are plain conditions, by the rules' names: what a page asks of a design that is changed."""
+        return {}
 
     @abstractmethod
     def verdicts(self, judge: Judge) -> list[Verdict]:

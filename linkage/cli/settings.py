@@ -87,6 +87,19 @@ def parsed_ends(plan: Plan, name: str, text: str) -> float | tuple[float, float]
     return span[0], span[1]
 
 
+def with_overs(machine: Mechanism, overs: Sequence[Over] | None) -> Mechanism:
+    """Return the same design of a machine that runs only over what is given; itself where nothing is."""
+    if overs is None:
+        return machine
+    cls, own = type(machine), machine.plan.of_kind(Over)
+    members: dict[str, Any] = {name: None for name, over in own.items() if over not in overs}
+    fresh = [over for over in overs if not over.name]
+    members |= {f"over_{number}": over for number, over in enumerate(fresh, 1)}
+    variant = type(cls)(cls.__name__, (cls,), {"__doc__": cls.__doc__, "__module__": cls.__module__, **members})
+    made: Mechanism = variant(**machine.dimensions)
+    return made
+
+
 def judged_over(machine: Mechanism, options: Namespace, motion: Motion) -> list[Over | Motion] | None:
     """Return where a judgement looks: what `--over` says, else the poses that `--at` chose, else None, all that the machine runs."""
     chosen = overs_of(machine, options.over)

@@ -334,6 +334,8 @@ def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
     """Return how much oil the machine takes over all that it runs, and how long the pump's flow needs for it."""
     rams = circuit.rams(judge.motion)
     ways = [ram.travelled(judge) for ram in rams]
+    if np.isnan(ways).any():
+        return Verdict("oil", None, said("nothing is left to judge: every place is unlimited, left out or lost"))
     oil = sum(way * float(np.ravel(ram.sized(judge.motion).area)[0]) for ram, way in zip(rams, ways, strict=True))
     both = [(ram, way) for ram, way in zip(rams, ways, strict=True) if ram.works == "both"]
     back = sum(way * float(np.ravel(ram.sized(judge.motion).pull_area)[0]) for ram, way in both)

@@ -350,6 +350,8 @@ class Cylinder(TwoPoint, Tabled, Judging):
             return []
         ends = judge.answers([least(distance(self.A, self.B)), most(distance(self.A, self.B))])
         low, high = (float(each.value) for each in ends)
+        if np.isnan(low):
+            return [Verdict("length", None, said("nothing is left to judge: every place is unlimited, left out or lost"), answer=ends[0])]
         if closed is not None:
             opened = closed + stroke if stroke is not None else np.inf
             return [self._reaches(low, high, closed, opened).answered(ends[0] if low - closed < opened - high else ends[1])]

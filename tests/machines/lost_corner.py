@@ -1,7 +1,7 @@
 """A tail-lift with a corner that it does not reach: while it stands low the tilt cylinder is drawn in farther than the links let it."""
 
 from hydraulics import Cylinder, LiftCircuit
-from linkage import LEFT, RIGHT, Dyad, Ground, LoadCase, Mechanism, OnLink, Over, Stroke, Weight, y
+from linkage import LEFT, RIGHT, Dyad, Ground, LoadCase, Mechanism, Motion, OnLink, Over, Stroke, Verdict, Weight
 from linkage.units import bar, deg, mm
 
 
@@ -35,7 +35,11 @@ class Declared(TailLift):
     whole = Over(lost="allowed")
 
 
-class Nowhere(TailLift):
-    """The same where nothing is asked: no rule has anything to judge, beside those of the numbers alone."""
+class Silent(TailLift):
+    """The same where it is level, with rules of its own that have nothing to judge."""
 
-    nowhere = Over(S2=(0.0, 0.05), only=[y("Z") >= 100.0])
+    level = Over(S2=(0.0, 0.05), cases=("plain",))
+
+    def rules(self, motion: Motion) -> list[str]:
+        """Return two rules without a figure, and one that is kept."""
+        return [Verdict("noise", None, "nobody measured it."), Verdict("paint", None, "none is chosen."), Verdict("colour", True, "red.")]

@@ -24,7 +24,7 @@ from linkage.frozen import refuses_changes
 from linkage.language import with_and
 from linkage.loads import DIRECTIONS, Force, ForceElement, Load, Parameter, Poses, require_poses
 from linkage.loads.element import Formulas
-from linkage.motion import Judge, Motion, Question
+from linkage.motion import Condition, Judge, Motion, Question
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of
 from linkage.statics import AnyMotion, Case, Loads, elements_of, same
@@ -43,7 +43,7 @@ from .inputs import (
     positive,
     proper_share,
 )
-from .judged import line_questions, line_verdicts
+from .judged import line_conditions, line_questions, line_verdicts
 from .line import Choice, Holding, LiftLine, Lowering, WayBack, Work
 from .member import Cylinder, Reading, the_cylinder, thrust_along
 
@@ -252,6 +252,10 @@ class LiftCircuit(LiftLine):
     def questions(self, judge: Judge) -> list[Question]:
         """Return what is asked of each of its cylinders: whether it carries anything, lifts, holds."""
         return line_questions(self, judge)
+
+    def conditions(self, judge: Judge) -> Mapping[str, Condition]:
+        """Return that each of its cylinders lifts, holds and goes back."""
+        return line_conditions(self, judge)
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return the verdicts on lifting, oil, holding and lowering."""

@@ -220,7 +220,7 @@ def box_ends(name: str, value: Any) -> Any:
     """Return what a stroke of a box is given: a number, a quantity or its name, or two of such; DefinitionError for anything else."""
 
     def is_end(end: Any) -> bool:
-        return is_number(end) or isinstance(end, (str, Quantity))
+        return is_number(end) or isinstance(end, Quantity) or (isinstance(end, str) and end.isidentifier())
 
     if isinstance(value, (list, tuple, np.ndarray)):
         if len(value) == 2 and all(map(is_end, value)):

@@ -13,8 +13,8 @@ from matplotlib.axes import Axes
 
 from ..errors import LinkageError, unknown, unwarned
 from ..language import noted, said, translated
-from ..loads import Acting
-from ..motion import PLAIN_CASE, Answer, Column, Measure, Motion, Request, Tabled, least, most, stroke_display_unit
+from ..loads import PLAIN_CASE, Acting
+from ..motion import Answer, Column, Measure, Motion, Request, Tabled, least, most, stroke_display_unit
 from ..motion.limits import StrokeLimits
 from ..motion.measures import Least, Most
 from ..pictures import mechanism

@@ -11,9 +11,9 @@ import numpy as np
 
 from ..errors import AssemblyError, DefinitionError, LinkageError, SingularError, cited, unwarned
 from ..language import said
-from ..loads import Acting, ForceElement, LoadCase
+from ..loads import PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..mechanism import Mechanism, require_mechanism
-from ..motion import PLAIN_CASE, Column, Judge, Motion, Request, Tabled, stroke_display_unit
+from ..motion import Column, Judge, Motion, Request, Tabled, stroke_display_unit
 from ..motion.measures import MeasuredQuantity
 from ..quantities import Quantity, is_whole
 from ..reports import At, ColumnOf, Run, column_requests, run_of

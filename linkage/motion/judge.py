@@ -17,14 +17,16 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, told, unwarned
 from ..language import said
-from ..loads import PLAIN, Acting, ForceElement, LoadCase
+from ..loads import PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel
 from ..quantities import Quantity, Ref
 from ..vectors import Numbers
 from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
+from .box import values_a_stroke
 from .evaluation import Evaluation
 from .limits import stroke_unit
+from .line import SAMPLES
 from .margins import LeastMargin, assembly_error_at, has_all_margins, least_margins
 from .measures import (
     At,
@@ -34,6 +36,7 @@ from .measures import (
     Leaf,
     Least,
     Measure,
+    Most,
     Reachable,
     Worst,
     conditions_of,
@@ -43,15 +46,13 @@ from .measures import (
     words_of,
 )
 from .motion import Motion
-from .over import ALLOWED, PLAIN_CASE, Over
+from .over import ALLOWED, Over
 from .requests import BoundRequest, Request, SmoothPiece, identity_of
 from .search import extremum, moving
 from .strokes import at_values
 
 Question: TypeAlias = "Measure | Condition"
 
-WIDTHS = {1: 1 / 4096, 2: 1 / 128, 3: 1 / 32, 4: 1 / 12, 5: 1 / 7, 6: 1 / 5}
-"""How broad a place is at the least, of each stroke, that is surely found: by the number of strokes that run."""
 INNER = 65
 """Values of the stroke over which `worst` is taken."""
 PANELS = 4096
@@ -99,7 +100,12 @@ class Sought:
     @property
     def request(self) -> Any:
         """What is looked for."""
-        return self.piece.reciprocal if self.is_reciprocal else self.piece.request
+        return self.piece.reciprocal if self.is_reciprocal else self.piece.below if self.stays_at_zero else self.piece.request
+
+    @property
+    def stays_at_zero(self) -> bool:
+        """Whether what is looked for goes on below zero, where the request does not."""
+        return self.piece.below is not None and isinstance(self.leaf, Most)
 
     @property
     def sought(self) -> float:
@@ -111,7 +117,7 @@ class Sought:
         if self.is_reciprocal:
             with np.errstate(all="ignore"):
                 return np.asarray(np.where(highest > 0.0, 1.0 / highest, np.nan))
-        return np.asarray(self.sense * highest)
+        return np.asarray(np.maximum(highest, 0.0) if self.stays_at_zero else self.sense * highest)
 
 
 @final
@@ -140,12 +146,16 @@ class Domain:
             own = given is not None and given._grid.per_design
             self.motion = Motion(plan, designs, strokes, "nan", per_design=own)
 
-    def number(self, quantity: Quantity) -> float:
-        """Return the value of a quantity of the design [SI]; DefinitionError for a batch."""
-        start = {name: np.asarray(value, float) for name, value in self.plan.sketch_strokes.items()}
-        found = Motion(self.plan, self.designs, start, "nan").value(quantity)
+    def number(self, quantity: str | Quantity) -> float:
+        """Return the value of a design variable by its name, or of a quantity of the design [SI]; DefinitionError for a batch."""
+        if isinstance(quantity, str):
+            owner, sign = self.plan.table.spellings[quantity]
+            found = sign * np.asarray(self.designs[owner], float)
+        else:
+            start = {name: np.asarray(value, float) for name, value in self.plan.sketch_strokes.items()}
+            found = Motion(self.plan, self.designs, start, "nan").value(quantity)
         if np.size(found) != 1 or not np.all(np.isfinite(found)):
-            what = f"{self.plan.title}: {self.over}: {quantity.name or quantity} = {cited(found)}"
+            what = f"{self.plan.title}: {self.over}: {words_of(quantity)} = {cited(found)}"
             raise DefinitionError(f"{what}; one finite number is expected, of one design.")
         return float(np.ravel(found)[0])
 
@@ -165,7 +175,8 @@ class Domain:
         if self.over.shape == "poses":
             return {}
         count = 1 if self.is_path else len(self.running)
-        return dict.fromkeys(self.running, WIDTHS.get(count, 1 / 4))
+        steps = SAMPLES if count < 2 else values_a_stroke(count, self.motion._grid.size[0]) - 1
+        return dict.fromkeys(self.running, 1.0 / steps)
 
     def situations(self, request: Any, acting: Acting) -> list[Situation]:
         """Return the load cases and movements in which a request is judged here; one without anything for what is of no force."""
@@ -563,6 +574,20 @@ class Judge:
                 row = Sought(leaf, piece, situation, sense)
                 found[key] = row if key not in found else replace(found[key], situation=shared(found[key].situation, situation))
         return [*found.values()]
+
+    def split(self, constraint: Constraint) -> list[Constraint]:
+        """Return a constraint as one of each smooth piece, in each load case and movement that occurs, as searches take it.
+
+        One piece alone, and a comparison of several measures, stays as it is, in each load case.
+        """
+        leaf = constraint.left
+        bounds_worst = (isinstance(leaf, Least) and constraint.symbol == ">=") or (isinstance(leaf, Most) and constraint.symbol == "<=")
+        if not (bounds_worst and isinstance(leaf, Leaf) and isinstance(leaf.quantity, Request)) or constraint.right.leaves:
+            return [constraint]
+        rows = [row for place in self.places for row in self.rows(leaf, place)]
+        if len(rows) == 1:
+            return [constraint]
+        return [replace(constraint, left=replace(leaf, quantity=row.piece.request)) for row in rows]
 
     def at_pose(self, row: Sought, place: Domain) -> WorstPiece:
         """Return the value of a row at the one pose that its leaf says."""

@@ -51,7 +51,7 @@ class Effect:
     @property
     def length(self) -> float:
         """The greatest change, real or told by the gradient [SI]."""
-        return float(np.nanmax(np.abs([self.low, self.high, self.linear_low, self.linear_high])))
+        return float(np.fmax.reduce(np.abs([self.low, self.high, self.linear_low, self.linear_high])))
 
 
 @final
@@ -107,11 +107,15 @@ def tornado(machine: Mechanism, quantity: Measured, tolerances: Mapping[str, Tol
         said = "say one pose, or give a measure such as most(...)"
         raise DefinitionError(f"{plan.title}: {measured_title(plan, quantity)} at {poses.count} poses; {said}.")
     nominal = float(values[0, 0])
+    if not np.isfinite(nominal):
+        what = f"{plan.title}: {measured_title(plan, quantity)} has no value at {poses.words()}"
+        raise DefinitionError(f"{what}; ask where it has one.")
     low, high = values[1 : 1 + k, 0] - nominal, values[1 + k :, 0] - nominal
     slopes = gradient_at(machine, poses, quantity, named)
-    parts = (slopes * np.array([each.sigma for each in named.values()])) ** 2
-    total = float(parts.sum())
-    shares = parts / total if total else parts
+    with np.errstate(all="ignore"):
+        parts = (slopes * np.array([each.sigma for each in named.values()])) ** 2
+        total = float(parts.sum())
+        shares = parts / total if total else parts
     rows = np.stack([slopes, low, high, shares], axis=1).tolist()
     bars = [Effect(name, each, *row) for (name, each), row in zip(named.items(), rows, strict=True)]
     ordered = tuple(sorted(bars, key=lambda bar: -bar.length))

@@ -215,7 +215,7 @@ def curve(ax: Axes, motion: Motion, column: Column, bound: Sequence[Any] | None,
 def mark_beyond(ax: Axes, value: float, text: str, is_least: bool) -> None:
     """Draw a line at a value, with its number, and make room for it."""
     low, high = ax.get_ylim()
-    air = 0.12 * (max(high, value) - min(low, value))
+    air = 0.2 * (max(high, value) - min(low, value))
     ax.set_ylim(min(low, value - air), max(high, value + air))
     ax.axhline(value, color=INK, linewidth=1.1, linestyle=(0, (1.5, 1.5)), zorder=4.0)
     ax.annotate(

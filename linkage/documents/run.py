@@ -13,8 +13,9 @@ from ..errors import AssemblyError, DefinitionError, LinkageError, SingularError
 from ..language import said
 from ..loads import PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..mechanism import Mechanism, require_mechanism
-from ..motion import Column, Judge, Motion, RequestLike, Tabled, stroke_display_unit
-from ..quantities import is_whole
+from ..motion import Column, Judge, Motion, Request, Tabled, stroke_display_unit
+from ..motion.measures import MeasuredQuantity
+from ..quantities import Quantity, is_whole
 from ..reports import At, ColumnOf, Run, column_requests, run_of
 from ..reports.results import asked_by_name
 from ..statics import PinForces, drive_force, pin_forces, pin_forces_under
@@ -123,13 +124,14 @@ class Looked:
         return moving != set(self.run.ways) or len(self.run.held) > 0 or len(self.judge.places) > 1
 
     @cached_property
-    def quantities(self) -> dict[str, RequestLike]:
+    def quantities(self) -> dict[str, MeasuredQuantity]:
         """What asks for the columns of results and of members anywhere, by their names; nothing for one that only the table gives."""
         with unwarned():
             own = column_requests(self.machine, self.curve).items()
-            found = {name: request for name, (_, request, why) in own if not (why and isinstance(request, ColumnOf))}
+            asked = {name: request for name, (_, request, why) in own if not (why and isinstance(request, ColumnOf))}
+            found: dict[str, MeasuredQuantity] = {name: request for name, request in asked.items() if isinstance(request, (str, Quantity, Request))}
             for name, column in member_tables(self.machine, self.curve):
-                if column.request is not None:
+                if isinstance(column.request, (str, Quantity, Request)):
                     found.setdefault(f"{column.name} {name}", column.request)
         return found
 

@@ -19,7 +19,7 @@ from ..units import shown_number, unit_sign
 from .force_requests import pin_force
 from .joint_forces import JointForce, PinForces, pin_forces
 
-Place: TypeAlias = tuple[np.intp, ...]
+Place: TypeAlias = tuple[np.intp | int, ...]
 """A pose among those of a motion, or a design among its designs, by its indices."""
 
 
@@ -144,7 +144,7 @@ def judged_row(judge: Judge, key: tuple[str, str, str, str], answer: Answer) -> 
     movement["drive"] = acting.drive if acting.movement != FRICTIONLESS else None
     there = pin_forces(of_design.there(one), acting.loads, case=acting.case, **movement)
     joint = next(each for each in there.joints if key_of(each) == key)
-    design = tuple(map(int, np.unravel_index(number, value.shape)))
+    design = np.unravel_index(number, value.shape)
     row = pin_load(there, joint, float(one.value), (), design, dict(one.strokes))
     drive, over = (getattr(one, name) if name in one.named else "" for name in ("drive", "over"))
     return replace(row, drive=drive, over=over, answer=one)

@@ -7,7 +7,7 @@ Source: Rekhlitski, Chuprynin (2013), (36), (37), (39).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
 from types import MappingProxyType
@@ -99,6 +99,15 @@ class FloatCircuit(Circuit):
 
     def feeds(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         return self.members(members)
+
+    def claims(self, members: Mapping[str, Member]) -> Mapping[Hashable, str]:
+        (ram,) = self.members(members)
+        doubled = f"feed {ram.name or ram}, whose thrust would count double: one chamber has one line"
+        filled = "are given the same block, which would be filled twice: gas stands in one line"
+        return {
+            ("gas line", ram.name or id(ram)): f"{doubled}. Take one out, or put the vessels of both into one AccumulatorBlock.",
+            ("block", id(self.block)): f"{filled}. Give each circuit a block of its own, AccumulatorBlock([Accumulator(...)]).",
+        }
 
     def pressure_in(self, cylinder: Cylinder, motion: AnyMotion, loads: Loads, case: Case, direction: str | None) -> Array:
         return self.pressure(motion)

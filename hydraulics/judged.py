@@ -23,7 +23,7 @@ from linkage.verdict import Verdict
 from .cylinder import standard_bores
 from .inputs import not_negative, one_number
 from .line import LiftLine
-from .member import PISTON, SIDES, Cylinder, Thrust, is_loaded, one_design, one_size
+from .member import PISTON, SIDES, Cylinder, Thrust, carries_loads, one_design, one_size
 from .requests import GoingBack, Pressure, Reserve
 
 TRIES = 4
@@ -67,7 +67,7 @@ def line_verdicts(circuit: LiftLine, judge: Judge, resistance: float = 0.0, unit
 
 def line_questions(circuit: LiftLine, judge: Judge) -> list[Question]:
     """Return what the verdicts on a circuit ask of each of its cylinders at first; nothing where nothing acts."""
-    if not is_loaded(judge):
+    if not carries_loads(judge):
         return []
     cylinders = [LiftingCylinder(judge, circuit, ram) for ram in circuit.rams(judge.motion)]
     return [question for each in cylinders for question in each.questions()]
@@ -267,7 +267,7 @@ class LiftingCylinder:
             )  # fmt: skip
             return Verdict("lowering", False, text, answer=push)
         if self.ram.works == "both":
-            enough = push.value <= float(self.circuit.supply(judge.motion))
+            enough = judge.answer(least(Reserve(*self.asked)) >= 1.0).ok is not False  # which asks the other side while it drives
             text = said(
                 "{direction}, the load does not drive it back {where} {against}: the other side must push with up to {push}, {place}.",
                 direction=said("extending") if self.way_back == "extending" else said("retracting"), where=where, against=against,

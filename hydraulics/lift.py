@@ -21,12 +21,13 @@ from numpy.typing import ArrayLike
 
 from linkage.errors import DefinitionError, known_name, one_word
 from linkage.frozen import refuses_changes
+from linkage.language import with_and
 from linkage.loads import DIRECTIONS, Force, ForceElement, Load, Parameter, Poses, require_poses
 from linkage.loads.element import Formulas
 from linkage.motion import Judge, Motion, Question
 from linkage.program import is_traced
 from linkage.quantities import Member, Reference, label, name_of
-from linkage.statics import AnyMotion, Case, Loads, elements_of
+from linkage.statics import AnyMotion, Case, Loads, elements_of, same
 from linkage.verdict import Verdict
 
 from .inputs import (
@@ -98,12 +99,29 @@ class LiftCircuit(LiftLine):
         if not self.references:
             raise DefinitionError(f"{title}.{self.name}: the circuit has no cylinder; name one, LiftCircuit(lift, pressure=...).")
         super().examine(members, title)
+        own = self.members(members)
+        for place, ram in enumerate(own):
+            if any(same(ram, each) for each in own[:place]):
+                what = f"{self.name} has {ram.name or ram} twice, so that its oil would count double"
+                raise DefinitionError(f"{title}: {what}; name it once, or write count=2 in the Cylinder where there are two.")
+        for other in (each for each in members.values() if isinstance(each, LiftCircuit) and each is not self):
+            rams = other.members(members)
+            shared = [ram for ram in own if any(same(ram, each) for each in rams)]
+            if shared and not len(shared) == len(own) == len(rams):
+                both = with_and(ram.name or str(ram) for ram in shared)
+                what = f"{self.name} and {other.name} both have {both}, but not the same cylinders"
+                says = "what shares a chamber is one line with one pressure"
+                raise DefinitionError(f"{title}: {what}; {says}. Name all of them in one LiftCircuit, or none in both.")
 
     def loads(self, motion: Poses) -> list[Load]:
         return []
 
     def joined(self, members: Mapping[str, Member]) -> tuple[ForceElement, ...]:
         return self.members(members)
+
+    @property
+    def scales(self) -> bool:
+        return False
 
     def __str__(self) -> str:
         names = ", ".join(label(each) for each in self.references)

@@ -246,12 +246,12 @@ class Cylinder(TwoPoint, Tabled, Judging):
     def questions(self, judge: Judge) -> list[Question]:
         """Return its least and greatest length, and the utilisation of its rod."""
         ends = distance(self.A, self.B)
-        return [least(ends), most(ends), *([most(BucklingUse(self, Acting()))] if is_loaded(judge) else [])]
+        return [least(ends), most(ends), *([most(BucklingUse(self, Acting()))] if carries_loads(judge) else [])]
 
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it fits wherever the machine runs, is of a standard size, and whether a rod that carries something buckles."""
         try:
-            rod = self.buckling_verdicts(judge) if is_loaded(judge) else []
+            rod = self.buckling_verdicts(judge) if carries_loads(judge) else []
             return [*self.length_verdicts(judge), self.standard(judge.motion), *rod]
         except DefinitionError as error:
             return [Verdict("cylinder", False, " ".join(str(error).split()))]
@@ -610,7 +610,7 @@ def changes_in_motion(motion: AnyMotion, loads: Loads) -> bool:
     return any(each.frictions(motion) or each.feeds(motion.plan.members) for _, each in elements_of(motion.plan, loads))
 
 
-def is_loaded(judge: Judge) -> bool:
+def carries_loads(judge: Judge) -> bool:
     """Return whether anything acts on a machine by itself."""
     motion = judge.motion
     return any(each.loads(motion) or each.pushes(motion, AT_REST) for each in motion.plan.of_kind(ForceElement).values())

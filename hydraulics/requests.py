@@ -14,11 +14,11 @@ import numpy as np
 from linkage.errors import DefinitionError, known_name, unknown
 from linkage.loads import DIRECTIONS, Acting
 from linkage.mechanism import Mechanism
-from linkage.motion import Condition, Constraint, Piece, at, least, most, require_motion
+from linkage.motion import Condition, Constraint, SmoothPiece, at, least, most, require_motion
 from linkage.motion.grid import MotionLike
 from linkage.plan import Mask, Plan
 from linkage.quantities import Quantity, Reference, distance, name_of, quantity
-from linkage.statics import AnyMotion, Case, acting_of, same
+from linkage.statics import AnyMotion, Case, same, situation_of
 
 from .cylinder import CylinderSize
 from .inputs import Array, direction_of, follows, only_where, proper_share
@@ -32,7 +32,7 @@ def thrust(cylinder: Reference, *, case: Case = None, direction: str | None = No
     `acting` says case and direction in one, with loads and rates too. With declared friction and a direction it has values and no
     derivatives.
     """
-    return Thrust(name_of(cylinder), acting_of(acting, "thrust", case=case, direction=direction))
+    return Thrust(name_of(cylinder), situation_of(acting, "thrust", case=case, direction=direction))
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,16 +93,16 @@ class Pressure(CircuitRequest):
     def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
         return self.ram(plan).driven if self.is_needed else DIRECTIONS
 
-    def pieces(self, plan: Plan) -> tuple[Piece, ...]:
+    def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
         if self.side:
-            return (Piece(self, self.side),)
+            return (SmoothPiece(self, self.side),)
         ram = self.ram(plan)
         if self.is_needed:
-            side = side_of(self.acting.direction)
-            return (Piece(replace(self, side=side), side),)
+            side = driving_side(self.acting.direction)
+            return (SmoothPiece(replace(self, side=side), side),)
         if any(same(ram, one) for each in plan.of_kind(Circuit).values() for one in each.feeds(plan.members)):
-            return (Piece(self, ram.works),)
-        return tuple(Piece(replace(self, side=side), side) for side in SIDES)
+            return (SmoothPiece(self, ram.works),)
+        return tuple(SmoothPiece(replace(self, side=side), side) for side in SIDES)
 
     def law(self, motion: AnyMotion) -> Array:
         ram, given = self.ram(motion.plan), self.acting
@@ -130,7 +130,7 @@ def pressure(
     """
     if side:
         known_name("Side", side, SIDES)
-    return Pressure(name_of(cylinder), acting_of(acting, "pressure", case=case, direction=direction), circuit_name(circuit), side)
+    return Pressure(name_of(cylinder), situation_of(acting, "pressure", case=case, direction=direction), circuit_name(circuit), side)
 
 
 def circuit_name(circuit: Reference | None) -> str:
@@ -158,11 +158,11 @@ class Reserve(CircuitRequest):
     def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
         return self.ram(plan).driven
 
-    def pieces(self, plan: Plan) -> tuple[Piece, ...]:
+    def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
         if self.acting.direction not in self.ram(plan).driven:
-            return (Piece(self),)
+            return (SmoothPiece(self),)
         use = Use(self.cylinder, self.acting, self.circuit, self.bore)
-        return (Piece(replace(self, is_judged=True), side_of(self.acting.direction), use),)
+        return (SmoothPiece(replace(self, is_judged=True), driving_side(self.acting.direction), use),)
 
     def law(self, motion: AnyMotion) -> Array:
         circuit, given = self.circuit_of(motion.plan), self.acting
@@ -217,10 +217,10 @@ def reserve(
     NaN where the load drives, which is not limited by this cylinder and counts in no least value. Where it is judged, of a cylinder that
     works with both sides each counts while it moves against the load.
     """
-    return Reserve(name_of(cylinder), acting_of(acting, "reserve", case=case, direction=direction), circuit_name(circuit))
+    return Reserve(name_of(cylinder), situation_of(acting, "reserve", case=case, direction=direction), circuit_name(circuit))
 
 
-def side_of(direction: str | None) -> str:
+def driving_side(direction: str | None) -> str:
     """Return the side that drives a cylinder in a direction."""
     return {"extending": PISTON, "retracting": ROD}.get(direction or "", "")
 
@@ -307,7 +307,7 @@ def capacity(
     """
     proper_share(share)
     x, y = direction_of(along)
-    given, unit = acting_of(acting, "capacity", case=case), (float(x) + 0.0, float(y) + 0.0)
+    given, unit = situation_of(acting, "capacity", case=case), (float(x) + 0.0, float(y) + 0.0)
     return Capacity(name_of(cylinder), given, circuit_name(circuit), name_of(point), unit, float(share))
 
 
@@ -315,7 +315,7 @@ def buckling(
     cylinder: Reference, *, case: Case = None, direction: str | None = None, acting: Acting | None = None
 ) -> BucklingUse:
     """Return the request for the utilisation of a rod: `lift.buckling_use(motion, case=..., direction=...)`, at most 1 where it holds."""
-    return BucklingUse(name_of(cylinder), acting_of(acting, "buckling", case=case, direction=direction))
+    return BucklingUse(name_of(cylinder), situation_of(acting, "buckling", case=case, direction=direction))
 
 
 # A condition of a search.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
@@ -17,6 +18,7 @@ from .reports import NOTHING
 if TYPE_CHECKING:
     from os import PathLike
 
+    import networkx as nx
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -55,8 +57,10 @@ def draw(
     velocities: Mapping[str, Any] | None = ...,
     pole: bool | str | tuple[str, str] = ...,
 ) -> Figure: ...
+@overload
+def draw(machine: nx.MultiGraph) -> Figure: ...
 def draw(
-    machine: Mechanism | Motion | Optimum | Sequence[Assembly] | Sequence[Mechanism],
+    machine: Mechanism | Motion | Optimum | nx.MultiGraph | Sequence[Assembly] | Sequence[Mechanism],
     at: Any = None,
     path: Sequence[str] = (),
     count: int = 101,
@@ -95,8 +99,10 @@ def draw(
     mode with the line of code that chooses it.
 
     Of the result of a search, the machine before, faint, and after, bold, at both ends of its stroke, with how far each pin moved.
+
+    Of `machine.graph`, the kinematic chain: its bodies, and the pins and slides between them.
     """
-    from .pictures import draw, draw_designs, draw_modes, draw_optimum
+    from .pictures import draw, draw_chain, draw_designs, draw_modes, draw_optimum
     from .study import Optimum
 
     is_laid = bool(ax is not None or pose or faint or forces or velocities is not None or pole)
@@ -108,6 +114,10 @@ def draw(
                 "draw([...]): one or more designs, with at=, path= and count= if wanted, or machine.assemblies() are expected."
             )
         return draw_designs(designs, at, path, count) if designs else draw_modes(modes)
+    if "networkx" in sys.modules and isinstance(machine, sys.modules["networkx"].MultiGraph):
+        if at is not None or path or is_laid:
+            raise DefinitionError("draw(machine.graph): a graph has no poses; it is drawn by itself.")
+        return draw_chain(machine)
     if isinstance(machine, Mechanism) and not is_laid and any(map(np.ndim, machine.dimensions.values())):
         return draw_designs([machine], at, path, count)
     if isinstance(machine, Optimum):

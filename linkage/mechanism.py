@@ -9,16 +9,16 @@ from copy import copy
 from functools import wraps
 from inspect import isfunction
 from types import MethodType
-from typing import Any, ClassVar, NoReturn, Self, TypeVar, cast, final
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self, TypeVar, cast, final
 
 import numpy as np
 import numpy.typing as npt
 
 from .assembly import Assembly, assembled, assemblies
 from .errors import DefinitionError, cited, told, unknown
-from .loads import Acting, ForceElement, LoadCase
+from .loads import Acting, ForceElement, LoadCase, check_together
 from .loads.element import Formulas
-from .mobility import FourBar, Mobility, check, four_bars, mobility
+from .mobility import FourBar, Mobility, chain_graph, check, four_bars, mobility
 from .motion import (
     OPTIONS,
     PLAIN_CASE,
@@ -41,10 +41,13 @@ from .motion import (
 )
 from .plan import Body, Plan
 from .program import FloatArray, Way
-from .quantities import Member, Stroke
+from .quantities import Member, Stroke, is_name, needs
 from .shown import Shown, ShownList
 from .steps import Drawn
 from .vectors import Numbers
+
+if TYPE_CHECKING:
+    import networkx as nx
 
 Method = TypeVar("Method", bound=Callable[..., object])
 Result = TypeVar("Result")
@@ -94,10 +97,38 @@ def of_own_motion(method: Callable[[Mechanism, Motion], Result]) -> Callable[[Me
 
 
 @final
+class ClassBody(dict[str, object]):
+    """What stands in the body of a class, line by line: a name that has a member takes no other one, which would lose the first."""
+
+    def __init__(self, title: str) -> None:
+        super().__init__()
+        self.title = title
+
+    def __setitem__(self, name: str, value: object) -> None:
+        first = self.get(name)
+        if isinstance(first, Member) and value is not first:
+            both = f"{name} = {as_line(first)} stands there already, and {name} = {as_line(value)} would take its place without a word"
+            raise DefinitionError(f"{self.title}: {both}; give one of them another name, or take one out.", member=name)
+        super().__setitem__(name, value)
+
+
+def as_line(value: object) -> str:
+    """Return a line's right side for a message; its kind alone where its parts have no names yet."""
+    try:
+        return str(value) if isinstance(value, Member) else cited(value)
+    except DefinitionError:
+        return f"{type(value).__name__}(...)"
+
+
+@final
 class MechanismType(ABCMeta):
     """The class of the classes of mechanism: what a class is made of does not change once it is made."""
 
     plan: Plan
+
+    @classmethod
+    def __prepare__(cls, name: str, bases: tuple[type, ...], /, **options: object) -> ClassBody:
+        return ClassBody(name)
 
     def __setattr__(cls, name: str, value: object) -> None:
         builder = str(sys._getframe(1).f_globals.get("__name__", ""))
@@ -133,6 +164,7 @@ class Mechanism(Shown, metaclass=MechanismType):
         if "verdicts" in vars(cls):
             remedy = "name it rules(self, motion): what it returns is added to these, and super().rules(motion) gives those of its base"
             raise DefinitionError(f"{cls.__name__}.verdicts replaces what is said of every machine; {remedy}.", member="verdicts")
+        check_bindable(cls.__name__, "class")
         for name in ("columns", "rules"):
             if isfunction(vars(cls).get(name)):
                 type.__setattr__(cls, name, of_a_design(of_own_motion(vars(cls)[name])))
@@ -148,14 +180,14 @@ class Mechanism(Shown, metaclass=MechanismType):
                 text = f"{cls.__name__}: a stroke cannot be named {name}, which Over takes for something else; rename it."
                 raise DefinitionError(text, member=name)
             if name not in reached and cls.plan.points:
-                text = f"{cls.__name__}: the stroke {name} moves nothing; use it in a length or an angle, or take it out."
-                raise DefinitionError(text, member=name)
+                raise idle_stroke(cls.plan, name)
         for name, sketch in cls.plan.of_kind(Drawn).items():
             try:
                 at_values(cls.plan.sketch_strokes, cls.plan)
             except DefinitionError as error:
                 raise DefinitionError(f"{cls.__name__}: {name} = {sketch}: {error}", member=name) from None
         check(cls.plan)
+        check_together(cls.plan.of_kind(ForceElement), cls.plan.members, cls.__name__)
         for member in (*members.values(), *cls.plan.members.values()):
             member.settle(cls.__name__)
 
@@ -406,6 +438,16 @@ class Mechanism(Shown, metaclass=MechanismType):
         """The Gruebler count 3 (n - 1) - 2 j."""
         return self.plan.gruebler
 
+    @property
+    def graph(self) -> nx.MultiGraph:
+        """The bodies as nodes and the pins and slides between them as edges, a `networkx.MultiGraph`; `draw` makes its picture.
+
+        The frame is "frame". A pin of n bodies is n - 1 edges, a cylinder is a barrel and a rod, a point on a guide a block, so that
+        3 (n - 1) - 2 j is `gruebler`. Nodes have `kind`, `points`, `link` and `dimensions` [m] of this design, edges, keyed by name,
+        `kind`, the `strokes` that drive them and `dimensions`, the driven lengths as they are written.
+        """
+        return chain_graph(self.plan, self.at(unreachable="nan", **self.plan.sketch_strokes).inputs)
+
     def __repr__(self) -> str:
         changed = {name: value for name, value in self._values.items() if np.ndim(value) or value != self.plan.table.entries[name].default}
         return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in changed.items())})"
@@ -423,12 +465,37 @@ def declared(cls: type) -> dict[str, Member]:
             if not isinstance(value, Member):
                 check_no_member(cls.__name__, name, value)
             if isinstance(value, Member):
+                check_bindable(name, f"member of {cls.__name__}")
                 if name in vars(Mechanism) or name in WORDS:
                     raise DefinitionError(f"{cls.__name__}: {name} is a word of the framework; give the member another name.", member=name)
                 members[name] = value
             elif name in members:
                 del members[name]
     return members
+
+
+def idle_stroke(plan: Plan, stroke: str) -> DefinitionError:
+    """Return the error for a stroke that no point follows: what follows it, and how that is to move a point."""
+    following = {name: member for name, member in plan.members.items() if name != stroke and stroke in plan.reaches(name)}
+    text = f"{plan.title}: the stroke {stroke} moves nothing"
+    if not following:
+        return DefinitionError(f"{text}; use it in a length or an angle, or take it out.", member=stroke)
+    name = min(following, key=lambda each: following[each].kind == "quantity")  # of a link and an output the link
+    opening = f"{text}: {name} = {following[name]} follows it"
+    steps = [each for each in needs(following[name]) if each in plan.points and not plan.points[each].is_fixed]
+    if not steps:
+        return DefinitionError(f"{opening}, and no point does; use it in the length or the angle of a step.", member=stroke)
+    point = steps[-1]
+    step = f"{point} = {plan.points[point]}"
+    pin = f"{point} = Pin(near=(x, y))"
+    remedy = f"Let that step have a length or an angle that follows {stroke}, or write {pin} and what holds it as links"
+    return DefinitionError(f"{opening}, but {step} places {point} without it. {remedy}.", member=stroke)
+
+
+def check_bindable(name: str, what: str) -> None:
+    """Raise DefinitionError for the name of a class or a member that no line of Python could give it, as type(...) takes any text."""
+    if not is_name(name):
+        raise DefinitionError(f"{cited(name)} is no name for a {what}: letters, digits and _, no digit first, no word of Python.")
 
 
 def check_no_member(title: str, name: str, value: object) -> None:

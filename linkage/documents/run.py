@@ -9,7 +9,7 @@ from typing import final
 
 import numpy as np
 
-from ..errors import AssemblyError, DefinitionError, LinkageError, cited, unwarned
+from ..errors import AssemblyError, DefinitionError, LinkageError, SingularError, cited, unwarned
 from ..language import said
 from ..loads import ForceElement, LoadCase
 from ..mechanism import Mechanism, require_mechanism
@@ -21,6 +21,8 @@ from ..units import show
 
 CURVE = 121
 """Poses of a curve."""
+TRIED = 9
+"""So many poses next to the middle are tried for one that has forces."""
 MANY = 2001
 """Rows of a table that one would still print."""
 
@@ -73,9 +75,23 @@ class Looked:
 
     @cached_property
     def pose(self) -> dict[str, float]:
-        """The strokes of the pose whose numbers are filled in: the middle of the run, else the reached one nearest to it."""
+        """The strokes of the pose whose numbers are filled in: the middle of the run, else the next that is reached and has forces."""
         reached = np.flatnonzero(self.curve.reached)
-        return self.strokes_at(self.curve, int(reached[np.argmin(np.abs(reached - CURVE // 2))]))
+        nearest = [self.strokes_at(self.curve, int(place)) for place in reached[np.argsort(np.abs(reached - CURVE // 2), kind="stable")]]
+        return next(filter(self.has_forces, nearest[:TRIED]), nearest[0])
+
+    def has_forces(self, strokes: Mapping[str, float]) -> bool:
+        """Return whether forces are not refused at a pose, as they are at a cylinder's dead centre."""
+        if not self.machine.plan.of_kind(ForceElement):
+            return True
+        try:
+            with unwarned():
+                pin_forces(self.machine.at(unreachable="raise", **strokes))
+        except SingularError:
+            return False
+        except LinkageError:  # it has no forces anywhere, and the report says why
+            return True
+        return True
 
     def strokes_at(self, motion: Motion, place: int) -> dict[str, float]:
         """Return the values of all strokes at one of the poses of a motion."""

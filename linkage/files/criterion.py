@@ -37,6 +37,7 @@ from ..motion.measures import (
     most,
     reachable,
     strokes_behind,
+    traced,
     words_of,
     worst,
 )
@@ -109,6 +110,7 @@ def quantity_said(text: Any, machine: Mechanism) -> Any:
     if is_number(found) or isinstance(found, (Measure, Condition, Worst)):
         raise DefinitionError(f"{text!r} has no value at every pose; write an output such as tilt, or a request such as drive_force().")
     check_measures(machine, [most(found)], [], None)
+    traced(machine.plan, found)  # which refuses what has two components
     return found
 
 
@@ -265,7 +267,9 @@ class CriterionParser(Grammar):
         make = self.function(name)
         positional, named = self.arguments(name in MEASURES or name in NUMERIC)
         try:
-            signature(make).bind(*positional, **named)
+            given = signature(make).bind(*positional, **named)
+            given.arguments |= {key: int(value) for key, value in given.arguments.items() if is_count(value, make, key)}
+            positional, named = [*given.args], given.kwargs
         except TypeError as error:
             raise DefinitionError(f"{name}(...): {error}; write {name}{usage(make)}.") from None
         except ValueError:  # NumPy's functions say no signature
@@ -349,6 +353,11 @@ class CriterionParser(Grammar):
         second = self.sum()
         self.want(")")
         return first, second
+
+
+def is_count(value: Any, make: Callable[..., Any], key: str) -> bool:
+    """Return whether an argument is a whole number without a unit in the place of one, such as the order of a derivative."""
+    return type(value) is float and value.is_integer() and signature(make).parameters[key].annotation in (int, "int")
 
 
 def usage(make: Callable[..., Any]) -> str:

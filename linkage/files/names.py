@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from keyword import iskeyword
 from typing import final
 from unicodedata import normalize
 
 from ..errors import DefinitionError, unknown
-from ..quantities import Member, Quantity, Ref
+from ..quantities import Member, Quantity, Ref, is_name
 
 NAME_LENGTH = 60
 
@@ -46,12 +45,12 @@ class Names:
 
 def member_name(name: object) -> str:
     """Return a name that a class could bind; DefinitionError for any other."""
-    if not isinstance(name, str) or not name.isidentifier() or iskeyword(name):
+    if isinstance(name, str) and not is_name(name) and is_name(normalize("NFKC", name)):
+        raise DefinitionError(f"{name!r} is spelled with look-alike letters; write {normalize('NFKC', name)!r}.")
+    if not isinstance(name, str) or not is_name(name):
         raise DefinitionError(f"{shortened(name)} is not a name: letters, digits and _, no digit first, no word of Python.")
     if name.startswith("__") or len(name) > NAME_LENGTH:
         raise DefinitionError(f"{shortened(name)} cannot be a name here: up to {NAME_LENGTH} characters, no double _ at the start.")
-    if normalize("NFKC", name) != name:
-        raise DefinitionError(f"{name!r} is spelled with look-alike letters; write {normalize('NFKC', name)!r}.")
     return name
 
 

@@ -15,7 +15,7 @@ from ..steps import Arrow, Assignment, Axis, CosineAngle, Group, Guide, Offset, 
 from ..vectors import Line
 from .names import SymbolNames
 from .printing import Text
-from .symbolic import ANGLE, FUNCTIONS, LENGTH, NUMBER, Place, Term, Unit, curve_function, input_units, term
+from .symbolic import ANGLE, FUNCTIONS, LENGTH, NUMBER, Place, Term, Unit, curve_function, input_units, term, vector_expr
 from .words import Direction, Norm, Tcos, TurnV, TurnVL, vector_symbol
 
 # What each primitive is written as; any other step by its own rule, in components.
@@ -74,7 +74,7 @@ def _(member: Point, reading: Any) -> Any:
     place: Any = member.place(reading)
     given = member.coordinates()
     if not given:
-        return place.expr
+        return vector_expr(place)
     is_formula = any(not value.is_constant for _, value in given)
     return sympy.ImmutableMatrix([term(place.x).expr, term(place.y).expr]) if is_formula else None
 

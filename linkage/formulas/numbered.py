@@ -472,6 +472,8 @@ def _rounded(value: Any, digits: int) -> Any:
 
 def in_reals(value: Any) -> Any:
     """Return a value; NaN in the place of what is no real number, such as a power of a negative one."""
+    if isinstance(value, mpmath.mpc):
+        return value.real if value.imag == 0 else mpmath.nan
     return np.where(np.imag(value) == 0.0, np.real(value), np.nan)[()] if np.iscomplexobj(value) else value
 
 
@@ -482,7 +484,10 @@ def _evaluated(lines: Sequence[Written], known: dict[Any, Any], arithmetic: str)
         expressions = explicit(line.rhs)
         needed = sorted(set().union(*(each.free_symbols for each in expressions)), key=str)
         function = sympy.lambdify(needed, expressions, arithmetic, dummify=True)
-        values = [in_reals(value) for value in function(*(known[symbol] for symbol in needed))]
+        try:
+            values = [in_reals(value) for value in function(*(known[symbol] for symbol in needed))]
+        except ZeroDivisionError:  # mpmath's; NumPy has no value there either and says so by NaN or infinity
+            values = [mpmath.nan] * len(expressions)
         known |= dict(zip(explicit(line.lhs), values, strict=True))
         found[line.lhs] = values[0] if len(values) == 1 else tuple(values)
     return found

@@ -88,10 +88,12 @@ class LineDerivatives:
         return sympy.S.Zero if rate == STILL else Cross(vector, rate) / Norm(vector) ** 2
 
     def _stretching(self, vector: Any) -> Any:
-        """Return the rate of a vector's length, with a line of its own: d|EC|/dS."""
+        """Return the rate of a vector's length, that of a named one with a line of its own: d|EC|/dS."""
         rate = self.of(vector)
         if rate == STILL:
             return sympy.S.Zero
+        if not isinstance(vector, MatrixSymbol):
+            return Dot(vector, rate) / Norm(vector)
         if Norm(vector) not in self.known:
             symbol = self.known[Norm(vector)] = self.names.stretching(vector, self.stroke)
             self._found.append(Written(symbol, Dot(vector, rate) / Norm(vector), LENGTH * self.unit**-1))

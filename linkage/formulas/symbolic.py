@@ -19,7 +19,8 @@ from ..motion import stroke_unit
 from ..plan import Plan
 from ..program.traced import elementwise
 from ..quantities import Quantity, Tabulated, unnamed
-from ..units import UNITS, deg
+from ..units import UNITS, deg, unit_or_none
+from ..vectors import Vec
 from .words import Cross, Deg, Dot, Norm, TurnV
 
 # What an expression measures: lengths, angles, and products of them.
@@ -92,8 +93,8 @@ SI: Mapping[str, str] = {
 
 
 def unit_named(name: str) -> Unit:
-    """Return a unit by its name; a plain number for none."""
-    return Unit(named=name) if name else NUMBER
+    """Return a unit by its name; a plain number for none. DefinitionError for one that there is not."""
+    return Unit(named=unit_or_none(name, "the unit of an equation")) if name else NUMBER
 
 
 KINDS = {"length": LENGTH, "coordinate": LENGTH, "angle": ANGLE}
@@ -353,14 +354,14 @@ class Place:
     def _like(self, written: Callable[[], Any], unit: Unit | None = None) -> Place:
         return Place(written, self._reading, unit=unit or self.unit)
 
-    def __add__(self, other: Place) -> Place:
-        return self._like(lambda: MatAdd(self.expr, other.expr))
+    def __add__(self, other: Place | Vec) -> Place:
+        return self._like(lambda: MatAdd(self.expr, vector_expr(other)))
 
-    def __sub__(self, other: Place) -> Place:
-        if len(self._points) == len(other._points) == 1:
+    def __sub__(self, other: Place | Vec) -> Place:
+        if isinstance(other, Place) and len(self._points) == len(other._points) == 1:
             P, Q = other._points[0], self._points[0]
             return Place(lambda: self._reading.between(P, Q), self._reading, (P, Q))
-        return self._like(lambda: MatAdd(self.expr, MatMul(-1, other.expr)))
+        return self._like(lambda: MatAdd(self.expr, MatMul(-1, vector_expr(other))))
 
     def __neg__(self) -> Place:
         return self._like(lambda: MatMul(-1, self.expr))
@@ -369,13 +370,13 @@ class Place:
         scale = term(factor)
         return self._like(lambda: self.expr if scale.expr == 1 else MatMul(scale.expr, self.expr), self.unit * scale.unit)
 
-    def dot(self, other: Place) -> Term:
+    def dot(self, other: Place | Vec) -> Term:
         """Return the scalar product."""
-        return Term(Dot(self.expr, other.expr), self.unit * other.unit)
+        return Term(Dot(self.expr, vector_expr(other)), self.unit * vector_unit(other))
 
-    def cross(self, other: Place) -> Term:
+    def cross(self, other: Place | Vec) -> Term:
         """Return the z component of the vector product."""
-        return Term(Cross(self.expr, other.expr), self.unit * other.unit)
+        return Term(Cross(self.expr, vector_expr(other)), self.unit * vector_unit(other))
 
     def left(self) -> Place:
         """Return this vector turned by +90 degrees."""
@@ -394,3 +395,13 @@ class Place:
     def square(self) -> Term:
         """Return the squared length."""
         return Term(Norm(self.expr), self.unit) ** 2
+
+
+def vector_expr(given: Place | Vec) -> Any:
+    """Return a vector as SymPy's: that of a place, or of two components that a step's rule has put together."""
+    return given.expr if isinstance(given, Place) else sympy.ImmutableMatrix([term(given.x).expr, term(given.y).expr])
+
+
+def vector_unit(given: Place | Vec) -> Unit:
+    """Return what a vector is measured in; of two plain numbers a number."""
+    return given.unit if isinstance(given, Place) else term(given.x).unit

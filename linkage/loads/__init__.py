@@ -20,6 +20,7 @@ from .element import (
     Rate,
     Rates,
     TwoPinned,
+    check_together,
     couple,
     require_poses,
 )  # fmt: skip

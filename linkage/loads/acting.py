@@ -54,13 +54,12 @@ class Acting:
             if value is None:
                 said[name] = other
             elif what and other is not None and other is not value and other != value:
-                raise DefinitionError(
-                    f"{what}: {name}={label(value)} stands in it, and acting= says {name}={label(other)}; drop one of them."
-                )
+                inside, outside = f"{name}={named_or_cited(value)}", f"{name}={named_or_cited(other)}"
+                raise DefinitionError(f"{what}: {inside} stands in it, and acting= says {outside}; drop one of them.")
         return type(self)(**said)
 
 
-def label(value: object) -> str:
+def named_or_cited(value: object) -> str:
     """Return what was given as text: a member by its name."""
     return str(getattr(value, "name", "") or cited(value))
 

@@ -71,6 +71,12 @@ class LoadCase(Member):
         for name in self.mentioned:
             if name not in loads:
                 raise unknown("Load", name, loads, where=f"{title}.{self.name}")
+        for name in self.scale:
+            check_factor(self, name, members[name], f"{title}.{self.name}")
+        for name, other in members.items():
+            if isinstance(other, LoadCase) and other is not self and self.label in (other.label, name):
+                what = f"{self.name} and {name} are both called {self.label!r}, so that it does not tell which one is meant"
+                raise DefinitionError(f"{title}: {what}; give one another title.")
 
     def factor(self, load: str) -> float:
         """Return what a load is multiplied by; 0 where it does not count."""
@@ -89,6 +95,15 @@ class LoadCase(Member):
         words += [f"slope={in_degrees(float(self.slope))}"] if is_number(self.slope) and self.slope else []
         words += [f"gravity={self.gravity!r}"] if self.gravity is not None else []
         return f"LoadCase({', '.join(words)})"
+
+
+def check_factor(case: LoadCase, name: str, element: object, where: str) -> None:
+    """Raise DefinitionError for a factor of what carries the same whatever its factor is."""
+    if isinstance(element, ForceElement) and not element.scales and case.scale.get(name, 1.0) != 1.0:
+        what = f"scale={{{name!r}: {plain(case.scale[name])!r}}}: {name} is a {type(element).__name__}"
+        says = "and holds or feeds whatever the loads need, so that a factor changes nothing"
+        remedy = f"scale the loads instead, or write a variant without it, class Other(...): {name} = None"
+        raise DefinitionError(f"{where}: {what} {says}; {remedy}.")
 
 
 def check_words(title: object, scale: object, only: object) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, Protocol, Self, TypeAlias, TypeVar, final
@@ -281,6 +281,15 @@ class ForceElement(Jointed):
         """Return the holding elements that this one puts on one pressure line; the class's members by name."""
         return ()
 
+    def claims(self, members: Mapping[str, Member]) -> Mapping[Hashable, str]:
+        """Return what no other element may have beside it, in words with the remedy; the class's members by name."""
+        return {}
+
+    @property
+    def scales(self) -> bool:
+        """Whether a load case may multiply it: what only holds or feeds carries what the others need, whatever its factor."""
+        return not self.holds
+
     @property
     def holds(self) -> bool:
         """Whether it holds what the mechanism needs, as a cylinder does, and takes over the drive of a stroke."""
@@ -380,6 +389,27 @@ class ForceElement(Jointed):
     def having(self, values: Mapping[str, float]) -> Self:
         keys = {name: f"{self.name}.{name}" for name in self.numbers}
         return self.renewed(**{name: values[key] for name, key in keys.items() if key in values})
+
+
+def check_together(elements: Mapping[str, object] | Sequence[tuple[str, object]], members: Mapping[str, Member], title: str) -> None:
+    """Raise DefinitionError for loads that cannot act together: one that stands twice, two of one name, two that claim one thing.
+
+    `elements` are the loads with their names, `members` those of the class.
+    """
+    found = list(elements.items()) if isinstance(elements, Mapping) else list(elements)
+    owners: dict[Hashable, str] = {}
+    for place, (name, element) in enumerate(found):
+        for other, earlier in found[:place]:
+            if element is earlier:
+                what = f"{name} stands twice among the loads" if name == other else f"{other} and {name} are one and the same load"
+                remedy = f'give it once, and scale it by a load case, LoadCase(scale={{"{other}": 2.0}})'
+                raise DefinitionError(f"{title}: {what} and would count double; {remedy}.")
+            if name == other and isinstance(element, Member) and element.name:
+                raise DefinitionError(f"{title}: two of these loads are called {name}, {earlier} and {element}; give one another name.")
+        for key, words in element.claims(members).items() if isinstance(element, ForceElement) else ():
+            first = owners.setdefault(key, name)
+            if first != name:
+                raise DefinitionError(f"{title}: {first} and {name} both {words}")
 
 
 def value_text(value: object) -> str:

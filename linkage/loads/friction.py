@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import ClassVar, final
@@ -12,6 +12,7 @@ from ..frozen import refuses_changes
 from ..quantities import Member, Reference, is_number, label, name_of
 from .element import ForceElement, Friction, Load, Parameter, Poses
 
+ONE_COEFFICIENT = "One joint has one coefficient: take one of them out, and scale the other in the load cases where it differs."
 THICKEST = 3.0
 """m; the radius of a larger pin was given in millimetres."""
 
@@ -42,6 +43,9 @@ class PinFriction(ForceElement):
 
     def frictions(self, motion: Poses) -> list[Friction]:
         return [Friction(name_of(self.point), self.number(motion, "coefficient"), self.number(motion, "radius"))]
+
+    def claims(self, members: Mapping[str, Member]) -> Mapping[Hashable, str]:
+        return {("pin", name_of(self.point)): f"are the friction of the pin {name_of(self.point)}. {ONE_COEFFICIENT}"}
 
 
 @final
@@ -76,3 +80,8 @@ class GuideFriction(ForceElement):
 
     def frictions(self, motion: Poses) -> list[Friction]:
         return [Friction(name_of(self.point), self.number(motion, "coefficient"), guide=name_of(self.guide))]
+
+    def claims(self, members: Mapping[str, Member]) -> Mapping[Hashable, str]:
+        point, guide = name_of(self.point), name_of(self.guide)
+        words = f"are the friction of {point} on {guide or 'its guides'}. {ONE_COEFFICIENT}"
+        return {("guide", point, each): words for each in ([guide] if guide else ["", *members])}  # without a guide: on all there are

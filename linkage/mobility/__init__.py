@@ -1,4 +1,5 @@
-"""The mobility: the rank of the constraints, redundant and locking links."""
+"""The mobility: the rank of the constraints, redundant and locking links, the chain as a graph."""
 
 from .count import Mobility, check, mobility
+from .graph import chain_graph
 from .grashof import FourBar, four_bars, grashof

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..assembly import places_at
 from ..errors import AssemblyError, DefinitionError
-from ..plan import Plan, Reading, Trace, merged, strokes_text
+from ..plan import Plan, Reading, Trace, carrying_pairs, member_sides, merged, strokes_text
 from ..program import FloatArray, Level, Node, Tangent, ancestors, interpret
 from ..quantities import quantity
 from ..steps import Link, match
@@ -83,15 +83,19 @@ def held_points(plan: Plan, constrained: set[str]) -> tuple[str, ...]:
 
 
 def link_rows(plan: Plan, places: Places, unknowns: tuple[str, ...]) -> ConstraintRows:
-    """Return the rows of declared links at a pose: one length, and two for every further point, rigid with the first two."""
+    """Return the rows of declared links at a pose: one length, and two for every further point, rigid with the first two.
+
+    A link of more points whose length between two of them is driven is a cylinder with points on it: each goes with its own side.
+    """
     found: list[FloatArray] = []
     owners: list[str] = []
     for name, link in plan.of_kind(Link).items():
         if len(link.point_names) == 2 and plan.is_cylinder(link):
             continue
-        for row in rigid_rows(link.point_names, places, unknowns):
-            found.append(row)
-            owners.append(name)
+        sides = cylinder_sides(plan, link)
+        rows = sided_rows(sides, places, unknowns) if sides else rigid_rows(link.point_names, places, unknowns)
+        found += rows
+        owners += [name] * len(rows)
     return ConstraintRows(unit_rows(np.array(found).reshape(len(found), len(unknowns))), tuple(owners), unknowns)
 
 
@@ -109,6 +113,31 @@ def rigid_rows(points: tuple[str, ...], places: Places, unknowns: tuple[str, ...
             # dX - dP - turn (dQ - dP) = 0, its real and its imaginary part
             rows.append(coordinate_row({X: 1, P: turn.conjugate() - 1, Q: -turn.conjugate()}, unknowns))
             rows.append(coordinate_row({X: 1j, P: 1j * (turn.conjugate() - 1), Q: -1j * turn.conjugate()}, unknowns))
+    return rows
+
+
+def cylinder_sides(plan: Plan, link: Link) -> tuple[tuple[str, ...], ...]:
+    """Return the points of a link that is a driven length with points along it, by sides, each with its end first; empty for any other."""
+    carrying = carrying_pairs(plan) if len(link.point_names) > 2 else frozenset()
+    for bar in plan.cylinders:
+        if frozenset((bar.P, bar.Q)) in carrying and {bar.P, bar.Q} <= set(link.point_names):
+            _, far = member_sides(plan, (bar.P, bar.Q), link.point_names)
+            others = [point for point in link.point_names if point not in (bar.P, bar.Q)]
+            return (bar.P, *(each for each in others if each not in far)), (bar.Q, *(each for each in others if each in far))
+    return ()
+
+
+def sided_rows(sides: tuple[tuple[str, ...], ...], places: Places, unknowns: tuple[str, ...]) -> list[FloatArray]:
+    """Return the first-order conditions that points keep their places on the two sides of a driven length."""
+    rows = []
+    for (P, *others), (Q, *_) in (sides, sides[::-1]):
+        base = complex(*places[Q]) - complex(*places[P])
+        turn = 1j * base / abs(base) ** 2
+        for X in others:
+            across = 1j * (complex(*places[X]) - complex(*places[P]))
+            # dX - dP - across (turn . (dQ - dP)) = 0, its real and its imaginary part
+            rows.append(coordinate_row({X: 1, P: across.real * turn - 1, Q: -across.real * turn}, unknowns))
+            rows.append(coordinate_row({X: 1j, P: across.imag * turn - 1j, Q: -across.imag * turn}, unknowns))
     return rows
 
 
@@ -244,7 +273,8 @@ def check_lengths(plan: Plan) -> None:
     samples = [sample(plan, share) for share in (0.0, 0.13, 0.37, 0.61, 0.88, 1.0)]
     known = [found for found in samples if found is not None]
     for name, link in plan.of_kind(Link).items():
-        for P, Q in () if plan.is_cylinder(link) else combinations(link.point_names, 2):
+        rigid = () if plan.is_cylinder(link) else cylinder_sides(plan, link) or (link.point_names,)
+        for P, Q in (pair for points in rigid for pair in combinations(points, 2)):
             lengths = [float(np.hypot(*np.subtract(places[P], places[Q]))) for places, _ in known]
             change = max(lengths, default=0.0) - min(lengths, default=0.0)
             if change > 1e-9 * max(lengths, default=1.0):

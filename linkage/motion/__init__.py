@@ -2,20 +2,20 @@
 
 from .answer import Answer, Lost, places_text
 from .evaluation import PoseFunction, evaluate, evaluate_grid, source_of
-from .extremes import Extremum, Span, below_zero, greatest, lowest, reached
 from .featured import Featured
 from .gaps import gap
 from .grid import Grid
 from .judge import Judge, Question, case_named
 from .judging import Judging, geometry_verdicts, judge_verdicts
 from .limits import stroke_display_unit, stroke_unit
+from .line import highest, last_holding
 from .live import LiveText, live_text
 from .measures import Condition, Constraint, Leaf, Measure, at, integral, least, most, reachable, worst
 from .motion import Motion, OnePose, Target, each_at_its_stroke, out_of_reach, require_motion
 from .over import OPTIONS, PLAIN_CASE, Over
-from .peaks import highest, last_holding
 from .poles import whole_body
 from .pose_requests import condition, transmission
-from .requests import BoundRequest, Piece, Ratio, Request, RequestLike, Value, ratio
+from .requests import BoundRequest, Ratio, Request, RequestLike, SmoothPiece, Value, ratio
+from .search import Extremum, Span, below_zero, greatest, lowest, reached
 from .strokes import at_values, check_any, float_array, rates_of, sweep_values
 from .table import Column, Tabled, columns_of

@@ -68,6 +68,10 @@ class Answer:
     named: frozenset[str] = frozenset()
     """What has to be named, as there are several: "case", "direction", "drive", "side", "over"."""
 
+    def __repr__(self) -> str:
+        kept = "" if np.ndim(self.value) or self.ok is None else ": kept" if self.ok else ": not kept"
+        return f"<Answer to {self.question}{kept}; {self}>"
+
     @property
     def unbounded(self) -> Any:
         """Whether it grows without bounds."""

@@ -21,16 +21,14 @@ import numpy as np
 
 from ..plan import Mask
 from ..program import FloatArray
-from .between import Function, values_of
-from .grid import JoinedTo, joined_in_order
-from .motion import Motion
-from .peaks import LOWEST, Index, is_pole, missing_lowest
+from .line import LOWEST, Index, is_pole, missing_lowest
 
 SIDES = {2: 129, 3: 33, 4: 13, 5: 8, 6: 6}  # values a stroke, by the number of strokes
 MORE, MOST_POSES = 5, 1 << 20  # values a stroke of more strokes; grid poses of all designs together
 STARTS, ROUGH = 24, 3  # of each function and design; of these, how many go on where it is not smooth
 ROUNDS, PATIENCE = 40, 3  # of stencils; rounds that gain nothing before a start counts as not smooth
 CLOSE, ROUNDED = 1e-12, 16.0 * float(np.finfo(float).eps)  # of the range of the values, and of their size: what is no gain
+TRUST = 1.5  # of a stencil's half: how far a quadratic is believed
 NARROW = 1e-9  # of the box: how narrow a stencil gets
 NONE = np.zeros(0, int)
 SEEN, BORDER = 1e-7, 1e-8  # how near a value must keep growing to be unbounded, and how near its border is known; of the box
@@ -57,80 +55,12 @@ class HighestInBox:
     unbounded: Mask
 
 
-def moving(motion: Motion) -> tuple[str, ...]:
-    """Return the strokes that a motion moves."""
-    return tuple(name for name, value in motion.strokes.items() if np.ptp(value) > 0.0)
-
-
 def values_a_stroke(k: int, designs: int) -> int:
     """Return how many values a stroke has on the grid: fewer only where the grids of all designs would be too large."""
     side = SIDES.get(k, MORE)
     while side > 3 and designs * side**k > max(MOST_POSES, SIDES[2] ** 2):
         side -= 1
     return side
-
-
-@final
-class InBox:
-    """A function of the poses in the box from the least to the greatest value of k strokes that a motion moves; others stand still."""
-
-    def __init__(self, motion: Motion, f: Function, sense: float = 1.0, *, everywhere: bool = False) -> None:
-        self.f, self.sense, self.names, self.everywhere = f, sense, moving(motion), everywhere
-        self.low = {name: float(np.min(value)) for name, value in motion.strokes.items()}
-        self.high = {name: float(np.max(value)) for name, value in motion.strokes.items()}
-        self.k = len(self.names)
-        self.side = values_a_stroke(self.k, motion._grid.size[0])
-        grid = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, self.side)] * self.k, indexing="ij"), axis=-1)
-        self.first = Motion(motion.plan, motion.designs, self.strokes(grid), "nan", joining=joined_in_order)
-        seen = sense * values_of(f, self.first, everywhere=everywhere)
-        self.front = seen.shape[: seen.ndim - len(self.first.shape)]
-        self.seen = seen.reshape(-1, self.first._grid.size[0], self.side**self.k)
-        self._reached = self.first.reached.reshape(-1, self.side**self.k)
-        self._all_reached = bool(self._reached.all())
-        self.count = self._reached.size
-
-    def strokes(self, unit: FloatArray) -> dict[str, FloatArray]:
-        """Return the strokes [SI], shape (...), at places (..., k) of the unit box; exact on its borders."""
-        still = np.zeros(unit.shape[:-1])
-        share = {name: unit[..., axis] for axis, name in enumerate(self.names)}
-        found = {name: low + (self.high[name] - low) * share.get(name, still) for name, low in self.low.items()}
-        return {name: np.where(share.get(name, still) == 1.0, self.high[name], value) for name, value in found.items()}
-
-    def at(self, design: Index, places: FloatArray) -> tuple[FloatArray, Mask]:
-        """Return the values (K, u, n) at places (u, n, k) of a design each (u,), and which poses (u, n) are reached."""
-        D, count = len(self._reached), np.bincount(design, minlength=len(self._reached))
-        slot = np.empty(len(design), int)
-        order = np.argsort(design, kind="stable")
-        slot[order] = np.arange(len(design)) - np.repeat(np.cumsum(count) - count, count)
-        unit = np.zeros((D, int(count.max(initial=1)), *places.shape[1:]))
-        unit[design, slot] = places
-        seen, reached = self._look(unit)
-        return seen[:, design, slot], reached[design, slot]
-
-    def _look(self, unit: FloatArray) -> tuple[FloatArray, Mask]:
-        """Return the values (K, D, c, n) at places (D, c, n, k), each design at its own, and which poses (D, c, n) are reached."""
-        shape = (*self.first._design_shape, *unit.shape[1:-1])
-        strokes = {name: value.reshape(shape) for name, value in self.strokes(unit).items()}
-        near = self._near(unit).reshape(shape)
-        motion = Motion(self.first.plan, self.first.designs, strokes, "nan", per_design=True, joining=JoinedTo(self.first._grid, near))
-        seen = self.sense * values_of(self.f, motion, everywhere=self.everywhere)
-        self.count += motion.reached.size
-        return seen.reshape(-1, *unit.shape[:-1]), motion.reached.reshape(unit.shape[:-1])
-
-    def _near(self, unit: FloatArray) -> Index:
-        """Return the nearest reached of the grid points about places (D, c, n, k), by their number; the nearest where none is."""
-        at = unit * (self.side - 1)
-        weights = weights_of(self.k, self.side)
-        if self._all_reached:
-            return np.asarray(np.rint(at).astype(int) @ weights)
-        low = np.clip(np.floor(at), 0, self.side - 2)
-        best, near = np.full(unit.shape[:-1], np.inf), np.zeros(unit.shape[:-1], int)
-        for corner in product((0.0, 1.0), repeat=self.k):
-            place = ((low + corner) @ weights).astype(int)
-            there = np.take_along_axis(self._reached, place.reshape(len(place), -1), axis=-1).reshape(place.shape)
-            away = np.abs(at - low - corner).max(axis=-1) + np.where(there, 0.0, 10.0)
-            best, near = np.minimum(best, away), np.where(away < best, place, near)
-        return near
 
 
 # -- starts and what is known of them ------------------------------------------------------------------------
@@ -315,6 +245,11 @@ class Quadratic:
             u = self._newton(u, low, high)
         return u
 
+    def falls(self, u: FloatArray, by: FloatArray) -> Mask:
+        """Return along which coordinates (r, k) a quadratic is steeper at places (r, k) than it bends, by so much (r,)."""
+        slope = np.abs(self.slope + np.einsum("rij,rj->ri", self.bend, u))
+        return np.asarray(slope > by[:, None] + 0.5 * np.abs(self.bend).sum(axis=-1))
+
     def _newton(self, u: FloatArray, low: FloatArray, high: FloatArray) -> FloatArray:
         """Return the places after a Newton step in the free coordinates, where it stays in and is no loss."""
         k = u.shape[1]
@@ -343,41 +278,49 @@ def after_round(
 
     What they have `seen` is at `places` (r, n, k), where these are not those of the stencil.
     """
-    rows, stencil, fixed = np.arange(len(seen)), stencil_of(k), np.arange(k) == climbs.axis[:, None]
+    rows, stencil = np.arange(len(seen)), stencil_of(k)
     values = missing_lowest(seen)
     pick = np.argmax(values, axis=-1)
-    better = values[rows, pick] > climbs.value
+    gain = values[rows, pick] - climbs.value
     centre, half = climbs.centre, climbs.half[:, None]
     at = snapped(centre + half * stencil[pick]) if places is None else places[rows, pick]
-    unit = np.where(better[:, None], at, climbs.unit)
-    value = np.where(better, values[rows, pick], climbs.value)
+    climbs = replace(climbs, unit=np.where((gain > 0.0)[:, None], at, climbs.unit), value=np.fmax(climbs.value, values[rows, pick]))
     smooth = np.asarray(np.isfinite(seen).all(axis=-1))
-    model = Quadratic.of(np.where(smooth[:, None], seen, 0.0), k)
-    walls = -centre / half, (1.0 - centre) / half
-    low, high = np.where(fixed, 0.0, np.maximum(-1.5, walls[0])), np.where(fixed, 0.0, np.minimum(1.5, walls[1]))
+    seen = np.where(smooth[:, None], seen, 0.0)
+    model = Quadratic.of(seen, k)
+    fixed, walls = np.arange(k) == climbs.axis[:, None], (-centre / half, (1.0 - centre) / half)
+    low, high = np.where(fixed, 0.0, np.maximum(-TRUST, walls[0])), np.where(fixed, 0.0, np.minimum(TRUST, walls[1]))
     u = model.top(low, high, stencil[pick])
     at_wall = fixed | (np.abs(u - walls[0]) < 1e-9) | (np.abs(u - walls[1]) < 1e-9)
-    inside = (at_wall | (np.abs(u) < 1.5)).all(axis=-1)
-    hoped = model.at(u)
-    error = np.abs(model.value - climbs.expected)
-    spread = np.ptp(np.where(smooth[:, None], seen, 0.0), axis=-1)
-    misfit = np.abs(model.on(stencil) - np.where(smooth[:, None], seen, 0.0)).max(axis=-1)
+    inside = np.asarray((at_wall | (np.abs(u) < TRUST)).all(axis=-1))
+    error, misfit, spread = np.abs(model.value - climbs.expected), np.abs(model.on(stencil) - seen).max(axis=-1), np.ptp(seen, axis=-1)
     trusted = smooth & ~(error > 0.25 * spread + least) & (misfit <= 0.25 * spread + least)
-    outward = np.where(at_wall, np.abs(model.slope + np.einsum("rij,rj->ri", model.bend, u)), 0.0)
-    firm = (fixed | at_wall & (outward > 4.0 * np.fmax(error, misfit)[:, None] + 0.5 * np.abs(model.bend).sum(axis=-1))).all(axis=-1)
-    done = trusted & (hoped - value <= least) & (misfit <= 0.05 * spread + least) & ((error <= 1e3 * least) | firm)
-    good = smooth & (hoped > value)
-    goal = np.where(good[:, None], np.clip(centre + half * u, 0.0, 1.0), unit)
-    near = good | (smooth & inside & (np.abs(goal - (centre + half * u)) <= 0.5 * half).all(axis=-1))
-    share = np.where(trusted & inside & near, 0.25, np.where(good & trusted & better, 1.0, 0.5))
-    new_half = climbs.half * share
-    middle = np.where(fixed, unit, np.clip(goal, new_half[:, None], 1.0 - new_half[:, None]))
-    expected = np.where(smooth & (np.abs((middle - centre) / half) <= 2.0).all(axis=-1), model.at((middle - centre) / half), np.nan)
-    bound = np.where(smooth, np.fmax(value, hoped) + 2.0 * np.abs(hoped - value) + 2.0 * np.nan_to_num(error, nan=np.inf), np.inf)
-    idle = np.where(better & (values[rows, pick] - climbs.value > least), 0, climbs.idle + 1)
-    after = replace(climbs, unit=unit, value=value, centre=middle, half=new_half, expected=expected, bound=bound, idle=idle)
-    rough = ~done & ((idle > PATIENCE) & ~(trusted & inside))
-    return after, done, rough | ((new_half <= NARROW) & ~done)
+    firm = (fixed | (at_wall & model.falls(u, 4.0 * np.fmax(error, misfit)))).all(axis=-1)
+    hoped = model.at(u)
+    done = trusted & (hoped - climbs.value <= least) & (misfit <= 0.05 * spread + least) & ((error <= 1e3 * least) | firm)
+    bound = np.fmax(climbs.value, hoped) + 2.0 * np.abs(hoped - climbs.value) + 2.0 * np.fmax(error, misfit)
+    idle = np.where(smooth & (gain > least), 0, climbs.idle + 1)
+    climbs = replace(climbs, bound=np.where(smooth, bound, np.inf), idle=idle)
+    climbs = moved_on(climbs, model, u, smooth & (hoped > climbs.value), smooth & inside, trusted, gain > 0.0)
+    rough = (idle > PATIENCE) & ~(trusted & inside)
+    return climbs, done, ~done & (rough | (climbs.half <= NARROW))
+
+
+def moved_on(climbs: Climbs, model: Quadratic, u: FloatArray, good: Mask, inside: Mask, trusted: Mask, better: Mask) -> Climbs:
+    """Return searches (r,) with their next stencils: about the quadratic's top `u` where that is `good`, else about the best place.
+
+    They are a quarter as wide where the top is `inside` and the quadratic `trusted`, as wide as before where it leads on to what is
+    `better`, else half as wide.
+    """
+    centre, half = climbs.centre, climbs.half[:, None]
+    goal = np.where(good[:, None], np.clip(centre + half * u, 0.0, 1.0), climbs.unit)
+    near = good | (np.abs(goal - (centre + half * u)) <= 0.5 * half).all(axis=-1)
+    new = climbs.half * np.where(trusted & inside & near, 0.25, np.where(good & trusted & better, 1.0, 0.5))
+    fixed = np.arange(u.shape[1]) == climbs.axis[:, None]
+    middle = np.where(fixed, climbs.unit, np.clip(goal, new[:, None], 1.0 - new[:, None]))
+    step = (middle - centre) / half
+    known = (good | inside) & (np.abs(step) <= 2.0).all(axis=-1)
+    return replace(climbs, centre=middle, half=new, expected=np.where(known, model.at(step), np.nan))
 
 
 def at_stencils(box: SeenBox, climbs: Climbs, offsets: FloatArray) -> FloatArray:
@@ -401,8 +344,9 @@ def climbed(box: SeenBox) -> tuple[Climbs, Climbs, FloatArray]:
     rough: list[Climbs] = [going.where(NONE)]
     for _ in range(ROUNDS):
         going, done, stuck = after_round(going, seen, box.k, least[going.function, going.design])
-        tops.append(going.where(done))
-        rough.append(going.where(stuck & ~done))
+        edge = ~np.isfinite(seen).all(axis=-1)  # next to what has no value: its border is followed on its own
+        tops.append(going.where(done | (stuck & edge)))
+        rough.append(going.where(stuck & ~done & ~edge))
         known = Climbs.joined([*tops, *rough, going])
         best = known.best(D)[-len(going.value) :] if len(going.value) else going.value
         going = going.where(~done & ~stuck & ((going.bound >= best) | (going.value >= best)))
@@ -509,8 +453,9 @@ def stepped(box: SeenBox, climbs: Climbs, way: FloatArray, near: FloatArray, see
 
 # -- the border of what has a value --------------------------------------------------------------------------
 
-EDGES, BORDERS, CUTS = 4, 4, 8  # borders of each function and design, along each stroke and in all; parts of a bisection
-ACROSS = np.linspace(-1.0, 1.0, 9)
+FINE = 2e-7  # of the box: how narrow a stencil on a border gets
+EDGES, BORDERS, CUTS = 4, 4, 16  # borders of each function and design, along each stroke and in all; parts of a bisection
+ACROSS = np.linspace(-6.0, 6.0, 13)  # where a border is looked for, in halves of the stencil
 
 
 def border_starts(box: SeenBox) -> Climbs:
@@ -549,7 +494,7 @@ def values_beside(cube: FloatArray, axis: int, by: int) -> FloatArray:
 def on_border(box: SeenBox, alike: Index, climbs: Climbs, places: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the places (r, n, k) on the border next to places (r, n, k), along each search's stroke, and the values (r, n) there.
 
-    The border is looked for within two halves of the stencil; where there is none the value is NaN. Functions that are `alike`
+    The border is looked for within six halves of the stencil; where there is none the value is NaN. Functions that are `alike`
     (K,) have the same border.
     """
     keys = np.column_stack([alike[climbs.function], climbs.design, climbs.axis, climbs.half, places.reshape(len(places), -1)])
@@ -570,7 +515,7 @@ def border_crossings(box: SeenBox, climbs: Climbs, places: FloatArray) -> tuple[
         at = np.where(fixed, along[..., None], places[:, :, None, :])
         return np.isnan(own_values(box, climbs, at.reshape(r, -1, k)).reshape(along.shape))
 
-    along = np.clip(middle[..., None] + (2.0 * climbs.half)[:, None, None] * ACROSS, 0.0, 1.0)
+    along = np.clip(middle[..., None] + climbs.half[:, None, None] * ACROSS, 0.0, 1.0)
     missing = missing_at(along)
     change = missing[..., :-1] != missing[..., 1:]
     away = np.where(change, np.abs(np.arange(ACROSS.size - 1) - ACROSS.size // 2 + 0.5), np.inf)
@@ -613,26 +558,44 @@ def hopeful_borders(box: SeenBox, alike: Index, known: FloatArray) -> Climbs:
     return going.where(order)
 
 
-def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> Climbs:
-    """Return searches along the borders of what has a value, those that may better what is known (K, D)."""
+def border_stencil(k: int, axis: Index) -> tuple[FloatArray, Index]:
+    """Return the different places (r, m, k) of stencils that stand still along a stroke (r,), and which of them (r, n) each place is."""
+    found = [np.unique(np.where(np.arange(k) == each, 0.0, stencil_of(k)), axis=0, return_inverse=True) for each in range(k)]
+    return np.array([offsets for offsets, _ in found])[axis], np.array([index.reshape(-1) for _, index in found])[axis]
+
+
+def turned(climbs: Climbs, lost: Mask, half: FloatArray) -> Climbs:
+    """Return searches that follow the border along the next stroke where it is `lost` along this one, as wide as before for each stroke."""
+    k = climbs.unit.shape[1]
+    axis = np.where(lost, (climbs.axis + 1) % k, climbs.axis)
+    width = np.where(lost & (axis > 0), half, climbs.half)
+    return replace(climbs, axis=axis, half=width, expected=np.where(lost, np.nan, climbs.expected))
+
+
+def along_borders(box: SeenBox, known: FloatArray, least: FloatArray) -> tuple[Climbs, Climbs]:
+    """Return the searches along borders that came to a smooth top, and the others; those that may better what is known (K, D)."""
     first: dict[bytes, int] = {}
     alike = np.array([first.setdefault(np.isnan(row).tobytes(), number) for number, row in enumerate(box.seen)])
     going = hopeful_borders(box, alike, known)
-    ended = [going.where(NONE)]
+    tops, ended = [going.where(NONE)], [going.where(NONE)]
     for _ in range(ROUNDS):
         if not len(going.value):
             break
-        stencil = np.where((np.arange(box.k) == going.axis[:, None])[:, None], 0.0, stencil_of(box.k))
-        places, values = on_border(box, alike, going, snapped(going.centre[:, None] + going.half[:, None, None] * stencil))
+        offsets, index = border_stencil(box.k, going.axis)
+        places, values = on_border(box, alike, going, snapped(going.centre[:, None] + going.half[:, None, None] * offsets))
+        places, values = np.take_along_axis(places, index[..., None], axis=1), np.take_along_axis(values, index, axis=1)
+        half = going.half
         going, done, stuck = after_round(going, values, box.k, least[going.function, going.design], places)
-        stuck = going.half < BORDER
-        lost = ~np.isfinite(values).all(axis=-1)  # the border runs along this stroke: it is followed along another
-        going = replace(going, axis=np.where(lost, (going.axis + 1) % box.k, going.axis), expected=np.where(lost, np.nan, going.expected))
-        ended.append(going.where(done | stuck))
-        best = np.maximum(Climbs.joined([*ended, going]).best(box.seen.shape[1])[-len(going.value) :], known[going.function, going.design])
+        beaten = going.value <= (known + least)[going.function, going.design]
+        stuck = (going.half < FINE) | (beaten & (going.idle > 2 * PATIENCE))
+        going = turned(going, np.asarray(~np.isfinite(values).all(axis=-1)), half)
+        tops.append(going.where(done))
+        ended.append(going.where(stuck & ~done))
+        best = Climbs.joined([*tops, *ended, going]).best(box.seen.shape[1])[-len(going.value) :]
+        best = np.maximum(best, known[going.function, going.design])
         stay = ~(done | stuck) & ((going.bound >= best) | (going.value >= best))
         going = going.where(stay)
-    return Climbs.joined([*ended, going])
+    return Climbs.joined(tops), Climbs.joined([*ended, going])
 
 
 # -- the search ----------------------------------------------------------------------------------------------
@@ -651,8 +614,9 @@ def highest_in(box: SeenBox) -> HighestInBox:
     found = [tops, rough, best]
     missing = np.isnan(box.seen)
     if missing.any() and not missing.all():
-        found.append(along_borders(box, value_of(best_of(Climbs.joined(found), K, D, 1), K, D), least))
-    doubtful = best_of(Climbs.joined(found[1:2] + found[3:]), K, D, 2) if len(found) > 3 or len(rough.value) else rough
+        found += along_borders(box, value_of(best_of(Climbs.joined(found), K, D, 1), K, D), least)
+    doubtful = best_of(Climbs.joined([rough, *found[4:]]), K, D, 1)
+    doubtful = doubtful.where(doubtful.value >= value_of(best_of(Climbs.joined(found), K, D, 1), K, D)[doubtful.function, doubtful.design])
     grows = grows_in_box(box, doubtful)
     best = best_of(Climbs.joined(found), K, D, 1)
     value, unit = value_of(best, K, D), np.zeros((K, D, box.k))
@@ -683,7 +647,7 @@ def value_of(best: Climbs, K: int, D: int) -> FloatArray:
 
 
 def grows_in_box(box: SeenBox, climbs: Climbs) -> Mask:
-    """Return at which places (r,) a value grows beyond bounds along a stroke; see `peaks.grows_along_leg`."""
+    """Return at which places (r,) a value grows beyond bounds along a stroke; see `line.grows_along_leg`."""
     if not len(climbs.value):
         return np.zeros(0, bool)
     far = np.ldexp(1.0, -np.arange(1, 41))

@@ -72,10 +72,18 @@ class Left:
         return Left(self.values[rows], self.errors[rows], self.size)
 
     def over(self, scale: Any) -> FloatArray:
-        """Return the error of a vector, shape (n,), relative to its length or to a size that is larger; infinite where it has no value."""
+        """Return the largest error of a component, shape (n,), each relative to its own value or to a size that is larger.
+
+        Infinite where one has no value. `scale` is one size for all, or one a component, shape (rows, n).
+        """
         with np.errstate(all="ignore"):
-            found = np.hypot.reduce(self.errors, axis=0) / np.maximum(np.hypot.reduce(self.values, axis=0), scale)
+            found = np.max(self.errors / np.maximum(np.abs(self.values), scale), axis=0)
         return np.where(np.isnan(found), np.inf, found)
+
+    @property
+    def length(self) -> Left:
+        """The length of what the rows are the components of, as one row."""
+        return Left(np.hypot.reduce(self.values, axis=0)[None], np.hypot.reduce(self.errors, axis=0)[None], self.size)
 
 
 @final

@@ -19,7 +19,7 @@ from ..plan import Loop, Mask, Plan
 from ..program import FloatArray, Kernel, Level, Way
 from .grid import Grid
 from .limits import stroke_number, stroke_text, stroke_unit
-from .peaks import last_holding
+from .line import last_holding
 
 GRID = 128
 """Intervals of the grid; an angle has so many for each turn of it."""

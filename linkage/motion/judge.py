@@ -15,16 +15,15 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError, LawError, UntracedError, cited, told, unwarned
+from ..errors import DefinitionError, cited, told, unwarned
 from ..language import said
 from ..loads import PLAIN, Acting, ForceElement, LoadCase
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel
-from ..quantities import Quantity
+from ..quantities import Quantity, Ref
 from ..vectors import Numbers
 from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
 from .evaluation import Evaluation
-from .extremes import extremum, moving
 from .limits import stroke_unit
 from .margins import LeastMargin, assembly_error_at, has_all_margins, least_margins
 from .measures import (
@@ -37,15 +36,16 @@ from .measures import (
     Measure,
     Reachable,
     Worst,
-    bound_quantity,
     conditions_of,
     reachable,
     strokes_behind,
+    traced,
     words_of,
 )
 from .motion import Motion
 from .over import ALLOWED, PLAIN_CASE, Over
-from .requests import BoundRequest, Piece, Request, identity_of
+from .requests import BoundRequest, Request, SmoothPiece, identity_of
+from .search import extremum, moving
 from .strokes import at_values
 
 Question: TypeAlias = "Measure | Condition"
@@ -81,11 +81,11 @@ class Situation:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Row:
+class Sought:
     """A piece of a leaf in a situation, as something to look for: `sense` is 1.0 where its greatest value is the worst."""
 
     leaf: Leaf
-    piece: Piece
+    piece: SmoothPiece
     situation: Situation
     sense: float
 
@@ -114,10 +114,10 @@ class Row:
 
 @final
 @dataclass(frozen=True, eq=False)
-class Found:
+class WorstPiece:
     """The worst of a row over one `Over`: its value and strokes, arrays over the designs; shares of the places asked for."""
 
-    row: Row
+    row: Sought
     value: FloatArray
     strokes: Mapping[str, FloatArray]
     unbounded: Mask
@@ -126,7 +126,7 @@ class Found:
 
 
 @final
-class Place:
+class Domain:
     """One `Over` of some designs: the motion that covers it, and what is lost there."""
 
     def __init__(self, plan: Plan, designs: Mapping[str, Numbers], over: Over | Motion) -> None:
@@ -199,18 +199,18 @@ class Place:
             )
         return [name]
 
-    def extremes(self, rows: Sequence[Row]) -> tuple[list[Found], Seen]:
+    def extremes(self, rows: Sequence[Sought]) -> tuple[list[WorstPiece], Coverage]:
         """Return the worst of every row, and what was seen on the way."""
         asked = Asked(self, rows)
-        if self.over.shape == "poses":
+        if self.over.shape == "poses" or not self.motion.strokes:
             with np.errstate(all="ignore"):
-                return at_poses(asked, self.motion), asked.seen
+                return worst_at_poses(asked, self.motion), asked.seen
         found = extremum(self.motion, asked, 1.0)
         shape = (len(rows), *self.motion._design_shape)
         value, unbounded = (np.broadcast_to(np.asarray(each), shape) for each in (found.value, found.unbounded))
         strokes = {name: np.broadcast_to(np.asarray(each), shape) for name, each in found.strokes.items()}
         return [
-            Found(
+            WorstPiece(
                 row,
                 row.value(value[k]),
                 {name: each[k] for name, each in strokes.items()},
@@ -226,13 +226,13 @@ class Place:
     @cached_property
     def holes(self) -> list[LeastMargin]:
         """The loops that come apart somewhere it is looked at, however narrow that place is."""
-        if self.over.shape == "poses" or self.motion._design_shape:
+        if self.over.shape == "poses" or self.motion._design_shape or not self.motion.strokes:
             return []
         with unwarned():
             found = least_margins(self.motion, self.over.kept if self.over.only else None)
         return [each for each in found if each.is_hole]
 
-    def lost(self, seen: Seen) -> Lost:
+    def lost(self, seen: Coverage) -> Lost:
         """Return what cannot be assembled of the places asked for: what the grid sees, and holes between its places."""
         if not (seen.lost_share or self.holes):
             return NONE_LOST
@@ -275,7 +275,7 @@ def case_named(plan: Plan, case: Any) -> str:
 
 @final
 @dataclass(eq=False)
-class Seen:
+class Coverage:
     """What was seen on the first grid: shares of its places that are lost, outside, and of each row without a value, or without a bound."""
 
     lost_share: float = 0.0
@@ -285,7 +285,7 @@ class Seen:
     unlimited: list[float] = field(default_factory=list)
     count: int = 0
 
-    def joined(self, other: Seen) -> Seen:
+    def joined(self, other: Coverage) -> Coverage:
         """Return it with the poses of another look at the same places."""
         return replace(self, count=self.count + other.count)
 
@@ -294,12 +294,12 @@ class Seen:
 class Asked:
     """Rows as one function of a motion: each times its sense, shape (rows, ...); NaN where a place is not asked for or has no value."""
 
-    def __init__(self, place: Place, rows: Sequence[Row]) -> None:
-        self.place, self.rows, self.seen = place, rows, Seen()
+    def __init__(self, place: Domain, rows: Sequence[Sought]) -> None:
+        self.place, self.rows, self.seen = place, rows, Coverage()
         self.plan = place.plan
         self._bound: dict[int, BoundRequest] = {}
         for k, row in enumerate(rows):
-            bound = as_bound(self.plan, row.request)
+            bound = traced(self.plan, row.request)
             if bound is not None:
                 self._bound[k] = bound
 
@@ -324,7 +324,7 @@ class Asked:
                     values[k] = np.broadcast_to(each, motion.shape)
             for k, row in enumerate(self.rows):
                 if k not in self._bound:
-                    values[k] = value_at(motion, row.request)
+                    values[k] = values_over(motion, row.request)
                 if row.is_reciprocal:
                     unlimited[k] = values[k] <= 0.0
                 elif (np.isnan(values[k]) & motion.reached).any():
@@ -355,37 +355,22 @@ class Asked:
         self.seen.unlimited = [float((unlimited[k] & good).sum()) / count for k in range(len(self.rows))]
 
 
-def as_bound(plan: Plan, quantity: Any) -> BoundRequest | None:
-    """Return a quantity as nodes of a plan's program; None where it has none; DefinitionError for what has two components."""
-    if not isinstance(quantity, (str, Quantity, Request)):
-        return None
-    try:
-        bound = bound_quantity(plan, quantity)
-        if bound.rows > 1:
-            name = words_of(quantity)
-            raise DefinitionError(f'{plan.title}: {name} has two components; say which, x("{name}") or y("{name}").')
-        plan.made(("traced", bound.key), lambda twin: len(bound.nodes(twin)))
-    except (UntracedError, LawError):
-        return None
-    return bound
-
-
 def without_bound(plan: Plan, bound: BoundRequest, motion: Motion) -> Mask:
     """Return where the law of a request has no bound, by its program."""
-    kernel = plan.made(("gaps", bound.key), lambda twin: Kernel(gaps_of(twin, bound)))
+    kernel = plan.made(("gaps", bound.key), lambda twin: Kernel(nodes_without_bound(twin, bound)))
     if not kernel.plan.outputs:
         return np.zeros(motion.shape, bool)
     found = motion._grid.full(kernel(motion._grid.flat, size=motion._grid.size).values)
     return np.asarray((found <= 0.0).any(axis=0))
 
 
-def gaps_of(plan: Plan, bound: BoundRequest) -> list[Any]:
+def nodes_without_bound(plan: Plan, bound: BoundRequest) -> list[Any]:
     """Return the nodes below zero where a request has no bound."""
     bound.nodes(plan)
     return [*bound.gaps(plan)]
 
 
-def value_at(motion: Motion, quantity: Any) -> FloatArray:
+def values_over(motion: Motion, quantity: Any) -> FloatArray:
     """Return a quantity over a motion's poses, infinite where a function says so; DefinitionError for no number a pose."""
     if isinstance(quantity, Worst):
         return worst_at(motion, quantity)
@@ -411,12 +396,12 @@ def worst_at(motion: Motion, worst: Worst) -> FloatArray:
     strokes = {name: np.broadcast_to(value[..., None], (*value.shape, INNER)) for name, value in motion.strokes.items()}
     strokes[worst.over] = np.broadcast_to(along, strokes[worst.over].shape)
     inner = Motion(plan, motion.designs, strokes, "nan", per_design=motion._grid.per_design)
-    found = worst.sense * value_at(inner, worst.quantity)
+    found = worst.sense * values_over(inner, worst.quantity)
     best = np.max(np.where(np.isnan(found), -np.inf, found), axis=-1)
     return np.asarray(worst.sense * np.where(np.isneginf(best), np.nan, best))
 
 
-def at_poses(asked: Asked, motion: Motion) -> list[Found]:
+def worst_at_poses(asked: Asked, motion: Motion) -> list[WorstPiece]:
     """Return the worst of every row at some poses, and nothing between them."""
     values = asked(motion)
     designs = motion._design_shape
@@ -425,7 +410,7 @@ def at_poses(asked: Asked, motion: Motion) -> list[Found]:
     best = np.take_along_axis(flat, place, axis=-1)[..., 0]
     strokes = {name: np.broadcast_to(np.ravel(value), flat.shape) for name, value in motion.strokes.items()}
     return [
-        Found(
+        WorstPiece(
             row, row.value(best[k]), {name: np.take_along_axis(value[k], place[k], axis=-1)[..., 0] for name, value in strokes.items()},
             np.isposinf(best[k]), asked.seen.lawless[k], asked.seen.unlimited[k],
         )
@@ -447,8 +432,8 @@ class Candidate:
     unbounded: Mask
     situation: Situation
     side: str
-    place: Place
-    seen: Seen
+    place: Domain
+    seen: Coverage
     lawless: float
     unlimited: float
 
@@ -467,9 +452,9 @@ class Judge:
         for over in overs:
             if isinstance(over, Over):
                 over.check(plan.title, plan.strokes, cases)
-        self.places = tuple(Place(plan, designs, over) for over in overs)
-        self._found: list[dict[Any, tuple[Leaf, list[Found]]]] = [{} for _ in self.places]
-        self._seen: list[Seen] = [Seen() for _ in self.places]
+        self.places = tuple(Domain(plan, designs, over) for over in overs)
+        self._found: list[dict[Any, tuple[Leaf, list[WorstPiece]]]] = [{} for _ in self.places]
+        self._seen: list[Coverage] = [Coverage() for _ in self.places]
 
     def lost_allowed(self) -> Judge:
         """Return the judge of the same for whom places that are lost are part of the machine; what is known already both know."""
@@ -526,7 +511,7 @@ class Judge:
         rows = {key: self.rows(leaf, place) for key, leaf in asked.items()}
         sought = [row for key, each in rows.items() if not isinstance(asked[key], (At, Integral)) for row in each]
         if sought or not self._seen[number].count:
-            each_of, seen = place.extremes(sought or [Row(Least(nothing), Piece(nothing), Situation(), -1.0)])
+            each_of, seen = place.extremes(sought or [Sought(Least(nothing), SmoothPiece(nothing), Situation(), -1.0)])
             self._seen[number] = seen if not self._seen[number].count else self._seen[number].joined(seen)
             found = dict(zip(map(id, sought), each_of, strict=False))
         for key, leaf in asked.items():
@@ -537,22 +522,22 @@ class Judge:
             else:
                 known[key] = leaf, [found[id(row)] for row in rows[key]]
 
-    def rows(self, leaf: Leaf, place: Place) -> list[Row]:
+    def rows(self, leaf: Leaf, place: Domain) -> list[Sought]:
         """Return the pieces of a leaf over one `Over`, each once."""
         quantity = leaf.quantity
         request = quantity.under(self.acting) if isinstance(quantity, Request) else quantity
         sense = -1.0 if isinstance(leaf, Least) else 1.0
-        found: dict[Any, Row] = {}
+        found: dict[Any, Sought] = {}
         for situation in place.situations(request, self.acting):
             situated = request.under(situation.acting, keep=True) if isinstance(request, Request) else request
-            pieces = situated.pieces(self.plan) if isinstance(situated, Request) else (Piece(situated),)
+            pieces = situated.pieces(self.plan) if isinstance(situated, Request) else (SmoothPiece(situated),)
             for piece in pieces:
                 key = key_of(self.plan, piece.request)
-                row = Row(leaf, piece, situation, sense)
+                row = Sought(leaf, piece, situation, sense)
                 found[key] = row if key not in found else replace(found[key], situation=shared(found[key].situation, situation))
         return [*found.values()]
 
-    def at_pose(self, row: Row, place: Place) -> Found:
+    def at_pose(self, row: Sought, place: Domain) -> WorstPiece:
         """Return the value of a row at the one pose that its leaf says."""
         leaf = row.leaf
         assert isinstance(leaf, At)
@@ -569,7 +554,7 @@ class Judge:
         value = np.asarray(values[0])
         where = {name: np.broadcast_to(np.asarray(each), value.shape) for name, each in strokes.items()} if behind else {}
         lost = float(np.isnan(value).all() and not unlimited.any())
-        return Found(row, value, where, np.isinf(value), lost, float(unlimited.any()))
+        return WorstPiece(row, value, where, np.isinf(value), lost, float(unlimited.any()))
 
     # -- from leaves to questions ------------------------------------------------------------------------
 
@@ -608,7 +593,7 @@ class Judge:
         for number in range(int(np.prod(shape))):
             design = tuple(int(k) for k in np.unravel_index(number, shape))
             own = margins.reshape(len(candidates), -1)[:, number]
-            each_of.append(self.answered(question, [one_design(each, design, shape) for each in candidates], own))
+            each_of.append(self.answered(question, [of_one_design(each, design, shape) for each in candidates], own))
 
         def over_designs(name: str, kind: Any = None) -> Any:
             return np.array([getattr(each, name) for each in each_of], kind).reshape(shape)
@@ -683,15 +668,15 @@ def nothing(motion: Motion) -> FloatArray:
     return np.zeros(motion.shape)
 
 
-def tolerant(place: Place) -> Place:
+def tolerant(place: Domain) -> Domain:
     """Return the same place, of which lost parts are part of the machine."""
-    found = object.__new__(Place)
+    found = object.__new__(Domain)
     vars(found).update(vars(place))
     found.over = place.over.renewed(lost=ALLOWED)
     return found
 
 
-def one_design(candidate: Candidate, place: tuple[Any, ...], shape: tuple[int, ...]) -> Candidate:
+def of_one_design(candidate: Candidate, place: tuple[Any, ...], shape: tuple[int, ...]) -> Candidate:
     """Return a candidate of one design of a batch."""
 
     def of(values: Any) -> Any:
@@ -744,7 +729,7 @@ def shared(a: Situation, b: Situation) -> Situation:
     return Situation(*("" if x != y else x for x, y in ((a.case, b.case), (a.direction, b.direction), (a.drive, b.drive))))
 
 
-def together(of_leaves: Sequence[Sequence[Found]]) -> Iterable[tuple[Found, ...]]:
+def together(of_leaves: Sequence[Sequence[WorstPiece]]) -> Iterable[tuple[WorstPiece, ...]]:
     """Yield the pieces of several leaves that occur at once: in the same load case and movement, where they name one."""
     for chosen in product(*of_leaves):
         cases = {each.row.situation.case for each in chosen} - {""}
@@ -771,10 +756,11 @@ def measures_of(plan: Plan, question: Any) -> str:
     if not isinstance(measure, Leaf) or isinstance(measure, Integral):
         return ""
     known = plan.members.get(measure.quantity) if isinstance(measure.quantity, str) else measure.quantity
+    known = plan.members.get(known.target) if isinstance(known, Ref) else known
     return str(getattr(known, "measures", "")) if isinstance(known, (Quantity, Request)) else ""
 
 
-def integrated(row: Row, place: Place) -> Found:
+def integrated(row: Sought, place: Domain) -> WorstPiece:
     """Return the integral of a row over the one stroke that runs."""
     plan, leaf = place.plan, row.leaf
     assert isinstance(leaf, Integral)
@@ -792,4 +778,4 @@ def integrated(row: Row, place: Place) -> Found:
     weights = np.full(PANELS + 1, 2.0)
     weights[1::2], weights[[0, -1]] = 4.0, 1.0
     total = (values[0] * weights).sum(axis=-1) * (high - low) / PANELS / 3.0
-    return Found(row, np.asarray(total), {}, np.isinf(total), float(np.isnan(total).any()), 0.0)
+    return WorstPiece(row, np.asarray(total), {}, np.isinf(total), float(np.isnan(total).any()), 0.0)

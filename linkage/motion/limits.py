@@ -15,7 +15,7 @@ from ..plan import ArrayReading, Mask, Plan, failures, missing_words, opening
 from ..program import FloatArray
 from ..shown import Shown
 from ..units import UNITS, deg, display_unit, show, shown_number, unit_sign
-from .peaks import last_holding
+from .line import last_holding
 
 SAMPLES = 1441
 

@@ -16,8 +16,8 @@ from ..errors import AssemblyError
 from ..plan import Loop, Mask, Plan
 from ..program import FloatArray
 from .course import ON_ARRAYS, ROUNDING, Clearances
-from .extremes import places_text, searched
 from .motion import Motion, out_of_reach
+from .search import places_text, searched
 
 
 @final

@@ -12,16 +12,16 @@ from __future__ import annotations
 import operator
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any, ClassVar, NoReturn, TypeAlias, final
 
 from ..errors import DefinitionError, LawError, UntracedError, cited
 from ..plan import Plan
 from ..program import FloatArray
-from ..quantities import PoseCondition, Quantity, is_number
+from ..quantities import PoseCondition, Quantity, is_number, name_of, x, y
 from .motion import Motion
-from .requests import BoundRequest, Request, bound
+from .requests import BoundRequest, Ratio, Request, bound
 
 MeasuredQuantity: TypeAlias = "str | Quantity | Request | Worst | Callable[[Motion], FloatArray]"
 """What has a value at every pose: a named output, a quantity, a request, or a function of a motion."""
@@ -368,6 +368,32 @@ def conditions_of(given: Any, machine: Any) -> list[Constraint]:
 
 
 # Quantities as requests of a plan.
+
+
+def which_component(plan: Plan, quantity: Any) -> str:
+    """Return how one component of a quantity of two is asked for: `ratio(x(G), order=2)` of `ratio(G, order=2)`."""
+    if isinstance(quantity, Ratio) and name_of(quantity.target) in plan.points:
+        one, other = (replace(quantity, target=part(name_of(quantity.target))) for part in (x, y))
+        return f"say which, {one} or {other}"
+    name = words_of(quantity)
+    return f'say which, x("{name}") or y("{name}")' if quantity in plan.points else "take x(P) or y(P) for a point P in it"
+
+
+def traced(plan: Plan, quantity: Any) -> BoundRequest | None:
+    """Return a quantity bound to a plan as nodes of its program; None where it has none; DefinitionError for what is no number."""
+    if not isinstance(quantity, (str, Quantity, Request)):
+        return None
+    try:
+        request = bound_quantity(plan, quantity)
+    except (UntracedError, LawError):
+        return None
+    if request.rows > 1:
+        raise DefinitionError(f"{plan.title}: {words_of(quantity)} has two components; {which_component(plan, quantity)}.")
+    try:
+        plan.made(("traced", request.key), lambda twin: len(request.nodes(twin)))
+    except (UntracedError, LawError):
+        return None
+    return request
 
 
 def bound_quantity(plan: Plan, quantity: str | Quantity | Request) -> BoundRequest:

@@ -201,7 +201,7 @@ class Over(Member):
 
     def __str__(self) -> str:
         word = "Over" if self.shape == "box" else f"Over.{self.shape}"
-        given = [f"{name}={value_text(value)}" for name, value in self.strokes.items()]
+        given = [f"{name}={ends_text(value)}" for name, value in self.strokes.items()]
         given += [f"only=[{', '.join(map(str, self.only))}]"] if self.only else []
         given += [f"cases={self.cases!r}"] if self.cases is not None else []
         return f"{word}({', '.join([*given, *([f'lost={self.lost!r}'] if self.lost else [])])})"
@@ -210,10 +210,10 @@ class Over(Member):
         return str(self)
 
 
-def value_text(value: Any) -> str:
+def ends_text(value: Any) -> str:
     """Return the value of a stroke as it is written."""
     if isinstance(value, tuple):
-        return f"({', '.join(map(value_text, value))})"
+        return f"({', '.join(map(ends_text, value))})"
     return repr(float(value)) if is_number(value) else str(getattr(value, "name", "") or value)
 
 
@@ -250,7 +250,8 @@ def place_values(shape: str, name: str, value: Any) -> Any:
 
 def over_of(strokes: Mapping[str, FloatArray], per_design: bool) -> Over:
     """Return where poses are: of one stroke its range, of several in arrays of one axis their path, of a grid the box."""
-    if len(strokes) > 1 and not per_design and all(value.ndim == 1 and value.size > 1 for value in strokes.values()):
+    several = sum(float(np.ptp(value)) > 0.0 for value in strokes.values()) > 1
+    if several and not per_design and all(value.ndim == 1 for value in strokes.values()):
         return Over.path(**{name: value.tolist() for name, value in strokes.items()})
     ends = {name: (float(np.min(value)), float(np.max(value))) for name, value in strokes.items()}
     given: dict[str, Any] = {name: pair if pair[0] < pair[1] else pair[0] for name, pair in ends.items()}

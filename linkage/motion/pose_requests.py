@@ -96,7 +96,7 @@ WORST = 1e16
 
 @final
 @dataclass(frozen=True)
-class PoseCondition(Request):
+class ConditionRequest(Request):
     """How near a pose is to a singular one for what is built from a point or a quantity, as something to ask for."""
 
     target: str | Member | None = None
@@ -115,7 +115,7 @@ class PoseCondition(Request):
         return ConditionOf(value, frozenset(value.names(plan)), str(value))
 
 
-def condition(target: str | Member | None = None) -> PoseCondition:
+def condition(target: str | Member | None = None) -> ConditionRequest:
     """Return the request for the condition of a pose, in `evaluate`, `function` and `source`: a number, 2 / 0.3 at regular poses.
 
     Next to a singular pose it is 2 over the sine of the loop in line, and the product of such where several follow one another or a
@@ -123,7 +123,7 @@ def condition(target: str | Member | None = None) -> PoseCondition:
     `condition("G")` is of what G is built from, `condition(angle("A", "P"))` of what the angle is built from and of its own direction,
     `condition()` of all points of the machine. What else is asked beside it makes no difference.
     """
-    return PoseCondition(target)
+    return ConditionRequest(target)
 
 
 @final

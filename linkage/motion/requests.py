@@ -81,9 +81,9 @@ class Request(Arithmetic):
         """Whether these directions are those of a stroke, which has to be named; else they are its own, as a cylinder's."""
         return False
 
-    def pieces(self, plan: Plan) -> tuple[Piece, ...]:
+    def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
         """Return the smooth pieces that it is judged by in one situation, such as the two sides of a cylinder."""
-        return (Piece(self),)
+        return (SmoothPiece(self),)
 
     def unlimited(self, motion: MotionLike) -> Mask | None:
         """Return the mask of poses at which its law has no bound, such as where the load drives; None where it always has one."""
@@ -95,7 +95,7 @@ RequestLike: TypeAlias = str | Member | Request
 
 @final
 @dataclass(frozen=True, eq=False)
-class Piece:
+class SmoothPiece:
     """A smooth piece of a question: what has a value at every pose, and the side of the cylinder that it is of, "" for none.
 
     `reciprocal` is one over it, where that goes on smoothly through zero where the request has no bound: then its greatest value is looked
@@ -170,7 +170,10 @@ class BoundRequest(ABC):
         return self.nodes(plan)
 
     def scale(self, plan: Plan, left: Left) -> FloatArray:
-        """Return what its error is compared with where it is smaller [SI], shape (n,), from what rounding leaves of its nodes."""
+        """Return what a component's error is compared with where that is smaller [SI], from what rounding leaves of its nodes.
+
+        Shape (n,), or (rows, n) where each component has its own.
+        """
         return np.full(left.size.shape, SMALL)
 
     def error(self, plan: Plan, left: Left) -> FloatArray:
@@ -353,7 +356,8 @@ class Value(BoundRequest):
 
     def __str__(self) -> str:
         what = self.member.name or str(self.member)
-        return f"the ratio of {what} by {self.along[0]}" if self.along else what
+        kind = "ratio" if len(self.along) == 1 else "second derivative"
+        return f"the {kind} of {what} by {self.along[0]}" if self.along else what
 
 
 def natural_size(member: Member, size: FloatArray) -> FloatArray | None:
@@ -417,15 +421,14 @@ class Combined(Request):
     def of_strokes(self) -> bool:
         return any(each.of_strokes for each in self.requests)
 
-    def pieces(self, plan: Plan) -> tuple[Piece, ...]:
-        parts = [each.pieces(plan) if isinstance(each, Request) else (Piece(each),) for each in self.parts]
+    def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
+        parts = [each.pieces(plan) if isinstance(each, Request) else (SmoothPiece(each),) for each in self.parts]
         chosen = list(product(*parts))
         if len(chosen) == 1 and all(piece.request is part for piece, part in zip(chosen[0], self.parts, strict=True)):
-            return (Piece(self),)
-        return tuple(
-            Piece(Combined(self.function, tuple(piece.request for piece in each)), next((piece.side for piece in each if piece.side), ""))
-            for each in chosen
-        )
+            return (SmoothPiece(self),)
+        sides = [next((piece.side for piece in each if piece.side), "") for each in chosen]
+        combined = [Combined(self.function, tuple(piece.request for piece in each)) for each in chosen]
+        return tuple(SmoothPiece(request, side) for request, side in zip(combined, sides, strict=True))
 
     def unlimited(self, motion: MotionLike) -> Mask | None:
         found = [mask for mask in (each.unlimited(motion) for each in self.requests) if mask is not None]
@@ -558,7 +561,7 @@ class CombinedOf(BoundRequest):
                 continue
             count = len(each.rounded(plan))
             own = left.part(slice(first, first + count))
-            values.append(np.hypot.reduce(own.values[: each.rows], axis=0))
+            values.append(np.abs(own.values[: each.rows]))
             sizes.append(np.maximum(values[-1], each.scale(plan, own)))
             first += count
         with np.errstate(all="ignore"):
@@ -569,7 +572,7 @@ class CombinedOf(BoundRequest):
 
 
 def combined_size(function: str, values: Sequence[FloatArray], sizes: Sequence[FloatArray]) -> FloatArray:
-    """Return the size that a combination's error is compared with, from the values and sizes of its parts, shape (n,) each."""
+    """Return the size that a combination's error is compared with, from the values and sizes of its parts, shape (n,) or (rows, n) each."""
     if function == "multiply":
         return sizes[0] * sizes[1]
     if function == "divide":
@@ -577,7 +580,7 @@ def combined_size(function: str, values: Sequence[FloatArray], sizes: Sequence[F
     if function in UNIT_SIZE:
         return np.ones_like(sizes[0])
     if function in ("add", "subtract", "negative", "absolute", "minimum", "maximum", "hypot"):
-        return np.asarray(np.max(sizes, axis=0))
+        return reduce(np.maximum, sizes)
     return np.full(sizes[0].shape, SMALL)
 
 
@@ -623,7 +626,7 @@ class Ratios(BoundRequest):
             return np.zeros(left.size.shape)
         with np.errstate(all="ignore"):
             largest = np.max([np.hypot(*part.values) for part in parts], axis=0)
-        return np.asarray(np.max([part.over(MINOR * largest) for part in parts], axis=0))
+        return np.asarray(np.max([part.length.over(MINOR * largest) for part in parts], axis=0))
 
     def __str__(self) -> str:
         return "the ratios of the points"
@@ -676,6 +679,9 @@ class Slope(BoundRequest):
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
         inputs = [plan.trace.inputs[name] for name in self.by]
         return tuple(share for node in self.what.nodes(plan) for share in gradient(node, inputs))
+
+    def error(self, plan: Plan, left: Left) -> FloatArray:
+        return left.length.over(SMALL)
 
     def names(self, plan: Plan) -> set[str]:
         return self.what.names(plan)

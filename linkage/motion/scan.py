@@ -29,7 +29,7 @@ from .limits import (
     stroke_unit,
     where_words,
 )
-from .peaks import SAMPLES, Index, bisected, highest, samples
+from .line import SAMPLES, Index, bisected, highest, samples
 from .pose_requests import transmission
 from .strokes import TURN, check_any
 

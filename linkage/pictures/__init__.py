@@ -1,6 +1,7 @@
 """Pictures: a mechanism at a pose, at its end positions, in motion, and curves of results over the stroke."""
 
 from .browser import page, page_html
+from .chain import draw_chain
 from .curves import Limit, plot, plot_machine
 from .designs import draw_designs
 from .drawing import Drawing, mechanism

@@ -174,7 +174,7 @@ class PageRequests:
         loads = acting_points(self.plan)
         if not loads:
             return []
-        forces = [each for each in joints if each.has_force]
+        forces = [each for each in joints if each.has_force and each.place is None]  # an arrow of the page begins at a point
         told = [each for each in forces if alone_on(each, forces)]
         found = [(each.point, joint_part(each, forces, "x"), joint_part(each, forces, "y")) for each in told]
         return found + [(point, ActingForce(k, 0), ActingForce(k, 1)) for k, point in loads]

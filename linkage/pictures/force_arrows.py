@@ -13,7 +13,7 @@ from ..language import noted, said, translated
 from ..loads import ForceElement
 from ..motion import Motion
 from ..program import FloatArray
-from ..statics import PinForces, pin_forces
+from ..statics import JointForce, PinForces, pin_forces
 from ..units import current_system, shown_in
 from .arrows import NOTHING_THERE, ArrowLayer, TurningArrow, VectorArrow
 
@@ -74,6 +74,10 @@ class ForcesAt:
         """Return where a point is [m]."""
         return self.one(self.found.motion[point])
 
+    def spot(self, joint: JointForce) -> FloatArray:
+        """Return where a joint's force acts [m]."""
+        return self.place(joint.point) if joint.place is None else self.one(joint.place)
+
 
 def forces_at_pose(motion: Motion, pose: int, question: ForceQuestion) -> ForcesAt:
     """Return the forces at a pose; where they are refused at that pose, SingularError, or with `unreachable="nan"` the words why."""
@@ -118,8 +122,8 @@ def force_layer(forces: ForcesAt) -> ArrowLayer:
         name = f"force {joint.point} {place} on {on} from {by}"
         force, couple = sign * forces.one(joint.force), sign * float(forces.one(joint.couple))
         if joint.has_force:
-            arrows.append(VectorArrow(name, forces.place(joint.point), force, colour, text))
-        turning.append(TurningArrow(f"couple {joint.point} {place} on {on} from {by}", forces.place(joint.point), couple, colour, text))
+            arrows.append(VectorArrow(name, forces.spot(joint), force, colour, text))
+        turning.append(TurningArrow(f"couple {joint.point} {place} on {on} from {by}", forces.spot(joint), couple, colour, text))
     for element, bearer, at, force, moment in load_groups(forces):
         arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, LOAD, element))
         turning.append(TurningArrow(f"moment {element} on {bearer}", at, moment, LOAD, element))
@@ -149,9 +153,9 @@ def body_layer(forces: ForcesAt, body: str) -> ArrowLayer:
             force, couple = sign * forces.one(joint.force), sign * float(forces.one(joint.couple))
             if joint.has_force:
                 arrows.append(
-                    VectorArrow(f"force {joint.point} {place} from {other}", forces.place(joint.point), force, colour, from_other)
+                    VectorArrow(f"force {joint.point} {place} from {other}", forces.spot(joint), force, colour, from_other)
                 )
-            turning.append(TurningArrow(f"couple {joint.point} {place}", forces.place(joint.point), couple, colour, from_other))
+            turning.append(TurningArrow(f"couple {joint.point} {place}", forces.spot(joint), couple, colour, from_other))
     for element, bearer, at, force, moment in load_groups(forces):
         if bearer == body:
             arrows.append(VectorArrow(f"load {element} on {bearer}", at, force, LOAD, element))

@@ -73,7 +73,7 @@ def points_on(forces: ForcesAt, body: str) -> tuple[str, ...]:
     for each in structure.bodies:
         if each.name == body:
             return each.points
-    return tuple(forces.found.on_bodies[body])
+    return tuple(point for point in forces.found.on_bodies[body] if point in forces.found.motion.plan.points)
 
 
 def closing_words(layer: ArrowLayer, body: str) -> str:

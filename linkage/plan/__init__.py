@@ -1,8 +1,9 @@
 """The ordered steps, their dimensions, and their program."""
 
-from .bodies import Body, gruebler, merged
+from .bodies import Body, merged
+from .chain import ChainBody, KinematicChain, Pair, arm_joint, arm_points, gruebler, holds_an_arm
 from .measure import plan_measure
-from .members import as_written, construction_order, needed_names, printed, strokes_text
+from .members import as_written, carrying_pairs, construction_order, member_sides, needed_names, printed, strokes_text
 from .missing import Mask, called, failures, missing_words, negative, opening
 from .plan import Plan
 from .reading import ArrayReading, Reading

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import final
@@ -42,16 +41,3 @@ def merged(groups: Iterable[Sequence[str]], ground: Sequence[str]) -> tuple[Body
     frame = max(bodies, key=lambda body: len(set(body) & set(ground)) if ground else 0) if ground else []
     others = [body for body in bodies if body is not frame and body]
     return (Body(tuple(frame), fixed=True), *(Body(tuple(body)) for body in others))
-
-
-def gruebler(bodies: Sequence[Body], cylinders: Sequence[tuple[str, str]]) -> int:
-    """Return 3 (n - 1) - 2 j: n bodies with the frame, j pins and slides.
-
-    A cylinder is two bodies on a slide, pinned at its ends. A pin that joins k bodies counts k - 1 times.
-    """
-    ends = Counter(point for pair in cylinders for point in pair)
-    count = Counter(point for body in bodies for point in body.points)
-    count.update(ends)
-    pins = sum(bodies_there - 1 for bodies_there in count.values() if bodies_there > 1)
-    members = len(bodies) + 2 * len(cylinders)
-    return 3 * (members - 1) - 2 * (pins + len(cylinders))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from functools import cached_property
 from graphlib import CycleError, TopologicalSorter
 from math import pi
@@ -32,9 +32,9 @@ from ..quantities import (
     quantity,
     unnamed,
 )
-from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point
+from ..steps import Arrow, Bar, Drawn, Group, Guide, Link, Point, with_bodies
 from ..units import deg
-from .bodies import Body, gruebler, merged
+from .bodies import Body, merged
 from .table import Table
 
 Kind = TypeVar("Kind", bound=Member)
@@ -64,6 +64,7 @@ class Members:
         for name, member in self.members.items():
             with about(name):
                 self._check_kinds(name, member)
+        self.members = FrozenDict(with_bodies(self.members, self.table.lengths))
 
     def _bound(self, name: str, member: Member) -> Member:
         """Return a member with its dimensions entered in the table."""
@@ -207,9 +208,11 @@ class Members:
         return rigid_bodies(self)
 
     @cached_property
-    def gruebler(self) -> int:
-        """The Gruebler count 3 (n - 1) - 2 j1 - j2."""
-        return gruebler_count(self)
+    def resting(self) -> Mapping[str, Guide]:
+        """The points at a fixed place on a guide, which are rigid with it."""
+        found = [(joint.point, joint) for point in self.points.values() for joint in point.joints() if joint.drives and joint.track]
+        guides = self.of_kind(Guide)
+        return FrozenDict({point: guides[joint.track[0]] for point, joint in found if not self.is_there(joint)})
 
     def terms(self, given: Quantity) -> set[str]:
         """Return the names that a quantity is a sum of, through the members it goes by."""
@@ -221,7 +224,8 @@ class Members:
     @cached_property
     def turning(self) -> frozenset[str]:
         """The names of what angles are sums of: strokes and dimensions in rad."""
-        return frozenset().union(*(self.terms(angle) for member in self.members.values() for angle in member.in_radians()))
+        parts = [part for name in self.members for part in self.with_parts(name)]
+        return frozenset().union(*(self.terms(angle) for part in parts for angle in part.in_radians()))
 
     @cached_property
     def following(self) -> tuple[tuple[str, Quantity], ...]:
@@ -306,33 +310,47 @@ def construction_order(needs: Mapping[str, Iterable[str]], title: str) -> list[s
         raise DefinitionError(text, member=cycle[0]) from None
 
 
-def rigid_bodies(plan: Members) -> tuple[Body, ...]:
-    """Return the rigid bodies, the frame first."""
+def rigid_bodies(plan: Members, apart: Collection[frozenset[str]] = ()) -> tuple[Body, ...]:
+    """Return the rigid bodies, the frame first; without the points that are measured along the pairs of points `apart`."""
     groups: list[tuple[str, ...]] = [(bar.P, bar.Q) for bar in plan.rods]
-    groups += [body for name, point in plan.points.items() if name not in plan.telescopes for body in point.bodies()]
+    placed = [body for name, point in plan.points.items() if name not in plan.telescopes for body in point.bodies()]
+    groups += [body for body in placed if frozenset(body[:2]) not in apart]
     groups += [link.point_names for link in plan.of_kind(Link).values() if len(link.point_names) > 2 or not plan.is_cylinder(link)]
-    rest = resting(plan)
+    rest = plan.resting
     still = [name for name, guide in rest.items() if not guide.points]
     groups += [(*guide.points, name) for name, guide in rest.items() if len(guide.points) == 2]
     return merged(groups, (*plan.ground, *still))
 
 
-def resting(plan: Members) -> dict[str, Guide]:
-    """Return the points at a fixed place on a guide, which are rigid with it."""
-    found = [(joint.point, joint) for point in plan.points.values() for joint in point.joints() if joint.drives and joint.track]
-    guides = plan.of_kind(Guide)
-    return {point: guides[joint.track[0]] for point, joint in found if not plan.is_there(joint)}
+def carrying_pairs(plan: Members, members: Iterable[Iterable[str]] = ()) -> frozenset[frozenset[str]]:
+    """Return the ends of the straight two-point members that carry points measured along them, such as K = OnLink(A, B) on a cylinder.
+
+    They are driven lengths, the elements of the class and `members` more, by their ends. A member between two points that are
+    rigid with each other without it, as a spring across a link is, carries nothing: the link does.
+    """
+    measured = {frozenset(body[:2]) for name, point in plan.points.items() if name not in plan.telescopes for body in point.bodies()}
+    driven = {frozenset((bar.P, bar.Q)) for bar in plan.cylinders}
+    elements = [{joint.point for joint in each.joints()} for each in plan.of_kind(Jointed).values() if each.kind == "load"]
+    found = measured & {*driven, *map(frozenset, (*elements, *members))}
+    while rigid := {pair for pair in found - driven if any(pair <= set(body.points) for body in rigid_bodies(plan, found))}:
+        found -= rigid
+    return frozenset(found)
 
 
-def gruebler_count(plan: Members) -> int:
-    """Return 3 (n - 1) - 2 j1 - j2; a point that only guides hold counts as a pin of its own."""
-    rest = resting(plan)
-    free = {name: point for name, point in plan.points.items() if name not in rest}
-    halves_of = {name: sum(1 for joint in point.joints() if joint.is_half) for name, point in free.items()}  # each takes one freedom
-    halves = sum(halves_of.values()) + sum(len(group.slides) for group in plan.groups.values())
-    bodies = {name for body in plan.links for name in body.points} | {end for bar in plan.cylinders for end in (bar.P, bar.Q)}
-    lone = sum(1 for name in free if name not in bodies and (halves_of[name] or name in plan.telescopes))
-    return gruebler(plan.links, [(bar.P, bar.Q) for bar in plan.cylinders]) - halves - len(plan.telescopes) + 2 * lone
+def member_sides(plan: Members, ends: tuple[str, str], points: Iterable[str]) -> tuple[set[str], set[str]]:
+    """Return which points of a body go with the one and with the other end of the two-point member that it is.
+
+    Those that are measured from that end, of a cylinder from A on its barrel and from B on its rod, and what is linked to such points.
+    """
+    among = set(points)
+    groups = [{body[0], point} for point in among for body in plan.points[point].bodies() if point not in body[:2]]
+    groups += [{bar.P, bar.Q} for bar in plan.rods]
+    groups += [set(link.point_names) for link in plan.of_kind(Link).values() if not set(ends) <= set(link.point_names)]
+    near, far = {ends[0]}, {ends[1]}
+    for side in (near, far):
+        while more := set().union(*(group for group in groups if group & side)) & among - side:
+            side |= more
+    return near, far
 
 
 def printed(plan: Members, values: Mapping[str, float] = MappingProxyType({})) -> dict[str, str]:

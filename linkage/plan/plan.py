@@ -16,6 +16,7 @@ from ..program import Kernel, Level, Node
 from ..quantities import Member, Quantity
 from ..steps import Arrow, Point
 from ..vectors import Scalar
+from .chain import KinematicChain, chain_of
 from .followed import angles_that_count, followed_angles, has_angles, load_quantities
 from .members import Members
 from .reading import ArrayReading, Reading
@@ -46,6 +47,16 @@ class Plan(Members):
         found_later = {name for base in type(self).__mro__ for name, member in vars(base).items() if isinstance(member, cached_property)}
         kept = {name: value for name, value in vars(self).items() if name not in found_later | {"_kernels"}}
         return arrived, (self.key, type(self), kept)
+
+    @cached_property
+    def chain(self) -> KinematicChain:
+        """The bodies and the pairs between them, each of one freedom."""
+        return chain_of(self)
+
+    @property
+    def gruebler(self) -> int:
+        """The Gruebler count 3 (n - 1) - 2 j of the chain."""
+        return self.chain.count
 
     @cached_property
     def trace(self) -> Trace:

@@ -5,14 +5,14 @@ On arrays this is the eager evaluation; on a graph's nodes it is the trace of th
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property, reduce
 from typing import final
 
 import numpy as np
 
 from ..errors import DefinitionError, unknown
-from ..quantities import Member, Quantity, Reference, Stroke, Tabulated, Turning, name_of
+from ..quantities import Member, Quantity, Reference, Stroke, Tabulated, Turning, name_of, needs
 from ..steps import Point
 from ..vectors import Line, Scalar, Vec
 
@@ -151,11 +151,31 @@ class Reading:
     @cached_property
     def extent(self) -> Scalar:
         """The square of the machine's size [m2]: the longest length that follows no stroke, or the distance of two fixed points."""
+        return self.sizing().longest([each for each in self.lengths.values() if not self.follows_place(each)])
+
+    def longest(self, lengths: Iterable[Quantity]) -> Scalar:
+        """Return the square of the longest of some lengths that follow no stroke, or of the distance of two fixed points [m2]."""
         fixed = [self.at(name) for name, member in self.members.items() if isinstance(member, Point) and member.is_fixed]
         squares = [(place - fixed[0]).square() for place in fixed[1:]]
-        squares += [value * value for length in self.lengths.values() if self.stays(value := self.value(length))]
+        squares += [value * value for length in lengths if self.stays(value := self.value(length))]
         ranges = [max(abs(member.start), abs(member.end)) for member in self.members.values() if isinstance(member, Stroke)]
         return reduce(np.maximum, squares) if squares else max(ranges, default=1.0) ** 2 or 1.0
+
+    def sizing(self) -> Reading:
+        """Return the reading that tells the machine's size, whose own directions do not ask for it."""
+        return self
+
+    def follows_place(self, quantity: Quantity) -> bool:
+        """Return whether a quantity is built from the place of a point that moves."""
+        stack, met = list(needs(quantity)), set[str]()
+        while stack:
+            name = stack.pop()
+            member = self.members[name]
+            if isinstance(member, Point) and not member.is_fixed:
+                return True
+            stack += [each for each in needs(member) if each not in met]
+            met.add(name)
+        return False
 
     def stays(self, value: Scalar) -> bool:
         """Return whether a value is known to follow no stroke."""
@@ -205,6 +225,9 @@ class ArrayReading(Reading):
         """Return a sine, noted for the member that is being placed."""
         self.sines[self.owner] = sine
         return sine
+
+    def sizing(self) -> Reading:
+        return Reading(self.members, self.lengths, self.inputs)
 
     def apart(self, square: Scalar) -> Scalar:
         self.spans[self.owner] = np.minimum(self.spans.get(self.owner, np.inf), np.sqrt(square / self.extent))

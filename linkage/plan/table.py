@@ -15,7 +15,7 @@ from ..frozen import read_only
 from ..quantities import Number, Operand, Quantity, Variable, quantity, real, spelled
 from ..steps import Slot
 from ..steps.step import TURN
-from ..units import deg
+from ..units import UNITS, deg
 from ..vectors import Numbers
 
 Label: TypeAlias = frozenset[str] | tuple[str, frozenset[str]]
@@ -48,8 +48,11 @@ class Table:
         self._labels: dict[Label, tuple[str, Quantity]] = {}
 
     def add(self, name: str, default: float, kind: str, where: str, unit: str = "") -> None:
-        """Enter a design variable; raise DefinitionError where its name is taken or its value cannot be."""
+        """Enter a design variable; raise DefinitionError where its name is taken, its value cannot be, or its unit is unknown."""
         self.check_free(name, where)
+        if unit and (not isinstance(unit, str) or unit not in UNITS):
+            error = unknown("Unit", unit, UNITS, where=f"{self.title}: {where}, {name}")
+            raise DefinitionError(f'{error} Write "" where none of them fits; the number is then shown in SI as it is.')
         entry = DesignVariable(name, default, kind, where, unit)
         checked(entry, default)
         self.entries[name], self.defaults[name] = entry, default

@@ -73,6 +73,7 @@ class Trace(Reading):
         self.noted: dict[str, Node] = {}
         self.angles: list[Node] = []
         self.kept: dict[object, object] = {}
+        self.is_sizing = False
         self._tangents: dict[str, Tangent] = {}
 
     def tangent(self, name: str) -> Tangent:
@@ -129,10 +130,16 @@ class Trace(Reading):
             raise DefinitionError(text, member=self.owner)
         return sine
 
+    def sizing(self) -> Trace:
+        view = self.view()
+        view.is_sizing = True
+        return view
+
     def apart(self, square: Scalar) -> Scalar:
         node = self.graph.node(square)
         if node.level is Level.POSE:
-            self._measure(node / (self.extent * REGULAR**2))
+            if not self.is_sizing:  # which would ask for the size again
+                self._measure(node / (self.extent * REGULAR**2))
         else:
             self.guards.append(Guard(self.owner, node))
         return square

@@ -4,7 +4,7 @@ from .arithmetic import TAKEN, Arithmetic
 from .curve import Curve, CurveValue
 from .inputs import Dimension, Stroke, Variable
 from .joint import FRAME_SIDE, Driven, Joint, Jointed, JointSide, guided, pinned
-from .member import Member, Reference, Tabulated, Turning, Where, name_of, needs, unnamed
+from .member import Member, Reference, Tabulated, Turning, Where, is_name, name_of, needs, unnamed
 from .outputs import Angle, Coordinate, Distance, Length, angle, distance, label, x, y
 from .quantity import (
     Function,

@@ -53,10 +53,12 @@ class Driven:
 class Joint:
     """What the body `on` gets from the body `by` at a point, in the directions that it `holds`.
 
-    `holds` are letters: x, y (a pin), n across the joint's line, t along it, c a couple. `line` gives the line in a reading; `track`
-    tells equal lines: a guide's name, or the two points of a slot's body, sorted. A joint with `drives` is there while one of them
-    follows a stroke; an `arm` then leaves the body it is measured on. `still` must not follow a stroke, in words. A contact `pushes`: the
-    force across its line acts to the left of it alone, and where it would have to pull the bodies come apart.
+    `holds` are letters: x, y (a pin), n across the joint's line, t along it, c a couple. `line` gives the line in a reading. The force acts
+    at the line's origin, such as the mesh of two gears, whatever point names the joint; without a line, and where the point runs on the
+    line ("runner"), at the point. `track` tells equal lines: a guide's name, or the two points of a slot's body, sorted. A joint with
+    `drives` is there while one of them follows a stroke; an `arm` then leaves the body it is measured on. `still` must not follow a
+    stroke, in words. A contact `pushes`: the force across its line acts to the left of it alone, and where it would have to pull the
+    bodies come apart.
     """
 
     kind: str

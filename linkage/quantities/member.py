@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from functools import lru_cache
 from inspect import Parameter, Signature, signature
+from keyword import iskeyword
 from math import inf
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Protocol, Self, TypeAlias
+from unicodedata import normalize
 
 from ..errors import DefinitionError, cited
 from ..frozen import FrozenDict
@@ -161,6 +163,11 @@ def check_arguments(kind: type[Member], given: tuple[object, ...], options: Mapp
         _, *parameters = taken.parameters.values()
         words = [f"{each.name} such as AB=0.3" if each.kind is Parameter.VAR_KEYWORD else each.name for each in parameters]
         raise DefinitionError(f"{kind.__name__}(...): {error}; it takes {', '.join(words) or 'nothing'}.") from None
+
+
+def is_name(name: object) -> bool:
+    """Return whether a line of a class could bind a name: letters, digits and _, no word of Python, spelled as Python spells it."""
+    return isinstance(name, str) and name.isidentifier() and not iskeyword(name) and normalize("NFKC", name) == name
 
 
 def name_of(reference: Reference) -> str:

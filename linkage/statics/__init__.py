@@ -1,7 +1,7 @@
 """Forces: the drive's by virtual work, the joints' by equilibrium of every body, supports, friction. N and Nm."""
 
 from .acting import Case, Loads, elements_of
-from .force_requests import DriveForce, acting_of, case_words, drive_force, loads_identity, pin_force
+from .force_requests import DriveForce, case_words, drive_force, loads_identity, pin_force, situation_of
 from .holding import same, stroke_followed
 from .joint_forces import JointForce, PinForces, pin_forces
 from .law_requests import LawRequest, TracedLaw

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, SingularError, cited, known_name, told, unknown
-from ..loads import Damper, ForceElement, Friction, Load, LoadCase, Poses, Rate, Rates, TwoPinned
+from ..loads import Damper, ForceElement, Friction, Load, LoadCase, Poses, Rate, Rates, TwoPinned, check_together
+from ..loads.case import check_factor
 from ..motion import Motion, rates_of, require_motion
 from ..motion.requests import stroke_of
 from ..plan import Plan
@@ -187,6 +188,8 @@ def acting_elements(plan: Plan, loads: Loads, case: Case, without: str = "") -> 
         if name not in known:
             raise unknown("Load", name, known, where=f"{plan.title}, {load_case.label}")
     found = []
+    for name, element in present:
+        check_factor(load_case, name, element, f"{plan.title}, {load_case.label}")
     for name, element in present:  # one without a name, which is given to count, is not left out by `only`
         factor = load_case.factor(name) if element.name else float(load_case.scale.get(name, 1.0))
         if name != without and factor != 0.0:
@@ -206,12 +209,15 @@ def case_of(plan: Plan, case: Case) -> LoadCase:
 
 
 def elements_of(plan: Plan, loads: Loads) -> list[tuple[str, ForceElement]]:
-    """Return the force elements that are meant, by name: the machine's own for None."""
+    """Return the force elements that are meant, by name: the machine's own for None; DefinitionError for some that cannot act together."""
     own = plan.of_kind(ForceElement)
     if loads is None:
         return list(own.items())
     each_of = [loads] if isinstance(loads, (str, ForceElement)) or not isinstance(loads, Sequence) else loads
-    return [named_element(each, own, plan.title) for each in each_of]
+    found = [named_element(each, own, plan.title) for each in each_of]
+    given = [own[each] if isinstance(each, str) else each for each in each_of]
+    check_together([(name, each) for (name, _), each in zip(found, given, strict=True)], plan.members, plan.title)
+    return found
 
 
 def named_element(element: object, own: Mapping[str, ForceElement], title: str) -> tuple[str, ForceElement]:
@@ -292,8 +298,10 @@ def movement_of(motion: Motion, direction: str, rates: Mapping[str, ArrayLike] |
     sense = sense_of(direction)
     if rates is not None:
         given = rates_of("rates", rates, motion.strokes, motion.shape, motion.plan.title)
-        if sense and drive is not None and np.any(sense * np.asarray(given.get(drive, 0.0)) < 0.0):
-            raise DefinitionError(f"{motion.plan.title}: direction={direction!r} and the rate of {drive} contradict each other; drop one.")
+        named = [drive] if drive is not None else [*given] if len(given) == 1 else []
+        wrong = next((name for name in named if sense and np.any(sense * np.asarray(given.get(name, 0.0)) < 0.0)), None)
+        if wrong is not None:
+            raise DefinitionError(f"{motion.plan.title}: direction={direction!r} and the rate of {wrong} contradict each other; drop one.")
         return Movement(direction, given, bool(sense), True)
     if not sense:
         return AT_REST

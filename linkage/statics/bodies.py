@@ -5,15 +5,18 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import final
 
+import numpy as np
+
 from ..errors import DefinitionError
-from ..loads import ForceElement, PinFriction
-from ..plan import Plan
+from ..loads import ForceElement, PinFriction, TwoPoint
+from ..plan import Plan, arm_joint, arm_points, carrying_pairs, holds_an_arm, member_sides
 from ..quantities import Quantity, name_of
 from ..steps import Link
 from .acting import ActingThrust, member_title
-from .holding import Holders, PressureLine
+from .holding import Holders, PressureLine, sampled
 
 FRAME = -1
 FRAME_NAME = "frame"
@@ -36,8 +39,9 @@ class FreeBody:
 class Strut:
     """A straight two-point member P -> Q: a driven length, a cylinder that holds, or a member whose thrust a law gives.
 
-    `quantity` is the driven length [m], None where the points alone tell it; `far` are the points on Q's side; `host` the declared
-    link that it is part of, if any; `line` what it holds with; `known` its thrust where a law gives it, so that it drives nothing.
+    `quantity` is the driven length [m], None where the points alone tell it; `far` are the points on Q's side; `host` the body that
+    it is together with the points measured along it, if any; `line` what it holds with; `known` its thrust where a law gives it, so
+    that it drives nothing.
     """
 
     name: str
@@ -49,6 +53,17 @@ class Strut:
     line: PressureLine | None = None
     known: ActingThrust | None = None
 
+    @property
+    def ends(self) -> tuple[str, str]:
+        """The points at its ends."""
+        return self.P, self.Q
+
+    @property
+    def is_cylinder(self) -> bool:
+        """Whether it is a member that holds, or that would where nothing fed it."""
+        member = None if self.known is None else self.known.member
+        return self.line is not None or (isinstance(member, TwoPoint) and member.holds)
+
 
 def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[ActingThrust]) -> tuple[tuple[FreeBody, ...], tuple[Strut, ...]]:
     """Return the bodies and the two-point members: sliders first, then links, then those members that are bodies of their own."""
@@ -56,20 +71,23 @@ def free_bodies(plan: Plan, holders: Holders, thrusts: Sequence[ActingThrust]) -
     sides = [side for _, joint in plan.joints for side in (joint.on, joint.by) if side.role == "slider"]
     sliders = [slider(point) for point in dict.fromkeys(side.points[0] for side in sides) if point not in fixed]
     arms = [telescope(plan, name) for name in plan.telescopes]
+    links = declared_bodies(plan, arms)
+    struts, hosts = two_point_members(plan, holders, thrusts, links)
+    renamed = [each for each in struts if each.host == each.name]
+    links = [link for link in links if link not in [hosts[each.name] for each in renamed]]
+    carrying = [replace(hosts[each.name], name=each.name, axis=each.ends) for each in renamed]
+    own = [FreeBody(strut.name, (strut.P, strut.Q), (strut.P, strut.Q), label=strut.P + strut.Q) for strut in struts if not strut.host]
+    return (*sliders, *arms, *links, *carrying, *own), struts
+
+
+def declared_bodies(plan: Plan, arms: Iterable[FreeBody]) -> list[FreeBody]:
+    """Return the bodies that steps and links declare, without the frame and the arms that a stroke moves."""
     inner = {frozenset(arm.points) for arm in arms}
-    links = [
+    return [
         FreeBody(body.name, body.points, (body.points[0], body.points[1]), label=link_name(plan, body.points))
         for body in plan.links[1:]
         if frozenset(body.points) not in inner and not holds_an_arm(plan, body.points)
     ]
-    driven = [with_host(plan, strut, links) for strut in driven_lengths(plan, holders)]
-    cylinders = [Strut(member_title(each), *each.ends, line=line) for line in holders.lines for each in line.cylinders]
-    struts = [*driven, *(replace(strut, far=frozenset({strut.Q})) for strut in (*cylinders, *known_struts(thrusts)))]
-    twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
-    if twice:
-        raise DefinitionError(f"{plan.title}: two elements are called {twice}; give each a name of its own in the class.")
-    own = [FreeBody(strut.name, (strut.P, strut.Q), (strut.P, strut.Q), label=strut.P + strut.Q) for strut in struts if not strut.host]
-    return (*sliders, *arms, *links, *own), tuple(struts)
 
 
 def frame_points(plan: Plan) -> frozenset[str]:
@@ -100,6 +118,19 @@ def link_name(plan: Plan, points: tuple[str, ...]) -> str:
 # Straight members: driven lengths, cylinders that hold, members with a law of their own.
 
 
+def two_point_members(
+    plan: Plan, holders: Holders, thrusts: Sequence[ActingThrust], links: Sequence[FreeBody]
+) -> tuple[tuple[Strut, ...], dict[str, FreeBody]]:
+    """Return the two-point members, and by their names the declared bodies that they are together with the points along them."""
+    cylinders = [Strut(member_title(each), *each.ends, line=line) for line in holders.lines for each in line.cylinders]
+    struts = [*driven_lengths(plan, holders), *cylinders, *known_struts(thrusts)]
+    twice = next((name for name, count in Counter(strut.name for strut in struts).items() if count > 1), None)
+    if twice:
+        raise DefinitionError(f"{plan.title}: two elements are called {twice}; give each a name of its own in the class.")
+    hosts = with_points(plan, struts, links)
+    return tuple(placed(plan, strut, hosts.get(strut.name)) for strut in struts), hosts
+
+
 def driven_lengths(plan: Plan, holders: Holders) -> list[Strut]:
     """Return the lengths that a step drives, where no cylinder has taken over all their strokes."""
     found = []
@@ -110,14 +141,66 @@ def driven_lengths(plan: Plan, holders: Holders) -> list[Strut]:
     return found
 
 
-def with_host(plan: Plan, strut: Strut, links: Sequence[FreeBody]) -> Strut:
-    """Return a driven length with the link that it is part of, where both its points belong to one, and the points that go with Q."""
-    host = next((link for link in links if {strut.P, strut.Q} <= set(link.points)), None)
-    far = {strut.Q}
-    for point in host.points if host else ():
-        if far & {name for body in plan.points[point].bodies() for name in body[:1] if point not in body[:2]}:
-            far.add(point)
-    return replace(strut, far=frozenset(far), host=host.name if host else "")
+def with_points(plan: Plan, struts: Sequence[Strut], links: Sequence[FreeBody]) -> dict[str, FreeBody]:
+    """Return the declared bodies that are two-point members with the points measured along them, by the members' names.
+
+    One member a body: of several between the same points the cylinder, then the driven length, then the first of the others.
+    """
+    inside = [(strut, link) for strut in struts for link in links if {strut.P, strut.Q} <= set(link.points)]
+    if not inside:
+        return {}
+    carrying = carrying_pairs(plan, (each.ends for each, _ in inside))
+    found: dict[str, FreeBody] = {}
+    for strut, link in sorted(inside, key=lambda each: (not each[0].is_cylinder, each[0].quantity is None)):
+        if link not in found.values() and (strut.quantity is not None or frozenset(strut.ends) in carrying):
+            found.setdefault(strut.name, link)
+    return found
+
+
+def placed(plan: Plan, strut: Strut, host: FreeBody | None) -> Strut:
+    """Return a two-point member with the points on its far side and the name of the body it is, if it carries points.
+
+    A body that a stroke drives keeps its own name, one with an element has the element's.
+    """
+    if host is None:
+        return replace(strut, far=frozenset({strut.Q}))
+    return replace(strut, far=far_points(plan, strut, host), host=strut.name if strut.quantity is None else host.name)
+
+
+def far_points(plan: Plan, strut: Strut, host: FreeBody) -> frozenset[str]:
+    """Return the points that go with a member's end Q, of a cylinder those on its rod: measured from Q, or linked to such points.
+
+    DefinitionError for a point that keeps its place on neither side, as on a triangle whose third side is the member.
+    """
+    near, far = member_sides(plan, strut.ends, host.points)
+    places = plan.made(("places", strut.P, strut.Q, host.points), lambda _: places_on(plan, strut, host.points))
+    for point in host.points:
+        kept = [end for end, side in ((strut.P, near), (strut.Q, far)) if point in side]
+        if len(kept) != 1 or not places[point, kept[0]] <= RIGID:
+            given = plan.points[point]
+            raise DefinitionError(
+                f"{plan.title}: {point} = {given} is measured along {strut.name}, whose length {strut.P}{strut.Q} changes, and keeps its "
+                f"place neither at {strut.P} nor at {strut.Q}. Measure it from one of them, {point} = OnLink({strut.P}, {strut.Q}, "
+                f"{strut.P}{point}=...), with an angle where it lies aside; or let two links meet there, Dyad({strut.P}, {strut.Q}, ...)."
+            )
+    return frozenset(far)
+
+
+RIGID = 1e-7
+"""A point that moves by less than this part of its distance keeps its place."""
+
+
+def places_on(plan: Plan, strut: Strut, points: Iterable[str]) -> dict[tuple[str, str], float]:
+    """Return how far points move along and across a member beside one of its ends, over the strokes and relative to their distance."""
+    motion, found = sampled(plan), {}
+    along = motion[strut.Q] - motion[strut.P]
+    along = along / np.hypot(along[0], along[1])
+    for point, end in product(points, strut.ends):
+        arm = motion[point] - motion[end]
+        parts = np.stack([arm[0] * along[0] + arm[1] * along[1], along[0] * arm[1] - along[1] * arm[0]])[:, motion.reached]
+        size = float(np.max(np.hypot(parts[0], parts[1]), initial=0.0)) or 1.0
+        found[point, end] = float(np.max(np.ptp(parts, axis=1), initial=0.0)) / size if parts.size else 0.0
+    return found
 
 
 def known_struts(thrusts: Sequence[ActingThrust]) -> list[Strut]:
@@ -137,17 +220,10 @@ def known_struts(thrusts: Sequence[ActingThrust]) -> list[Strut]:
 
 def telescope(plan: Plan, name: str) -> FreeBody:
     """Return the arm that a driven joint moves: its point and all that is rigid with it."""
-    joint = next(joint for owner, joint in plan.joints if owner == name and joint.arm)
+    joint = arm_joint(plan, name)
     refuse_driven(plan, joint.still)
-    base = set(joint.by.points)
-    own = [body.points for body in plan.links[1:] if name in body.points and base & set(body.points)]
-    points = tuple(dict.fromkeys(point for body in ((name,), *own) for point in body if point not in base))
+    points = arm_points(plan, name)
     return FreeBody("".join(points), points, (joint.point, name))
-
-
-def holds_an_arm(plan: Plan, points: tuple[str, ...]) -> bool:
-    """Return whether a body is the arm of a telescope with what it moves on; the arm stands for itself."""
-    return any(joint.arm and name in points and set(joint.by.points) & set(points) for name, joint in plan.joints)
 
 
 def refuse_driven(plan: Plan, still: Iterable[tuple[Quantity, str]]) -> None:

@@ -206,11 +206,9 @@ class System:
     def thrust(self, strut: Strut) -> LinearForm:
         """Return a two-point member's thrust [N]: what pushes its far end against all that acts there."""
         body = self.structure.body_of(strut)
-        points = self.structure.bodies[body].points
 
         def far(contact: Contact) -> bool:
-            at = contact.point if contact.point in points else next(iter(contact.track), "")
-            return at in strut.far
+            return self.structure.seat(contact, body) in strut.far
 
         return self.cut(body, far, strut.far.__contains__, self.poses.along(strut.P, strut.Q))
 

@@ -22,6 +22,7 @@ from ..motion.evaluation import part_of_input, pieces
 from ..plan import Mask, Plan
 from ..program import FloatArray, Kernel, Level, Node, Tangent
 from .acting import ActingLoads, Case, Loads, Movement
+from .agreement import assumed_joints
 from .equilibrium import System
 from .friction import CONTRACTS, JointFriction, PressingForces, PressingRows, consistent_frictions, iterated, joint_frictions, unit_friction
 from .joints import Contact, Structure
@@ -138,7 +139,7 @@ def traced_program(plan: Plan, loads: Loads, case: Case, movement: Movement, pla
         nodes += [motion.node(couple[0])] if turns else []
     nodes += [motion.node(solution.value(system.drive(name))[0]) for name in plan.strokes]
     nodes += [motion.node(solution.value(system.thrust(strut))[0]) for strut in structure.struts]
-    guards = list(motion.notes.assumed)
+    guards = [*motion.notes.assumed, *(motion.node(each[0]) for each in assumed_joints(structure, traced.poses))]
     kernels = friction_kernels(system, u, contacts, inputs, traced, guards) if places else None
     names = tuple(strut.name for strut in structure.struts)
     return ForceProgram(places, kernels, Kernel(nodes, guards), tuple(rows), tuple(plan.strokes), names)

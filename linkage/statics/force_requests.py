@@ -19,6 +19,7 @@ from ..plan import Plan
 from ..program import FloatArray, Node, Notes
 from ..vectors import Scalar
 from .acting import Case, Loads
+from .agreement import assumed_joints
 from .equilibrium import System
 from .joint_forces import JointForce, PinForces, joint_on, joints_of, pin_forces
 from .joints import Contact, Structure
@@ -128,10 +129,10 @@ def drive_force(drive: str | None = None, loads: Loads = None, case: Case = None
     `acting` says loads and case in one, with a direction or rates too; then it has values and no derivatives.
     A load's law must be plain arithmetic of numbers at one pose; DefinitionError, with the load's name, where it is not.
     """
-    return DriveForce(acting_of(acting, "drive_force", loads=loads, case=case), drive)
+    return DriveForce(situation_of(acting, "drive_force", loads=loads, case=case), drive)
 
 
-def acting_of(acting: Acting | None, what: str, **keywords: Any) -> Acting:
+def situation_of(acting: Acting | None, what: str, **keywords: Any) -> Acting:
     """Return the situation that a door is given, whole or by its keywords; DefinitionError for both."""
     given = {name: value for name, value in keywords.items() if value is not None}
     if acting is None:
@@ -272,7 +273,7 @@ def pin_force(
     if not all(isinstance(each, str) for each in names):
         said = "the names of a point and of a body are expected"
         raise DefinitionError(f'pin_force({cited(point)}, {cited(on)}): {said}, such as pin_force("G", "arm").')
-    return PinForce(acting_of(acting, "pin_force", loads=loads, case=case), point, on, component)
+    return PinForce(situation_of(acting, "pin_force", loads=loads, case=case), point, on, component)
 
 
 @final
@@ -297,6 +298,12 @@ class PinForceOf(ForceOf):
         contact, _, sign = contact_of(structure, self.request.point, self.request.on)
         force, _ = Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), []).transmitted(contact)
         return (motion.node(COMPONENTS[self.request.component](*(sign * force[:, 0]))),)
+
+    def notes(self, plan: Plan) -> Notes:
+        traced = self.traced(plan)
+        for each in assumed_joints(traced.structure, traced.poses):
+            traced.notes.assumed.setdefault(traced.motion.node(each[0]), "its joints")
+        return traced.notes
 
     def names(self, plan: Plan) -> set[str]:
         return set(plan.members)

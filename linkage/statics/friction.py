@@ -205,9 +205,9 @@ def friction_in(contact: Contact, friction: Friction, speeds: Speeds) -> JointFr
         wrench = Wrench(place, none, -sign * radius)
         return JointFriction(UnitWrench(contact, wrench), coefficient, radius * np.abs(rate), wrench.couple)
     t = force_direction(contact, "t", poses)
-    point, by = speeds.point(contact.point), speeds.material(contact.by, place)
+    point, by = speeds.point(contact.point), speeds.material(contact.on if contact.has_slot else contact.by, place, contact)
     if contact.has_slot:
-        point, by = speeds.material(contact.on, place), point
+        point, by = by, point
     rate = ((point - by) * t).sum(axis=0)
     size = np.abs(point).max(axis=0) + np.abs(by).max(axis=0)
     sign = np.where(np.abs(rate) > SLOWEST * size, np.sign(rate), 0.0)
@@ -239,12 +239,14 @@ class Speeds:
             self._points[name] = sum(parts, np.zeros((2, self.poses.count)))
         return self._points[name]
 
-    def material(self, body: int, place: FloatArray) -> FloatArray:
-        """Return the velocity of a body's material at a place, shape (2, n)."""
+    def material(self, body: int, place: FloatArray, contact: Contact) -> FloatArray:
+        """Return the velocity of a body's material at a place, shape (2, n): of a cylinder on the side that a contact goes with."""
         if body == FRAME:
             return np.zeros((2, self.poses.count))
         bodies = len(self.structure.bodies)
         start = self.structure.bodies[body].points[0] if body < bodies else self.structure.lone[body - bodies]
+        if any(each.host and self.structure.body_of(each) == body for each in self.structure.struts):
+            start = self.structure.seat(contact, body)
         return self.point(start) + left(place - self.poses.at(start)) * self.spin(body)
 
     def spin(self, body: int) -> FloatArray:

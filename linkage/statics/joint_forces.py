@@ -10,7 +10,7 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..errors import DefinitionError, known_name, unknown
+from ..errors import DefinitionError, SingularError, known_name, unknown
 from ..motion import Motion, require_motion, stroke_unit
 from ..motion.limits import where_words
 from ..motion.requests import stroke_of
@@ -19,12 +19,13 @@ from ..program import FloatArray
 from ..shown import Shown
 from ..units import kN
 from .acting import ActingLoad, ActingLoads, Case, Loads, acting_loads, movement_of
+from .agreement import check_joints
 from .bodies import FRAME_NAME
 from .force_program import forces_at
-from .joints import Structure, force_direction
+from .joints import Contact, Structure, acting_place, force_direction
 from .poses import FlatPoses
 from .solution import PoseForces, locked_words
-from .work import by_work, poses_held, work_gap
+from .work import by_work, poses_held, without_work, work_gap
 
 
 def pin_forces(
@@ -49,15 +50,31 @@ def pin_forces(
     if drive is not None:
         stroke_of(motion.plan, drive, "drive")
     acting = acting_loads(motion, loads, case, movement)
-    found = forces_at(poses_held(motion, acting, "The joint forces"), acting, loads, case, split)
+    found = agreeing(forces_at(poses_held(motion, acting, "The joint forces"), acting, loads, case, split), loads, case, split)
     structure = found.structure
     remarks = [*locked_words(found, direction), *lift_off_words(found), *self_locking_words(found), *at_rest_words(acting)]
     borne = tuple((structure.name(structure.bearer(each.load)), each) for each in acting.loads)
     again = partial(pin_forces, loads=loads, case=case, direction=direction, drive=drive, rates=rates, split=split)
     return PinForces(
-        motion, joints_of(structure, found.contacts), found.drives, found.thrusts, acting.case, direction,
+        motion, joints_of(structure, found.contacts, found.poses), found.drives, found.thrusts, acting.case, direction,
         found.poses.mask(found.locked), tuple(remarks), found.poses, acting, borne, structure, again,
     )  # fmt: skip
+
+
+def agreeing(found: PoseForces, loads: Loads, case: Case, split: str) -> PoseForces:
+    """Return forces where they agree with virtual work; SingularError for other poses unless NaN was asked for."""
+    lost, words = without_work(found)
+    if not lost.any():
+        return found
+    check_joints(found.structure, found.poses)
+    poses, motion = found.poses, found.poses.motion
+    mask = poses.mask(lost)
+    if motion.unreachable == "raise":
+        where = where_words(motion.plan, mask, motion.strokes)
+        remedy = "Leave these poses out; if all are lost, look at what joints() of a step of one's own holds, and where"
+        text = f"{motion.plan.title}: the joint forces are refused {where}: {words}. {remedy}."
+        raise SingularError(text, mask=mask, motion=motion)
+    return forces_at(poses.without(lost), found.acting, loads, case, split)
 
 
 @final
@@ -103,7 +120,10 @@ class PinForces(Shown):
         return sign * joint.force
 
     def on_body(self, name: str) -> Mapping[str, FloatArray]:
-        """Return all forces on a body by the point they act at, joints and loads, shape (2, ...) [N]: they balance (for FEM)."""
+        """Return all forces on a body by the point they act at, joints and loads, shape (2, ...) [N]: they balance (for FEM).
+
+        One that acts elsewhere, such as at the mesh of two gears, goes by its joint, `A (mesh)`; `place` of that joint tells where.
+        """
         found = self.body_named(name)
         if found not in self.on_bodies:
             raise unknown("Body", name, self.on_bodies, where=self.motion.plan.title)
@@ -115,9 +135,11 @@ class PinForces(Shown):
 
     @cached_property
     def on_bodies(self) -> Mapping[str, Mapping[str, FloatArray]]:
-        """All forces by the body and the point they act at."""
+        """All forces by the body and the point they act at, or the joint where that is no point."""
         found: dict[str, dict[str, FloatArray]] = {name: {} for name in self._structure.body_names}
-        sides = [side for each in self.joints for side in ((each.on, each.point, each.force), (each.by, each.point, -each.force))]
+        names = [each.point if each.place is None else f"{each.point} ({each.kind})" for each in self.joints]
+        pairs = list(zip(names, self.joints, strict=True))
+        sides = [side for name, each in pairs for side in ((each.on, name, each.force), (each.by, name, -each.force))]
         for body, point, force in (*sides, *((body, each.load.point, each.force) for body, each in self._loads)):
             there = found.setdefault(body, {})
             there[point] = there[point] + force if point in there else force
@@ -150,6 +172,7 @@ class JointForce:
 
     `kind` is a pin, a guide, a slot, a driven point, a crank's drive, a slider or a telescope. `axis` are the two points that give
     the body's own x axis; for the frame it is None. `has_force`: whether it transmits a force; a crank's drive has only a couple.
+    `place` is where the force acts, shape (2, ...) [m], where that is not the point, such as the mesh of two gears; else None.
     """
 
     point: str
@@ -160,6 +183,7 @@ class JointForce:
     couple: FloatArray
     axis: tuple[str, str] | None = None
     has_force: bool = True
+    place: FloatArray | None = None
 
     @property
     def size(self) -> FloatArray:
@@ -170,14 +194,23 @@ class JointForce:
         return f"{self.point} ({self.kind}) on {self.on} from {self.by}"
 
 
-def joints_of(structure: Structure, forces: Iterable[tuple[FloatArray, FloatArray]]) -> tuple[JointForce, ...]:
-    """Return every joint's force, from each contact's force (2, ...) and couple (...)."""
+def joints_of(
+    structure: Structure, forces: Iterable[tuple[FloatArray, FloatArray]], poses: FlatPoses | None = None
+) -> tuple[JointForce, ...]:
+    """Return every joint's force, from each contact's force (2, ...) and couple (...), with its place at some poses, if they are given."""
     found = []
     for contact, (force, couple) in zip(structure.contacts, forces, strict=True):
         axis = structure.bodies[contact.on].axis if 0 <= contact.on < len(structure.bodies) else None
         on, by = structure.name(contact.on), structure.name(contact.by)
-        found.append(JointForce(contact.point, on, by, contact.kind, force, couple, axis, contact.has_force))
+        place = None if poses is None else place_elsewhere(contact, poses)
+        found.append(JointForce(contact.point, on, by, contact.kind, force, couple, axis, contact.has_force, place))
     return tuple(found)
+
+
+def place_elsewhere(contact: Contact, poses: FlatPoses) -> FloatArray | None:
+    """Return where a contact's force acts, shape (2, ...) [m]; None where that is its point."""
+    place = acting_place(contact, poses)
+    return None if place is poses.at(contact.point) else poses.full(place)
 
 
 def joints_at(joints: Sequence[JointForce], point: str, title: str) -> tuple[JointForce, ...]:
@@ -209,11 +242,12 @@ def residual(found: PinForces) -> float:
     extent = max((float(np.nanmax(place, initial=0.0) - np.nanmin(place, initial=0.0)) for place in places.values()), default=1.0) or 1.0
     sums: dict[str, FloatArray] = {}
     largest = np.zeros(shape)
-    forces = [(each.on, each.point, each.force, each.couple) for each in found.joints]
-    forces += [(each.by, each.point, -each.force, -each.couple) for each in found.joints]
-    forces += [(body, load.load.point, load.force, np.zeros(())) for body, load in found._loads]
-    for body, point, force, couple in forces:
-        moment = (places[point][0] * force[1] - places[point][1] * force[0] + couple) / extent
+    acts = [(each, places[each.point] if each.place is None else each.place) for each in found.joints]
+    forces = [(each.on, place, each.force, each.couple) for each, place in acts]
+    forces += [(each.by, place, -each.force, -each.couple) for each, place in acts]
+    forces += [(body, places[load.load.point], load.force, np.zeros(())) for body, load in found._loads]
+    for body, place, force, couple in forces:
+        moment = (place[0] * force[1] - place[1] * force[0] + couple) / extent
         row = np.stack(np.broadcast_arrays(*force, moment))
         sums[body] = sums[body] + row if body in sums else row
         largest = np.maximum(largest, np.hypot(force[0], force[1]))

@@ -64,8 +64,11 @@ class Contact:
 
     @property
     def is_curve(self) -> bool:
-        """Whether its point is driven along a line of the frame that is no guide's: its way is told by the point itself."""
-        return self.by == FRAME and not self.track
+        """Whether its point is driven along a line of the frame that is no guide's: its way is told by the point itself.
+
+        An arm's joint stands where its length is counted from, and that point stays.
+        """
+        return self.by == FRAME and not self.track and not (self.joint is not None and self.joint.arm)
 
     def goes_by(self, name: str) -> bool:
         """Return whether it is meant by the name of a guide, a step or a point of its line."""
@@ -200,6 +203,14 @@ class Structure:
         name = strut.host or strut.name
         return next(index for index, body in enumerate(self.bodies) if body.name == name and {strut.P, strut.Q} <= set(body.points))
 
+    def seat(self, contact: Contact, body: int) -> str:
+        """Return the point of a body that a contact goes with: its own where it is one, else that from which its line is measured."""
+        if contact.point in self.bodies[body].points or contact.joint is None:
+            return contact.point
+        side = contact.joint.on if contact.on == body else contact.joint.by
+        points = self.plan.of_kind(Guide)[side.points[0]].points if side.role == "guide" else side.points
+        return next(iter(points), contact.point)
+
     def side(self, side: JointSide, joint: Joint, owner: str) -> int:
         """Return the body that one side of a joint names."""
         if side.role == "guide":
@@ -261,6 +272,9 @@ class Structure:
     def names(self) -> dict[str, str]:
         """The names of all bodies by what they go by: their own, their link's, their points; not what several go by."""
         labels = [(body.label, body.name) for body in self.bodies if body.label]
+        for each in self.struts:  # a cylinder with points along it goes by its ends and by all its points, too
+            if each.host == each.name:
+                labels += [(name, each.name) for name in (each.P + each.Q, "".join(self.bodies[self.body_of(each)].points))]
         for link, member in self.plan.of_kind(Link).items():  # a driven length goes by its link's name as well
             driven = [each for each in self.struts if each.quantity is not None and {each.P, each.Q} == set(member.point_names)]
             labels += [(link, each.name) for each in driven]
@@ -344,9 +358,29 @@ class Wrench:
 def wrenches(contact: Contact, poses: FlatPoses, scale: float) -> list[Wrench]:
     """Return the unit wrenches of a contact's unknowns; all unknowns are in N, a couple is `scale` [m] times its own."""
     none = np.zeros((2, poses.count))
-    place = poses.at(contact.point)
+    place = acting_place(contact, poses)
     forces = {letter: none if letter == "c" else force_direction(contact, letter, poses) for letter in contact.holds}
     return [Wrench(place, force, none[0] + (scale if letter == "c" else 0.0)) for letter, force in forces.items()]
+
+
+SAME = 1e-9
+"""Places that differ by less than this part of their coordinates are one."""
+
+
+def acting_place(contact: Contact, poses: FlatPoses) -> FloatArray:
+    """Return where a contact's force acts, shape (2, n) [m]: at its line's origin, or at the point that runs on the line.
+
+    An origin that is the point to rounding is the point, as the motion has it.
+    """
+    joint, point = contact.joint, poses.at(contact.point)
+    if joint is None or joint.line is None or joint.track or "runner" in (joint.on.role, joint.by.role):
+        return point
+    with np.errstate(all="ignore"):
+        origin = joint.line(poses.reading).origin
+    place = poses.pair(origin.x, origin.y)
+    if place.dtype == object:
+        return place
+    return point if np.all(np.abs(place - point) <= SAME * np.max(np.abs(point), initial=0.0)) else place
 
 
 def force_direction(contact: Contact, letter: str, poses: FlatPoses) -> FloatArray:

@@ -14,6 +14,7 @@ from ..motion.limits import where_words
 from ..plan import Mask
 from ..program import FloatArray
 from .acting import ActingLoads
+from .agreement import check_joints
 from .equilibrium import LinearForm, System
 from .friction import JointFriction, PressingForces, PressingRows, consistent_frictions, joint_frictions
 from .joints import Contact, Structure
@@ -21,6 +22,8 @@ from .poses import FlatPoses
 
 SPLITS = ("refuse", "least squares")
 RANK = 1e-9  # singular values below this part of the largest count as zero
+LEAST = 1e-200
+"""N or Nm: less than this is no force; numbers next to the smallest there are have few digits."""
 
 
 @final
@@ -57,12 +60,14 @@ def by_equations(poses: FlatPoses, acting: ActingLoads, split: str) -> PoseForce
         found = Solution(system, u, q, np.where(pulls, other.locked, found.locked), frictions)
     full = poses.full
     joints = [found.transmitted(contact) for contact in system.structure.contacts]
-    return PoseForces(
+    result = PoseForces(
         system.structure, poses, acting, frictions, found.q.T, found.locked,
         [(full(force), full(couple)) for force, couple in joints],
         {name: full(found.value(system.drive(name))) for name in poses.motion.strokes},
         {each.name: full(found.value(system.thrust(each))) for each in system.structure.struts},
     )  # fmt: skip
+    check_joints(system.structure, poses)
+    return result
 
 
 def system_with_friction(poses: FlatPoses, acting: ActingLoads) -> tuple[System, list[JointFriction]]:
@@ -172,7 +177,7 @@ class Equilibrium:
         with np.errstate(invalid="ignore", over="ignore"):
             miss = np.abs(self.A @ found - self.right).max(axis=(1, 2))
             size = np.abs(self.A).max(axis=(1, 2)) * np.abs(found).max(axis=(1, 2)) + np.abs(self.right).max(axis=(1, 2))
-            bad = ~(miss <= 1e-6 * size)
+            bad = ~(miss <= 1e-6 * size + LEAST)
         bad &= size > 0.0
         if bad.any():
             poses, plan = self.system.poses, self.system.structure.plan

@@ -15,6 +15,7 @@ from ..motion.requests import stroke_of
 from ..program import FloatArray
 from ..quantities import name_of, real
 from .acting import Case, Loads, acting_loads, movement_of
+from .agreement import check_joints
 from .holding import refused_where
 from .joints import Wrench
 from .poses import FlatPoses
@@ -56,6 +57,7 @@ def reaction(
     system.put(column[:, :, 0], system.structure.holder(point), push)
     bound = (*system.known(), (system.drive(stroke), known))
     found = Equilibrium(system, frictions, bound=bound, supports=column).solution()
+    check_joints(system.structure, poses)
     locked_words(found, direction)
     return poses.full(found.u[:, -1])
 

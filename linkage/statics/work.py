@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,6 +11,7 @@ from ..errors import DefinitionError, UntracedError
 from ..loads import Rate, TwoPoint
 from ..motion import Motion, require_motion
 from ..motion.requests import stroke_of
+from ..plan import Mask
 from ..program import FloatArray, is_traced
 from ..quantities import is_number
 from .acting import (
@@ -26,10 +27,11 @@ from .acting import (
     path_tangent,
     sense_of,
 )
+from .agreement import AGREES, disagreeing
 from .force_program import forces_at
 from .holding import Levers, PressureLine, holders_of, same, stroke_followed, where_negative, with_levers
 from .poses import AnyMotion, FlatPoses, plan_of
-from .solution import locked_words
+from .solution import LEAST, PoseForces, locked_words
 from .traced_loads import TracedMotion, refuse_friction, traced_acting
 
 
@@ -96,22 +98,46 @@ def by_work(poses: FlatPoses, acting: ActingLoads, drive: str) -> FloatArray:
 
 
 def work_gap(poses: FlatPoses, acting: ActingLoads, drives: Mapping[str, FloatArray]) -> float:
-    """Return the largest difference between the drives' forces by equilibrium and by work, over the loads' powers; NaN with friction.
+    """Return the largest difference between the drives' forces by equilibrium and by work, over the loads' powers; NaN with friction."""
+    if acting.frictions:
+        return float("nan")
+    worst = 0.0
+    for _, missed, power in work_misses(poses, acting, drives):
+        most = float(np.nanmax(missed, initial=0.0))
+        worst = max(worst, most / power if power > 0.0 else most)
+    return worst
+
+
+def work_misses(poses: FlatPoses, acting: ActingLoads, drives: Mapping[str, FloatArray]) -> Iterator[tuple[str, FloatArray, float]]:
+    """Yield each drive with the difference of its forces by equilibrium and by work (n,), and the largest power of the loads.
 
     A load's power counts as force times way, whatever the angle between them: where loads balance each other, as counterweights do, or
     do no work, the drive's own force is nearly nothing.
     """
-    if acting.frictions:
-        return float("nan")
     sizes = [(each.load.point, np.hypot(*poses.flat(each.force))) for each in acting.loads]
     sizes += [(end, np.abs(poses.flat(push.thrust))) for push in acting.thrusts for end in push.ends]
-    worst = 0.0
     for name, force in drives.items():
-        missed = float(np.nanmax(np.abs(poses.flat(force) - by_work(poses, acting, name)), initial=0.0))
         powers = sum((size * np.hypot(*poses.rate(point, name)) for point, size in sizes), np.zeros(poses.count))
-        power = float(np.max(powers, initial=0.0))
-        worst = max(worst, missed / power if power > 0.0 else missed)
-    return worst
+        yield name, np.abs(poses.flat(force) - by_work(poses, acting, name)), float(np.max(powers, initial=0.0))
+
+
+def without_work(found: PoseForces) -> tuple[Mask, str]:
+    """Return the poses (n,) at which a drive's force by equilibrium is not that by virtual work, and what disagrees in words.
+
+    Poses near singular ones lose as much as they are said to. With friction nothing is told.
+    """
+    poses, acting, lost, words = found.poses, found.acting, np.zeros(found.poses.count, bool), ""
+    if acting.frictions:
+        return lost, words
+    for name, missed, power in work_misses(poses, acting, found.drives):
+        size = power or max((float(np.max(np.abs(each.force), initial=0.0)) for each in acting.loads), default=0.0)
+        bad = disagreeing(poses, missed, AGREES * size + LEAST, size)
+        if bad.any() and not words:
+            worst = int(np.argmax(np.where(bad, missed, -1.0)))
+            ours, theirs = poses.flat(found.drives[name])[worst], by_work(poses, acting, name)[worst]
+            words = f"the force of {name} is {ours:.6g} by the equilibrium of the joints and {theirs:.6g} by virtual work"
+        lost |= bad
+    return lost, words
 
 
 # What one straight two-point member carries: a cylinder that holds, a cylinder on a charged line, a spring.

@@ -4,6 +4,7 @@ from .crank import Crank
 from .dyad import Dyad
 from .ground import Ground
 from .guide import Guide, OnGuide, Slide
+from .keeping import with_bodies
 from .labels import DimensionTable, Slot, match
 from .link import Link
 from .onlink import OnLink

@@ -3,14 +3,33 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from dataclasses import dataclass
 from types import MappingProxyType
+from typing import final
 
 import numpy as np
 
 from ..errors import DefinitionError
-from ..quantities import Length, Member, Operand, Quantity, Reference, Turning, Where, label, name_of, quantity, spelled
-from ..vectors import Scalar, Vec
-from .step import Point, angle_given
+from ..frozen import refuses_changes
+from ..quantities import (
+    FRAME_SIDE,
+    Driven,
+    Joint,
+    JointSide,
+    Length,
+    Member,
+    Operand,
+    Quantity,
+    Reference,
+    Turning,
+    Where,
+    label,
+    name_of,
+    quantity,
+    spelled,
+)
+from ..vectors import Line, Scalar, Vec
+from .step import Bar, Point, angle_given
 
 
 class Arrow(Member):
@@ -144,8 +163,33 @@ class CosineAngle(Quantity):
         return f"CosineAngle({', '.join(map(spelled, self.triangle))})"
 
 
+@final
+@refuses_changes
+@dataclass(frozen=True, eq=False)
+class OffsetLinks:
+    """What an offset point keeps by construction; nothing where it is a mere construction.
+
+    `groups` are points that move as one, `sides` its distances from other points, `rods` those of them that strokes and dimensions
+    give; `apex` is the far end of the base where it is the apex of a triangle. `by` are two points of the body that a drive acts from,
+    none of the frame; `angle` turns it, `length` pushes it out. Where its place is `settled` by what it hangs on, `beside` are another
+    point of its body, the vector there and that one's sign.
+    """
+
+    groups: tuple[tuple[str, ...], ...] = ()
+    sides: tuple[Bar, ...] = ()
+    rods: tuple[Bar, ...] = ()
+    apex: str = ""
+    by: tuple[str, ...] = ()
+    angle: Quantity | None = None
+    length: Quantity | None = None
+    settled: bool = False
+    beside: tuple[str, Reference, float] | None = None
+
+
 class Offset(Point):
     """The point P + vector [m]."""
+
+    keeps = OffsetLinks()
 
     expects = (("P", "point"), ("by", "vector"))
     argument_kinds = MappingProxyType({"vector": "vector"})
@@ -161,12 +205,60 @@ class Offset(Point):
     def place(self, where: Where) -> Vec:
         return where.at(self.P) + where.vector(self.by)
 
+    def keeping(self, keeps: OffsetLinks) -> Offset:
+        """Return this point with what it keeps by construction."""
+        return self.renewed(keeps=keeps)
+
+    def bars(self) -> tuple[Bar, ...]:
+        return self.keeps.rods
+
+    def bodies(self) -> tuple[tuple[str, ...], ...]:
+        return self.keeps.groups
+
+    def sides(self, where: Where) -> tuple[tuple[str, Scalar], ...]:
+        """Return the triangle that places it, where it is the apex of one that closes in its own line."""
+        if len(self.keeps.sides) < 2:
+            return ()
+        P, Q = name_of(self.P), self.keeps.apex
+        base = (where.at(Q) - where.at(P)).length()
+        return (P + Q, base), *((side.P + self.name, where.value(side.length)) for side in self.keeps.sides)
+
+    def meeting(self, where: Where) -> tuple[Vec, ...]:
+        X, ends = where.at(self.name), (self.P, self.keeps.apex)
+        return tuple(where.at(end) - X for end in ends) if self.keeps.apex else ()
+
     def constraints(self, where: Where) -> tuple[Scalar, ...]:
-        return ()
+        """Return the equations of what it keeps: of a body that it lies on it, of a drive its place, of two-point members their lengths."""
+        P, X = where.at(self.P), where.at(self.name)
+        if self.keeps.settled:
+            arm = where.vector(self.by)
+            if self.keeps.beside is not None:  # as the body is turned, which is not always as the vector is: two may move parallel
+                Y, other, sign = self.keeps.beside
+                along, base = where.vector(other) * sign, where.at(Y) - P
+                scale = 1.0 / along.square()
+                arm = base.turned(along.dot(arm) * scale, along.cross(arm) * scale)
+            miss = X - P - arm
+            return miss.x, miss.y
+        lengths = [(X - where.at(side.P), where.value(side.length)) for side in self.keeps.sides]
+        return tuple((way.square() - length * length) * 0.5 for way, length in lengths)
+
+    def joints(self) -> tuple[Joint, ...]:
+        """Return what a drive holds that turns its vector or pushes it out."""
+        name, start, keeps = self.name, name_of(self.P), self.keeps
+        turned = () if keeps.angle is None else (Driven(keeps.angle, "c"),)
+        by = JointSide(keeps.by) if keeps.by else FRAME_SIDE
+        if keeps.length is not None:
+
+            def line(where: Where) -> Line:
+                return Line(where.at(self.P), where.vector(self.by) * (1.0 / where.vector_length(self.by)))
+
+            drives = (Driven(keeps.length, "t"), *turned)
+            return (Joint("telescope", start, JointSide((name,)), by, "ntc", line, drives=drives, arm=True),)
+        return (Joint("crank", start, JointSide((start, name)), by, "c", drives=turned),) if turned else ()
 
     @property
     def hangs_from(self) -> str:
-        return name_of(self.P)
+        return "" if self.keeps.settled or len(self.keeps.sides) > 1 else name_of(self.P)
 
     def __str__(self) -> str:
         return f"Offset({label(self.P)}, {label(self.by)})"

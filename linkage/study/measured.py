@@ -14,7 +14,7 @@ from ..errors import DefinitionError, cited, unwarned
 from ..mechanism import Mechanism
 from ..motion import BoundRequest, Grid, Motion, Request, at_values, evaluate_grid, stroke_display_unit, stroke_unit
 from ..motion.grid import JoinedTo
-from ..motion.measures import At, Integral, Leaf, Least, Measure, Most, Worst, strokes_behind, words_of
+from ..motion.measures import At, Integral, Leaf, Least, Measure, Most, Worst, strokes_behind, traced, words_of
 from ..motion.requests import Combined, stroke_of
 from ..plan import Plan
 from ..program import FloatArray, Way
@@ -22,7 +22,7 @@ from ..quantities import Function, Negative, Number, Quantity, Ref, Sum
 from ..statics import DriveForce
 from ..units import show
 from .checks import check_one_design, function_value
-from .sampling import eager, traced
+from .sampling import eager
 
 Measured: TypeAlias = str | Quantity | Request | Measure | Callable[[Motion], Any]
 """An output by its name, a quantity, a request such as `drive_force()`, a measure such as `most("tilt")`, or a function of a motion.

@@ -17,7 +17,18 @@ from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, c
 from ..loads import Acting
 from ..mechanism import Mechanism
 from ..motion import Request
-from ..motion.measures import At, CombinedMeasure, Constraint, Leaf, Measure, Worst, conditions_of, require_quantity, words_of
+from ..motion.measures import (
+    At,
+    CombinedMeasure,
+    Constraint,
+    Leaf,
+    Measure,
+    Worst,
+    conditions_of,
+    require_quantity,
+    strokes_behind,
+    words_of,
+)
 from ..program import FloatArray, fixed_backend
 from ..quantities import Quantity, is_number, is_whole, ref
 from ..statics import Case
@@ -122,8 +133,6 @@ def objective_of(machine: Mechanism, given: Any) -> Measure:
     if isinstance(given, Measure):
         return given
     quantity = require_quantity(given, "minimise")
-    from ..motion.measures import strokes_behind
-
     if not isinstance(quantity, Worst) and not strokes_behind(machine.plan, quantity):
         return At(quantity, {})
     raise DefinitionError(

@@ -18,11 +18,25 @@ from ..errors import DefinitionError, cited
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, greatest, lowest
 from ..motion.grid import JoinedTo, joined_in_order
-from ..motion.measures import At, CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most, Worst, strokes_behind, words_of
+from ..motion.measures import (
+    At,
+    CombinedMeasure,
+    Constraint,
+    Given,
+    Integral,
+    Leaf,
+    Least,
+    Measure,
+    Most,
+    Worst,
+    strokes_behind,
+    traced,
+    words_of,
+)
 from ..motion.strokes import check_magnitude
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import Quantity, is_number
-from .sampling import SampledSlopes, Sampling, Seen, eager, motion_of, quickly_on, traced, value_on, with_values
+from .sampling import SampledSlopes, Sampling, Seen, eager, motion_of, quickly_on, value_on, with_values
 from .space import Space
 
 SAMPLES = {0: 1, 1: 49, 2: 17, 3: 9, 4: 5}

@@ -8,11 +8,11 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import DefinitionError, LawError, UntracedError, unwarned
+from ..errors import unwarned
 from ..motion import BoundRequest, Grid, Motion, Request
 from ..motion.evaluation import Evaluation
 from ..motion.grid import Angles, JoinedTo, angles_of
-from ..motion.measures import bound_quantity, words_of
+from ..motion.measures import traced
 from ..motion.requests import Slope
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level
@@ -128,24 +128,6 @@ class Sampling:
                 ends.append(eager(motion_of(near), quantity).reshape(-1))
             found.append((ends[0] - ends[1]) / (2.0 * step))
         return np.array(found)
-
-
-def traced(plan: Plan, quantity: Any) -> BoundRequest | None:
-    """Return a quantity bound to a plan as nodes of its program; None where it has none; DefinitionError for what is no number."""
-    if not isinstance(quantity, (str, Quantity, Request)):
-        return None
-    try:
-        request = bound_quantity(plan, quantity)
-    except (UntracedError, LawError):
-        return None
-    if request.rows > 1:
-        name = words_of(quantity)
-        raise DefinitionError(f'{plan.title}: {name} has two components; say which, x("{name}") or y("{name}").')
-    try:
-        plan.made(("traced", request.key), lambda twin: len(request.nodes(twin)))
-    except (UntracedError, LawError):
-        return None
-    return request
 
 
 def motion_of(grid: Grid) -> Motion:

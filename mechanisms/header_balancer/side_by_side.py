@@ -21,6 +21,11 @@ def towards_shoe(height: Any, O_y: Any, L_OR: float) -> Quantity:
     return found
 
 
+def block() -> AccumulatorBlock:
+    """Return the block of one header: each line has its own."""
+    return AccumulatorBlock([Accumulator(4 * litre, 50 * kgf_cm2), Accumulator(4 * litre, 25 * kgf_cm2)], isothermal, 101325.0)
+
+
 class ThreeHeaders(Mechanism):
     """Feeder housing and header as in HeaderBalancer, three of them on the same pins, driven by the height of the shoes above the horizon.
 
@@ -40,7 +45,6 @@ class ThreeHeaders(Mechanism):
     charge2 = Dimension(HEADERS[2]["charge"], unit="kgf/cm2")
     charge3 = Dimension(HEADERS[3]["charge"], unit="kgf/cm2")
     bore, rod = Dimension(63 * mm, unit="mm"), Dimension(40 * mm, unit="mm")
-    block = AccumulatorBlock([Accumulator(4 * litre, 50 * kgf_cm2), Accumulator(4 * litre, 25 * kgf_cm2)], isothermal, 101325.0)
 
     R1 = Crank(O, OR1=HEADERS[1]["L_OR"], angle=towards_shoe(height, y(O), HEADERS[1]["L_OR"]))
     B1 = OnLink(O, R1, OB1=L_OB, R1OB1=shift - HEADERS[1]["BOR"])
@@ -48,7 +52,7 @@ class ThreeHeaders(Mechanism):
     H1 = OnLink(O, R1, OH1=HEADERS[1]["OG2"], R1OH1=HEADERS[1]["BOG2"] - HEADERS[1]["BOR"])  # the header's
     feeder1, header1 = Weight(F1, mass=1500 * kg), Weight(H1, mass=HEADERS[1]["m2"])
     lift1 = Cylinder(A, B1, bore=bore, rod=rod, count=2)
-    line1 = FloatCircuit(lift1, block, charge_pressure=charge1, at=0.0, seal_friction=seals)
+    line1 = FloatCircuit(lift1, block(), charge_pressure=charge1, at=0.0, seal_friction=seals)
     first = LoadCase(only=["feeder1", "header1", "line1"])
     length1 = distance(A, B1)
 
@@ -58,7 +62,7 @@ class ThreeHeaders(Mechanism):
     H2 = OnLink(O, R2, OH2=HEADERS[2]["OG2"], R2OH2=HEADERS[2]["BOG2"] - HEADERS[2]["BOR"])
     feeder2, header2 = Weight(F2, mass=1500 * kg), Weight(H2, mass=HEADERS[2]["m2"])
     lift2 = Cylinder(A, B2, bore=bore, rod=rod, count=2)
-    line2 = FloatCircuit(lift2, block, charge_pressure=charge2, at=0.0, seal_friction=seals)
+    line2 = FloatCircuit(lift2, block(), charge_pressure=charge2, at=0.0, seal_friction=seals)
     second = LoadCase(only=["feeder2", "header2", "line2"])
     length2 = distance(A, B2)
 
@@ -68,6 +72,6 @@ class ThreeHeaders(Mechanism):
     H3 = OnLink(O, R3, OH3=HEADERS[3]["OG2"], R3OH3=HEADERS[3]["BOG2"] - HEADERS[3]["BOR"])
     feeder3, header3 = Weight(F3, mass=1500 * kg), Weight(H3, mass=HEADERS[3]["m2"])
     lift3 = Cylinder(A, B3, bore=bore, rod=rod, count=2)
-    line3 = FloatCircuit(lift3, block, charge_pressure=charge3, at=0.0, seal_friction=seals)
+    line3 = FloatCircuit(lift3, block(), charge_pressure=charge3, at=0.0, seal_friction=seals)
     third = LoadCase(only=["feeder3", "header3", "line3"])
     length3 = distance(A, B3)

@@ -139,7 +139,8 @@ def function_block(motion):
     ],
 )
 def test_what_a_file_cannot_hold_is_refused(block, words):
-    machine = type("Own", (Carried,), {"floating": FloatCircuit("ram", block, charge_pressure=60 * bar)})
+    others = dict(fixed=None, calm=None)
+    machine = type("Own", (Carried,), {**others, "floating": FloatCircuit("ram", block, charge_pressure=60 * bar)})
     with pytest.raises(DefinitionError, match=words):
         to_toml(machine)
 

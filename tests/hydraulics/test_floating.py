@@ -1,5 +1,7 @@
 """The closed line of cylinder and accumulators as a force element."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -221,7 +223,7 @@ class TwoStrokes(Mechanism):
     P = Crank(G, GP=0.2, angle=phi)
     driven, apart, across = (Cylinder(*ends, bore=63 * mm, rod=40 * mm) for ends in ((A, B), (H, G), (H, P)))
     line_driven, line_apart, line_across = (
-        FloatCircuit(ram, BLOCK, charge_pressure=60 * bar, at=0.12, seal_friction=3 * bar) for ram in ("driven", "apart", "across")
+        FloatCircuit(ram, replace(BLOCK), charge_pressure=60 * bar, at=0.12, seal_friction=3 * bar) for ram in ("driven", "apart", "across")
     )
 
 

@@ -176,7 +176,7 @@ def test_circuits_and_cases_are_named():
         (lambda: ThreePointHitch().evaluate([thrust("jack")], S=0.1), "Cylinder 'jack' is unknown.*lift"),
         (lambda: ThreePointHitch().at(S=0.1)[capacity("lift", "Z")], "'Z'"),
         (lambda: ThreePointHitch().evaluate([capacity("lift", "Z")], S=0.1), "Point 'Z' is unknown"),
-        (lambda: thrust("lift") > 3, r"least\(q\) >= "),
+        (lambda: bool(thrust("lift") > 3), r"least\(q\) >= "),
     ],
 )
 def test_what_there_is_not_is_refused(make, words):

@@ -89,3 +89,8 @@ def off(found, truth, scale=0.0):
         size = max(mpmath.sqrt(sum(part * part for part in truth)), mpmath.mpf(scale))
         miss = mpmath.sqrt(sum((mpmath.mpf(float(a)) - b) ** 2 for a, b in zip(np.ravel(found), truth, strict=True)))
         return float(miss / size) if size else float(miss > 0)
+
+
+def off_by_parts(found, truth, scale):
+    """Return the largest error of a component of doubles, relative to its true value or to a size that is larger."""
+    return max(off([part], [exact], scale) for part, exact in zip(np.ravel(found), truth, strict=True))

@@ -56,6 +56,34 @@ def test_links_keep_their_length(machine):
 
 
 @ALL
+def test_the_graph_counts_the_freedoms(machine):
+    """The graph by itself, against 3 (n - 1) - 2 j1 - j2 of bodies, pins and pins on lines; rank tells what is special about a shape."""
+    design, graph = machine(), machine().graph
+    n, j = graph.number_of_nodes(), graph.number_of_edges()
+    assert 3 * (n - 1) - 2 * j == design.gruebler == counted(machine.plan)
+    assert design.gruebler == (3 if machine.__name__ == "RobertsCognates" else design.mobility)
+    assert {name for name, data in graph.nodes(data=True) if data["kind"] in ("frame", "body")} == {body.name for body in design.links}
+    for point in machine.plan.points:
+        there = [name for name, data in graph.nodes(data=True) if point in data["points"]]
+        pins = [key for _, _, key, data in graph.edges(keys=True, data=True) if key == point and data["kind"] == "pin"]
+        assert len(pins) == max(len(there) - 1, 0), point
+    assert {stroke for *_, strokes in graph.edges(data="strokes") for stroke in strokes} == set(machine.plan.strokes)
+
+
+def counted(plan):
+    """Return the Gruebler count by pins and by pins on lines, which take one freedom each; of machines whose arms have no lugs."""
+    fixed_on = [name for name, point in plan.points.items() if any(not plan.is_there(joint) and joint.track for joint in point.joints())]
+    halves = {name: sum(joint.is_half for joint in step.joints()) for name, step in plan.points.items() if name not in fixed_on}
+    slides = sum(halves.values()) + sum(len(group.slides) for group in plan.groups.values())
+    ends = [end for bar in plan.cylinders for end in (bar.P, bar.Q)]
+    owners = [point for body in plan.links for point in body.points] + ends
+    lone = [name for name in halves if name not in owners and (halves[name] or name in plan.telescopes)]
+    pins = len(owners) - len(set(owners)) + len(plan.cylinders)
+    bodies = len(plan.links) + 2 * len(plan.cylinders)
+    return 3 * (bodies - 1) - 2 * pins - slides - len(plan.telescopes) + 2 * len(lone)
+
+
+@ALL
 def test_cylinders_are_as_long_as_they_say(machine):
     motion = whole(machine)
     for bar in machine.plan.cylinders:

@@ -4,10 +4,11 @@ import warnings
 
 import numpy as np
 import pytest
+from numpy.testing import assert_allclose
 
-from linkage import AssemblyError, SingularWarning, ratio
+from linkage import LEFT, AssemblyError, Crank, Dyad, Ground, Mechanism, SingularError, SingularWarning, Stroke, ratio, x, y
 
-from .exactly import exactly, off, pins_exactly
+from .exactly import exactly, off, off_by_parts, pins_exactly
 from .near_singular import KINDS, pose
 
 SILENT = 1e-6
@@ -51,15 +52,22 @@ class Truth:
         nodes = plan.derived(plan.nodes(self.target), (self.stroke,) * order)
         return None if inputs is None else exactly(nodes, inputs)
 
+    def size(self, order):
+        """Return what a component of a derivative is compared with where it is smaller: a thousandth of the machine's size a stroke."""
+        span = abs(self.machine.plan.strokes[self.stroke].end - self.machine.plan.strokes[self.stroke].start)
+        plan = self.machine.plan
+        (square,) = exactly([plan.trace.graph.node(plan.trace.extent)], plan.defaults)
+        return 1e-3 * float(square) ** 0.5 / span**order
+
     def worst(self, value, order, size):
-        """Return the largest error of what is answered beside a stroke."""
+        """Return the largest error of a component of what is answered beside a stroke."""
         step, errors = np.spacing(value), []
         for place in range(-BESIDE, BESIDE + 1):
             at = value + place * step
             truth = self.at(at, order)
             found, _ = told(lambda at=at: self.machine().at(unreachable="nan", **{self.stroke: at}).ratio(self.target, order=order))
             if truth is not None and np.isfinite(found).all():
-                errors.append(off(found, truth, size))
+                errors.append(off_by_parts(found, truth, size))
         return max(errors, default=np.nan)
 
 
@@ -94,9 +102,9 @@ def looked_at(seed, times=30.0):
             continue
         assert bool(warned) == bool(also)
         assert np.isfinite(found).all()
-        size = 1e-9 * draft.size
+        size = truth.size(order)
         if not warned:
-            assert exact is None or off(found, exact, size) <= SILENT
+            assert exact is None or max(off(found, exact, 1e-9 * draft.size), off_by_parts(found, exact, size)) <= SILENT
             outcomes.append("silent")
             continue
         worst = truth.worst(value, order, size)
@@ -117,3 +125,72 @@ def test_nothing_is_wrong_in_silence_next_to_singular_poses(part):
     outcomes = [each for seed in range(1000 + 50 * part, 1050 + 50 * part) for each in looked_at(seed, 100.0)]
     assert {"refused", "told", "silent"} <= set(outcomes)
     assert outcomes.count("wide") <= 2
+
+
+def verdict(ask):
+    """Return whether something is refused, and the largest error that is told of."""
+    answer, warned = told(ask)
+    return answer is None, max(warned, default=0.0)
+
+
+def alike(seed):
+    """Check that a vector is judged as its worse component is, at one pose; return how it came out, for both orders."""
+    made = pose(seed)
+    motion = None if made is None else told(lambda: made[0]().at(**made[1]))[0]
+    if made is None or motion is None:
+        return []
+    machine, strokes, target, _ = made
+    outcomes = []
+    for order in (1, 2):
+        asked = [ratio(each, order=order) for each in (target, x(target), y(target))]
+        whole, *parts = (verdict(lambda each=each: motion.ratio(each.target, order=each.order)) for each in asked)
+        again, *others = (verdict(lambda each=each: machine().evaluate([each], **strokes)) for each in asked)
+        for judged, components in ((whole, parts), (again, others)):
+            assert judged[0] == any(refused for refused, _ in components), (seed, order, judged, components)
+            if not judged[0]:
+                assert max(error for _, error in components) / 3.0 <= judged[1] <= 3.0 * max(error for _, error in components)
+        outcomes.append("refused" if whole[0] else "told" if whole[1] else "silent")
+    return outcomes
+
+
+@pytest.mark.parametrize("kind", range(len(KINDS)), ids=[each.__name__ for each in KINDS])
+def test_a_vector_is_judged_as_its_worse_component(kind):
+    assert [each for seed in range(kind, 3 * DAILY * len(KINDS), len(KINDS)) for each in alike(seed)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("part", range(10))
+def test_vectors_are_judged_as_their_worse_components(part):
+    outcomes = [each for seed in range(1000 + 50 * part, 1050 + 50 * part) for each in alike(seed)]
+    assert {"refused", "told", "silent"} <= set(outcomes)
+
+
+class Toggles(Mechanism):
+    """A parallelogram of four hinges next to its flat pose, in which both its loops are in line."""
+
+    phi = Stroke(0.0, 1.0)
+    O, C = Ground(0, 0), Ground(2, 0)
+    A = Crank(O, OA=1, angle=phi)
+    B = Dyad(A, C, AB=2, CB=1, side=LEFT)
+
+
+@pytest.mark.parametrize("phi", 10.0 ** -np.arange(1.0, 7.0, 0.25))
+def test_a_part_that_is_small_beside_the_other_is_told_by_its_own_error(phi):
+    """By hand: B goes round C as A round O, so that B = C + (cos phi, sin phi); its y part is phi times smaller at the second order."""
+    for order, truth in ((1, (-np.sin(phi), np.cos(phi))), (2, (-np.cos(phi), -np.sin(phi)))):
+        found, warned = told(lambda order=order: Toggles().at(phi=phi).ratio("B", order=order))
+        if found is None:
+            assert phi < 9e-4
+            continue
+        error = max(abs(a - b) / max(abs(b), 2e-3) for a, b in zip(found, truth, strict=True))
+        assert error <= 3.0 * max(warned, default=1e-6)
+
+
+def test_the_double_toggle_is_refused_as_its_output_is():
+    motion = Toggles().at(phi=1e-4)
+    for asked in (lambda: motion.ratio("B", order=2), lambda: motion.ratio(y("B"), order=2), lambda: motion[ratio("B", order=2) * 2.0]):
+        with pytest.raises(SingularError, match="refused"):
+            asked()
+    found, warned = told(lambda: motion.ratio(x("B"), order=2))  # it is exact, and asked for by itself
+    assert_allclose(found, -np.cos(1e-4), rtol=1e-12)
+    assert max(warned) < 1e-12

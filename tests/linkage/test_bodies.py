@@ -61,9 +61,9 @@ def test_a_crane_has_two_degrees_of_freedom():
     assert names(Crane().links) == ["BCOQ", "CDG", "OP"]
 
 
-def test_primitives_declare_no_bodies_until_links_do():
+def test_primitives_are_bodies_and_a_written_link_agrees():
     class Arm(Mechanism):
-        """One body, declared."""
+        """One body, turned by a stroke."""
 
         phi = Stroke(0.0, 1.0)
         O, A = Ground(0.0, 0.0), Ground(1.0, 0.0)
@@ -75,8 +75,8 @@ def test_primitives_declare_no_bodies_until_links_do():
 
         arm = Link("O B C")
 
-    assert names(Arm().links) == ["AO"]
-    assert names(Linked().links) == ["AO", "BCO"]
+    assert names(Arm().links) == names(Linked().links) == ["AO", "BCO"]
+    assert str(Arm().mobility) == str(Linked().mobility) == "1"
 
 
 def test_a_crank_is_a_link_of_its_own():

@@ -10,7 +10,26 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from linkage import RIGHT, DefinitionError, Dyad, FileError, Ground, LoadCase, Mechanism, Stroke, Weight, deg, max_table, pin_forces, report
+from hydraulics import Cylinder, LiftCircuit
+from linkage import (
+    RIGHT,
+    Crank,
+    DefinitionError,
+    Dyad,
+    FileError,
+    Ground,
+    LoadCase,
+    Mechanism,
+    OnLink,
+    SingularError,
+    Stroke,
+    Weight,
+    deg,
+    equations,
+    max_table,
+    pin_forces,
+    report,
+)
 from linkage.documents import report_document
 from linkage.documents.content import Equality, Illustration, TableBlock
 from linkage.documents.fingerprint import fingerprint
@@ -23,6 +42,7 @@ from linkage.formulas.typeset import BoxRow, Fraction, Script, boxes, breakable
 from linkage.language import language
 from linkage.motion import Column
 from linkage.reports import results, run_of
+from linkage.units import bar, mm
 from mechanisms.classics.jansen import Jansen
 from mechanisms.classics.scotch_yoke import ScotchYoke
 from mechanisms.classics.stephenson_three import StephensonThreeFar
@@ -339,3 +359,49 @@ def test_a_column_of_the_table_may_be_chosen():
     assert grid.headings == ("S, m", "B_y, m")
     looked = Looked.at(Lifter(), {}, 11, None)
     assert [row[1] for row in grid.rows] == [f"{value:.4f}" for value in Column("B_y", looked.table.y("B"), "m").shown]
+
+
+class OverCentre(Mechanism):
+    """A boom on a crank with a cylinder that stands in line with it in the middle of the stroke."""
+
+    phi = Stroke(-60 * deg, 60 * deg)
+    A, O = Ground(0.0, -1.0), Ground(0.0, 0.0)
+    B = Crank(O, OB=0.5, angle=phi + 90 * deg)
+    C = OnLink(O, B, OC=0.8)
+    load = Weight(C, mass=100)
+    ram = Cylinder(A, B, bore=50 * mm, rod=28 * mm)
+
+
+class Pumped(OverCentre):
+    pump = LiftCircuit("ram", pressure=180 * bar)
+
+
+class Beside(OverCentre):
+    """The same on a line with a second one, in line with the boom as well."""
+
+    Z = Ground(0.0, -1.2)
+    aid = Cylinder("Z", "C", bore=50 * mm, rod=28 * mm)
+    pump = LiftCircuit(["ram", "aid"], pressure=180 * bar)
+
+
+@pytest.mark.parametrize("machine", [OverCentre, Pumped, Beside])
+def test_a_dead_centre_in_the_middle_of_the_run_is_gone_round(machine, tmp_path):
+    """Forces are refused in the middle: the calculation is of the pose beside it, and every number of it is one."""
+    with pytest.raises(SingularError):
+        pin_forces(machine().at(phi=0.0))
+    place = tmp_path / "report.md"
+    report(machine(), place)
+    text = place.read_text(encoding="utf-8")
+    assert "the numbers are those of phi = -1 deg" in text  # of 121 poses over 120 deg
+    calculation = text.partition("Calculation\n")[2].partition("## ")[0]
+    assert "T_{ram}" in calculation
+    assert "nan" not in calculation
+
+
+def test_equations_have_no_number_where_there_is_none_with_any_digits():
+    found = equations(Pumped(), forces=True)
+    rough, exact = found.values(dict(phi=0.0)), found.values(dict(phi=0.0), digits=30)
+    for name in ("T_ram", "F_ram", "p_ram", "kz_ram"):
+        assert not np.isfinite(rough[name])
+        assert not np.isfinite(float(exact[name]))
+    assert float(exact["Fmax_ram"]) == pytest.approx(rough["Fmax_ram"], rel=1e-14)

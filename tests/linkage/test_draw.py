@@ -68,7 +68,7 @@ class Crane(Mechanism):
 
 
 class Construction(Mechanism):
-    """Primitives that declare no body."""
+    """A lever on a cylinder in primitives."""
 
     S = Stroke(0.55, 0.80)
     LOB = Dimension(0.175)
@@ -82,6 +82,15 @@ class Construction(Mechanism):
 
 class Constructed(Construction):
     lever = Link("O", "B")
+
+
+class Pointing(Mechanism):
+    """A point that is shown in a direction that no body has, and that nothing hangs on."""
+
+    phi = Stroke(0.2, 1.0)
+    O, A = Ground(0.0, 0.0), Ground(1.0, 0.0)
+    B = Offset(O, Turn(Vector(O, A), phi, length=0.4))
+    P = Offset(O, Turn(Vector(A, B), 0.5, length=0.3))
 
 
 class TooLong(MowerLift):
@@ -189,11 +198,18 @@ def test_a_polygon_body_is_its_hull():
     assert set(boom) == set("OBJH")
 
 
+def test_primitives_show_their_rods_and_cylinders():
+    bare, declared = (Scene(one_motion(cls)) for cls in (Construction, Constructed))
+    assert bare.bodies == declared.bodies == (("O", "B"),)
+    assert [(ram.P, ram.Q) for ram in bare.rams] == [("A", "B")]
+    assert (bare.stays, bare.pins, bare.dots) == ((), ("A", "O", "B"), ())
+
+
 def test_bare_constructions_show_lines_and_no_bodies():
-    scene = Scene(one_motion(Construction))
-    assert scene.bodies == ()
-    assert scene.stays == (("A", "B"),)
-    assert scene.dots == ("O", "B")
+    scene = Scene(one_motion(Pointing))
+    assert scene.bodies == (("O", "B"),)
+    assert scene.stays == (("O", "P"),)
+    assert scene.dots == ("A", "B", "P")
 
 
 @pytest.mark.parametrize(("cls", "ram"), [(MowerLift, 0), (ThreePointHitch, 0), (Crane, 0), (Crane, 1)])

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import linkage
-from linkage import LEFT, AssemblyError, Crank, DefinitionError, Dyad, Ground, Mechanism, Pin, Stroke, deg
+from linkage import LEFT, AssemblyError, Crank, DefinitionError, Dyad, Ground, Mechanism, Pin, Stroke, deg, y
+from linkage.loads import Weight
 
 NAMES = {name: getattr(linkage, name) for name in linkage.__all__}
 
@@ -62,7 +63,7 @@ def test_a_wrong_word_in_a_class(right, wrong, words):
 
 
 def test_a_name_that_is_bound_twice():
-    with pytest.raises(DefinitionError, match="is used before it has a name, or its name is bound twice"):
+    with pytest.raises(DefinitionError, match=r"^Twice: A = Ground\(0.0, 0.0\) stands there already, and A = Ground\(0.1, 0.0\) would"):
 
         class Twice(Mechanism):
             S = Stroke(0.0, 0.2)
@@ -223,3 +224,49 @@ def test_a_direction_needs_two_points(line):
 def test_a_stroke_is_named_where_it_gets_a_value(given):
     with pytest.raises(DefinitionError, match=r"Machine: at\(.* does not say which stroke has this value; write at\(phi=\.\.\.\)\."):
         made(CRANK)().at(*given)
+
+
+@pytest.mark.parametrize("name", ["X\n", "", "a b", "1a", "a.b", "a-b", "class", "None", "<b>", "\\", "ﬁ", "X\u2028", "{x}"])
+def test_names_that_no_line_of_python_could_give(name):
+    """A class that type(...) makes takes any text for a name; what is printed, drawn and written into files could not be read again."""
+    with pytest.raises(DefinitionError, match=f"^{re.escape(repr(name))} is no name for a class: letters, digits and _, no digit first"):
+        type(name, (FourBar,), {})
+    for member in (Ground(1, 2), Weight("A", mass=3.0), y("A"), Stroke(0, 1)):
+        with pytest.raises(DefinitionError, match=f"^{re.escape(repr(name))} is no name for a member of Made"):
+            type("Made", (FourBar,), {name: member})
+
+
+@pytest.mark.parametrize("name", ["Fünfgelenk", "Δ", "_private", "X" * 80])
+def test_names_that_a_line_of_python_could_give(name):
+    made = type(name, (FourBar,), {name: Ground(1, 2)})
+    assert made.plan.title == name
+    assert made().at(phi=1.0)[name].tolist() == [1.0, 2.0]
+
+
+LEVER = """
+    S, phi = Stroke(0, 0.2), Stroke(0, 1)
+    A, O = Ground(0, 0), Ground(0.1, 0.6)
+    B = Crank(O, OB=0.3, angle=phi)
+"""
+FOLLOWS = [
+    ('ram = Link("A B", AB=0.45 + S)', r'ram = Link\("A B", AB=0.45 \+ S\) follows it, but B = Crank\(.*\) places B without it. Let'),
+    ("tie = Weight(B, mass=S * 3)", r"tie = Weight\(.*\) follows it, but B = Crank\(.*\) places B without it"),
+    ("gap = distance(A, B) - S", r"gap = .* follows it, but B = Crank\(.*\) places B without it"),
+    ("rail = Guide(A, angle=S)", r"rail = Guide\(A, angle=S\) follows it, and no point does; use it in the length or the angle of a step"),
+    ("twice = 2 * S", r"twice = .* follows it, and no point does"),
+    ("", r"use it in a length or an angle, or take it out"),
+]
+
+
+@pytest.mark.parametrize(("line", "words"), FOLLOWS)
+def test_a_stroke_that_moves_nothing_is_told_by_what_follows_it(line, words):
+    with pytest.raises(DefinitionError, match=f"^Machine: the stroke S moves nothing[:;] {words}"):
+        made(f"{LEVER}    {line}\n")
+
+
+def test_the_remedies_for_a_stroke_that_moves_nothing_work():
+    """The step takes the length, or the link places the point as a pin: both are one machine."""
+    head = LEVER.replace(", phi = Stroke(0, 0.2), Stroke(0, 1)", " = Stroke(0, 0.2)").replace("    B = Crank(O, OB=0.3, angle=phi)\n", "")
+    step = made(head + "    B = Dyad(A, O, AB=0.45 + S, OB=0.3, side=RIGHT)\n")
+    pins = made(head + '    B = Pin(near=(0.38, 0.5))\n    arm = Link("O B", OB=0.3)\n    ram = Link("A B", AB=0.45 + S)\n')
+    assert np.allclose(step().sweep(5)["B"], pins().sweep(5)["B"], rtol=0, atol=1e-14)

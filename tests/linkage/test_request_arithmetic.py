@@ -55,10 +55,12 @@ def test_the_size_of_a_ratio():
 
 
 @pytest.mark.parametrize("rule", [operator.lt, operator.le, operator.gt, operator.ge])
-def test_comparisons_are_refused_with_the_remedy(rule):
+def test_a_comparison_is_a_condition_on_poses_and_refused_once_for_all(rule):
     for asked in (drive_force(), drive_force() / 2.0, ref("tilt"), transmission("K")):
         with pytest.raises(DefinitionError, match=r"cannot be compared.*least\(q\) >= "):
-            rule(asked, 3.0)
+            bool(rule(asked, 3.0))
+        with pytest.raises(DefinitionError, match="is a condition on poses and no number"):
+            rule(asked, 3.0) * 2.0
 
 
 def test_text_is_what_was_written():

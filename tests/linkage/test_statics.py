@@ -257,7 +257,7 @@ def test_a_drive_that_moves_its_length_by_the_double():
     assert found.gap < 1e-12
 
 
-def test_primitives_need_their_links_and_take_a_cylinder_from_a_force_element():
+def test_primitives_hold_their_load_and_take_a_cylinder_from_a_force_element():
     class Ram(TwoPoint):
         A, B, holds = "A", "B", True
 
@@ -273,14 +273,13 @@ def test_primitives_need_their_links_and_take_a_cylinder_from_a_force_element():
         AO = Vector(A, O)
         OAB = CosineAngle(abs(AO), S, r)
         B = Offset(A, Turn(AO, -OAB, length=S))
-        arm = Link(O, B)
         load = Weight(B, mass=100.0)
 
     motion = Primitive().sweep(5)
-    with pytest.raises(DefinitionError, match="OB not held"):
-        pin_forces(motion)
-    found = pin_forces(motion, [Primitive.load, Ram()])
+    own, found = pin_forces(motion), pin_forces(motion, [Primitive.load, Ram()])
+    assert_allclose(own.drives["S"], driving_force(motion), rtol=1e-11)
     assert_allclose(found.drives["S"], driving_force(motion), rtol=1e-11)
+    assert list(own.thrusts) == ["AB"] and "AB" not in found.thrusts
 
 
 # -- refusals ----------------------------------------------------------------------------------------------
@@ -320,7 +319,7 @@ def test_a_load_on_a_point_of_no_body_is_refused():
         S = Stroke(0.0, 0.1)
         O, A = Ground(0.0, 0.0), Ground(1.0, 0.0)
         B = Dyad(O, A, OB=0.6 + S, AB=0.6, side=LEFT)
-        P = Offset(O, Turn(Vector(O, B), 0.5))
+        P = Offset(O, Turn(Vector(O, B), 0.5))             # as long as the cylinder, and no part of it
 
     with pytest.raises(DefinitionError, match="P belongs to no body"):
         pin_forces(Loose().sweep(3), [Weight("P", mass=1.0)])

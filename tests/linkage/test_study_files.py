@@ -38,10 +38,12 @@ from linkage import (
     optimise,
     pin_force,
     plot,
+    ratio,
     reachable,
     ref,
     transmission,
     worst,
+    x,
     y,
 )
 from linkage.cli import main
@@ -643,3 +645,65 @@ def test_a_mistake_of_a_study_has_its_place(here, said, old, new, words):
 def test_a_file_without_a_study_is_told(here, said):
     code, _, err = said("study", written(here, 'machine = "boom.toml"\n[outputs]\nzone = "zone.csv"\n'))
     assert code == 2 and "there is no study; begin one with [survey]" in err and "the file has no [zone]" in err
+
+
+ORDERS = """
+    machine = "boom.toml"
+
+    [zone]
+    quantity = "ratio(lift, order=2)"
+    vary = { OB = "1.0 to 1.2 m", A = [["150 mm", "900 mm"], ["170 mm", "900 mm"]] }
+    poses = 5
+
+    [tolerance]
+    of = ["ratio(T.y, order=2)", "ratio(T_x, S, 2)", "ratio(lift, wrt=S, order=1)"]
+    tolerances = { OB = "0.1 mm" }
+    subject_to = ["most(abs(ratio(lift, order=2))) <= 1e6"]
+    count = 64
+    poses = 3
+
+    [tornado]
+    quantity = "ratio(y(T), order=2)"
+    tolerances = { OB = "0.1 mm" }
+    strokes = { S = "100 mm" }
+
+    [outputs]
+    zone = "zone.csv"
+    tolerance = "tolerance.csv"
+    tornado = "tornado.csv"
+"""
+
+
+def test_a_second_derivative_is_a_quantity_of_a_study(here, said):
+    """`order=2` of a text is the whole number 2: the studies are those of Python."""
+    code, out, err = said("study", written(here, ORDERS))
+    assert (code, err) == (0, "")
+    wanted = zone(BOOM, ratio("lift", order=2), {"OB": (1.0, 1.2), "A": [(0.15, 0.9), (0.17, 0.9)]}, S=np.linspace(0.0, 0.4, 5))
+    columns = numbers(here / "zone.csv")
+    assert next(column for name, column in columns.items() if "greatest" in name) == pytest.approx(wanted.high, rel=1e-12)
+    asked = [ratio(y("T"), order=2), ratio(x("T"), "S", 2), ratio("lift")]
+    many = monte_carlo(BOOM, asked, {"OB": 1e-4}, count=64, S=np.linspace(0.0, 0.4, 3))
+    sigmas = [column for name, column in numbers(here / "tolerance.csv").items() if "sigma" in name]
+    for column, each in zip(sigmas, asked, strict=True):
+        assert np.ptp(column - many[each].sigma) == pytest.approx(0.0, abs=1e-9)
+    (bar,) = tornado(BOOM, ratio(y("T"), order=2), {"OB": 1e-4}, S=0.1)
+    assert bar.share == 1.0
+    assert "the second derivative of lift by S from" in out
+
+
+@pytest.mark.parametrize(
+    ("order", "words"),
+    [("2.5", "order=2.5: derivatives of order 1 and 2"), ("3", "order=3: derivatives"), ("2 mm", "order=0.002: derivatives"),
+     ("true", "order=True: derivatives"), ("'2'", "order='2': derivatives")],
+)  # fmt: skip
+def test_an_order_that_is_none(here, said, order, words):
+    text = ORDERS.replace('"ratio(lift, order=2)"', f'"ratio(lift, order={order})"')
+    code, out, err = said("study", written(here, text))
+    assert (code, out) == (2, "")
+    assert words in " ".join(err.split())
+
+
+def test_the_ratio_of_a_point_has_two_components(here, said):
+    code, out, err = said("study", written(here, ORDERS.replace('"ratio(lift, order=2)"', '"ratio(T, order=2)"')))
+    assert (code, out) == (2, "")
+    assert "has two components; say which, ratio(x(T), order=2) or ratio(y(T), order=2)." in " ".join(err.split())

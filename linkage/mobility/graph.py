@@ -1,0 +1,45 @@
+"""The kinematic chain as a graph of networkx: bodies are nodes, pins and slides are edges."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import combinations
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..plan import ChainBody, Plan, Reading
+from ..quantities import spelled
+from ..steps import Link
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+
+def chain_graph(plan: Plan, inputs: Mapping[str, Any]) -> nx.MultiGraph:
+    """Return the graph of a machine's chain at some inputs: design variables and strokes [SI].
+
+    Of a node, `kind` is "frame", "body", "barrel", "rod", "arm", "carriage" or "block", `points` are its points, `link` is the `Link` that
+    declares it, "" for none, and `dimensions` are the distances of its points [m], by their names joined. Of an edge, whose key is its
+    name, `kind` is "pin" or "slide", `strokes` are those that drive it, and `dimensions` are the driven lengths as they are written.
+    """
+    import networkx as nx
+
+    with np.errstate(all="ignore"):  # out of reach, its distances are NaN but those that are given
+        reading, chain = plan.read(inputs), plan.chain
+    links = {name: set(link.point_names) for name, link in plan.of_kind(Link).items()}
+    graph = nx.MultiGraph(name=plan.title)
+    for body in chain.bodies:
+        link = next((name for name, points in links.items() if body.kind in ("body", "arm") and points <= set(body.points)), "")
+        graph.add_node(body.name, kind=body.kind, points=body.points, link=link, dimensions=distances(body, reading))
+    for pair in chain.pairs:
+        driven = {} if pair.length is None else {pair.name: spelled(pair.length)}
+        graph.add_edge(pair.a, pair.b, key=pair.name, kind=pair.kind, strokes=pair.strokes, dimensions=driven)
+    return graph
+
+
+def distances(body: ChainBody, reading: Reading) -> dict[str, Any]:
+    """Return the distances of a body's points [m], by their names joined: a float, or an array of a batch of designs."""
+    with np.errstate(all="ignore"):
+        found = {P + Q: np.asarray(reading.link_length(P, Q), float) for P, Q in combinations(body.points, 2)}
+    return {name: length if length.ndim else float(length) for name, length in found.items()}

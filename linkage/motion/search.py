@@ -1,0 +1,422 @@
+"""The greatest and the lowest value over a motion, looked for between its poses, whatever their number.
+
+What is looked at is the range that the poses cover: of a single stroke from its least to its greatest value; of several strokes in arrays
+of one axis the path through the poses in their order; of a grid the box from the least to the greatest value of each. See `line` for
+how and how closely it is looked at along a way, and `box` for boxes of several strokes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise, product
+from typing import Any, TypeAlias, final
+
+import numpy as np
+
+from ..errors import DefinitionError, cited, told, unwarned
+from ..language import said
+from ..plan import Mask
+from ..program import FloatArray
+from .answer import places_text
+from .box import highest_in, values_a_stroke, weights_of
+from .grid import JoinedTo, joined_in_order
+from .limits import place_text, stroke_unit
+from .line import CLOSE, SAMPLES, Index, bisected, highest, missing_lowest, peaks, samples, zoomed
+from .motion import Motion, require_motion
+from .strokes import check_any
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Extremum:
+    """The greatest or the lowest value of a quantity, and where: floats, or arrays over what was asked for and the designs.
+
+    `value` is NaN where there is none at any pose, and infinite where it is `unbounded`: where it grows beyond bounds up to a pose at
+    which it is refused. `strokes` say where [m or rad, which `units` say].
+    """
+
+    value: Any
+    strokes: Mapping[str, Any]
+    unbounded: Any
+    units: Mapping[str, str]
+
+    @property
+    def where(self) -> str:
+        """Where it stands, in words: `at S = 0.1234 m`, `at S1 = 0.1000 m, phi = 25.00 deg`; of several, the ranges."""
+        return said("at {place}", place=places_text(self.strokes, self.units))
+
+    def __str__(self) -> str:
+        if np.ndim(self.value):
+            ends = said("{low} to {high}", low=f"{np.nanmin(self.value):.6g}", high=f"{np.nanmax(self.value):.6g}")
+            return f"{ends} {self.where}"
+        if np.isnan(self.value):
+            return said("no value at any pose")
+        return f"{said('without bounds') if self.unbounded else f'{self.value:.6g}'} {self.where}"
+
+
+def greatest(motion: Motion, f: Function) -> Extremum:
+    """Return the greatest value of f over all that a motion covers, and where: one a design, and of each of several quantities.
+
+    `f(motion)` is asked again, of motions with the same designs at strokes in between: shape (...) as the motion's, or (k, ...) for k
+    quantities at once, NaN where it has no value. It may have kinks, jumps and gaps. The value is right to 1e-6 of its range, the place
+    to 1e-4 of the stroke, for every bump from 1/2000 of the range wide, and the same from however many poses. Where it jumps the larger
+    side counts; where it grows beyond bounds up to a pose that is refused or out of reach it is infinite, and told as `unbounded`.
+    Poses out of reach are passed over, whatever the motion was asked for with.
+
+    Over a box of several strokes the highest part is found if what is higher than all else holds a box of 1/128 of each of two strokes,
+    1/32 of three, 1/12 of four, 1/7 of five, 1/5 of six; the value is right to 1e-9 of its range where f is smooth, to 1e-6 on borders
+    of what is reached, to 1e-3 on kinks.
+    """
+    return extremum(motion, f, 1.0)
+
+
+def lowest(motion: Motion, f: Function) -> Extremum:
+    """Return the lowest value of f over all that a motion covers, and where; as `greatest`."""
+    return extremum(motion, f, -1.0)
+
+
+def extremum(motion: Motion, f: Function, sense: float) -> Extremum:
+    """Return the greatest (sense 1.0) or the lowest (-1.0) value of f over all that a motion covers."""
+    require_function(motion, f)
+    if not motion.strokes:
+        raise DefinitionError(f"{motion.plan.title} has no stroke, so there is nothing between its poses.")
+    return searched(motion, f, sense)
+
+
+def searched(motion: Motion, f: Function, sense: float, *, everywhere: bool = False) -> Extremum:
+    """Return the same of poses that are reached only, or `everywhere`."""
+    units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
+    if len(motion._stroke_shape) > 1 and len(moving(motion)) > 1:
+        box = InBox(motion, f, sense, everywhere=everywhere)
+        top, shape = highest_in(box), (*box.front, *motion._design_shape)
+        strokes = {name: in_shape(value, shape) for name, value in box.strokes(top.unit).items()}
+        return Extremum(in_shape(sense * top.value, shape), strokes, in_shape(top.unbounded, shape), units)
+    between = OnLegs(motion, f, sense, everywhere=everywhere)
+    found, shape = highest(between.look, between.route.counts), (*between.front, *motion._design_shape)
+    strokes = {name: in_shape(value, shape) for name, value in between.route.strokes(found.leg, found.t).items()}
+    return Extremum(in_shape(sense * found.value, shape), strokes, in_shape(found.unbounded, shape), units)
+
+
+def in_shape(values: Any, shape: tuple[int, ...]) -> Any:
+    """Return values (K, D) in the shape asked for; a single one as a plain number."""
+    return values.reshape(shape) if shape else values.item()
+
+
+def moving(motion: Motion) -> tuple[str, ...]:
+    """Return the strokes that a motion moves."""
+    return tuple(name for name, value in motion.strokes.items() if np.ptp(value) > 0.0)
+
+
+# Where on the way of a motion something is below zero, looked for between its poses, whatever their number.
+
+
+@final
+@dataclass(frozen=True)
+class Span:
+    """A part of a motion's way, from the strokes `start` to the strokes `end` [m or rad, which `units` say], in the order of the way."""
+
+    start: Mapping[str, float]
+    end: Mapping[str, float]
+    units: Mapping[str, str]
+
+    def __str__(self) -> str:
+        """Return it in words: `from S = 0.5500 to 0.5660 m`, `from S1 = 0.1000 m, S2 = 0.2000 m to S1 = 0.1500 m, S2 = 0.2000 m`."""
+        moving = [name for name in self.start if self.start[name] != self.end[name]]
+        if len(moving) == 1:
+            (name,) = moving
+            others = places_text({each: value for each, value in self.start.items() if each != name}, self.units)
+            way = said("from {name} = {range}", name=name, range=place_text((self.start[name], self.end[name]), self.units[name]))
+            return f"{way} ({others})" if others else way
+        start, end = (places_text(at, self.units) for at in (self.start, self.end))
+        return said("from {start} to {end}", start=start, end=end) if moving else said("at {place}", place=start)
+
+
+def below_zero(motion: Motion, f: Function) -> tuple[Span, ...]:
+    """Return the parts of a motion's way on which f, a number for each pose, is below zero; of one design along strokes or a path.
+
+    The ends are right to 1e-12 of the way: roots, jumps, the last poses with a value. A part of 1/2000 of the range is found, and one that
+    dips below zero between two of 4097 samples like an extreme is, see `peaks`.
+    """
+    require_function(motion, f)
+    if motion._design_shape or len(motion._stroke_shape) > 1:
+        raise DefinitionError(f"{motion.plan.title}: ranges are told for one design along one stroke or one path; this is {motion.shape}.")
+    between = OnLegs(motion, f)
+    if between.front:
+        raise DefinitionError(f"{motion.plan.title}: ranges are told for one number a pose; there are {between.front}.")
+    leg, t, value = with_dips(between)
+    below = np.concatenate([[False], value < 0.0, [False]])
+    firsts, lasts = np.flatnonzero(below[1:] & ~below[:-1]), np.flatnonzero(below[:-1] & ~below[1:]) - 1
+    low, high = (ends(between, leg, t, inside, by) for inside, by in ((firsts, -1), (lasts, 1)))
+    units = {name: stroke_unit(motion.plan, name) for name in motion.strokes}
+    strokes = [between.route.strokes(leg[inside], at) for inside, at in ((firsts, low), (lasts, high))]
+    starts, stops = ([{name: float(value[row]) for name, value in at.items()} for row in range(len(firsts))] for at in strokes)
+    return tuple(Span(start, end, units) for start, end in zip(starts, stops, strict=True))
+
+
+def reached(motion: Motion) -> tuple[Span, ...]:
+    """Return the parts of a motion's way that are reached, one design along strokes or a path."""
+    return below_zero(motion, lambda each: -np.ones(each.shape))
+
+
+def with_dips(between: OnLegs) -> tuple[Index, FloatArray, FloatArray]:
+    """Return leg, t and value of the samples, and of places between them where the value is on the other side of zero."""
+    leg, t, value = between.leg, between.t, between.seen.ravel()
+    found = [each for sense in (1.0, -1.0) for each in dips(between, sense, np.asarray(sense * value >= 0.0))]
+    leg, t, value = (np.concatenate([known, *(each[row] for each in found)]) for row, known in enumerate((leg, t, value)))
+    order = np.lexsort((t, leg))
+    return leg[order], t[order], value[order]
+
+
+@np.errstate(all="ignore")
+def dips(between: OnLegs, sense: float, among: Mask) -> list[tuple[Index, FloatArray, FloatArray]]:
+    """Return leg, t and value of places between the samples where sense * f is below zero though it is not at the samples about them."""
+
+    def look(leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
+        seen, reached = between.look(leg, t)
+        return -sense * seen, reached
+
+    values = -sense * between.seen.reshape(1, 1, -1)
+    tops = peaks(missing_lowest(values), between.leg, between.t, between.route.counts, among)
+    found = []
+    while tops.value.size:
+        crossed = tops.value > 0.0
+        found.append((tops.leg[crossed], tops.t[crossed], -sense * tops.value[crossed]))
+        going = ~crossed & (tops.bound > 0.0) & (tops.half > CLOSE)
+        tops = tops.where(going)
+        tops = zoomed(look, tops) if tops.value.size else tops
+    return found
+
+
+def ends(between: OnLegs, leg: Index, t: FloatArray, inside: Index, by: int) -> FloatArray:
+    """Return how far (c,) the parts go from places that are below zero towards the next ones, which are not."""
+
+    def look(leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
+        seen, reached = between.look(leg, t)
+        return np.where(seen < 0.0, seen, np.nan), reached
+
+    outside = np.clip(inside + by, 0, len(leg) - 1)
+    outside = np.where(leg[outside] == leg[inside], outside, inside)
+    return bisected(look, leg[inside][None, None], t[inside][None, None], t[outside][None, None])[0, 0] if inside.size else t[inside]
+
+
+# The way that the poses of a motion cover, as legs: straight lines in stroke space.
+
+STRAIGHT = 1e-9  # of the range of each stroke: poses as near as this to a straight line stand on it
+LONGEST = 16  # times the samples of one leg: of any way, however often it turns back
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Legs:
+    """Legs from corner to corner: the strokes [SI] at the corners (legs + 1,), and in how many intervals each leg is looked at."""
+
+    corners: Mapping[str, FloatArray]
+    counts: tuple[int, ...]
+
+    @classmethod
+    def of(cls, strokes: Mapping[str, FloatArray]) -> Legs:
+        """Return the way that poses cover, whatever their number.
+
+        A single stroke, and a grid in which a single one moves, goes from its least to its greatest value. Several strokes in arrays
+        of one axis go from pose to pose, where poses on a straight line are no corners. From one sample to the next no stroke moves
+        more than 1/4096 of its range.
+        """
+        values = np.array([np.ravel(value) for value in strokes.values()])
+        if len(values) == 1 or next(iter(strokes.values())).ndim > 1:
+            values = np.stack([values.min(axis=1), values.max(axis=1)], axis=1)
+        ranges = np.ptp(values, axis=1, keepdims=True)
+        scaled = values / np.where(ranges > 0.0, ranges, 1.0)
+        places = corners(scaled)
+        lengths = np.abs(np.diff(scaled[:, places], axis=1)).max(axis=0)
+        share = SAMPLES * min(1.0, LONGEST / max(float(lengths.sum()), 1e-300))
+        counts = tuple(int(count) for count in np.maximum(np.ceil(share * lengths - 1e-6), 2.0))
+        return cls({name: value[places] for name, value in zip(strokes, values, strict=True)}, counts)
+
+    @property
+    def is_path(self) -> bool:
+        """Whether it is a path, on which several strokes go on together."""
+        return len(self.corners) > 1
+
+    def strokes(self, leg: Index, t: FloatArray) -> dict[str, FloatArray]:
+        """Return the strokes [SI] at places, shape as these; exact at the corners."""
+        return {name: np.where(t == 1.0, at[leg + 1], at[leg] + (at[leg + 1] - at[leg]) * t) for name, at in self.corners.items()}
+
+    def tangent(self, leg: Index) -> dict[str, FloatArray] | None:
+        """Return how the strokes go on in legs, shape as these; None where it is no path."""
+        return {name: at[leg + 1] - at[leg] for name, at in self.corners.items()} if self.is_path else None
+
+
+def corners(values: FloatArray) -> Sequence[int]:
+    """Return the poses (n,) at which a way through scaled strokes (k, n) begins, ends, turns or turns back."""
+    n = values.shape[1]
+    if n == 1:
+        return [0, 0]
+    moves = np.diff(values, axis=1)
+    going = np.flatnonzero(np.abs(moves).max(axis=0) > 0.0)  # poses that are given twice say nothing
+    back = going[1:][(moves[:, going[1:]] * moves[:, going[:-1]]).sum(axis=0) <= 0.0]
+    ends = [0, *back.tolist(), n - 1]
+    found = [0]
+    parts = [(first, last) for first, last in pairwise(ends) if last > first][::-1]
+    while parts:
+        first, last = parts.pop()
+        way, steps = values[:, last] - values[:, first], values[:, first : last + 1] - values[:, [first]]
+        along = np.clip(way @ steps / max(float(way @ way), 1e-300), 0.0, 1.0)
+        off = np.abs(steps - way[:, None] * along).max(axis=0)
+        place = first + int(np.argmax(off))
+        if off.max() <= STRAIGHT or not first < place < last:
+            found.append(last)
+        else:
+            parts += [(place, last), (first, place)]
+    return found
+
+
+Function: TypeAlias = Callable[[Motion], Any]
+"""A function of a motion: a number for each pose, shape (...), or several, shape (k, ...); NaN where it has none."""
+
+
+def require_function(motion: Any, f: Any) -> None:
+    """Raise DefinitionError for what is no motion, and for what is no function of one."""
+    require_motion(motion)
+    check_any(motion.strokes, motion.plan)
+    if not callable(f) or isinstance(f, type):
+        raise DefinitionError(f"{motion.plan.title}: {cited(f)} is no function of a motion; give one, such as lambda each: each.y('G').")
+
+
+def values_of(f: Function, motion: Motion, *, everywhere: bool = False) -> FloatArray:
+    """Return what a function gives at every pose, shape (..., *motion.shape); NaN out of reach, unless it is asked for `everywhere`.
+
+    Nearness to a dead point is not told.
+    """
+    with unwarned(), np.errstate(all="ignore"), told(f"{motion.plan.title}: a function of a motion"):
+        found = np.asarray(f(motion), float)
+    axes = len(motion.shape)
+    if found.ndim < axes or found.shape[found.ndim - axes :] != motion.shape:
+        try:
+            found = np.broadcast_to(found, motion.shape)
+        except ValueError:
+            what = f"a function of a motion gives the shape {found.shape} where {motion.shape} or (k, *{motion.shape}) is expected"
+            raise DefinitionError(f"{motion.plan.title}: {what}; return a number for each pose.") from None
+    return found if everywhere else np.where(motion.reached, found, np.nan)
+
+
+@final
+class OnLegs:
+    """A function of the poses on a motion's way, of K quantities and D designs; `look` is what a search asks.
+
+    The samples are worked out once, at the same strokes for all designs; poses between them take their angles from these.
+    """
+
+    def __init__(self, motion: Motion, f: Function, sense: float = 1.0, *, everywhere: bool = False) -> None:
+        self.motion, self.f, self.sense, self.everywhere = motion, f, sense, everywhere
+        self.route = Legs.of(motion.strokes)
+        self.leg, self.t = leg, t = samples(self.route.counts)
+        self.first = Motion(
+            motion.plan, motion.designs, self.route.strokes(leg, t), "nan", joining=joined_in_order, tangent=self.route.tangent(leg)
+        )
+        self.seen = sense * values_of(f, self.first, everywhere=everywhere)
+        self.front = self.seen.shape[: self.seen.ndim - len(self.first.shape)]
+        self._starts = np.cumsum([0, *(count + 1 for count in self.route.counts[:-1])])
+        self._reached = nearest_reached(self.first.reached.reshape(-1, leg.size))
+
+    def look(self, leg: Index, t: FloatArray) -> tuple[FloatArray, Mask]:
+        """Return the values (K, D, n) at places (n,) of all designs or (D, n) of each its own, and which poses (D, n) are reached.
+
+        Places (n,) are the samples.
+        """
+        motion, seen = (self.first, self.seen) if t.ndim == 1 else self._own(leg, t)
+        D, n = self._reached.shape[0], t.shape[-1]
+        return seen.reshape(-1, D, n), motion.reached.reshape(D, n)
+
+    def _own(self, leg: Index, t: FloatArray) -> tuple[Motion, FloatArray]:
+        """Return the poses at places (D, n), each design at its own, and the values there."""
+        first, tangent = self.first, self.route.tangent(leg)
+        places = self._starts[leg] + np.rint(t * np.asarray(self.route.counts)[leg]).astype(int)
+        near = np.take_along_axis(self._reached, places, axis=-1)
+
+        def shaped(values: Any) -> Any:
+            return values.reshape(*first._design_shape, t.shape[-1])
+
+        strokes = {name: shaped(value) for name, value in self.route.strokes(leg, t).items()}
+        motion = Motion(
+            first.plan, first.designs, strokes, "nan", per_design=True, joining=JoinedTo(first._grid, shaped(near)),
+            tangent=tangent and {name: shaped(value) for name, value in tangent.items()},
+        )  # fmt: skip
+        return motion, self.sense * values_of(self.f, motion, everywhere=self.everywhere)
+
+
+def nearest_reached(reached: Mask) -> Index:
+    """Return for every sample (D, n) the nearest that is reached; itself where none is."""
+    n = reached.shape[-1]
+    here = np.broadcast_to(np.arange(n), reached.shape)
+    before = np.maximum.accumulate(np.where(reached, here, -1), axis=-1)
+    after = np.minimum.accumulate(np.where(reached, here, 2 * n)[..., ::-1], axis=-1)[..., ::-1]
+    first, last = np.where(before < 0, after, before), np.where(after >= n, before, after)
+    found = np.where(here - first <= last - here, first, last)
+    return np.where((found >= 0) & (found < n), found, here)
+
+
+# The box of strokes that the poses of a motion cover.
+
+
+@final
+class InBox:
+    """A function of the poses in the box from the least to the greatest value of k strokes that a motion moves; others stand still."""
+
+    def __init__(self, motion: Motion, f: Function, sense: float = 1.0, *, everywhere: bool = False) -> None:
+        self.f, self.sense, self.names, self.everywhere = f, sense, moving(motion), everywhere
+        self.low = {name: float(np.min(value)) for name, value in motion.strokes.items()}
+        self.high = {name: float(np.max(value)) for name, value in motion.strokes.items()}
+        self.k = len(self.names)
+        self.side = values_a_stroke(self.k, motion._grid.size[0])
+        grid = np.stack(np.meshgrid(*[np.linspace(0.0, 1.0, self.side)] * self.k, indexing="ij"), axis=-1)
+        self.first = Motion(motion.plan, motion.designs, self.strokes(grid), "nan", joining=joined_in_order)
+        seen = sense * values_of(f, self.first, everywhere=everywhere)
+        self.front = seen.shape[: seen.ndim - len(self.first.shape)]
+        self.seen = seen.reshape(-1, self.first._grid.size[0], self.side**self.k)
+        self._reached = self.first.reached.reshape(-1, self.side**self.k)
+        self._all_reached = bool(self._reached.all())
+        self.count = self._reached.size
+
+    def strokes(self, unit: FloatArray) -> dict[str, FloatArray]:
+        """Return the strokes [SI], shape (...), at places (..., k) of the unit box; exact on its borders."""
+        still = np.zeros(unit.shape[:-1])
+        share = {name: unit[..., axis] for axis, name in enumerate(self.names)}
+        found = {name: low + (self.high[name] - low) * share.get(name, still) for name, low in self.low.items()}
+        return {name: np.where(share.get(name, still) == 1.0, self.high[name], value) for name, value in found.items()}
+
+    def at(self, design: Index, places: FloatArray) -> tuple[FloatArray, Mask]:
+        """Return the values (K, u, n) at places (u, n, k) of a design each (u,), and which poses (u, n) are reached."""
+        D, count = len(self._reached), np.bincount(design, minlength=len(self._reached))
+        slot = np.empty(len(design), int)
+        order = np.argsort(design, kind="stable")
+        slot[order] = np.arange(len(design)) - np.repeat(np.cumsum(count) - count, count)
+        unit = np.zeros((D, int(count.max(initial=1)), *places.shape[1:]))
+        unit[design, slot] = places
+        seen, reached = self._look(unit)
+        return seen[:, design, slot], reached[design, slot]
+
+    def _look(self, unit: FloatArray) -> tuple[FloatArray, Mask]:
+        """Return the values (K, D, c, n) at places (D, c, n, k), each design at its own, and which poses (D, c, n) are reached."""
+        shape = (*self.first._design_shape, *unit.shape[1:-1])
+        strokes = {name: value.reshape(shape) for name, value in self.strokes(unit).items()}
+        near = self._near(unit).reshape(shape)
+        motion = Motion(self.first.plan, self.first.designs, strokes, "nan", per_design=True, joining=JoinedTo(self.first._grid, near))
+        seen = self.sense * values_of(self.f, motion, everywhere=self.everywhere)
+        self.count += motion.reached.size
+        return seen.reshape(-1, *unit.shape[:-1]), motion.reached.reshape(unit.shape[:-1])
+
+    def _near(self, unit: FloatArray) -> Index:
+        """Return the nearest reached of the grid points about places (D, c, n, k), by their number; the nearest where none is."""
+        at = unit * (self.side - 1)
+        weights = weights_of(self.k, self.side)
+        if self._all_reached:
+            return np.asarray(np.rint(at).astype(int) @ weights)
+        low = np.clip(np.floor(at), 0, self.side - 2)
+        best, near = np.full(unit.shape[:-1], np.inf), np.zeros(unit.shape[:-1], int)
+        for corner in product((0.0, 1.0), repeat=self.k):
+            place = ((low + corner) @ weights).astype(int)
+            there = np.take_along_axis(self._reached, place.reshape(len(place), -1), axis=-1).reshape(place.shape)
+            away = np.abs(at - low - corner).max(axis=-1) + np.where(there, 0.0, 10.0)
+            best, near = np.minimum(best, away), np.where(away < best, place, near)
+        return near

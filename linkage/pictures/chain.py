@@ -1,0 +1,111 @@
+"""The picture of a kinematic chain: bodies as plates with names, pins and slides as marks on the lines between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import cycle
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path
+
+from ..errors import DefinitionError
+from ..language import said
+from ..program import FloatArray
+from . import style
+from .paper import footnote, title
+from .sheet import Picture
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+ROOM = 1.4
+"""The side of the square that a body has for itself [inch]."""
+LEAST, MOST = 4.5, 12.0
+"""The range of the picture's side [inch]."""
+BOW = 0.22
+"""How far lines between the same two bodies are bent apart, over their length."""
+SHARES = (0.5, 0.42, 0.58, 0.34, 0.66)
+"""Where on its line the mark of a joint may stand, the usual place first."""
+COLOURS = {"frame": style.RULE, "barrel": style.BARREL, "rod": style.ROD, "block": style.PAPER, "carriage": style.PAPER}
+
+
+def draw_chain(graph: nx.MultiGraph) -> Figure:
+    """Return a figure of a machine's graph; DefinitionError for one that is none: without bodies, or without kinds of joints."""
+    if not len(graph) or not all("kind" in data for _, data in (*graph.nodes(data=True), *edges_of(graph))):
+        raise DefinitionError("draw(graph): this is no graph of a machine, whose bodies and joints have kinds; give machine.graph.")
+    side = float(np.clip(ROOM * np.sqrt(len(graph)) + 1.5, LEAST, MOST))
+    figure = Picture(figsize=(1.25 * side, side), dpi=style.DPI, facecolor=style.PAPER)
+    FigureCanvasAgg(figure)
+    ax = figure.add_axes((0.08, 0.07, 0.84, 0.82))
+    ax.set_axis_off()
+    at = node_places(graph)
+    taken = list(at.values())
+    for a, b in dict.fromkeys(tuple(sorted(pair[:2])) for pair in graph.edges):
+        beside = list(graph.get_edge_data(a, b).items())
+        for place, (name, data) in enumerate(beside):
+            taken.append(joint(ax, str(name), data, at[a], at[b], BOW * (place - 0.5 * (len(beside) - 1)), taken))
+    colours = cycle(style.BODIES)
+    for name, data in graph.nodes(data=True):
+        face = COLOURS.get(data["kind"]) or next(colours)
+        body(ax, str(name), data, face, at[name])
+    bodies, joints = graph.number_of_nodes(), graph.number_of_edges()
+    title(figure, str(graph.name), f"3 ({bodies} - 1) - 2 · {joints} = {3 * (bodies - 1) - 2 * joints}")
+    footnote(figure, said("round: pin; square: slide; orange: driven by the stroke that is named"))
+    return figure
+
+
+def edges_of(graph: nx.MultiGraph) -> list[tuple[Any, dict[str, Any]]]:
+    """Return the edges with what they are."""
+    return [(pair, data) for *pair, data in graph.edges(data=True)]
+
+
+def node_places(graph: nx.MultiGraph) -> dict[Any, FloatArray]:
+    """Return where the bodies stand, shape (2,) each: neighbours near each other, few crossings, the frame below."""
+    import networkx as nx
+
+    simple = nx.Graph(graph)
+    is_planar, _ = nx.check_planarity(simple)
+    start = nx.planar_layout(simple) if is_planar and len(simple) > 2 else nx.circular_layout(simple)
+    found = nx.kamada_kawai_layout(simple, pos=start)
+    centre = np.mean(list(found.values()), axis=0)
+    down = found.get("frame", centre) - centre
+    turn = np.exp(1j * (-0.5 * np.pi - np.arctan2(down[1], down[0]))) if np.hypot(*down) > 1e-9 else 1.0
+    turned = {name: complex(*(place - centre)) * turn for name, place in found.items()}
+    return {name: np.array([place.real, place.imag]) for name, place in turned.items()}
+
+
+def joint(
+    ax: Axes, name: str, data: dict[str, Any], a: FloatArray, b: FloatArray, bow: float, taken: Sequence[FloatArray]
+) -> FloatArray:
+    """Return where the mark of a joint stands, shape (2,): on the line between its bodies, bent by a share of its length."""
+    bent = 0.5 * (a + b) + 2.0 * bow * np.array([a[1] - b[1], b[0] - a[0]])
+    path = Path([a, bent, b], [Path.MOVETO, Path.CURVE3, Path.CURVE3])
+    spots = [(1 - t) ** 2 * a + 2 * t * (1 - t) * bent + t**2 * b for t in SHARES]
+    clear = [min(float(np.hypot(*(spot - other))) for other in taken) for spot in spots]
+    spot = spots[next(index for index, room in enumerate(clear) if room > 0.8 * max(clear))]
+    driven = bool(data["strokes"])
+    edge = style.ACCENT if driven else style.INK
+    ax.add_patch(PathPatch(path, facecolor="none", edgecolor=edge, linewidth=style.BOLD, zorder=1))
+    words = "\n".join([name, ", ".join(data["strokes"])]) if driven else name
+    shape = "circle,pad=0.25" if data["kind"] == "pin" else "square,pad=0.25"
+    box = {"boxstyle": shape, "facecolor": style.PAPER, "edgecolor": edge, "linewidth": style.OUTLINE}
+    x, y = spot
+    ax.text(x, y, words, ha="center", va="center", fontsize=style.SMALL, color=edge, bbox=box, zorder=2, gid=f"joint {name}")
+    return spot
+
+
+def body(ax: Axes, name: str, data: dict[str, Any], face: str, place: FloatArray) -> None:
+    """Draw a body as a plate with its name, and that of its link below."""
+    words = f"{name}\n{data['link']}" if data.get("link") else name
+    box = {"boxstyle": "round,pad=0.45", "facecolor": face, "edgecolor": style.mixed(face, style.INK, 0.65), "linewidth": style.OUTLINE}
+    x, y = place
+    ax.plot(x, y, alpha=0.0)
+    ax.text(
+        x, y, words, ha="center", va="center", fontsize=style.TEXT, color=style.INK, bbox=box, zorder=3, gid=f"body {name}",
+        fontweight="bold" if data["kind"] == "frame" else "normal",
+    )  # fmt: skip

@@ -1,0 +1,208 @@
+"""The kinematic chain of a mechanism: its bodies and the pairs between them, each of one freedom.
+
+A cylinder is two bodies, barrel and rod, that slide in each other; a pin that runs on a guide or in a slot is a sliding block with a pin;
+an arm that is turned and pushed out by strokes has a carriage at its root. So every pair is a pin or a slide, and 3 (n - 1) - 2 j counts
+all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+from ..quantities import Joint, JointSide, Quantity, needs
+from ..steps import Guide
+from .bodies import FRAME, Body
+from .members import Members, carrying_pairs, member_sides
+
+
+@final
+@dataclass(frozen=True)
+class ChainBody:
+    """A body of the chain: the `frame`, a `body`, a `barrel` or a `rod`, an `arm` or its `carriage`, a sliding `block`."""
+
+    name: str
+    kind: str
+    points: tuple[str, ...]
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """A `pin` at a point or a `slide`, between two bodies by their names; `length` is what a slide drives, by these `strokes`."""
+
+    kind: str
+    name: str
+    a: str
+    b: str
+    strokes: tuple[str, ...] = ()
+    length: Quantity | None = None
+
+
+@final
+class KinematicChain:
+    """Bodies and pairs. Bodies that share a point are pinned there to the first of them, n bodies by n - 1 pins."""
+
+    def __init__(self, bodies: Sequence[Body], cylinders: Iterable[tuple[str, str]] = ()) -> None:
+        self.bodies = [ChainBody(body.name, FRAME if body.fixed else "body", body.points) for body in bodies]
+        self.slides: list[Pair] = []
+        self.turns: dict[tuple[str, str], tuple[str, ...]] = {}
+        for P, Q in cylinders:
+            barrel, rod = self.add(f"{P}{Q} barrel", "barrel", (P,)), self.add(f"{P}{Q} rod", "rod", (Q,))
+            self.slides.append(Pair("slide", P + Q, barrel, rod))
+
+    def add(self, name: str, kind: str, points: tuple[str, ...]) -> str:
+        """Enter a body and return its name, with a number where there is one of that name."""
+        taken = {body.name for body in self.bodies}
+        found = next(each for each in (name, *(f"{name} {k}" for k in range(2, len(taken) + 3))) if each not in taken)
+        self.bodies.append(ChainBody(found, kind, points))
+        return found
+
+    def at(self, point: str) -> list[ChainBody]:
+        """Return the bodies of a point, the frame first."""
+        return [body for body in self.bodies if point in body.points]
+
+    def holding(self, points: Sequence[str]) -> str:
+        """Return the body of some points, or of the first of them; the frame where none has it."""
+        both = [body for body in self.bodies if points and set(points) <= set(body.points)]
+        return next((body.name for body in (*both, *(self.at(points[0]) if points else ()))), FRAME)
+
+    @property
+    def pins(self) -> Iterator[Pair]:
+        """The pins, by point."""
+        for point in dict.fromkeys(point for body in self.bodies for point in body.points):
+            first, *others = (body.name for body in self.at(point))
+            for other in others:
+                yield Pair("pin", point, first, other, self.turns.get((point, other), self.turns.get((point, first), ())))
+
+    @property
+    def pairs(self) -> tuple[Pair, ...]:
+        """All pairs, pins first."""
+        return (*self.pins, *self.slides)
+
+    @property
+    def count(self) -> int:
+        """The Gruebler count 3 (n - 1) - 2 j."""
+        return 3 * (len(self.bodies) - 1) - 2 * len(self.pairs)
+
+
+def gruebler(bodies: Sequence[Body], cylinders: Iterable[tuple[str, str]]) -> int:
+    """Return 3 (n - 1) - 2 j of bodies that are pinned where they share points, and cylinders between points."""
+    return KinematicChain(bodies, cylinders).count
+
+
+def chain_of(plan: Members) -> KinematicChain:
+    """Return the chain of a mechanism."""
+    arms = {name: arm_points(plan, name) for name in plan.telescopes}
+    carrying = carrying_pairs(plan)
+    chain = KinematicChain(
+        [
+            body
+            for body in plan.links
+            if body.fixed or not (holds_an_arm(plan, body.points) or any(pair <= set(body.points) for pair in carrying))
+        ]
+    )
+    driven = {frozenset((bar.P, bar.Q)): bar for bar in plan.cylinders}
+    others = [[point for point in plan.points if point in pair] for pair in carrying if pair not in driven]
+    for P, Q in (*((bar.P, bar.Q) for bar in plan.cylinders), *others):
+        part, ends = KinematicChain((), [(P, Q)]), (P, Q)
+        on_it = next((body.points for body in plan.links[1:] if frozenset(ends) in carrying and set(ends) <= set(body.points)), ends)
+        near, far = member_sides(plan, ends, on_it)
+        chain.bodies += [
+            replace(body, points=(end, *(point for point in on_it if point in side and point != end)))
+            for body, end, side in zip(part.bodies, ends, (near, far), strict=True)
+        ]
+        bar = driven.get(frozenset(ends))
+        chain.slides += part.slides if bar is None else [
+            replace(each, strokes=driven_by(plan, bar.length), length=bar.length) for each in part.slides
+        ]
+    for name, points in arms.items():
+        enter_arm(chain, plan, name, points)
+    halves = half_joints(plan)
+    for _, joint in halves:
+        for side in (joint.on, joint.by):
+            if side.role == "slider" and not any(body.kind == "block" and body.points == side.points for body in chain.bodies):
+                chain.add(f"{side.points[0]} (slider)", "block", side.points)
+    blocks = [(name, joint, moved_side(chain, name, joint)) for name, joint in halves]
+    for name, joint, block in blocks:
+        has_slot = joint.on.role == "slider" and joint.point not in joint.on.points
+        line = guided_by(chain, plan, joint.on if has_slot else joint.by)
+        strokes = tuple(each for drive in joint.drives for each in driven_by(plan, drive.quantity))
+        along = joint.track[0] if len(joint.track) == 1 and joint.track[0] in plan.members else name
+        chain.slides.append(Pair("slide", along, line, block, strokes, joint.drives[0].quantity if joint.drives else None))
+    for _, joint in plan.joints:
+        if joint.kind == "crank":
+            turned = chain.holding(joint.on.points)
+            chain.turns[joint.point, turned] = tuple(each for drive in joint.drives for each in driven_by(plan, drive.quantity))
+    return chain
+
+
+def driven_by(plan: Members, quantity: Quantity) -> tuple[str, ...]:
+    """Return the strokes that a driven quantity follows by itself, not through points."""
+    stack, found = [quantity.name] if quantity.name else [*needs(quantity)], set()
+    while stack:
+        name = stack.pop()
+        if name not in found and name not in plan.points:
+            found.add(name)
+            stack += needs(plan.members[name])
+    return tuple(name for name in plan.strokes if name in found)
+
+
+def half_joints(plan: Members) -> list[tuple[str, Joint]]:
+    """Return the joints that take one freedom, a pin's on a guide or in a slot, each with its member's name."""
+    found = [(name, joint) for name, point in plan.points.items() if name not in plan.resting for joint in point.joints()]
+    found += [(slide.name, joint) for group in plan.groups.values() for slide in group.slides for joint in slide.joints()]
+    return [(name, joint) for name, joint in found if joint.is_half]
+
+
+def moved_side(chain: KinematicChain, name: str, joint: Joint) -> str:
+    """Return the body that slides: the one that moves without turning where the joint names it, else a block at its point."""
+    if joint.on.role == "slider" and joint.point in joint.on.points:
+        return next(body.name for body in chain.bodies if body.kind == "block" and body.points == joint.on.points)
+    return chain.add(f"{joint.point} (block)", "block", (joint.point,))
+
+
+def guided_by(chain: KinematicChain, plan: Members, side: JointSide) -> str:
+    """Return the body that a line belongs to."""
+    guide = plan.of_kind(Guide).get(side.points[0]) if side.role == "guide" else None
+    if side.role == "slider":
+        return next(body.name for body in chain.bodies if body.kind == "block" and body.points == side.points)
+    return chain.holding(side.points if guide is None else guide.points)
+
+
+# Arms: what a driven joint moves along or about its body.
+
+
+def arm_points(plan: Members, name: str) -> tuple[str, ...]:
+    """Return the points of an arm: the one that a stroke moves, and all that are rigid with it."""
+    base = set(arm_joint(plan, name).by.points)
+    own = [body.points for body in plan.links[1:] if name in body.points and base & set(body.points)]
+    return tuple(dict.fromkeys(point for body in ((name,), *own) for point in body if point not in base))
+
+
+def arm_joint(plan: Members, name: str) -> Joint:
+    """Return the joint of an arm on its body."""
+    return next(joint for owner, joint in plan.joints if owner == name and joint.arm)
+
+
+def holds_an_arm(plan: Members, points: tuple[str, ...]) -> bool:
+    """Return whether a body is an arm with what it moves on; the arm stands for itself."""
+    return any(joint.arm and name in points and set(joint.by.points) & set(points) for name, joint in plan.joints)
+
+
+def enter_arm(chain: KinematicChain, plan: Members, name: str, points: tuple[str, ...]) -> None:
+    """Enter an arm: a slide on its body, a pin, or both with a carriage between them, by what strokes drive."""
+    joint = arm_joint(plan, name)
+    pushed = next((drive.quantity for drive in joint.drives if drive.along == "t" and plan.moves(drive.quantity)), None)
+    turned = tuple(each for drive in joint.drives if drive.along != "t" for each in driven_by(plan, drive.quantity))
+    title = "".join(points)
+    if pushed is None:
+        chain.turns[joint.point, chain.add(title, "arm", (joint.point, *points))] = turned
+        return
+    on = chain.holding(joint.by.points)
+    if any(drive.along != "t" and plan.moves(drive.quantity) for drive in joint.drives):
+        on = chain.add(f"{joint.point} (carriage)", "carriage", (joint.point,))
+        chain.turns[joint.point, on] = turned
+    arm = chain.add(title, "arm", points)
+    chain.slides.append(Pair("slide", name, on, arm, driven_by(plan, pushed), pushed))

@@ -139,12 +139,12 @@ class Domain:
             self.motion = Motion(plan, designs, strokes, "nan", per_design=own)
 
     def number(self, quantity: Quantity) -> float:
-        """Return the value of a quantity of the design [SI]; DefinitionError for a batch."""
+        """Return the value of a quantity of the design [SI]; DefinitionError for one that differs between the designs of a batch."""
         start = {name: np.asarray(value, float) for name, value in self.plan.sketch_strokes.items()}
         found = Motion(self.plan, self.designs, start, "nan").value(quantity)
-        if np.size(found) != 1 or not np.all(np.isfinite(found)):
+        if np.unique(found).size != 1 or not np.all(np.isfinite(found)):
             what = f"{self.plan.title}: {self.over}: {quantity.name or quantity} = {cited(found)}"
-            raise DefinitionError(f"{what}; one finite number is expected, of one design.")
+            raise DefinitionError(f"{what}; one finite number is expected, the same for all designs: take one design, or give over=.")
         return float(np.ravel(found)[0])
 
     @cached_property

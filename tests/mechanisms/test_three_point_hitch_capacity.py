@@ -3,8 +3,6 @@
 import re
 from functools import cache
 
-import re
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal

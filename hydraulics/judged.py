@@ -12,7 +12,7 @@ from typing import Any, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, known_name, unknown
+from linkage.errors import DefinitionError, known_name, unknown, unwarned
 from linkage.language import said, said_of, with_and
 from linkage.loads import FRICTIONLESS, Acting
 from linkage.motion import Answer, Judge, Motion, Question, Span, below_zero, least, most, reached, require_motion
@@ -130,7 +130,17 @@ class LiftingCylinder:
     @property
     def carries(self) -> bool:
         """Whether the cylinder carries anything anywhere."""
-        return bool(self.judge.answer(most(abs(Thrust(self.ram, Acting())))).value > 0.0)
+        return any(each.value != 0.0 for each in self.judge.answers(self.thrusts))
+
+    @property
+    def thrusts(self) -> list[Question]:
+        """Its least and its greatest thrust, as questions."""
+        return [least(Thrust(self.ram, Acting())), most(Thrust(self.ram, Acting()))]
+
+    @property
+    def back(self) -> GoingBack:
+        """What the other side must give while it goes back."""
+        return GoingBack(*self.asked, way=self.way_back)
 
     @property
     def asked(self) -> tuple[Cylinder, Acting, LiftLine]:
@@ -139,10 +149,9 @@ class LiftingCylinder:
 
     def questions(self) -> list[Question]:
         """Return what its verdicts ask at first."""
-        thrust = Thrust(self.ram, Acting())
         standing = [most(Pressure(self.ram, Acting(direction=FRICTIONLESS), self.circuit, side)) for side in SIDES]
-        ends = [least(thrust), most(thrust)] if self.ram.works == "both" else []
-        return [most(abs(thrust)), least(Reserve(*self.asked)), *standing, *ends]
+        going = [most(self.back), least(replace(self.back, tells="load"))]
+        return [*self.thrusts, least(Reserve(*self.asked)), *standing, *going]
 
     def show(self, pressure: Any) -> str:
         """Return a pressure in the unit of the sentences."""
@@ -248,7 +257,7 @@ class LiftingCylinder:
         the load then drives it on, as a lever past its top, the pump's pressure on the other side has to do it.
         """
         judge, against = self.judge, said("against {pressure} in the return line", pressure=self.show(resistance))
-        back = GoingBack(*self.asked, way=self.way_back, resistance=resistance)
+        back = replace(self.back, resistance=resistance)
         push, alone = judge.answers([most(back) <= 0.0, least(replace(back, tells="load"))])
         if push.ok:
             if alone.value <= 1e-9 * float(self.circuit.supply(judge.motion)):
@@ -270,7 +279,7 @@ class LiftingCylinder:
             )  # fmt: skip
             return Verdict("lowering", False, text, answer=push)
         if self.ram.works == "both":
-            enough = judge.answer(least(Reserve(*self.asked)) >= 1.0).ok is not False  # which asks the other side while it drives
+            enough = push.value <= float(self.circuit.supply(judge.motion)) * (1.0 + 1e-9)
             text = said(
                 "{direction}, the load does not drive it back {where} {against}: the other side must push with up to {push}, {place}.",
                 direction=said("extending") if self.way_back == "extending" else said("retracting"), where=where, against=against,
@@ -285,11 +294,12 @@ class LiftingCylinder:
 
     @property
     def way_back(self) -> str:
-        """The direction in which it goes back: against its working one; of both the way the load drives it where it is strongest."""
+        """The direction in which it goes back: against its working one; of both the way the load drives it at most ends of the strokes."""
         if self.ram.works != "both":
             return "retracting" if self.ram.works == "piston" else "extending"
-        low, high = self.judge.answers([least(Thrust(self.ram, Acting())), most(Thrust(self.ram, Acting()))])
-        return "retracting" if high.value >= -low.value else "extending"
+        with unwarned():
+            ends = Thrust(self.ram, Acting(self.judge.acting.loads)).of(self.judge.motion)
+        return "retracting" if float(np.nan_to_num(np.sign(ends)).sum()) >= 0.0 else "extending"
 
     def stuck(self, back: GoingBack) -> str:
         """Return where it does not go back, in words."""

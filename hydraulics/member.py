@@ -39,7 +39,21 @@ from linkage.loads import (
     require_poses,
 )
 from linkage.loads.element import Formulas
-from linkage.motion import Column, Judge, Judging, Motion, Question, Request, Tabled, greatest, least, lowest, most, require_motion
+from linkage.motion import (
+    Column,
+    Judge,
+    Judging,
+    Motion,
+    Question,
+    Request,
+    SmoothPiece,
+    Tabled,
+    greatest,
+    least,
+    lowest,
+    most,
+    require_motion,
+)
 from linkage.plan import Plan
 from linkage.quantities import Member, Reference, distance, label, name_of
 from linkage.statics import AnyMotion, Case, LawRequest, Loads, case_words, elements_of, loads_identity, member_thrust, same
@@ -213,21 +227,24 @@ class Cylinder(TwoPoint, Tabled, Judging):
         """The directions in which the side that works drives it."""
         return {"piston": ("extending",), "rod": ("retracting",)}.get(self.works, ("extending", "retracting"))
 
-    def pressure_on(self, side: str, motion: AnyMotion, acting: Acting, circuit: Circuit | None = None) -> Array:
-        """Return the pressure on one of its sides, shape (...) [Pa gauge]; 0 where the other side holds.
+    def pressure_on(
+        self, side: str, motion: AnyMotion, acting: Acting, circuit: Circuit | None = None, *, below: bool = False
+    ) -> Array:
+        """Return the pressure on one of its sides, shape (...) [Pa gauge]; 0 where the other side holds, or `below` what would balance.
 
         At rest without friction and efficiencies; while it moves, on a side that works, as its circuit has it.
         """
         thrust = self.thrust(motion, acting.loads, case=acting.case, direction=acting.movement, rates=acting.rates)
-        along = thrust if side == PISTON else -thrust
+        along, size = thrust if side == PISTON else -thrust, self.sized(motion)
+        balance = along / (size.push_area if side == PISTON else size.pull_area)
+        least = balance if below else 0.0
         if acting.movement == FRICTIONLESS or self.works not in (side, "both"):
-            size = self.sized(motion)
-            return np.asarray(np.maximum(along, 0.0) / (size.push_area if side == PISTON else size.pull_area))[()]
+            return np.asarray(np.maximum(balance, least))[()]
         if circuit is None:
             found = pressure_of(self, motion, acting.loads, acting.case, acting.direction)
         else:
             found = circuit.pressure_in(self, motion, acting.loads, acting.case, acting.direction)
-        return np.where(along > 0.0, found, 0.0) + 0.0 * thrust
+        return np.where(along > 0.0, found, least) + 0.0 * thrust
 
     def columns(self, motion: Motion) -> list[Column]:
         """Return its thrust without friction and, unless several circuits have it, its pressure and its reserve, for the table."""
@@ -423,12 +440,12 @@ class Cylinder(TwoPoint, Tabled, Judging):
         each_of = [self._use(motion, loads, case, way) for way in ([direction] if direction is not None else ways)]
         return reduce(np.maximum, each_of)
 
-    def _use(self, motion: AnyMotion, loads: Loads, case: Case, direction: str) -> Array:
-        """Return the utilisation in one direction."""
+    def _use(self, motion: AnyMotion, loads: Loads, case: Case, direction: str, *, below: bool = False) -> Array:
+        """Return the utilisation in one direction, in a pull 0 or `below`."""
         push = self.thrust(motion, loads, case=case, direction=direction) / self.count
         bar = Buckling(1.0, self.mounting, self.safety)
         allowed = bar.critical_of(self.sized(motion).rod, motion.distance(self.A, self.B)) / self.safety
-        return np.where(push > 0.0, push / allowed, 0.0) + 0.0 * push
+        return push / allowed if below else np.where(push > 0.0, push / allowed, 0.0) + 0.0 * push
 
     @property
     def _pins(self) -> str:
@@ -511,10 +528,20 @@ class Thrust(CylinderRequest):
 class BucklingUse(CylinderRequest):
     """How far a cylinder's rod is used against buckling."""
 
+    below: bool = False
     word = "buckling"
+
+    @property
+    def options(self) -> tuple[Hashable, ...]:
+        return *super().options, "below zero" if self.below else None
+
+    def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
+        return (SmoothPiece(self, below=replace(self, below=True)),)
 
     def law(self, motion: AnyMotion) -> Array:
         given = self.acting
+        if self.below:
+            return self.ram(motion.plan)._use(motion, given.loads, given.case, given.movement, below=True)
         return self.ram(motion.plan).buckling_use(motion, given.loads, case=given.case, direction=given.direction)
 
 

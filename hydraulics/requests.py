@@ -77,12 +77,14 @@ class Pressure(CircuitRequest):
 
     side: str = ""
     is_needed: bool = False
+    below: bool = False
     word = "pressure"
     measures = "pressure"
 
     @property
     def options(self) -> tuple[Hashable, ...]:
-        return *super().options, (self.side and f"side={self.side}") or None, "needed" if self.is_needed else None
+        kinds = ["needed"] * self.is_needed + ["below zero"] * self.below
+        return *super().options, (self.side and f"side={self.side}") or None, " ".join(kinds) or None
 
     def examine(self, plan: Plan) -> None:
         if self.circuit:
@@ -95,14 +97,17 @@ class Pressure(CircuitRequest):
 
     def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
         if self.side:
-            return (SmoothPiece(self, self.side),)
+            return (self.piece_on(self.side),)
         ram = self.ram(plan)
         if self.is_needed:
-            side = driving_side(self.acting.direction)
-            return (SmoothPiece(replace(self, side=side), side),)
+            return (self.piece_on(driving_side(self.acting.direction)),)
         if any(same(ram, one) for each in plan.of_kind(Circuit).values() for one in each.feeds(plan.members)):
             return (SmoothPiece(self, ram.works),)
-        return tuple(SmoothPiece(replace(self, side=side), side) for side in SIDES)
+        return tuple(self.piece_on(side) for side in SIDES)
+
+    def piece_on(self, side: str) -> SmoothPiece:
+        """Return the piece of one side."""
+        return SmoothPiece(replace(self, side=side), side, below=replace(self, side=side, below=True))
 
     def law(self, motion: AnyMotion) -> Array:
         ram, given = self.ram(motion.plan), self.acting
@@ -111,7 +116,7 @@ class Pressure(CircuitRequest):
             if circuit is not None:
                 return circuit.pressure_in(ram, motion, given.loads, given.case, given.direction)
             return ram.pressure(motion, given.loads, case=given.case, direction=given.direction)
-        return ram.pressure_on(self.side, motion, given, circuit)
+        return ram.pressure_on(self.side, motion, given, circuit, below=self.below)
 
 
 def pressure(

@@ -340,6 +340,7 @@ def optimise(
     solver: str = ...,
     starts: int | None = ...,
     seed: int = ...,
+    limit: int | None = ...,
     folder: str | PathLike[str] | None = ...,
     progress: Any = ...,
 ) -> Optimum: ...
@@ -355,6 +356,7 @@ def optimise(
     over: Mapping[str, Any] | None = ...,
     solver: str = ...,
     seed: int = ...,
+    limit: int | None = ...,
     progress: Any = ...,
 ) -> Front: ...
 def optimise(
@@ -372,6 +374,7 @@ def optimise(
     solver: str = "slsqp",
     starts: int | None = None,
     seed: int = 0,
+    limit: int | None = None,
     folder: str | PathLike[str] | None = None,
     progress: Any = False,
 ) -> Optimum | Front:
@@ -391,15 +394,21 @@ def optimise(
 
     From the best of some hundred designs spread over the box, `starts` of them for each combination of choices, a `solver` ("slsqp" or
     "trust-constr") goes on with exact derivatives. `method="local"` begins with the machine as it is, "evolution" with the best of a
-    differential evolution. The same seed gives the same result. With `folder` finished searches are kept there, and the same call goes
-    on where another one stopped; `progress=True` shows a bar.
+    differential evolution. The same seed gives the same result. `limit` is how many designs are looked at before the best so far comes
+    back, with a word that it is that; by default as many as take about a minute. With `folder` finished searches are kept there, and the
+    same call goes on where another one stopped; `progress=True` shows a bar.
+
+    A design that has no value of a condition at some pose does not keep it, and a quotient whose divisor passes zero within the stroke has
+    no value. Lengths, angles, forces and pressures neither add nor compare. What limits the result is said: conditions, ends of ranges,
+    and where the machine itself allows no more.
 
     Raises DefinitionError for what cannot be asked, StudyError where no design can be assembled over the whole stroke, and its
-    InfeasibleError, with the conflict and the least relaxation, where none keeps all conditions.
+    InfeasibleError, with the conflict, the least relaxation and what one condition alone would have to give, where none keeps all.
     """
     from .study.optimise import optimise
 
     return optimise(
         machine, minimise=minimise, maximise=maximise, vary=vary, subject_to=subject_to, case=case, over=over, robust=robust,
-        sigmas=sigmas, method=method, solver=solver, starts=starts, seed=seed, folder=folder, progress=progress,
+        sigmas=sigmas, method=method, solver=solver, starts=starts, seed=seed, limit=limit, folder=folder,
+        progress=progress,
     )  # fmt: skip

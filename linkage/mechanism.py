@@ -16,12 +16,11 @@ import numpy.typing as npt
 
 from .assembly import Assembly, assembled, assemblies
 from .errors import DefinitionError, cited, told, unknown
-from .loads import Acting, ForceElement, LoadCase, check_together
+from .loads import PLAIN_CASE, Acting, ForceElement, LoadCase, check_together
 from .loads.element import Formulas
 from .mobility import FourBar, Mobility, chain_graph, check, four_bars, mobility
 from .motion import (
     OPTIONS,
-    PLAIN_CASE,
     Answer,
     Column,
     Featured,

@@ -20,33 +20,79 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Self
 
 from .errors import DefinitionError, cited, known_name, unknown
 from .language import noted, translated
 
-m = 1.0
-mm = 1e-3
-cm = 1e-2
-inch = 0.0254
-ft = 12 * inch
-rad = 1.0
-deg = math.pi / 180.0
+
+class Amount(float):
+    """A number in SI that knows what it measures: `80 * mm` is 0.08, a "length". It calculates as any float.
+
+    With its sign changed, and added to its like, it goes on knowing. Anything else makes a plain number of it: a product may measure
+    anything.
+    """
+
+    __slots__ = ("measures",)
+
+    measures: str
+
+    def __new__(cls, value: float, measures: str) -> Self:
+        found = super().__new__(cls, value)
+        found.measures = measures
+        return found
+
+    def __getnewargs__(self) -> tuple[float, str]:  # type: ignore[override]
+        return float(self), self.measures
+
+    def __add__(self, other: float) -> float:
+        return self._sum(float.__add__(self, other), other)
+
+    def __sub__(self, other: float) -> float:
+        return self._sum(float.__sub__(self, other), other)
+
+    def __neg__(self) -> float:
+        return Amount(float.__neg__(self), self.measures)
+
+    def _sum(self, found: float, other: object) -> float:
+        """Return a sum, as an amount where both are alike; NotImplemented, of arrays and quantities, as it is."""
+        return Amount(found, self.measures) if getattr(other, "measures", None) == self.measures and isinstance(found, float) else found
+
+
+class UnitFactor(Amount):
+    """What a number is multiplied with to be an amount: `mm` in `80 * mm`."""
+
+    __slots__ = ()
+
+    def __mul__(self, other: float) -> float:
+        found = float.__mul__(self, other)
+        return Amount(found, self.measures) if type(other) in (int, float) else found
+
+    __rmul__ = __mul__
+
+
+m = UnitFactor(1.0, "length")
+mm = UnitFactor(1e-3, "length")
+cm = UnitFactor(1e-2, "length")
+inch = UnitFactor(0.0254, "length")
+ft = UnitFactor(12 * inch, "length")
+rad = UnitFactor(1.0, "angle")
+deg = UnitFactor(math.pi / 180.0, "angle")
 s = 1.0
 minute = 60.0
 kg = 1.0
 lb = 0.45359237  # avoirdupois pound (international yard and pound agreement, 1959)
 g0 = 9.80665  # standard gravity, m/s2 (ISO 80000-4)
-N = 1.0
-kN = 1e3
-kgf = g0
-lbf = lb * g0
-Pa = 1.0
-kPa = 1e3
-MPa = 1e6
-bar = 1e5
-kgf_cm2 = kgf / cm**2
-psi = lbf / inch**2
+N = UnitFactor(1.0, "force")
+kN = UnitFactor(1e3, "force")
+kgf = UnitFactor(g0, "force")
+lbf = UnitFactor(lb * g0, "force")
+Pa = UnitFactor(1.0, "pressure")
+kPa = UnitFactor(1e3, "pressure")
+MPa = UnitFactor(1e6, "pressure")
+bar = UnitFactor(1e5, "pressure")
+kgf_cm2 = UnitFactor(kgf / cm**2, "pressure")
+psi = UnitFactor(lbf / inch**2, "pressure")
 litre = 1e-3
 gal = 231 * inch**3  # the US liquid gallon
 cm3 = 1e-6
@@ -113,7 +159,7 @@ def parse(text: str, kind: str = "") -> float:
         valid = ", ".join(name for name, (_, what) in UNITS.items() if what == kind)
         article = "an" if measured[0] in "aeiou" else "a"
         raise DefinitionError(f"{text!r} is {article} {measured} where a value of kind {kind} is wanted; use one of: {valid}.")
-    return finite_value(float(number) * factor, text)
+    return finite_value(float(float(number) * factor), text)
 
 
 def finite_value(value: float, text: str) -> float:

@@ -8,7 +8,7 @@ from types import MappingProxyType
 from typing import Any
 
 from hydraulics import capacity, reserve
-from linkage import Ground, LoadCase, OnLink, around, at, deg, drive_force, kgf_cm2, least, mm, most, ratio, ref, x, y
+from linkage import Ground, LoadCase, OnLink, around, at, deg, drive_force, gap, kgf_cm2, least, mm, most, ratio, ref, x, y
 from linkage.motion.measures import Condition, Measure
 
 from .header_balancer import HEADERS, HeaderBalancer, with_header
@@ -18,6 +18,8 @@ from .three_point_hitch import ThreePointHitch
 
 PINS = 60 * mm
 """How far a pin may move, and by how much a length may change."""
+CLEAR = 20 * mm
+"""How far apart bodies stay that would meet in one plane."""
 
 
 # The mower's lift: more reserve at the same pressure.
@@ -51,7 +53,7 @@ def within(measure: Measure, now: float, by: float) -> list[Condition]:
 def flat_hitch() -> dict[str, Any]:
     """Return the search for the flattest capacity: pins and lengths within 60 mm, no less reserve, G's ends and travel kept to 50 mm.
 
-    The implement leans at both ends as it does today, to 3 deg.
+    The implement leans at both ends as it does today, to 3 deg, and the cylinder AB stays 20 mm clear of the lift rod CD.
     """
     hitch = ThreePointHitch()
     lifted = capacity("lift", "G", case=LoadCase("alone", scale={"load": 0.0}))
@@ -62,6 +64,7 @@ def flat_hitch() -> dict[str, Any]:
     conditions += within(high - low, rise, 50 * mm)
     for S, height, tilt in zip((0.0, 0.25), ends.y("G"), ends["tilt"], strict=True):
         conditions += within(at(y("G"), S=S), float(height), 50 * mm) + within(at("tilt", S=S), float(tilt), 3 * deg)
+    conditions.append(least(gap("AB", "CD")) >= CLEAR)
     vary = {name: around(PINS) for name in ("A", "O", "E", "M", "OB", "OC", "BC", "ED", "CD", "EF", "MK")}
     return {"machine": hitch, "minimise": most(lifted) / least(lifted), "vary": vary, "subject_to": conditions}
 
@@ -115,8 +118,8 @@ def steady_reaction() -> dict[str, Any]:
 STRONG_LIFT: Mapping[str, Any] = MappingProxyType({"A": (0.024, 0.295), "O": (0.652, 0.390), "OB": 0.204, "BOG": 96.8 * deg})
 FLAT_HITCH: Mapping[str, Any] = MappingProxyType(
     {
-        "A": (0.260, 0.568), "O": (0.240, 1.103), "E": (0.211, 0.637), "M": (0.160, 0.999),
-        "OB": 0.360, "OC": 0.333, "BC": 0.220, "ED": 0.420, "CD": 0.680, "EF": 0.942, "MK": 0.940,
+        "A": (0.260, 0.522), "O": (0.286, 1.090), "E": (0.277, 0.540), "M": (0.160, 1.056),
+        "OB": 0.309, "OC": 0.420, "BC": 0.219, "ED": 0.471, "CD": 0.679, "EF": 0.901, "MK": 0.940,
     }
 )  # fmt: skip
 STEADY_REACTION: Mapping[str, Any] = MappingProxyType(

@@ -45,8 +45,9 @@ from ..motion.requests import Combined
 from ..plan import plan_measure
 from ..quantities import Number, Quantity, angle, distance, is_number, x, y
 from ..steps import Point
+from ..study.kinds import KINDS, MeasureKind, common_kind, kind_of_quantity
 from ..study.problem import NOWHERE, Problem
-from ..units import UNITS
+from ..units import UNITS, Amount
 from .callables import request_function
 from .expression import BINARY, CONSTANTS, NUMBER, Grammar, tokens
 
@@ -127,11 +128,6 @@ def check_measures(machine: Mechanism, measures: list[Measure], constraints: lis
 
 
 @final
-class Amount(float):
-    """A number that was written with a unit [SI]."""
-
-
-@final
 class CriterionParser(Grammar):
     """Reads one measure, quantity or condition of a machine."""
 
@@ -198,6 +194,8 @@ class CriterionParser(Grammar):
     def joined(self, sign: str, a: Any, b: Any) -> Any:
         if sign in ("*", "/") and isinstance(a, Request) and isinstance(b, Amount):
             return Combined("multiply" if sign == "*" else "divide", (a, Number(float(b))))  # measures something else
+        if sign in ("+", "-"):
+            self.check_sum(sign, a, b)
         try:
             found = BINARY[sign](a, b)
         except ArithmeticError:
@@ -205,6 +203,15 @@ class CriterionParser(Grammar):
         except TypeError:
             raise DefinitionError(f"{self.words(a)} {sign} {self.words(b)} cannot be calculated.") from None
         return self.checked_number(found, f"{a!r} {sign} {b!r}") if is_number(a) and is_number(b) else found
+
+    def check_sum(self, sign: str, a: Any, b: Any) -> None:
+        """Raise DefinitionError where a number with a unit is added to a quantity of another kind."""
+        kinds = [
+            MeasureKind(KINDS[each.measures]) if isinstance(each, Amount) and each.measures in KINDS
+            else kind_of_quantity(self.plan, each) if isinstance(each, (Quantity, Request)) else None
+            for each in (a, b)
+        ]  # fmt: skip
+        common_kind(self.plan, f"{self.words(a)} {sign} {self.words(b)}", *kinds)
 
     def negative(self, part: Any) -> Any:
         if isinstance(part, str):
@@ -230,7 +237,7 @@ class CriterionParser(Grammar):
         self.place += 1
         if token.kind == "number":
             self.kinds += [UNITS[token.unit][1]] if token.unit else []
-            return Amount(token.value) if token.unit else token.value
+            return Amount(token.value, UNITS[token.unit][1]) if token.unit else token.value
         if token.kind == "name" and self.next.text == "(":
             return self.called(token.text)
         return self.named(token.text.strip("'\""))

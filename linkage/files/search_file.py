@@ -43,8 +43,8 @@ from .study_file import (
 )
 
 SEARCH_KEYS = (
-    "minimise", "maximise", "vary", "subject_to", "case", "over", "robust", "sigmas", "method", "solver", "starts", "seed", "folder",
-    "round", "outputs",
+    "minimise", "maximise", "vary", "subject_to", "case", "over", "robust", "sigmas", "method", "solver", "starts", "seed", "limit",
+    "folder", "round", "outputs",
 )  # fmt: skip
 SEARCH_OUTPUTS: Mapping[str, tuple[str, ...]] = {
     "table": (".csv",),
@@ -98,6 +98,7 @@ def read_search(
         "robust": lambda given: tolerances_said(head, given, "robust"),
         "starts": lambda given: count_said(given, 1),
         "seed": lambda given: count_said(given, 0),
+        "limit": lambda given: count_said(given, 1),
         "folder": head.path_of,
     }
     for key, read in readers.items():

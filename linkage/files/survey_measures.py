@@ -43,7 +43,8 @@ class TextMeasures:
             if isinstance(each, Measure):
                 found[name] = np.where(look.whole, design_values(each, numbers, count), np.nan)
             else:
-                found[name] = look.whole & keeps(each, numbers, count)
+                lost = [look.rows[leaf].lost for one in each for leaf in one.margin.leaves]
+                found[name] = look.whole & keeps(each, numbers, count) & ~np.any([np.zeros(count, bool), *lost], axis=0)
         return found
 
     def said(self, machine: Mechanism) -> dict[str, Measure | list[Constraint]]:

@@ -30,13 +30,13 @@ class LineDerivatives:
     def __init__(self, stroke: Any, unit: Unit, names: SymbolNames) -> None:
         self.stroke, self.unit, self.names = stroke, unit, names
         self.known: dict[Any, Any] = {stroke: sympy.S.One}
-        self._lhs: Any = None
+        self._line: Written | None = None
         self._found: list[Written] = []
 
     def lines(self, written: Sequence[Written]) -> list[Written]:
         """Return the derivative of each line that follows the stroke."""
         for line in written:
-            self._lhs = line.lhs if isinstance(line.rhs, TurnV) else None
+            self._line = line
             rate = self.of(line.rhs) if line.rhs.is_Matrix else self.number(line.rhs, line.lhs)
             if rate in (sympy.S.Zero, STILL) or getattr(rate, "is_zero_matrix", False):
                 continue
@@ -89,6 +89,9 @@ class LineDerivatives:
 
     def _stretching(self, vector: Any) -> Any:
         """Return the rate of a vector's length, that of a named one with a line of its own: d|EC|/dS."""
+        if isinstance(vector, TurnV):  # written where it is used
+            base, _, *length = vector.args
+            return self.number(length[0]) if length else self._stretching(base)
         rate = self.of(vector)
         if rate == STILL:
             return sympy.S.Zero
@@ -127,7 +130,7 @@ class LineDerivatives:
         base, angle, *length = vector.args
         turned = self.number(angle) + self._turning(base)
         longer = self.number(length[0]) / length[0] if length else self._stretching(base) / Norm(base)
-        here = vector if self._lhs is None else self._lhs
+        here = self._line.lhs if self._line is not None and vector == self._line.rhs else vector
         return summed([MatMul(factor, part) for factor, part in ((turned, TurnV(here, Deg(90))), (longer, here)) if factor != 0])
 
 

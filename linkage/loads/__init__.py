@@ -6,7 +6,7 @@
 """
 
 from .acting import DIRECTIONS, FRICTIONLESS, PLAIN, Acting
-from .case import LoadCase
+from .case import PLAIN_CASE, LoadCase
 from .element import (
     AT_REST,
     Declared,

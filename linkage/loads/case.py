@@ -16,6 +16,8 @@ from ..units import deg
 from .element import ForceElement
 from .point import gravity_vector
 
+PLAIN_CASE = "plain"
+"""The name of the machine's own loads, without a load case."""
 STEEPEST = 0.5 * pi * (1.0 + 1e-9)
 
 

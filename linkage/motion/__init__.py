@@ -12,7 +12,7 @@ from .line import highest, last_holding
 from .live import LiveText, live_text
 from .measures import Condition, Constraint, Leaf, Measure, at, integral, least, most, reachable, worst
 from .motion import Motion, OnePose, Target, each_at_its_stroke, out_of_reach, require_motion
-from .over import OPTIONS, PLAIN_CASE, Over
+from .over import OPTIONS, Over
 from .poles import whole_body
 from .pose_requests import condition, transmission
 from .requests import BoundRequest, Ratio, Request, RequestLike, SmoothPiece, Value, ratio

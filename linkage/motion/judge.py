@@ -17,14 +17,16 @@ import numpy as np
 
 from ..errors import DefinitionError, cited, told, unwarned
 from ..language import said
-from ..loads import PLAIN, Acting, ForceElement, LoadCase
+from ..loads import PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel
 from ..quantities import Quantity, Ref
 from ..vectors import Numbers
 from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
+from .box import values_a_stroke
 from .evaluation import Evaluation
 from .limits import stroke_unit
+from .line import SAMPLES
 from .margins import LeastMargin, assembly_error_at, has_all_margins, least_margins
 from .measures import (
     At,
@@ -34,6 +36,7 @@ from .measures import (
     Leaf,
     Least,
     Measure,
+    Most,
     Reachable,
     Worst,
     conditions_of,
@@ -43,15 +46,13 @@ from .measures import (
     words_of,
 )
 from .motion import Motion
-from .over import ALLOWED, PLAIN_CASE, Over
+from .over import ALLOWED, Over
 from .requests import BoundRequest, Request, SmoothPiece, identity_of
 from .search import extremum, moving
 from .strokes import at_values
 
 Question: TypeAlias = "Measure | Condition"
 
-WIDTHS = {1: 1 / 4096, 2: 1 / 128, 3: 1 / 32, 4: 1 / 12, 5: 1 / 7, 6: 1 / 5}
-"""How broad a place is at the least, of each stroke, that is surely found: by the number of strokes that run."""
 INNER = 65
 """Values of the stroke over which `worst` is taken."""
 PANELS = 4096
@@ -97,7 +98,12 @@ class Sought:
     @property
     def request(self) -> Any:
         """What is looked for."""
-        return self.piece.reciprocal if self.is_reciprocal else self.piece.request
+        return self.piece.reciprocal if self.is_reciprocal else self.piece.below if self.stays_at_zero else self.piece.request
+
+    @property
+    def stays_at_zero(self) -> bool:
+        """Whether what is looked for goes on below zero, where the request does not."""
+        return self.piece.below is not None and isinstance(self.leaf, Most)
 
     @property
     def sought(self) -> float:
@@ -109,7 +115,7 @@ class Sought:
         if self.is_reciprocal:
             with np.errstate(all="ignore"):
                 return np.asarray(np.where(highest > 0.0, 1.0 / highest, np.nan))
-        return np.asarray(self.sense * highest)
+        return np.asarray(np.maximum(highest, 0.0) if self.stays_at_zero else self.sense * highest)
 
 
 @final
@@ -163,7 +169,8 @@ class Domain:
         if self.over.shape == "poses":
             return {}
         count = 1 if self.is_path else len(self.running)
-        return dict.fromkeys(self.running, WIDTHS.get(count, 1 / 4))
+        steps = SAMPLES if count < 2 else values_a_stroke(count, self.motion._grid.size[0]) - 1
+        return dict.fromkeys(self.running, 1.0 / steps)
 
     def situations(self, request: Any, acting: Acting) -> list[Situation]:
         """Return the load cases and movements in which a request is judged here; one without anything for what is of no force."""

@@ -4,17 +4,20 @@
 >>> print(least(ref("tilt")) >= 2 * deg)
 least(tilt) >= 0.0349066
 >>> print(most(abs(ref("tilt"))) / 2 - at("tilt", S=0.1))
-most(absolute(tilt)) / 2 - at(tilt, S=0.1)
+most(abs(tilt)) / 2 - at(tilt, S=0.1)
 """
 
 from __future__ import annotations
 
 import operator
+import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any, ClassVar, NoReturn, TypeAlias, final
+
+import numpy as np
 
 from ..errors import DefinitionError, LawError, UntracedError, cited
 from ..plan import Plan
@@ -104,6 +107,9 @@ class Measure(ABC):
     def __ne__(self, other: object) -> NoReturn:
         raise DefinitionError(f"{self} != {cited(other)}: a condition is written with >=, <= or ==.")
 
+    def __repr__(self) -> str:
+        return str(self)
+
     def __bool__(self) -> NoReturn:
         raise DefinitionError(f"{self}: a measure has no value before a machine is looked at; ask measured(machine, ...).")
 
@@ -116,18 +122,19 @@ def as_measure(given: object) -> Measure:
     if isinstance(given, Measure):
         return given
     if is_number(given):
-        return Given(float(given))
+        return Given(float(given), getattr(given, "measures", ""))
     if isinstance(given, (Quantity, Request, str, Worst)):
         raise DefinitionError(f"{words_of(given)} has a value at every pose: say which is meant, least(...), most(...), at(..., S=...).")
     raise DefinitionError(f"{cited(given)} is no measure and no number; write one such as least(...) or 35 * kN.")
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Given(Measure):
-    """A number."""
+    """A number [SI]; `measures` is what it measures, "length", where it was written with a unit."""
 
     value: float
+    measures: str = ""
 
     @property
     def leaves(self) -> tuple[Leaf, ...]:
@@ -145,7 +152,7 @@ class Given(Measure):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class CombinedMeasure(Measure):
     """Two measures joined by an operator."""
 
@@ -162,7 +169,11 @@ class CombinedMeasure(Measure):
         return (*self.left.numbers, *self.right.numbers)
 
     def of(self, value: Callable[[Leaf], Any]) -> Any:
-        return OPERATIONS[self.symbol](self.left.of(value), self.right.of(value))
+        left, right = self.left.of(value), self.right.of(value)
+        if isinstance(left, float) and isinstance(right, float):  # by NumPy's rules, where nothing is raised
+            with np.errstate(all="ignore"):
+                return float(OPERATIONS[self.symbol](np.float64(left), np.float64(right)))
+        return OPERATIONS[self.symbol](left, right)
 
     @property
     def binds(self) -> int:
@@ -174,7 +185,7 @@ class CombinedMeasure(Measure):
         return f"{left} {self.symbol} {right}"
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Leaf(Measure):
     """What is taken of one quantity over the stroke."""
 
@@ -193,7 +204,7 @@ class Leaf(Measure):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Least(Leaf):
     """The least value over the stroke."""
 
@@ -201,7 +212,7 @@ class Least(Leaf):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Most(Leaf):
     """The greatest value over the stroke."""
 
@@ -209,7 +220,7 @@ class Most(Leaf):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Integral(Leaf):
     """The integral over a stroke."""
 
@@ -218,7 +229,7 @@ class Integral(Leaf):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class At(Leaf):
     """The value at one pose."""
 
@@ -234,7 +245,7 @@ class At(Leaf):
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Worst:
     """The greatest (`sense` 1.0) or the least (-1.0) value of a quantity over another stroke: again a quantity, of the others."""
 
@@ -244,6 +255,8 @@ class Worst:
 
     def __str__(self) -> str:
         return f"worst({words_of(self.quantity)}, over={self.over}{'' if self.sense > 0.0 else ', by=least'})"
+
+    __repr__ = __str__
 
 
 def least(quantity: MeasuredQuantity) -> Measure:
@@ -293,13 +306,21 @@ def require_quantity(quantity: Any, word: str) -> Any:
 
 
 def words_of(quantity: object) -> str:
-    """Return a quantity in words."""
+    """Return a quantity in words, as one writes it: `abs(tilt)`, numbers with six digits."""
     if isinstance(quantity, (str, Worst, Request)):
-        return str(quantity)
+        return as_typed(str(quantity))
     if isinstance(quantity, Quantity):
-        return str(quantity.name or quantity)
+        return as_typed(str(quantity.name or quantity))
     name = str(getattr(quantity, "__name__", ""))
     return name.replace("_", " ") if name.isidentifier() else "the quantity"
+
+
+_LONG = re.compile(r"(?<![\w.])\d+\.\d{6,}(?:e[-+]?\d+)?")
+
+
+def as_typed(text: str) -> str:
+    """Return the text of a quantity without NumPy's own names and digits that nobody reads."""
+    return _LONG.sub(lambda number: f"{float(number[0]):.6g}", text).replace("absolute(", "abs(")
 
 
 # Conditions.
@@ -312,12 +333,15 @@ class Condition(ABC):
     def constraints(self, machine: Any) -> tuple[Constraint, ...]:
         """Return the constraints that it is, for a machine; none for what every search keeps anyway."""
 
+    def __repr__(self) -> str:
+        return str(self)
+
     def __bool__(self) -> NoReturn:
         raise DefinitionError(f"{self}: a condition is neither true nor false before a machine is looked at; write two, not a <= q <= b.")
 
 
 @final
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Constraint(Condition):
     """A measure compared with another: `least(q) >= 35 * kN`."""
 

@@ -10,7 +10,7 @@ import numpy as np
 from ..errors import DefinitionError, cited, unknown
 from ..frozen import FrozenDict
 from ..language import said
-from ..loads import LoadCase
+from ..loads import PLAIN_CASE, LoadCase
 from ..plan import Mask, Plan
 from ..program import FloatArray
 from ..quantities import Member, PoseCondition, Quantity, Stroke, is_number, name_of, needs, quantity, real
@@ -18,8 +18,6 @@ from .grid import MotionLike
 from .limits import place_text, span_text, stroke_unit
 from .strokes import check_magnitude
 
-PLAIN_CASE = "plain"
-"""The name of the machine's own loads, without a load case."""
 OPTIONS = ("only", "cases", "lost")
 """What an `Over` takes beside strokes: no stroke of a machine may be called so."""
 ALLOWED = "allowed"

@@ -99,12 +99,14 @@ class SmoothPiece:
     """A smooth piece of a question: what has a value at every pose, and the side of the cylinder that it is of, "" for none.
 
     `reciprocal` is one over it, where that goes on smoothly through zero where the request has no bound: then its greatest value is looked
-    for in the place of the request's least.
+    for in the place of the request's least. `below` is the same as the request above zero, and goes on smoothly below zero, where the
+    request stays at zero: it is looked for in the place of the request's greatest value.
     """
 
     request: Any
     side: str = ""
     reciprocal: Any = None
+    below: Any = None
 
 
 class BoundRequest(ABC):

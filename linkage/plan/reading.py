@@ -215,7 +215,9 @@ class ArrayReading(Reading):
         return super().curve(curve, x, order)
 
     def root(self, radicand: Scalar, scale: Scalar, size: Scalar, most: Scalar | None = None) -> Scalar:
-        inside = np.where((radicand < 0.0) & (radicand >= -self.ROUNDING * size), 0.0, radicand)
+        step, limit = self.members.get(self.owner), self.ROUNDING * size
+        is_rigid = isinstance(step, Point) and not step.closes  # a triangle of the design may be flat: rounding must not open it
+        inside = np.where((radicand < limit * is_rigid) & (radicand >= -limit), 0.0, radicand)
         height = np.sqrt(inside)
         self.margin(height / scale)
         self.rounding[self.owner] = size / scale**2

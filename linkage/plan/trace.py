@@ -105,8 +105,7 @@ class Trace(Reading):
     def root(self, radicand: Scalar, scale: Scalar, size: Scalar, most: Scalar | None = None) -> Scalar:
         radicand = self.graph.node(radicand)
         if radicand.level is not Level.POSE:  # a triangle of the design may be flat: rounding must not open it
-            limit = size * -ArrayReading.ROUNDING
-            radicand = self.graph.pick(limit, radicand, np.maximum(radicand, 0.0), radicand)
+            radicand = self.graph.pick(np.abs(radicand), size * ArrayReading.ROUNDING, 0.0, radicand)
         else:
             self.loops.append(Loop(self.owner, "links", tuple(map(self.graph.node, (radicand, scale, size)))))
         node: Node = self.graph.apply("sqrt", radicand)

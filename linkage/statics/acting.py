@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import DefinitionError, SingularError, cited, known_name, told, unknown
-from ..loads import Damper, ForceElement, Friction, Load, LoadCase, Poses, Rate, Rates, TwoPinned, check_together
+from ..loads import PLAIN_CASE, Damper, ForceElement, Friction, Load, LoadCase, Poses, Rate, Rates, TwoPinned, check_together
 from ..loads.case import check_factor
 from ..motion import Motion, rates_of, require_motion
 from ..motion.requests import stroke_of
@@ -199,7 +199,7 @@ def acting_elements(plan: Plan, loads: Loads, case: Case, without: str = "") -> 
 
 def case_of(plan: Plan, case: Case) -> LoadCase:
     """Return the load case that is meant; the plain one for None."""
-    if case is None:
+    if case is None or case == PLAIN_CASE:
         return LoadCase("own loads")
     if isinstance(case, LoadCase):
         return case

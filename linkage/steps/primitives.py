@@ -187,10 +187,9 @@ class OffsetLinks:
 
 
 class Offset(Point):
-    """The point P + vector [m]."""
+    """The point P + vector [m]. What it `keeps` by construction the class finds, from how its vectors are built."""
 
     keeps = OffsetLinks()
-
     expects = (("P", "point"), ("by", "vector"))
     argument_kinds = MappingProxyType({"vector": "vector"})
 

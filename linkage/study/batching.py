@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from inspect import signature
 from math import ceil
 from pickle import PicklingError
 from queue import SimpleQueue
@@ -15,7 +16,7 @@ from typing import Any, Protocol, TypeAlias, final
 
 import numpy as np
 
-from ..errors import LinkageError, StudyError
+from ..errors import DefinitionError, LinkageError, StudyError, cited
 from .checkpoint import Checkpoint
 from .designs import Array, Batch, Designs, Task, check_same_results, measure_batch
 
@@ -254,6 +255,19 @@ class BatchSizes:
 
 Progress: TypeAlias = Callable[[int, int], object]
 """Called with (done, total) designs, once at the start and after every batch."""
+
+
+def check_progress(progress: object) -> None:
+    """Raise DefinitionError for what says neither whether progress is shown nor what is told of it."""
+    if not isinstance(progress, bool) and (not callable(progress) or isinstance(progress, type)):
+        raise DefinitionError(f"progress={cited(progress)}: say True for a bar, or give a function of (done, total) designs.")
+    if callable(progress):
+        with suppress(ValueError):  # one that Python knows nothing of
+            try:
+                signature(progress).bind(0, 1)
+            except TypeError:
+                what = f"progress={cited(progress)} takes other arguments"
+                raise DefinitionError(f"{what}; it is called with two numbers, def progress(done, total).") from None
 
 
 @contextmanager

@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from ..errors import DefinitionError, UntracedError, cited, told, unwarned
+from ..errors import AssemblyError, DefinitionError, UntracedError, cited, told, unwarned
 from ..mechanism import Mechanism
 from ..motion import Motion, Request, each_at_its_stroke
 from ..plan import Plan
@@ -52,6 +52,22 @@ def check_one_design(machine: Mechanism) -> None:
         raise DefinitionError(f"{type(machine).__name__}: a study starts from one design, this is a batch; choose one of them.")
 
 
+WHOLE_POSES = {1: 101, 2: 25, 3: 13, 4: 8, 5: 6, 6: 5}
+"""Poses of each stroke at which a machine is looked at that is to be assembled over all of them."""
+
+
+def why_not_assembled(machine: Mechanism) -> str:
+    """Return why a machine cannot be assembled over the box of its whole strokes, in one line; "" of one that can."""
+    count = WHOLE_POSES.get(len(machine.strokes), 3)
+    axes = [np.linspace(each.start, each.end, count) for each in machine.strokes.values()]
+    try:
+        at: dict[str, Any] = dict(zip(machine.strokes, np.meshgrid(*axes, indexing="ij"), strict=True))
+        machine.at(**at)
+    except AssemblyError as error:
+        return " ".join(str(error).split())
+    return ""
+
+
 def poses_of(machine: Mechanism, settings: Mapping[str, Any], base: Motion, place: Any) -> Motion:
     """Return the poses of some settings (m,) of a machine, each at one of the poses (n,) of it as it is set, by its place (m,)."""
     strokes = {name: value[place] for name, value in base.strokes.items()}
@@ -73,8 +89,18 @@ def request_values(motion: Motion, request: Request) -> FloatArray:
         return motion[request]
 
 
-def quantity_values(motion: Motion, quantity: QuantityLike) -> FloatArray:
-    """Return a quantity at every pose of a motion, NaN where it has no value; nearness to a dead point is told by the study."""
+def real_numbers(found: Any) -> FloatArray:
+    """Return what a function gives as an array of floats; TypeError for complex numbers, of which a part would be lost."""
+    if np.iscomplexobj(found):
+        raise TypeError("complex numbers")
+    return np.asarray(found, float)
+
+
+def quantity_values(motion: Motion, quantity: QuantityLike, *, endless: bool = False) -> FloatArray:
+    """Return a quantity at every pose of a motion, NaN where it has no value; nearness to a dead point is told by the study.
+
+    An infinite one is none, unless it may be `endless`.
+    """
     title = motion.plan.title
     if isinstance(quantity, type) or not (callable(quantity) or isinstance(quantity, (str, Quantity, Request))):
         raise DefinitionError(f"{title}: {cited(quantity)} is no output, quantity or function of a motion; give one, such as 'tilt'.")
@@ -84,10 +110,10 @@ def quantity_values(motion: Motion, quantity: QuantityLike) -> FloatArray:
         else:
             found = request_values(motion, quantity) if isinstance(quantity, Request) else motion[quantity]
     try:
-        result = np.asarray(found, float)
+        result = real_numbers(found)
     except (TypeError, ValueError):
         raise DefinitionError(f"{title}: {title_of(quantity)} gives {cited(found)}; a number for each pose is expected.") from None
     if result.shape != motion.shape:
         what = f"{title_of(quantity)} has the shape {result.shape} where {motion.shape} is expected"
         raise DefinitionError(f"{motion.plan.title}: {what}; ask for a number such as an output, or lambda motion: motion.y('G').")
-    return np.where(np.isfinite(result) & motion.reached, result, np.nan)
+    return np.where((~np.isnan(result) if endless else np.isfinite(result)) & motion.reached, result, np.nan)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import final
 
 import numpy as np
@@ -11,83 +12,176 @@ import numpy as np
 from ..errors import LinkageError, StudyError
 from ..mechanism import Mechanism
 from ..motion.measures import Constraint
+from ..program import FloatArray
 from ..units import show
-from .optimum import in_units, multipliers, true_values, unit_of_constraint
-from .problem import Problem
+from .optimum import in_units, multipliers, no_value, true_values, unit_of_constraint
+from .problem import COARSE, Problem, is_still
 from .solver import Found, Local, scales_of
 
+NOTHING: Mapping[tuple[int, ...], FloatArray] = MappingProxyType({})
 MISSED = 1e-6
+TRIED = 2
+"""Ends of local searches from which is looked for the least that has to give way."""
+ROUNDS, DESIGNS, POSES_AS_ONE = 3, 300, 70
+"""How often poses are added to what a condition alone has to give way by, designs looked at for each, and poses that count as one."""
+ALTERNATIVES = 6
+"""Conditions that are looked at each for itself."""
 
 
 @final
 @dataclass(frozen=True)
 class Relaxation:
-    """A condition that has to give way, by how much [SI], and the sentence that says so."""
+    """A condition that has to give way, by how much [SI], and the sentence that says so; `machine` is the design that it gives."""
 
     condition: Constraint
     by: float
     sentence: str
+    machine: Mechanism
 
 
 class InfeasibleError(StudyError):
     """No design in the box keeps all conditions.
 
-    `nearest` is the machine that misses them least, `relaxations` what has to give way for it, `conflict` the conditions that pull
-    against one another there.
+    `nearest` is the machine that misses them least, `relaxations` what has to give way for it, all of them together; `conflict` the
+    conditions that pull against one another there. `alternatives` are conditions of which one alone may give way, with all others kept.
     """
 
-    def __init__(self, message: str, nearest: Mechanism, relaxations: Sequence[Relaxation], conflict: Sequence[Constraint]) -> None:
+    def __init__(
+        self,
+        message: str,
+        nearest: Mechanism,
+        relaxations: Sequence[Relaxation],
+        conflict: Sequence[Constraint],
+        alternatives: Sequence[Relaxation] = (),
+    ) -> None:
         super().__init__(message)
         self.nearest, self.relaxations, self.conflict = nearest, tuple(relaxations), tuple(conflict)
+        self.alternatives = tuple(alternatives)
 
 
-def infeasible_error(problem: Problem, ended: Sequence[tuple[tuple[int, ...], Found]]) -> StudyError:
-    """Return the error of a search that found no design which keeps everything."""
+def infeasible_error(
+    problem: Problem, ended: Sequence[tuple[tuple[int, ...], Found]], looked: Mapping[tuple[int, ...], FloatArray] = NOTHING
+) -> StudyError:
+    """Return the error of a search that found no design which keeps everything.
+
+    `ended` are the ends of local searches, `looked` the unit coordinates (m, n) of designs of each combination that were looked at.
+    """
     reached = sorted((each for each in ended if each[1].whole), key=lambda each: each[1].missing)
+    title = problem.plan.title
     if not reached:
-        return StudyError(f"{problem.plan.title}: no search came to a design that can be assembled over the whole stroke; widen vary=.")
-    best: tuple[float, Local, Found, tuple[int, ...]] | None = None
-    for combination, found in reached[:4]:
-        try:
-            local = Local(problem, combination, found.unit, elastic=True)
-            soft = local.run() if problem.space.variables else local.judged(found.unit)
-        except LinkageError:
-            continue
-        total = given_way(problem, combination, soft)
-        if best is None or total < best[0]:
-            best = total, local, soft, combination
-    if best is None:
-        return StudyError(f"{problem.plan.title}: no design in the box keeps all conditions.")
-    _, local, soft, combination = best
-    machine = problem.machine_of(soft.unit, combination)
-    values = true_values(problem, machine)
-    relaxations, pulling = [], []
-    prices = multipliers(local, soft.unit)[0] if problem.space.variables else np.zeros(len(problem.constraints))
+        return StudyError(f"{title}: no search came to a design that can be assembled over the whole stroke; widen vary=.")
+    nowhere = [each for each in problem.constraints if all(is_lost(problem, each, one) for one in reached)]
+    if nowhere:
+        what = f"{shown(problem, nowhere[0])} is kept by no design that was found, for {why_no_value(problem, nowhere[0])}"
+        return StudyError(f"{title}: {what}. Ask for what has a value there, or widen vary=.")
+    tried = [each for combination, found in reached[:TRIED] if (each := given_way(problem, combination, found, problem.constraints))]
+    if not tried:
+        return StudyError(f"{title}: no design in the box keeps all conditions.")
+    best = min(tried, key=lambda each: each.total)
+    relaxations = best.relaxations
+    pulling = [each for each in best.pulling if each not in [one.condition for one in relaxations]]
+    said = "; ".join(each.sentence for each in relaxations)
+    limits = ", ".join(shown(problem, each) for each in pulling)
+    against = f" It pulls against {limits}." if pulling else ""
+    alternatives = alternatives_to(problem, best, looked.get(best.combination))
+    instead = "; or ".join(each.sentence for each in alternatives)
+    alone = f" Or one condition gives way alone: {instead}." if instead else ""
+    text = f"{title}: no design found in the box keeps all conditions. The one that misses least: {said}.{against}{alone}"
+    return InfeasibleError(
+        f"{text} Give way there by so much, or widen vary=.", best.machine, relaxations,
+        [*(each.condition for each in relaxations), *pulling], alternatives,
+    )  # fmt: skip
+
+
+def shown(problem: Problem, constraint: Constraint) -> str:
+    """Return a condition as text, its number in its unit."""
+    return in_units(constraint, unit_of_constraint(problem.plan, constraint))
+
+
+def is_lost(problem: Problem, constraint: Constraint, end: tuple[tuple[int, ...], Found]) -> bool:
+    """Return whether a condition's numbers have no value of the design that a local search came to."""
+    look = problem.look(problem.designs(end[1].unit, end[0]))
+    return any(bool(look.rows[leaf].lost[0]) for leaf in constraint.margin.leaves)
+
+
+def why_no_value(problem: Problem, constraint: Constraint) -> str:
+    """Return in words why a condition has no value."""
+    return " and ".join(no_value(problem, leaf) for leaf in constraint.margin.leaves)
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class GivenWay:
+    """A design of which some conditions give way as little as they can: by how much in parts of their sizes, and what they are then."""
+
+    combination: tuple[int, ...]
+    found: Found
+    machine: Mechanism
+    total: float
+    relaxations: tuple[Relaxation, ...]
+    pulling: tuple[Constraint, ...]
+
+
+def given_way(
+    problem: Problem, combination: Sequence[int], start: Found, elastic: Sequence[Constraint], rounds: int = ROUNDS
+) -> GivenWay | None:
+    """Return the design near a start of which the conditions that are `elastic` give way least; None where there is none.
+
+    Over a box of several strokes it is judged by its samples: to look between them for each takes longer than all the rest.
+    """
+    is_line = len([one for one in problem.ranges.values() if not is_still(one)]) < 2
+    try:
+        local = Local(problem, combination, start.unit, elastic=elastic)
+        with problem.count.at_most(int(DESIGNS / (1.0 + problem.poses / POSES_AS_ONE))):
+            found = local.judged(start.unit) if not problem.space.variables else local.run(rounds=rounds) if is_line else local.least()
+        if found is None:
+            return None
+        machine = problem.machine_of(found.unit, combination)
+        problem.assembled(machine)
+    except LinkageError:
+        return None
+    values = true_values(problem, machine, quick=True) if is_line else local.numbers(found.unit)
+    prices = multipliers(local, found.unit).constraints if problem.space.variables else np.zeros(len(problem.constraints))
+    relaxations, pulling, total = [], [], 0.0
     scales = scales_of(problem, problem.look(machine.dimensions, slopes=True))
     for each, price, scale in zip(problem.constraints, prices, scales, strict=True):
         left, right = (float(side.of(lambda leaf: values[leaf])) for side in (each.left, each.right))
         short = abs(left - right) if each.symbol == "==" else (left - right if each.symbol == "<=" else right - left)
+        if values.lost.intersection(each.margin.leaves):
+            return None
         units = unit_of_constraint(problem.plan, each)
         if short > MISSED * scale:
-            text = f"{in_units(each, units)} gets {show(left, units, 4)}, {show(short, units, 3)} short"
-            relaxations.append(Relaxation(each, short, text))
+            way = "off" if each.symbol == "==" else "too much" if each.symbol == "<=" else "short"
+            text = f"{in_units(each, units)} gets {show(left, units, 4)}, {show(short, units, 4)} {way}"
+            relaxations.append(Relaxation(each, short, text, machine))
+            total += short / scale
         elif price > 0.0:
             pulling.append(each)
-    said = "; ".join(each.sentence for each in relaxations)
-    limits = ", ".join(in_units(each, unit_of_constraint(problem.plan, each)) for each in pulling)
-    against = f" It pulls against {limits}." if pulling else ""
-    text = (
-        f"{problem.plan.title}: no design found in the box keeps all conditions. The one that misses least: {said}.{against} "
-        "Give way there by so much, or widen vary=."
-    )
-    return InfeasibleError(text, machine, relaxations, [*(each.condition for each in relaxations), *pulling])
+    return GivenWay(tuple(combination), found, machine, total, tuple(relaxations), tuple(pulling))
 
 
-def given_way(problem: Problem, combination: Sequence[int], found: Found) -> float:
-    """Return by how much all conditions together are missed, in parts of their sizes."""
-    machine = problem.machine_of(found.unit, combination)
-    values, total = true_values(problem, machine), 0.0
-    for each, scale in zip(problem.constraints, scales_of(problem, problem.look(machine.dimensions, slopes=True)), strict=True):
-        margin = float(each.margin.of(lambda leaf: values[leaf])) / scale
-        total += abs(margin) if each.symbol == "==" else max(-margin, 0.0)
-    return total if np.isfinite(total) else np.inf
+def alternatives_to(problem: Problem, best: GivenWay, looked: FloatArray | None) -> list[Relaxation]:
+    """Return the conditions of which one alone can give way, with all others kept, the one that gives way least first.
+
+    Each is looked for from the best design found, and from that of those looked at which comes nearest to it.
+    """
+    many = len(problem.constraints)
+    if not problem.space.variables or many < 2:
+        return []
+    coarse = problem.with_counts(COARSE)
+    missing = None if looked is None or not len(looked) else coarse.missing_of_each(best.combination, looked)
+    found: list[tuple[float, Relaxation]] = []
+    for row, each in list(enumerate(problem.constraints))[:ALTERNATIVES]:
+        if len(best.relaxations) == 1 and best.relaxations[0].condition is each:
+            continue  # it is that already
+        starts = [best.found]
+        if missing is not None and looked is not None:
+            others = np.delete(missing, row, axis=0).max(axis=0)
+            near = int(np.lexsort((missing[row], others))[0])
+            starts.insert(0, Found(looked[near], np.nan, float(missing[:, near].max()), bool(np.isfinite(others[near]))))
+        ends = [given_way(problem, best.combination, start, [each]) for start in starts if start.whole]
+        alone = [end for end in ends if end is not None and [one.condition for one in end.relaxations] == [each]]
+        if alone:
+            least = min(alone, key=lambda end: end.total)
+            found.append((least.total, least.relaxations[0]))
+    return [each for _, each in sorted(found, key=lambda one: one[0])]

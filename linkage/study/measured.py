@@ -21,7 +21,7 @@ from ..program import FloatArray, Way
 from ..quantities import Function, Negative, Number, Quantity, Ref, Sum
 from ..statics import DriveForce
 from ..units import show
-from .checks import check_one_design, function_value
+from .checks import check_one_design, function_value, real_numbers
 from .sampling import eager
 
 Measured: TypeAlias = str | Quantity | Request | Measure | Callable[[Motion], Any]
@@ -206,7 +206,7 @@ def function_array(function: Callable[[Motion], Any], motion: Motion) -> FloatAr
     found, designs = function_value(function, motion), motion._design_shape
     title, what, m = motion.plan.title, measured_title(motion.plan, function), prod(motion._design_shape)
     try:
-        result = np.asarray(found, float)
+        result = real_numbers(found)
     except (TypeError, ValueError):
         raise DefinitionError(f"{title}: {what} gives {cited(found)}; a number for each pose or each design is expected.") from None
     if result.shape == motion.shape:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from hashlib import blake2b
 from pathlib import Path
@@ -32,14 +33,15 @@ from ..motion.measures import (
 from ..program import FloatArray, fixed_backend
 from ..quantities import Quantity, is_number, is_whole, ref
 from ..statics import Case
+from ..statics.acting import case_of
 from ..units import show
-from .batching import Progress, progress_told
+from .batching import Progress, check_progress, progress_told
 from .box import unit_points
 from .checkpoint import measure_text
 from .checks import check_one_design
 from .infeasible import infeasible_error
 from .optimum import Optimum, in_units, polished, unit_of_constraint
-from .problem import COARSE, SAMPLES, Problem, reduced
+from .problem import COARSE, SAMPLES, LimitReachedError, Problem, reduced
 from .solver import Found, Graded, Local
 from .space import Space
 from .spread import sigma
@@ -54,6 +56,10 @@ SCREENED = 256
 """Designs looked at for each combination before the local searches begin; fewer each where there are many combinations."""
 SCREENED_IN_ALL = 1 << 14
 STARTS = 6
+LOCAL_DESIGNS, POSES_AS_ONE = 40_000, 70
+"""Designs of local searches where no limit is given, of few poses; poses that take as long as a design without any."""
+FRONT_DESIGNS = 6000
+"""Designs that the genetic search of a front looks at, of each combination."""
 SEARCHED = 64
 """Combinations searched from at the most, the most promising ones of more."""
 GENERATIONS = 200
@@ -61,6 +67,10 @@ NEARLY = 1e-3
 """A design that misses no more is searched on from by the other solver."""
 NO_VALUE = 1e6
 """What a design counts in an evolution whose objective has no value."""
+HOPES = 2
+"""Starts, and combinations, from which is looked for a design that keeps all where none of those spread over the box does."""
+KEPT = 4
+"""Combinations, and designs of each, that are judged beside the ends of local searches where the limit is reached."""
 NEAR = 0.1
 """Starts are not nearer to one another than this part of the box's diagonal."""
 
@@ -80,6 +90,7 @@ def optimise(
     solver: str = "slsqp",
     starts: int | None = None,
     seed: int = 0,
+    limit: int | None = None,
     folder: str | os.PathLike[str] | None = None,
     progress: bool | Progress = False,
 ) -> Optimum | Front:
@@ -88,11 +99,16 @@ def optimise(
     title = machine.plan.title
     one_word("method", method, METHODS)
     one_word("solver", solver, SOLVERS)
-    check_counts(title, starts, seed)
+    check_counts(title, starts, seed, limit)
+    check_progress(progress)
     objectives, sense = objectives_of(machine, minimise, maximise)
     space = Space.of(machine, vary)
     constraints = conditions_of(subject_to, machine)
     cases = list(case) if isinstance(case, (list, tuple)) else [case]
+    if not cases:
+        raise DefinitionError(f"{title}: case={cited(case)}: a load case or several are expected; leave it out for the own loads.")
+    for each in cases:
+        case_of(machine.plan, each)
     held = list(dict.fromkeys(found for each in cases for found in (constraint_in_case(one, each) for one in constraints)))
     plan = SearchPlan(method, solver, starts or STARTS, seed)
     if len(objectives) > 1:
@@ -101,13 +117,29 @@ def optimise(
         from .pareto import front
 
         problem = Problem(machine, [in_case(each, cases[0]) for each in objectives], held, space, 1.0, over)
+        problem.count.limit = limit or default_limit(problem, replace(plan, is_front=True))
         with progress_told(progress, machine.plan.heading) as tell:
             return front(problem, plan.seed, solver, tell)
     problem = Problem(machine, [in_case(objectives[0], each) for each in cases], held, space, sense, over)
     if robust is not None:
         problem = with_spread(problem, robust, sigmas)
+    problem.count.limit = limit or default_limit(problem, plan)
     with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"):  # the same to the last bit whatever ran before
         return DesignSearch(problem, plan, Journal.of(folder, problem, plan), tell).run()
+
+
+def default_limit(problem: Problem, plan: SearchPlan) -> int:
+    """Return how many designs a search looks at where nothing is said: those spread over the box, and about a minute of local searches.
+
+    A design with derivatives takes about 1.5 ms, and one more for some 70 poses of it.
+    """
+    count, n = problem.space.count, len(problem.space.variables)
+    spread = max(min(SCREENED, SCREENED_IN_ALL // count), 16) * count
+    if plan.is_front:
+        spread += FRONT_DESIGNS * count
+    if plan.method == "evolution":
+        spread += (GENERATIONS + 1) * max(15 * n, 16) * count
+    return spread + int(LOCAL_DESIGNS / (1.0 + problem.poses / POSES_AS_ONE))
 
 
 def objectives_of(machine: Mechanism, minimise: Any, maximise: Any) -> tuple[list[Measure], float]:
@@ -121,9 +153,9 @@ def objectives_of(machine: Mechanism, minimise: Any, maximise: Any) -> tuple[lis
     return [*least, *(-each for each in most)], 1.0
 
 
-def check_counts(title: str, starts: Any, seed: Any) -> None:
+def check_counts(title: str, starts: Any, seed: Any, limit: Any) -> None:
     """Raise DefinitionError for numbers that are none."""
-    for name, value, least in (("starts", starts, 1), ("seed", seed, 0)):
+    for name, value, least in (("starts", starts, 1), ("seed", seed, 0), ("limit", limit, 1)):
         if value is not None and (not is_whole(value) or value < least):
             raise DefinitionError(f"{title}: {name}={cited(value)}: a whole number is expected, at least {least}.")
 
@@ -272,7 +304,7 @@ class Journal:
                 return None
         except (KeyError, TypeError, ValueError):
             return None
-        problem.looked_at += looked_at
+        problem.count.designs += looked_at
         return found
 
     def keep(self, task: str, found: Found, looked_at: int) -> None:
@@ -310,6 +342,7 @@ class SearchPlan:
     solver: str
     starts: int
     seed: int
+    is_front: bool = False
 
 
 @final
@@ -360,6 +393,7 @@ class DesignSearch:
         self.problem, self.plan, self.journal, self.tell = problem, plan, journal, tell
         self.coarse = problem.with_counts(COARSE)
         self.cut: list[str] = []
+        self.spread_words = ""
         self.looked: list[Screened] = []
         self.present = problem.space.present(problem.machine)
 
@@ -370,25 +404,78 @@ class DesignSearch:
         if not left:
             raise StudyError(f"{self.problem.plan.title}: no combination of choices can keep the conditions: {self.cut[0]}.")
         if not space.variables:
-            ended = [Ended(each, self.ended(each, np.zeros((1, 0)), 0)) for each in left]
+            ended = self.ends([(each, 0, np.zeros((1, 0))) for each in left])
             return self.chosen(ended, searched=len(ended))
-        screened = [self.screened(each) for each in left]
+        screened = [self.screened(each) for each in left if not self.problem.count.is_spent]
         if not any(np.any(each.reached == 1.0) for each in screened):
             raise self.unreachable(screened)
         if not any(np.any(each.begins) for each in screened):
             raise self.without_value(screened)
         screened = sorted((each for each in screened if np.any(each.begins)), key=lambda each: each.best)[:SEARCHED]
-        tasks = [(each, number, unit) for each in screened for number, unit in enumerate(self.starts(each, len(screened)))]
-        ended = []
+        hopeless = self.hopeless(screened)
+        if hopeless:
+            with self.problem.count.unlimited():
+                raise infeasible_error(self.problem, hopeless, self.spread())
+        tasks = [(each.combination, number, unit) for each in screened for number, unit in enumerate(self.starts(each, len(screened)))]
+        return self.chosen([*self.ends(tasks), *self.best_looked_at(screened)], searched=len(screened))
+
+    def ends(self, tasks: Sequence[tuple[tuple[int, ...], int, FloatArray]]) -> list[Ended]:
+        """Return what the local searches come to, of a combination, a number and a start each: all, or those within the limit."""
+        ended: list[Ended] = []
         self.tell(0, len(tasks))
-        for done, (each, number, unit) in enumerate(tasks):
+        for done, (combination, number, unit) in enumerate(tasks):
             try:
-                ended.append(Ended(each.combination, self.ended(each.combination, unit, number)))
+                ended.append(Ended(combination, self.ended(combination, unit, number)))
+            except LimitReachedError:
+                break
             except KeyboardInterrupt as stopped:
                 stopped.add_note(self.journal.state(done, len(tasks)))
                 raise
             self.tell(done + 1, len(tasks))
-        return self.chosen(ended, searched=len(screened))
+        return ended
+
+    def best_looked_at(self, screened: Sequence[Screened]) -> list[Ended]:
+        """Return the most promising designs that no local search began with, where the limit is reached; else none."""
+        if not self.problem.count.is_spent:
+            return []
+        problem, found = self.problem.with_counts(SAMPLES), []
+        with problem.count.unlimited():
+            for each in screened[:KEPT]:
+                for place in each.order[:KEPT]:
+                    if each.begins[place]:
+                        with suppress(LinkageError):
+                            unit = each.unit[place]
+                            found.append(Ended(each.combination, Local(problem, each.combination, unit).judged(unit)))
+        return found
+
+    def hopeless(self, screened: Sequence[Screened]) -> list[tuple[tuple[int, ...], Found]]:
+        """Return designs that miss conditions least, by few poses, where nothing nearby keeps all; none where there is hope.
+
+        That is looked for where none of the designs spread over the box keeps all: from some of them, letting conditions give way. At few
+        poses they are missed by less than over the whole stroke.
+        """
+        problem, found = self.problem, []
+        if not problem.space.variables or len(screened) > HOPES or any(each.best[0] == 0.0 for each in screened):
+            return []
+        if self.plan.method == "local" or not problem.constraints:
+            return []
+        for each in screened:
+            for unit in self.starts(each, len(screened))[:HOPES]:
+                try:
+                    local = Local(problem.with_counts(SAMPLES), each.combination, unit, elastic=problem.constraints)
+                    least = local.least()
+                except LimitReachedError:
+                    return []
+                except LinkageError:
+                    continue
+                if least is None or least.missing <= NEARLY or problem.count.is_spent:
+                    return []
+                found.append((each.combination, least))
+        return found
+
+    def spread(self) -> dict[tuple[int, ...], FloatArray]:
+        """Return the designs that were looked at first, by their combination."""
+        return {each.combination: each.unit for each in reversed(self.looked)}
 
     def is_cut(self, combination: tuple[int, ...]) -> bool:
         """Return whether a combination cannot keep some condition of the design alone, whatever the variables; noted in words."""
@@ -410,6 +497,11 @@ class DesignSearch:
         """Return designs spread over the box of one combination, looked at all at once, the present one among them."""
         space = self.problem.space
         count = 1 << max(4, (min(SCREENED, SCREENED_IN_ALL // space.count) or 1).bit_length() - 1)
+        limit = self.problem.count.limit
+        if limit is not None:  # half of what may be looked at is left for the local searches
+            fewer = min(count, 1 << max(0, (limit // (2 * space.count) or 1).bit_length() - 1))
+            self.spread_words = "" if fewer == count else f" of {fewer}"  # of other designs other searches begin
+            count = fewer
         unit = unit_points(count, len(space.variables), "sobol", self.plan.seed)
         present = space.unit(self.present)
         if self.plan.method == "local":
@@ -448,18 +540,27 @@ class DesignSearch:
 
         n = len(self.problem.space.variables)
 
+        best = [np.inf, screened.unit[screened.order[0]]]
+
         def merit(population: FloatArray) -> FloatArray:
             found = self.looked_at(screened.combination, np.ascontiguousarray(population.T))
             short = np.where(np.isfinite(found.missing), found.missing, 1.0)
             without = ~np.isfinite(found.value)  # of no value, or out of reach: the last of all
             worth = np.where(without, 0.0, found.value) / self.scale_of(screened)
-            return np.asarray(worth + 10.0 * short + NO_VALUE * without * (2.0 - found.reached))
+            merits = np.asarray(worth + 10.0 * short + NO_VALUE * without * (2.0 - found.reached))
+            place = int(np.argmin(merits))
+            if merits[place] < best[0]:
+                best[:] = merits[place], found.unit[place]
+            return merits
 
         first = screened.unit[screened.order[: max(15 * n, 16)]]
-        result = differential_evolution(
-            merit, [(0.0, 1.0)] * n, init=padded(first, n), vectorized=True, updating="deferred", polish=False, seed=self.plan.seed,
-            maxiter=GENERATIONS, tol=1e-6,
-        )  # fmt: skip
+        try:
+            result = differential_evolution(
+                merit, [(0.0, 1.0)] * n, init=padded(first, n), vectorized=True, updating="deferred", polish=False, seed=self.plan.seed,
+                maxiter=GENERATIONS, tol=1e-6,
+            )  # fmt: skip
+        except LimitReachedError:
+            return np.asarray(best[1], float)
         return np.asarray(result.x, float)
 
     @staticmethod
@@ -472,13 +573,15 @@ class DesignSearch:
 
     def ended(self, combination: tuple[int, ...], unit: FloatArray, number: int) -> Found:
         """Return what the local search from a start comes to, or came to before."""
-        task = f"{list(combination)} {number}"
+        task = f"{list(combination)} {number}{self.spread_words}"
         known = self.journal.result(task, self.problem)
         if known is not None:
             return known
-        before = self.problem.looked_at
+        count = self.problem.count
+        before = count.designs
         found = self.locally(combination, np.ravel(unit))
-        self.journal.keep(task, found, self.problem.looked_at - before)
+        if not count.is_spent:
+            self.journal.keep(task, found, count.designs - before)
         return found
 
     def locally(self, combination: tuple[int, ...], unit: FloatArray) -> Found:
@@ -486,16 +589,19 @@ class DesignSearch:
         problem = self.problem.with_counts(SAMPLES)  # its samples are its own: no search depends on those before it
         try:
             local = Local(problem, combination, unit)
+        except LimitReachedError:
+            raise
         except LinkageError:
             return Found(unit, np.nan, np.inf, False)
         if problem.space.variables:
             found = local.run(self.plan.solver)
             if self.plan.solver == "slsqp" and found.whole and not found.feasible and found.missing < NEARLY:
-                again = Local(problem, combination, found.unit).run("trust-constr")
+                with problem.count.unlimited():
+                    near = Local(problem, combination, found.unit)
+                again = near.run("trust-constr")
                 found = min(found, again, key=lambda each: (not each.feasible, each.missing))
         else:
             found = local.judged(unit)
-        self.problem.looked_at += problem.looked_at
         return found
 
     # -- the winner -----------------------------------------------------------------------------------------
@@ -506,15 +612,14 @@ class DesignSearch:
         for each in sorted((one for one in ended if one.found.feasible), key=lambda one: sense * one.found.value):
             try:
                 everyone = [one.found for one in ended if one.combination == each.combination]
-                self.problem.looked_at += self.coarse.looked_at
-                self.coarse.looked_at = 0
                 best = polished(self.problem, each.combination, each.found, everyone, searched, self.plan.solver, self.cut)
                 return replace(best, tried=self.tried(ended))
             except AssemblyError as error:
                 lost.append(str(error))
         if lost:
             raise StudyError(f"{self.problem.plan.title}: no design that was found can be kept. {lost[0]}")
-        raise infeasible_error(self.problem, [(each.combination, each.found) for each in ended])
+        with self.problem.count.unlimited():
+            raise infeasible_error(self.problem, [(each.combination, each.found) for each in ended], self.spread())
 
     def tried(self, ended: Sequence[Ended]) -> tuple[Tried, ...]:
         """Return the designs that were looked at, then what the local searches came to."""

@@ -13,9 +13,9 @@ from typing import Any, final
 import numpy as np
 
 from ..disk import Place, replacing_text
-from ..errors import AssemblyError, DefinitionError, cited
+from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, cited
 from ..mechanism import Mechanism
-from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, Worst
+from ..motion.measures import Constraint, Given, Integral, Leaf, Measure, Worst, words_of
 from ..plan import Plan
 from ..program import FloatArray
 from ..quantities import is_number
@@ -23,10 +23,12 @@ from ..shown import Shown
 from ..units import deg, display_unit, mm, show
 from .box import unit_points
 from .checks import unit_of
+from .kinds import measure_unit
 from .measured import measure_of
-from .problem import Problem
+from .problem import LimitReachedError, Numbers, Problem, size_of_rows, terms_size
 from .result_rows import ResultRow, result_text, write_result
-from .solver import MET, Found, Local, missing_of, scale_of, scales_of
+from .sampling import divisors_of
+from .solver import MET, Found, Local, divisors, missing_of, scale_of, scales_of, true_worth
 from .space import Space, Varied, size_of_machine
 from .tried import Tried, tried_header, tried_names, tried_rows
 
@@ -34,12 +36,17 @@ ACTIVE = 1e-6
 """A condition with no more than this part of its size to spare is active."""
 SAME = 1e-6
 """Objectives that differ by less than this part of their size are the same."""
+NEXT_TO_NOTHING = 1e-4
+"""A divisor that is smaller than this part of its usual size has come to zero."""
 SHOWN = 1e-6
 """A gain of less than this part of the objective is none."""
 COARSEST = 0.25
 """Of the largest length of a machine: steps that are coarser were given in another unit."""
 STILL = 1e-12
 """A condition that changes less than this with everything limits nothing."""
+MARGINS = "reach"
+EDGE, STEPS_BEYOND = 0.01, (1e-7, 1e-6, 1e-5, 1e-4, 1e-3)
+"""Of a range: a gain on so much is worth naming what stands against it; steps beyond a design on which that is looked for."""
 NOISE = 1e-9
 """A number [SI] that is smaller is shown as zero."""
 MOST_ROUNDINGS = 4096
@@ -108,7 +115,8 @@ class Optimum(Shown):
     `machine` is the design, `value` its objective [SI], `start_value` that of the design it began with (NaN where that cannot be
     assembled). `conditions` say what each condition has to spare and which are active, `bounds` which variables stand at their ends.
     `agreed` of `tries` local searches came to this value; `cut` says which combinations of choices cannot keep a condition, whatever the
-    variables.
+    variables. `edges` say where the machine itself stops it: links that no longer meet, a bore that must be above its rod. `limit` is that
+    of the designs where it was reached, so that this is the best so far; None where the search came to its end.
     """
 
     machine: Mechanism
@@ -128,6 +136,8 @@ class Optimum(Shown):
     unit: FloatArray
     combination: tuple[int, ...]
     tried: tuple[Tried, ...] = ()
+    limit: int | None = None
+    edges: tuple[str, ...] = ()
 
     @property
     def gain(self) -> float:
@@ -146,11 +156,13 @@ class Optimum(Shown):
         word = "least" if problem.sense > 0.0 else "greatest"
         lines = [f"{problem.plan.title}: the {word} {problem.objectives[0]} found is {show(self.value, units)}{self._gained(units)}."]
         lines += [f"  {name} = {text}" for name, text in self._settings()]
-        lines += [f"  {each}." for each in (*self.conditions, *self.bounds)]
+        lines += [f"  {each}." for each in (*self.conditions, *self.bounds, *self.edges)]
         tries = f"{self.agreed} of {self.tries} searches came to it" if self.tries > 1 else "one search"
         rows = f" over {self.searched} of {problem.space.count} combinations" if problem.space.count > 1 else ""
         lines += [f"  {each}." for each in self.cut]
         lines.append(f"  {tries}{rows}; {self.evaluations} designs looked at. Assembled over the whole stroke.")
+        if self.limit is not None:
+            lines.append(f"  The limit of {self.limit} designs was reached: this is the best so far. A larger limit= looks at more.")
         return "\n".join(lines)
 
     __repr__ = __str__
@@ -223,25 +235,41 @@ def polished(
     """Return an optimum; AssemblyError where it cannot be assembled over the whole stroke."""
     if any(each.step is not None for each in problem.space.variables):
         problem, combination, found = on_steps(problem, combination, found, solver)
+    limit = problem.count.limit if problem.count.is_spent else None
+    with problem.count.unlimited():
+        return described(problem, combination, found, ended, searched, cut, limit)
+
+
+def described(
+    problem: Problem,
+    combination: Sequence[int],
+    found: Found,
+    ended: Sequence[Found],
+    searched: int,
+    cut: Sequence[str],
+    limit: int | None,
+) -> Optimum:
+    """Return an optimum with all that is said of it; AssemblyError where it cannot be assembled over the whole stroke."""
     machine = problem.machine_of(found.unit, combination)
     problem.assembled(machine)
     if not found.feasible:
         raise AssemblyError(f"{problem.plan.title}: the design on its steps misses the conditions.")
     now = true_values(problem, machine)
-    if not np.isfinite(problem.value(lambda leaf: now[leaf])):
+    value = true_worth(problem, now)
+    if not np.isfinite(value):
         raise AssemblyError(f"{problem.plan.title}: {', '.join(map(str, problem.objectives))} has no value of the best design.")
+    check_bounded(problem, now)
     local = Local(problem, combination, found.unit)
     local.refine(found.unit)
-    prices, ends = multipliers(local, found.unit)
-    value = float(problem.value(lambda leaf: now[leaf]))
+    prices = multipliers(local, found.unit)
     part = local.size / (abs(value) or 1.0)
     conditions = tuple(
         as_kept(problem, each, now, part * price / scale, scale)
-        for each, price, scale in zip(problem.constraints, prices, local.scales, strict=True)
+        for each, price, scale in zip(problem.constraints, prices.constraints, local.scales, strict=True)
     )
     values = problem.space.values(found.unit)
     bounds = []
-    for variable, at, price in zip(problem.space.variables, values, ends, strict=True):
+    for variable, at, price in zip(problem.space.variables, values, prices.bounds, strict=True):
         by = step_of(variable)
         if part * price * by / variable.span > SHOWN:
             upper = bool(at - variable.low > 0.5 * variable.span)
@@ -252,8 +280,26 @@ def polished(
     return Optimum(
         machine, problem.machine, value, start_value, start_missing, conditions, tuple(bounds),
         {each.name: float(at) for each, at in zip(problem.space.variables, values, strict=True)},
-        max(agreed, 1), len(ended), searched, tuple(cut), problem.looked_at, problem, found.unit, tuple(combination),
+        max(agreed, 1), len(ended), searched, tuple(cut), problem.count.designs, problem, found.unit, tuple(combination), limit=limit,
+        edges=tuple(edges(problem, combination, found.unit, prices, part)),
     )  # fmt: skip
+
+
+def check_bounded(problem: Problem, now: Numbers) -> None:
+    """Raise StudyError where the objective grows without bounds, because a number that it is divided by comes to zero in the box."""
+    asked = divisors(problem.objectives)
+    if not asked:
+        return
+    n, combination = len(problem.space.variables), [0] * len(problem.space.choices)
+    looks = [problem.look(problem.designs(np.full(n, part), combination)) for part in (0.1, 0.5, 0.9)]
+    sizes = {leaf: max(size_of_rows(look.rows[leaf].values) for look in looks) for leaf in problem.leaves}
+    for each in asked:
+        small = abs(float(each.of(lambda leaf: now[leaf])))
+        size = terms_size(each, sizes, now)
+        if small <= NEXT_TO_NOTHING * size:
+            named = ", ".join(map(str, problem.objectives))
+            what = f"{problem.plan.title}: {named} has no bound in the box, for {each} comes to zero there"
+            raise StudyError(f"{what}; keep it away from zero, subject_to=[{each} >= ...], or take vary= narrower.")
 
 
 def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float], price: float, scale: float) -> Kept:
@@ -268,9 +314,9 @@ def as_kept(problem: Problem, constraint: Constraint, now: Mapping[Leaf, float],
     return Kept(constraint, left, right, spare, by, price * by if price * by > SHOWN else 0.0, unit_of_constraint(problem.plan, constraint))
 
 
-def true_values(problem: Problem, machine: Mechanism) -> dict[Leaf, float]:
-    """Return the leaves' numbers of a machine, between the poses too."""
-    return {leaf: problem.true(leaf, machine.dimensions)[0] for leaf in problem.leaves}
+def true_values(problem: Problem, machine: Mechanism, *, quick: bool = False) -> Numbers:
+    """Return the leaves' numbers of a machine, between the poses too: as a motion gives them, or `quick` by the program."""
+    return Numbers({leaf: problem.true(leaf, machine.dimensions, quick=quick) for leaf in problem.leaves})
 
 
 def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
@@ -281,7 +327,7 @@ def worth_of(problem: Problem, machine: Mechanism) -> tuple[float, float]:
         return float("nan"), float("inf")
     values = true_values(problem, machine)
     scales = scales_of(problem, problem.look(machine.dimensions, slopes=True))
-    return float(problem.value(lambda leaf: values[leaf])), missing_of(problem.constraints, scales, values)
+    return true_worth(problem, values), missing_of(problem.constraints, scales, values)
 
 
 def worth_in_order(problem: Problem, found: Found) -> tuple[bool, float]:
@@ -299,15 +345,30 @@ def step_of(variable: Varied) -> float:
     return {"mm": 10.0 * mm, "deg": 1.0 * deg}.get(variable.unit, 0.01 * variable.span)
 
 
-def multipliers(local: Local, unit: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the price of each constraint and of each variable's bound, zero or above, in scaled numbers.
+@final
+@dataclass(frozen=True, eq=False)
+class Prices:
+    """What limits a design, in scaled numbers: the price of each constraint and of each variable's bound, zero or above.
+
+    `reach` is the sum of the slopes (n,) of loops that can just be assembled, by their prices; `left` (n,) is what of the objective's
+    derivatives by the unit coordinates nothing of these explains.
+    """
+
+    constraints: FloatArray
+    bounds: FloatArray
+    reach: FloatArray
+    left: FloatArray
+
+
+def multipliers(local: Local, unit: FloatArray) -> Prices:
+    """Return what limits a design.
 
     They are the Lagrange multipliers that leave least of the objective's derivatives unexplained; zero where a derivative is infinite, at a
     dead point.
     """
     from scipy.optimize import nnls
 
-    z = local.first(unit)
+    z, n = local.first(unit), local.n
     _, slope = local.objective(z)
     columns, owners = [], []
     for row in local.rows(z):
@@ -315,26 +376,82 @@ def multipliers(local: Local, unit: FloatArray) -> tuple[FloatArray, FloatArray]
             if (row.equation or value <= ACTIVE) and np.abs(line).max() > STILL:
                 for sign in (1.0, -1.0) if row.equation else (1.0,):
                     columns.append(sign * line)
-                    owners.append(row.constraint)
-    count = len(columns)
-    for place in range(local.n):
+                    owners.append(MARGINS if row.is_reach else row.constraint)
+    count, at_bounds = len(columns), []
+    for place in range(n):
         for at_end, sign in ((unit[place] <= ACTIVE, 1.0), (unit[place] >= 1.0 - ACTIVE, -1.0)):
             if at_end:
-                line = np.zeros(local.width)
-                line[place] = sign
-                columns.append(line)
+                columns.append(sign * np.eye(local.width)[place])
+                at_bounds.append(place)
     known = bool(np.isfinite(slope).all()) and all(bool(np.isfinite(line).all()) for line in columns)
-    prices = nnls(np.array(columns).T, np.asarray(slope, float))[0] if columns and known else np.zeros(len(columns))
-    of_constraint = np.zeros(len(local.problem.constraints))
-    for price, owner in zip(prices[:count], owners, strict=True):
-        of_constraint[[each is owner for each in local.problem.constraints]] += price
-    of_bound, place = np.zeros(local.n), count
-    for variable in range(local.n):
-        for at_end in (unit[variable] <= ACTIVE, unit[variable] >= 1.0 - ACTIVE):
-            if at_end:
-                of_bound[variable] = prices[place]
-                place += 1
-    return np.where(of_constraint > 1e-9, of_constraint, 0.0), np.where(of_bound > 1e-9, of_bound, 0.0)
+    lines = np.array(columns).reshape(-1, local.width)
+    prices = nnls(lines.T, np.asarray(slope, float))[0] if columns and known else np.zeros(len(columns))
+    of_constraint, reach, of_bound = np.zeros(len(local.problem.constraints)), np.zeros(n), np.zeros(n)
+    for price, owner, line in zip(prices, owners, lines, strict=False):
+        if isinstance(owner, Constraint):
+            of_constraint[[each is owner for each in local.problem.constraints]] += price
+        elif owner == MARGINS:
+            reach += price * line[:n]
+    of_bound[at_bounds] = prices[count:]
+    left = slope - prices @ lines if known else np.zeros(local.width)
+    return Prices(
+        np.where(of_constraint > 1e-9, of_constraint, 0.0), np.where(of_bound > 1e-9, of_bound, 0.0), reach, np.asarray(left[:n]),
+    )  # fmt: skip
+
+
+# What a machine itself allows, beside the conditions and the ranges.
+
+
+def edges(problem: Problem, combination: Sequence[int], unit: FloatArray, prices: Prices, part: float) -> list[str]:
+    """Return what of the machine itself stops a design where it would get better: links that no longer meet, what is refused.
+
+    `part` is what a scaled number of the objective is of it.
+    """
+    for way in (-prices.left, -prices.reach):
+        size = float(np.abs(way).max(initial=0.0))
+        if part * size * EDGE > SHOWN and (found := edge_words(problem, combination, unit, way / size)):
+            return [found]
+    return []
+
+
+def edge_words(problem: Problem, combination: Sequence[int], unit: FloatArray, way: FloatArray) -> str:
+    """Return what stops a design on a way (n,) in unit coordinates; "" where nothing near it does."""
+    for step in STEPS_BEYOND:
+        beyond = np.clip(unit + step * way, 0.0, 1.0)
+        reason = stopped_by(problem, combination, beyond)
+        if reason:
+            moved = [each for each, by in zip(problem.space.variables, beyond - unit, strict=True) if abs(by) >= 0.3 * step]
+            values = dict(zip(problem.space.variables, problem.space.values(unit), strict=True))
+            where = ", ".join(f"{each.name} = {each.show(float(values[each]))}" for each in moved) or "The design"
+            return f"{where} {'stands' if len(moved) < 2 else 'stand'} at an edge of what the machine allows; beyond it: {reason}"
+    return ""
+
+
+def stopped_by(problem: Problem, combination: Sequence[int], unit: FloatArray) -> str:
+    """Return why a design is none: refused, not assembled, or without a value of what is asked; "" of one that is."""
+    try:
+        machine = problem.machine_of(unit, combination)
+        problem.assembled(machine)
+        look = problem.look(machine.dimensions)
+    except LinkageError as error:
+        return what_of(str(error))
+    if not bool(look.whole[0]):
+        return what_of(problem.refusal or "it cannot be assembled over the whole stroke")
+    return next((no_value(problem, leaf) for leaf in problem.leaves if look.rows[leaf].lost[0]), "")
+
+
+def no_value(problem: Problem, leaf: Leaf) -> str:
+    """Return in words that a leaf has no value of some design, and why."""
+    divisors = divisors_of(problem.plan, leaf.quantity) if not isinstance(leaf.quantity, Worst) else ()
+    over = "where it passes zero within the stroke, it grows without bounds" if divisors else ""
+    by = f": it is divided by {', '.join(words_of(each) for each in divisors)}, and {over}" if divisors else " at some poses"
+    return f"{leaf} has no value{by}"
+
+
+def what_of(message: str) -> str:
+    """Return what a message says is wrong, without the figures and the remedy, which are of a design that nobody asked for."""
+    text = " ".join(message.split())
+    return text.partition(": " if " cannot be assembled" in text else "; ")[0].rstrip(".")
 
 
 def on_steps(problem: Problem, combination: Sequence[int], found: Found, solver: str) -> tuple[Problem, tuple[int, ...], Found]:
@@ -344,9 +461,12 @@ def on_steps(problem: Problem, combination: Sequence[int], found: Found, solver:
     the most promising of others, and from the best of these on, a step up or down at a time, as long as that is better. The variables that
     are left are searched from each.
     """
-    search = StepSearch(problem, combination, found, solver)
-    search.look(search.all_steps() if search.is_small else [*search.about(), *search.promising()])
-    while not search.is_small and search.best is not None:
+    search, count = StepSearch(problem, combination, found, solver), problem.count
+    if count.is_spent:
+        search.look(search.about())
+    else:
+        search.look(search.all_steps() if search.is_small else [*search.about(), *search.promising()])
+    while not search.is_small and search.best is not None and not count.is_spent:
         before = search.best
         search.look(search.beside())
         if search.best == before:
@@ -355,7 +475,6 @@ def on_steps(problem: Problem, combination: Sequence[int], found: Found, solver:
         raise AssemblyError(f"{problem.plan.title}: none of the steps about the design can be assembled.")
     best = search.seen[search.best]
     assert best is not None
-    best[0].looked_at = problem.looked_at + sum(each[0].looked_at for each in search.seen.values() if each is not None)
     return best
 
 
@@ -432,7 +551,7 @@ class StepSearch:
     def look(self, steps: Sequence[tuple[int, ...]]) -> None:
         """Search the variables that are left at some steps, and keep the best of all that were seen."""
         for each in steps:
-            if each not in self.seen:
+            if each not in self.seen and not (self.problem.count.is_spent and any(self.seen.values())):
                 self.seen[each] = self._searched(each)
         known = [step for step, result in self.seen.items() if result is not None]
         self.best = min(known, key=self._worth, default=None)
@@ -457,14 +576,17 @@ class StepSearch:
     def _from(self, inner: Problem, whole: tuple[int, ...], unit: FloatArray) -> Found | None:
         """Return what a search of the variables that are left comes to; where it misses conditions, what misses them least."""
         try:
-            local = Local(inner, whole, unit)
-            if not self.rest:
-                return local.judged(unit)
+            with inner.count.unlimited():
+                local = Local(inner, whole, unit)
+                if not self.rest:
+                    return local.judged(unit)
             found = local.run(self.solver)
-            if found.feasible or not found.whole:
+            if found.feasible or not found.whole or inner.count.is_spent:
                 return found
-            least = Local(inner, whole, found.unit, elastic=True).run()
+            least = Local(inner, whole, found.unit, elastic=inner.constraints).run()
             again = Local(inner, whole, least.unit).run(self.solver) if least.missing <= NEARLY_KEPT else least
+        except LimitReachedError:
+            return found
         except DefinitionError:
             return None
         return min((found, least, again), key=lambda each: worth_in_order(inner, each))
@@ -603,14 +725,14 @@ def unit_of_measure(plan: Plan, measure: Measure) -> str:
     """Return the unit that a measure is shown in; "" for SI."""
     units = {unit_of_leaf(plan, leaf) for leaf in measure.leaves}
     simple = isinstance(measure, Leaf) or getattr(measure, "symbol", "") in ("+", "-")
-    return units.pop() if len(units) == 1 and simple else ""
+    return (units.pop() if len(units) == 1 and simple else "") or measure_unit(plan, measure)
 
 
 def unit_of_constraint(plan: Plan, constraint: Constraint) -> str:
     """Return the unit that a constraint's sides are shown in."""
     sides = [side for side in (constraint.left, constraint.right) if side.leaves]
     units = {unit_of_measure(plan, side) for side in sides}
-    return units.pop() if len(units) == 1 else ""
+    return units.pop() if len(units) == 1 else measure_unit(plan, constraint)
 
 
 def unit_of_leaf(plan: Plan, leaf: Leaf) -> str:

@@ -49,6 +49,7 @@ class Front(Shown):
     units: tuple[str, ...]
     points: tuple[FrontPoint, ...]
     evaluations: int
+    limit: int | None = None
 
     @property
     def values(self) -> FloatArray:
@@ -59,7 +60,10 @@ class Front(Shown):
         lines = [f"{self.title}: {len(self.points)} designs of which none is better in all of {', '.join(map(str, self.objectives))}"]
         for each in self.points:
             lines.append("  " + ", ".join(show(value, unit) for value, unit in zip(each.values, self.units, strict=True)))
-        return "\n".join([*lines, f"  {self.evaluations} designs looked at."])
+        lines.append(f"  {self.evaluations} designs looked at.")
+        if self.limit is not None:
+            lines.append(f"  The limit of {self.limit} designs was reached: these are the best so far. A larger limit= looks at more.")
+        return "\n".join(lines)
 
     __repr__ = __str__
 
@@ -71,11 +75,15 @@ def front(problem: Problem, seed: int, solver: str, tell: Progress) -> Front:
     combinations = [*problem.space.combinations()]
     tell(0, len(combinations))
     for done, combination in enumerate(combinations):
-        found += exact_points(problem, combination, evolved_front(coarse, combination, seed), solver)
+        if done and problem.count.is_spent:
+            break
+        found += exact_points(problem, combination, evolved_front(coarse, combination, seed, len(combinations) - done), solver)
         tell(done + 1, len(combinations))
+    limit = problem.count.limit if problem.count.is_spent else None
     if not found:
         present = problem.space.unit(problem.space.present(problem.machine))
-        raise infeasible_error(problem, [(each, Found(present, np.nan, np.inf, True)) for each in combinations])
+        with problem.count.unlimited():
+            raise infeasible_error(problem, [(each, Found(present, np.nan, np.inf, True)) for each in combinations])
     best = not_dominated(np.array([values for values, _ in found]))
     shown = [own_sign(each) for each in problem.objectives]
     points = [
@@ -83,7 +91,7 @@ def front(problem: Problem, seed: int, solver: str, tell: Progress) -> Front:
     ]
     measures = tuple(measure for measure, _ in shown)
     units = tuple(unit_of_measure(problem.plan, each) for each in measures)
-    return Front(problem.plan.title, measures, units, tuple(points), problem.looked_at + coarse.looked_at)
+    return Front(problem.plan.title, measures, units, tuple(points), problem.count.designs, limit)
 
 
 def from_pymoo() -> Any:
@@ -102,8 +110,11 @@ def own_sign(measure: Measure) -> tuple[Measure, float]:
     return measure, 1.0
 
 
-def evolved_front(problem: Problem, combination: Sequence[int], seed: int) -> FloatArray:
-    """Return unit coordinates (m, n) of designs near the front of one combination, generations looked at all at once."""
+def evolved_front(problem: Problem, combination: Sequence[int], seed: int, left: int = 1) -> FloatArray:
+    """Return unit coordinates (m, n) of designs near the front of one combination, generations looked at all at once.
+
+    Where a limit does not reach for all of them and as many local searches, of the combinations that are `left`, there are fewer.
+    """
     from pymoo.algorithms.moo.nsga2 import NSGA2
     from pymoo.core.problem import Problem as Asked
     from pymoo.optimize import minimize
@@ -120,9 +131,13 @@ def evolved_front(problem: Problem, combination: Sequence[int], seed: int) -> Fl
             out["F"] = np.where(np.isfinite(values), values, 1e30).T
             out["G"] = np.stack([np.nan_to_num(missing, nan=1e6, posinf=1e6) - MET, 1e6 * (1.0 - reached)], axis=1)
 
-    found = minimize(
-        Generation(n_var=n, n_obj=many, n_ieq_constr=2, xl=0.0, xu=1.0), NSGA2(pop_size=POPULATION), ("n_gen", GENERATIONS), seed=seed
-    )
+    count, generations = problem.count, GENERATIONS
+    if count.limit is not None:
+        generations = min(GENERATIONS, max(3 * (count.limit - count.designs) // (4 * POPULATION * left), 1))
+    with count.unlimited():
+        found = minimize(
+            Generation(n_var=n, n_obj=many, n_ieq_constr=2, xl=0.0, xu=1.0), NSGA2(pop_size=POPULATION), ("n_gen", generations), seed=seed
+        )
     return np.empty((0, n)) if found.X is None else np.atleast_2d(np.asarray(found.X, float))
 
 
@@ -130,7 +145,8 @@ def exact_points(problem: Problem, combination: Sequence[int], units: FloatArray
     """Return points on the front of one combination: each objective's best, and others spread between; with their machines."""
     if not len(units):
         return []
-    values, _, _ = problem.merits_of_each(combination, units)
+    with problem.count.unlimited():
+        values, _, _ = problem.merits_of_each(combination, units)
     found = [on_front(problem, combination, units[int(np.argmin(values[place]))], place, None, solver) for place in range(len(values))]
     order = np.argsort(values[0])
     for place in order[np.unique(np.linspace(0, len(order) - 1, POINTS).astype(int))]:
@@ -145,20 +161,22 @@ def on_front(
     objectives = problem.objectives
     limits = [] if held is None else [Constraint(each, "<=", Given(float(limit))) for each, limit in zip(objectives, held, strict=True)]
     own = [*problem.constraints, *(each for number, each in enumerate(limits) if number != place)]
-    one = Problem(problem.machine, [objectives[place]], own, problem.space, 1.0, problem.over)
+    one = Problem(problem.machine, [objectives[place]], own, problem.space, 1.0, problem.over, count=problem.count)
     try:
-        local = Local(one, combination, unit)
+        with problem.count.unlimited():
+            local = Local(one, combination, unit)
         result = local.run(solver) if problem.space.variables else local.judged(unit)
         machine = problem.machine_of(result.unit, combination)
         problem.assembled(machine)
     except (AssemblyError, LinkageError):
         return None
-    problem.looked_at += one.looked_at
-    values = true_values(problem, machine)
-    scales = scales_of(problem, problem.look(machine.dimensions, slopes=True))
+    with problem.count.unlimited():
+        values = true_values(problem, machine)
+        scales = scales_of(problem, problem.look(machine.dimensions, slopes=True))
     if missing_of(problem.constraints, scales, values) > MET:
         return None
-    return tuple(float(each.of(lambda leaf: values[leaf])) for each in objectives), machine
+    found = tuple(float(each.of(lambda leaf: values[leaf])) for each in objectives)
+    return (found, machine) if np.isfinite(found).all() and not values.lost else None
 
 
 def not_dominated(values: FloatArray) -> list[int]:

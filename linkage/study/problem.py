@@ -7,14 +7,16 @@ Source: R. Hettich, K. O. Kortanek, Semi-infinite programming, SIAM Review 35 (1
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any, final
+from math import prod
+from typing import Any, NamedTuple, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited
+from ..errors import DefinitionError, StudyError, cited
 from ..mechanism import Mechanism
 from ..motion import Grid, Motion, Request, greatest, lowest
 from ..motion.grid import JoinedTo, joined_in_order
@@ -34,9 +36,22 @@ from ..motion.measures import (
     words_of,
 )
 from ..motion.strokes import check_magnitude
+from ..plan import Plan
 from ..program import Enclosure, FloatArray, enclosures
 from ..quantities import Quantity, is_number
-from .sampling import SampledSlopes, Sampling, Seen, eager, motion_of, quickly_on, value_on, with_values
+from .kinds import check_kinds
+from .sampling import (
+    SampledSlopes,
+    Sampling,
+    Seen,
+    divisors_of,
+    eager,
+    motion_of,
+    quickly_on,
+    unlimited,
+    value_on,
+    with_values,
+)
 from .space import Space
 
 SAMPLES = {0: 1, 1: 49, 2: 17, 3: 9, 4: 5}
@@ -75,6 +90,11 @@ class Range:
         return tuple(end for end in (self.low, self.high) if not is_number(end))
 
 
+def is_still(one: Range) -> bool:
+    """Return whether a stroke is held at one value."""
+    return is_number(one.low) and bool(one.low == one.high)
+
+
 def ranges_of(machine: Mechanism, over: Any) -> dict[str, Range]:
     """Return the part of each stroke that is looked at; DefinitionError for what is none."""
     title, plan = machine.plan.title, machine.plan
@@ -103,16 +123,19 @@ def ranges_of(machine: Mechanism, over: Any) -> dict[str, Range]:
 @final
 @dataclass(eq=False)
 class PoseSet:
-    """Poses at which some quantities are looked at: the parts of each stroke's range (0 to 1) along the axes, or one pose.
+    """Poses at which some quantities are looked at: the parts of each stroke's range (0 to 1) along the axes, or single poses.
 
-    `weights` are an integral's; `inner` names a last axis over which the worst is taken.
+    `singles` are the strokes [SI] of single poses, all of which are looked at together; `weights` are an integral's; `inner` names a last
+    axis over which the worst is taken.
     """
 
     axes: dict[str, FloatArray]
-    fixed: Mapping[str, float] = field(default_factory=dict)
+    singles: list[Mapping[str, float]] = field(default_factory=list)
     weights: FloatArray | None = None
     inner: str = ""
     quantities: list[Any] = field(default_factory=list)
+    alone: bool = False
+    """Whether its single pose is kept apart from others."""
 
     def place(self, quantity: Any) -> int:
         """Return the number of a quantity, entered where it is new."""
@@ -122,19 +145,21 @@ class PoseSet:
         self.quantities.append(quantity)
         return len(self.quantities) - 1
 
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """The shape of the poses."""
-        return tuple(map(len, self.axes.values()))
+    def single(self, strokes: Mapping[str, float]) -> int:
+        """Return the number of a single pose, entered where it is new."""
+        if strokes not in self.singles:
+            self.singles.append(strokes)
+        return self.singles.index(strokes)
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """A leaf at its poses: values (m, n), and of one design derivatives (p, n)."""
+    """A leaf at its poses: values (m, n), of one design derivatives (p, n), and of which designs (m,) it is lost: without a value."""
 
     values: FloatArray
     slopes: FloatArray | None
+    lost: Any
 
 
 @final
@@ -147,6 +172,106 @@ class Evaluated:
     margin_slopes: FloatArray | None
     whole: Any
     reached: FloatArray
+
+
+class LimitReachedError(StudyError):
+    """A search has looked at as many designs as it may."""
+
+
+@final
+class Count:
+    """How many designs a search and its parts have looked at, each look at one counted, and how many they may, None for any number."""
+
+    def __init__(self) -> None:
+        self.designs, self.limit = 0, None
+
+    designs: int
+    limit: int | None
+
+    @property
+    def is_spent(self) -> bool:
+        """Whether no more designs may be looked at."""
+        return self.limit is not None and self.designs >= self.limit
+
+    def add(self, designs: int) -> None:
+        """Count designs that are about to be looked at; LimitReachedError where there may be no more. The last ones may go beyond."""
+        if self.is_spent:
+            raise LimitReachedError(f"The limit of {self.limit} designs is reached.")
+        self.designs += designs
+
+    @contextmanager
+    def at_most(self, designs: int) -> Iterator[None]:
+        """Look at so many more designs at the most."""
+        kept, self.limit = self.limit, self.designs + max(designs, 1)
+        try:
+            yield
+        finally:
+            self.limit = kept
+
+    @contextmanager
+    def unlimited(self) -> Iterator[None]:
+        """Look at designs whatever the limit, as at the best one in the end."""
+        kept, self.limit = self.limit, None
+        try:
+            yield
+        finally:
+            self.limit = kept
+
+
+class Truth(NamedTuple):
+    """A leaf's number of one design: where, in parts (0 to 1) of the strokes' ranges, and whether it is lost, without a value somewhere."""
+
+    value: float
+    parts: Mapping[str, float]
+    lost: bool
+
+
+@final
+class Numbers(dict[Leaf, float]):
+    """The leaves' numbers of one design; `lost` are those that have no value at a pose."""
+
+    def __init__(self, found: Mapping[Leaf, Truth]) -> None:
+        super().__init__({leaf: each.value for leaf, each in found.items()})
+        self.lost = frozenset(leaf for leaf, each in found.items() if each.lost)
+
+
+@final
+class Watched:
+    """A quantity as a function of a motion that notes whether it had no value where it is reached, or a divisor passes zero."""
+
+    def __init__(self, plan: Plan, quantity: Any, value: Callable[[Motion], FloatArray]) -> None:
+        self.quantity, self.value = quantity, value
+        self.divisors = [quickly_on(plan, each) for each in divisors_of(plan, quantity)]
+        self.signs = [(np.inf, -np.inf)] * len(self.divisors)
+        self.is_empty = False
+
+    def __call__(self, motion: Motion) -> FloatArray:
+        found = self.value(motion)
+        empty = np.isnan(found) & motion.reached
+        if not self.is_empty and empty.any():
+            free = unlimited(motion, self.quantity)
+            self.is_empty = bool((empty if free is None else empty & ~free).any())
+        for place, divisor in enumerate(self.divisors):
+            values = divisor(motion)[motion.reached]
+            low, high = self.signs[place]
+            self.signs[place] = float(np.nanmin(values, initial=low)), float(np.nanmax(values, initial=high))
+        return found
+
+    @property
+    def lost(self) -> bool:
+        """Whether there is no value somewhere."""
+        return self.is_empty or any(low <= 0.0 <= high for low, high in self.signs)
+
+
+def is_free(motion: Motion, quantity: Any) -> bool:
+    """Return whether nothing limits a quantity at the poses of a motion."""
+    free = unlimited(motion, quantity)
+    return free is not None and bool(free.all())
+
+
+def joined_rows(parts: Sequence[Rows]) -> Rows:
+    """Return the rows of several designs as one, without derivatives."""
+    return Rows(np.concatenate([each.values for each in parts]), None, np.concatenate([each.lost for each in parts]))
 
 
 @final
@@ -162,21 +287,23 @@ class Problem:
         sense: float = 1.0,
         over: Any = None,
         counts: Mapping[int, int] = SAMPLES,
+        count: Count | None = None,
     ) -> None:
         self.machine, self.plan, self.space, self.sense, self.over = machine, machine.plan, space, sense, over
         self.objectives, self.constraints = tuple(objectives), tuple(constraints)
         self.ranges = ranges_of(machine, over)
         self.counts = counts
-        self.looked_at = 0
-        """How many designs were looked at, each look at one counted."""
+        self.count = count or Count()
         self.leaves = tuple(dict.fromkeys(leaf for each in (*objectives, *(one.margin for one in constraints)) for leaf in each.leaves))
+        check_kinds(self.plan, self.objectives, self.constraints)
         self.sets: list[PoseSet] = []
-        self._of_leaf: dict[Leaf, tuple[PoseSet, int]] = {}
-        moving = tuple(name for name, one in self.ranges.items() if not (is_number(one.low) and one.low == one.high))
+        self._of_leaf: dict[Leaf, tuple[PoseSet, int, int]] = {}
+        """Where a leaf's values are: its poses, the number of its quantity there, and that of its single pose, -1 where it has all."""
+        moving = tuple(name for name, one in self.ranges.items() if not is_still(one))
         for leaf in self.leaves:
-            poses = self._poses(leaf, moving)
+            poses, single = self._poses(leaf, moving)
             inner = leaf.quantity.quantity if isinstance(leaf.quantity, Worst) else leaf.quantity
-            self._of_leaf[leaf] = poses, poses.place(inner)
+            self._of_leaf[leaf] = poses, poses.place(inner), single
         self.whole = self._set(moving)
         self.follow = tuple(dict.fromkeys(end for one in self.ranges.values() for end in one.follows))
         self.owners = tuple(dict.fromkeys(each.owner for each in space.variables))
@@ -185,13 +312,18 @@ class Problem:
         self.refusal = ""
         """Why the latest design that was refused was so."""
 
+    @property
+    def poses(self) -> int:
+        """At how many poses a design is looked at."""
+        return sum(prod(map(len, each.axes.values())) * max(len(each.singles), 1) for each in self.sets)
+
     def with_counts(self, counts: Mapping[int, int]) -> Problem:
         """Return the same problem at another number of samples."""
-        return Problem(self.machine, self.objectives, self.constraints, self.space, self.sense, self.over, counts)
+        return Problem(self.machine, self.objectives, self.constraints, self.space, self.sense, self.over, counts, self.count)
 
     def with_space(self, space: Space) -> Problem:
         """Return the same problem with other variables and choices."""
-        return Problem(self.machine, self.objectives, self.constraints, space, self.sense, self.over, self.counts)
+        return Problem(self.machine, self.objectives, self.constraints, space, self.sense, self.over, self.counts, self.count)
 
     @property
     def facts(self) -> str:
@@ -214,8 +346,8 @@ class Problem:
 
     # -- the poses ---------------------------------------------------------------------------------------
 
-    def _poses(self, leaf: Leaf, moving: Sequence[str]) -> PoseSet:
-        """Return the poses of a leaf, shared with others that are looked at at the same."""
+    def _poses(self, leaf: Leaf, moving: Sequence[str]) -> tuple[PoseSet, int]:
+        """Return the poses of a leaf, shared with others that are looked at at the same, and which single one it is, -1 for all."""
         title, quantity = self.plan.title, leaf.quantity
         inner = quantity.over if isinstance(quantity, Worst) else ""
         if inner and inner not in self.plan.strokes:
@@ -231,36 +363,41 @@ class Problem:
             others = [name for name in axes if name != by]
             if others:
                 raise DefinitionError(f"{title}: {leaf} depends on {', '.join(others)} too: hold it by over={{...}}, or take worst(...).")
-            return self._set((by,), inner, integral=True)
+            return self._set((by,), inner, integral=True), -1
         if not axes and not inner:
             return self._single(At(quantity, {}), (), inner)
-        return self._set(axes, inner)
+        return self._set(axes, inner), -1
 
-    def _single(self, leaf: At, depends: Sequence[str], inner: str) -> PoseSet:
-        """Return the poses of a value at one pose."""
+    def _single(self, leaf: At, depends: Sequence[str], inner: str) -> tuple[PoseSet, int]:
+        """Return the poses of a value at one pose, and the number of that.
+
+        Quantities of the program are looked at together at all single poses. A function of a motion has its pose for itself: it may do
+        with several what it will.
+        """
         unknown = [name for name in leaf.strokes if name not in self.plan.strokes]
         if unknown:
             known = ", ".join(self.plan.strokes) or "none"
             raise DefinitionError(f"{self.plan.title}: {leaf}: there is no stroke {unknown[0]!r}; its strokes are {known}.")
         for name, value in leaf.strokes.items():
             check_magnitude(name, (float(value), float(value)), self.plan)
-        held = {name: float(one.low) for name, one in self.ranges.items() if is_number(one.low) and one.low == one.high}
+        held = {name: float(one.low) for name, one in self.ranges.items() if is_still(one)}
         missing = [name for name in depends if name not in leaf.strokes and name not in held and name != inner]
         if missing:
             raise DefinitionError(f"{self.plan.title}: {leaf}: say the pose, {', '.join(f'{name}=...' for name in missing)}.")
         fixed = held | {name: float(value) for name, value in leaf.strokes.items()}
+        alone = bool(inner) or traced(self.plan, leaf.quantity) is None
         for each in self.sets:
-            if each.fixed == fixed and not each.axes.keys() - {inner} and each.inner == inner:
-                return each
+            if each.singles and each.inner == inner and each.alone is alone and (not alone or each.singles == [fixed]):
+                return each, each.single(fixed) if not inner else -1
         axes = {inner: np.linspace(0.0, 1.0, INNER)} if inner else {}
-        self.sets.append(PoseSet(axes, fixed, inner=inner))
-        return self.sets[-1]
+        self.sets.append(PoseSet(axes, [fixed], inner=inner, alone=alone))
+        return self.sets[-1], -1 if inner else 0
 
     def _set(self, names: Sequence[str], inner: str = "", *, integral: bool = False) -> PoseSet:
         """Return the poses over some strokes."""
         wanted = {*names, *([inner] if inner else [])}
         for each in self.sets:
-            if each.axes.keys() == wanted and each.inner == inner and (each.weights is not None) == integral and not each.fixed:
+            if each.axes.keys() == wanted and each.inner == inner and (each.weights is not None) == integral and not each.singles:
                 return each
         count = self.counts.get(len(names), 3)
         places, weights = gauss(np.linspace(0.0, 1.0, PANELS + 1)) if integral else (np.linspace(0.0, 1.0, count), None)
@@ -281,7 +418,7 @@ class Problem:
         why. What is refused of the machine as it is set too is a mistake in the question.
         """
         m = max((np.size(value) for value in designs.values()), default=1)
-        self.looked_at += m
+        self.count.add(m)
         try:
             return self._look(designs, m, slopes=slopes)
         except DefinitionError as error:
@@ -290,10 +427,11 @@ class Problem:
             self.refusal = str(error)
             if m == 1:
                 return self._nothing(slopes=slopes)
-        parts = [self.look({name: float(value[k]) if np.ndim(value) else value for name, value in designs.items()}) for k in range(m)]
-        self.looked_at -= m
+        self.count.designs -= m
+        with self.count.unlimited():
+            parts = [self.look({name: float(value[k]) if np.ndim(value) else value for name, value in designs.items()}) for k in range(m)]
         return Evaluated(
-            {leaf: Rows(np.concatenate([each.rows[leaf].values for each in parts]), None) for leaf in self.leaves},
+            {leaf: joined_rows([each.rows[leaf] for each in parts]) for leaf in self.leaves},
             np.concatenate([each.margins for each in parts]), None,
             np.concatenate([each.whole for each in parts]), np.concatenate([each.reached for each in parts]),
         )  # fmt: skip
@@ -312,10 +450,10 @@ class Problem:
         n = len(self.space.variables)
         rows = {}
         for leaf in self.leaves:
-            poses, _ = self._of_leaf[leaf]
+            poses, *_ = self._of_leaf[leaf]
             axes = [len(axis) for name, axis in poses.axes.items() if name != poses.inner]
             count = 1 if isinstance(leaf, Integral) else int(np.prod(axes))
-            rows[leaf] = Rows(np.full((1, count), np.nan), np.zeros((n, count)) if slopes else None)
+            rows[leaf] = Rows(np.full((1, count), np.nan), np.zeros((n, count)) if slopes else None, np.zeros(1, bool))
         return Evaluated(rows, np.zeros((1, 0)), np.zeros((n, 0)) if slopes else None, np.zeros(1, bool), np.zeros(1))
 
     def _look(self, designs: Mapping[str, Any], m: int, *, slopes: bool) -> Evaluated:
@@ -371,7 +509,7 @@ class Problem:
         """Return a pose set's grid."""
         follows = any(self.ranges[name].follows for name in poses.axes)
         arrays = np.meshgrid(*poses.axes.values(), indexing="ij") if poses.axes else []
-        shape = arrays[0].shape if arrays else (1,)
+        shape = arrays[0].shape if arrays else (len(poses.singles) or 1,)
         parts = dict(zip(poses.axes, arrays, strict=True))
         strokes = {}
         m = max((np.size(value) for value in designs.values()), default=1)
@@ -382,22 +520,24 @@ class Problem:
                 low, high = (self._end(end, ends, m if batch else 0, len(shape)) for end in (one.low, one.high))
                 value = low + parts[name] * (high - low)
             else:
-                value = np.full(shape, poses.fixed.get(name, one.low if is_number(one.low) else stroke.start))
+                rest = one.low if is_number(one.low) else stroke.start
+                value = np.resize([each.get(name, rest) for each in poses.singles or ({},)], shape)
             strokes[name] = np.asarray(np.broadcast_to(value, (*batch, *shape) if follows else shape), float)
         joining = None if poses.axes else self._joined_on_the_way(poses, designs)
         return Grid(self.plan, designs, strokes, per_design=follows, joining=joining)
 
     def _joined_on_the_way(self, poses: PoseSet, designs: Mapping[str, Any]) -> JoinedTo | None:
-        """Return how the angles of a single pose join those on the way to it from where the ranges begin, as a sweep gives them."""
-        if not poses.fixed:
+        """Return how the angles of single poses join those on the way to each from where the ranges begin, as a sweep gives them."""
+        if not any(poses.singles):
             return None
         way = np.linspace(0.0, 1.0, ON_THE_WAY)
         strokes = {}
         for name, stroke in self.plan.strokes.items():
             low = self.ranges[name].low
             start = float(low) if is_number(low) else float(stroke.start)
-            strokes[name] = start + way * (float(poses.fixed.get(name, start)) - start)
-        return JoinedTo(Grid(self.plan, designs, strokes, joining=joined_in_order), ON_THE_WAY - 1)
+            strokes[name] = np.array([start + way * (float(each.get(name, start)) - start) for each in poses.singles])
+        last = np.arange(1, len(poses.singles) + 1) * ON_THE_WAY - 1
+        return JoinedTo(Grid(self.plan, designs, strokes, joining=joined_in_order), last)
 
     @staticmethod
     def _end(end: Any, ends: Mapping[int, tuple[FloatArray, FloatArray | None]], m: int, axes: int) -> Any:
@@ -432,7 +572,7 @@ class Problem:
         self, leaf: Leaf, found: Mapping[int, tuple[Seen, SampledSlopes | None]], ends: Mapping[int, tuple[FloatArray, FloatArray | None]]
     ) -> Rows:
         """Return the rows of a leaf."""
-        poses, place = self._of_leaf[leaf]
+        poses, place, single = self._of_leaf[leaf]
         seen, slope = found[self.sets.index(poses)]
         values, slopes = seen.values[place], None
         if slope is not None:
@@ -440,7 +580,14 @@ class Problem:
         if poses.inner:
             assert isinstance(leaf.quantity, Worst)
             values, slopes = worst_along(values, slopes, len(poses.axes[poses.inner]), leaf.quantity.sense)
-        return self._integrated(values, slopes, poses, ends) if isinstance(leaf, Integral) else Rows(values, slopes)
+        if single >= 0:
+            values, slopes = values[:, [single]], None if slopes is None else slopes[:, [single]]
+        lost = seen.lost[place]
+        if single >= 0 and len(poses.singles) > 1:
+            lost = np.isnan(seen.values[place][:, single])
+        if isinstance(leaf, Integral):
+            return replace(self._integrated(values, slopes, poses, ends), lost=lost)
+        return Rows(values, slopes, lost)
 
     def _integrated(
         self, values: FloatArray, slopes: FloatArray | None, poses: PoseSet, ends: Mapping[int, tuple[FloatArray, FloatArray | None]]
@@ -453,14 +600,14 @@ class Problem:
         span = np.reshape(high - low, (-1, 1))
         mean = (values * poses.weights).sum(axis=-1, keepdims=True)
         if slopes is None:
-            return Rows(mean * span, None)
+            return Rows(mean * span, None, None)
         grown = np.zeros((len(slopes), 1))
         for end, sign in ((one.low, -1.0), (one.high, 1.0)):
             if not is_number(end):
                 moved = ends[id(end)][1]
                 assert moved is not None
                 grown[:, 0] += sign * (self._by_owner @ moved)
-        return Rows(mean * span, (slopes * poses.weights).sum(axis=-1, keepdims=True) * float(span[0, 0]) + grown * mean[0])
+        return Rows(mean * span, (slopes * poses.weights).sum(axis=-1, keepdims=True) * float(span[0, 0]) + grown * mean[0], None)
 
     def merits(self, combination: Sequence[int], unit: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return of designs (m, n) the objective, what is missing in parts of the conditions' sizes, and the part reached, all (m,)."""
@@ -474,11 +621,25 @@ class Problem:
         shape = look.reached.shape
         with np.errstate(all="ignore"):
             values = np.array([np.broadcast_to(np.asarray(each.of(lambda leaf: numbers[leaf]), float), shape) for each in self.objectives])
-            missing = np.zeros(shape)
-            sizes = self._sizes_of_constraints(look, numbers)
-            for each, size in zip(self.constraints, sizes, strict=True):
-                missing = np.maximum(missing, missed(each, numbers, size))
+        missing = self._missing(look, numbers).max(axis=0, initial=0.0)
+        lost = [np.any([look.rows[leaf].lost for leaf in each.leaves], axis=0) for each in self.objectives]
+        values = np.where(np.array(lost).reshape(len(values), -1), np.nan, values)
         return np.where(look.whole, values, np.nan), np.where(look.whole, missing, np.nan), look.reached
+
+    def missing_of_each(self, combination: Sequence[int], unit: FloatArray) -> FloatArray:
+        """Return by what part of its size each condition is missed by designs (m, n), shape (conditions, m); infinite out of reach."""
+        look = self.look(self.designs(unit, combination))
+        numbers = {leaf: reduced(leaf, rows.values) for leaf, rows in look.rows.items()}
+        return np.where(look.whole, self._missing(look, numbers), np.inf)
+
+    def _missing(self, look: Evaluated, numbers: Mapping[Leaf, FloatArray]) -> FloatArray:
+        """Return by what part of its size each condition is missed, zero where it is kept, shape (conditions, m)."""
+        found = np.zeros((len(self.constraints), *look.reached.shape))
+        with np.errstate(all="ignore"):
+            for row, (each, size) in enumerate(zip(self.constraints, self._sizes_of_constraints(look, numbers), strict=True)):
+                lost = np.any([look.rows[leaf].lost for leaf in each.margin.leaves], axis=0)
+                found[row] = np.where(lost, np.inf, np.maximum(missed(each, numbers, size), 0.0))
+        return found
 
     def _sizes_of_constraints(self, look: Evaluated, numbers: Mapping[Leaf, FloatArray]) -> list[float]:
         """Return what the conditions' numbers are measured with: their size over the first designs that were looked at."""
@@ -545,7 +706,7 @@ class Problem:
         counts = {each: count if each < 2 else max(SAMPLES.get(each, 3), 33 // each) for each in range(6)}
         alone = Problem(self.machine, [kind(leaf.quantity)], [], NOWHERE, over=self.over, counts=counts)
         asked = alone.leaves[0]
-        poses, _ = alone._of_leaf[asked]
+        poses, *_ = alone._of_leaf[asked]
         names = [name for name in poses.axes if name != poses.inner]
         if not names:
             return None
@@ -559,30 +720,33 @@ class Problem:
 
     # -- the whole truth ---------------------------------------------------------------------------------
 
-    def motion(self, design: Mapping[str, Any], names: Sequence[str], fixed: Mapping[str, float], count: int = 33) -> Motion:
+    def motion(self, design: Mapping[str, Any], names: Sequence[str], count: int = 33) -> Motion:
         """Return the motion of one design over some strokes' ranges, the others held."""
         ends = self._ends(design, slopes=False)
-        poses = PoseSet({name: np.linspace(0.0, 1.0, count if len(names) == 1 else 5) for name in names}, fixed)
+        poses = PoseSet({name: np.linspace(0.0, 1.0, count if len(names) == 1 else 5) for name in names})
         return motion_of(self._grid(poses, design, ends))
 
-    def true(self, leaf: Leaf, design: Mapping[str, Any], *, quick: bool = False) -> tuple[float, dict[str, float]]:
-        """Return the value of a leaf of one design, between the poses too, and where: parts (0 to 1) of the strokes' ranges.
+    def true(self, leaf: Leaf, design: Mapping[str, Any], *, quick: bool = False) -> Truth:
+        """Return the value of a leaf of one design, between the poses too.
 
         As a motion gives it, or `quick` by the plan's program, which the search itself follows.
         """
-        poses, _ = self._of_leaf[leaf]
+        poses, _, single = self._of_leaf[leaf]
         names = tuple(name for name in poses.axes if name != poses.inner)
         if isinstance(leaf, Integral):
-            return self.panels(leaf, design)[0] * self.span_of(leaf, design), {}
+            lost = bool(self.look(design).rows[leaf].lost[0])
+            return Truth(self.panels(leaf, design)[0] * self.span_of(leaf, design), {}, lost)
         if isinstance(leaf, At) and not poses.inner and not quick:
-            here = motion_of(self._grid(poses, design, self._ends(design, slopes=False)))
-            return float(np.ravel(eager(here, leaf.quantity))[0]), {}
+            alone = PoseSet({}, [poses.singles[single]])
+            here = motion_of(self._grid(alone, design, self._ends(design, slopes=False)))
+            value = float(np.ravel(eager(here, leaf.quantity))[0])
+            return Truth(value, {}, bool(np.isnan(value)) and not is_free(here, leaf.quantity))
         if poses.inner or isinstance(leaf, At) or not names:
-            look = self.look(design)
-            return float(reduced(leaf, look.rows[leaf].values)[0]), {}
-        motion = self.motion(design, names, poses.fixed)
-        value = quickly_on(self.plan, leaf.quantity) if quick else value_on(leaf.quantity)
-        found = (lowest if isinstance(leaf, Least) else greatest)(motion, value)
+            rows = self.look(design).rows[leaf]
+            return Truth(float(reduced(leaf, rows.values)[0]), {}, bool(rows.lost[0]))
+        motion = self.motion(design, names)
+        watched = Watched(self.plan, leaf.quantity, quickly_on(self.plan, leaf.quantity) if quick else value_on(leaf.quantity))
+        found = (lowest if isinstance(leaf, Least) else greatest)(motion, watched)
         parts = {}
         for name in names:
             values = motion.strokes[name]
@@ -591,11 +755,11 @@ class Problem:
             turned = is_number(given.low) and is_number(given.high) and given.low > given.high
             part = (float(found.strokes[name]) - low) / (high - low) if high > low else 0.0
             parts[name] = 1.0 - part if turned else part
-        return float(found.value), parts
+        return Truth(float(found.value), parts, watched.lost)
 
     def tops(self, leaf: Leaf, design: Mapping[str, Any]) -> list[float]:
         """Return where between its samples a leaf of one design has tops that come near its worst value, as parts of its stroke's range."""
-        poses, place = self._of_leaf[leaf]
+        poses, place, _ = self._of_leaf[leaf]
         if len(poses.axes) != 1 or poses.inner:
             return []
         ((name, axis),) = poses.axes.items()
@@ -603,7 +767,7 @@ class Problem:
         sense = -1.0 if isinstance(leaf, Least) else 1.0
 
         def values(at: FloatArray) -> FloatArray:
-            found = sampling.seen(self._grid(PoseSet({name: at}, poses.fixed), design, ends)).values[place, 0]
+            found = sampling.seen(self._grid(PoseSet({name: at}), design, ends)).values[place, 0]
             return np.where(np.isfinite(found), sense * found, -np.inf)
 
         seen = values(axis)
@@ -621,13 +785,13 @@ class Problem:
 
     def panels(self, leaf: Leaf, design: Mapping[str, Any]) -> tuple[float, FloatArray]:
         """Return an integral of one design over the parts (0 to 1) of its stroke, and the panels that it takes: fine where it has kinks."""
-        poses, place = self._of_leaf[leaf]
+        poses, place, _ = self._of_leaf[leaf]
         (name,) = [each for each in poses.axes if each != poses.inner]
         sampling, ends = self._sampling(self.sets.index(poses)), self._ends(design, slopes=False)
 
         def values(places: FloatArray) -> FloatArray:
             axes = {name: places} | ({poses.inner: poses.axes[poses.inner]} if poses.inner else {})
-            found = sampling.seen(self._grid(PoseSet(axes, poses.fixed, None, poses.inner), design, ends)).values[place]
+            found = sampling.seen(self._grid(PoseSet(axes, weights=None, inner=poses.inner), design, ends)).values[place]
             if poses.inner:
                 assert isinstance(leaf.quantity, Worst)
                 found, _ = worst_along(found, None, len(poses.axes[poses.inner]), leaf.quantity.sense)
@@ -653,7 +817,7 @@ class Problem:
 
     def refined_panels(self, leaf: Leaf, design: Mapping[str, Any]) -> bool:
         """Look at an integral in panels that are fine enough for one design; return whether they are others than before."""
-        poses, _ = self._of_leaf[leaf]
+        poses, *_ = self._of_leaf[leaf]
         (name,) = [each for each in poses.axes if each != poses.inner]
         places, weights = gauss(self.panels(leaf, design)[1])
         if len(places) <= len(poses.axes[name]):
@@ -663,7 +827,7 @@ class Problem:
 
     def span_of(self, leaf: Leaf, design: Mapping[str, Any]) -> float:
         """Return how long the range of an integral's stroke is [SI]."""
-        poses, _ = self._of_leaf[leaf]
+        poses, *_ = self._of_leaf[leaf]
         (name,) = [each for each in poses.axes if each != poses.inner]
         ends, one = self._ends(design, slopes=False), self.ranges[name]
         low, high = (float(np.ravel(self._end(end, ends, 0, 0))[0]) for end in (one.low, one.high))
@@ -676,7 +840,7 @@ class Problem:
 
     def refined(self, leaf: Leaf, parts: Mapping[str, float]) -> bool:
         """Add a pose between the samples to those of a leaf; return whether it is new."""
-        poses, _ = self._of_leaf[leaf]
+        poses, *_ = self._of_leaf[leaf]
         new = False
         for name, part in parts.items():
             axis = poses.axes[name]

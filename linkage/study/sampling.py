@@ -8,16 +8,17 @@ from typing import Any, final
 
 import numpy as np
 
-from ..errors import unwarned
+from ..errors import AssemblyError, UntracedError, unwarned
 from ..motion import BoundRequest, Grid, Motion, Request
 from ..motion.evaluation import Evaluation
 from ..motion.grid import Angles, JoinedTo, angles_of
 from ..motion.measures import traced
-from ..motion.requests import Slope
+from ..motion.requests import Combined, Slope
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel, Level
-from ..quantities import Quantity
-from .checks import quantity_values, title_of
+from ..quantities import Function, Negative, Number, Quantity, Ref, Sum
+from ..quantities.quantity import Operation
+from .checks import quantity_values
 
 DIFFERENCE = 6e-6
 """Of a variable's span: the step of a central difference, where nothing better is to be had."""
@@ -26,11 +27,15 @@ DIFFERENCE = 6e-6
 @final
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """Quantities at poses: `values` (k, m, n), the `margins` of the loops (r, m, n), and whether a pose is `reached` (m, n)."""
+    """Quantities at poses: `values` (k, m, n), the `margins` of the loops (r, m, n), and whether a pose is `reached` (m, n).
+
+    `lost` (k, m) are those without a value of a design: at a pose that is reached they have none, or a divisor in them changes its sign.
+    """
 
     values: FloatArray
     margins: FloatArray
     reached: Mask
+    lost: Mask
 
 
 @final
@@ -59,6 +64,10 @@ class Sampling:
                 self._eager.append(place)
             else:
                 self._traced[place] = request
+        self._divisors: list[tuple[int, BoundRequest]] = []
+        for place in self._traced:
+            found = [traced(plan, each) for each in divisors_of(plan, self.quantities[place])]
+            self._divisors += [(place, each) for each in found if each is not None]
 
     # -- values ------------------------------------------------------------------------------------------
 
@@ -67,10 +76,11 @@ class Sampling:
         m, n = grid.size
         values = np.full((len(self.quantities), m, n), np.nan)
         loops = Margin.each_of(self.plan) if margins else []  # before anything else is read, which may have triangles of its own
-        requests = (*loops, Placed(), *self._traced.values())
+        requests = (*loops, Placed(), *self._traced.values(), *(each for _, each in self._divisors))
         with unwarned(), np.errstate(all="ignore"):
             found = [np.broadcast_to(each, grid.shape).reshape(m, n) for each in Evaluation(grid, requests, QUICKEST, "nan").run(None)]
-            for place, each in zip(self._traced, found[len(loops) + 1 :], strict=True):
+            first = len(loops) + 1
+            for place, each in zip(self._traced, found[first:], strict=False):
                 values[place] = each
             if self._eager:
                 motion = motion_of(grid)
@@ -78,7 +88,20 @@ class Sampling:
                     values[place] = eager(motion, self.quantities[place]).reshape(m, n)
         reached = np.isfinite(found[len(loops)])
         whole = values if reached.all() else np.where(reached, values, np.nan)
-        return Seen(whole, np.array(found[: len(loops)]).reshape(len(loops), m, n), reached)
+        lost = self._lost(grid, whole, reached)
+        for (place, _), each in zip(self._divisors, found[first + len(self._traced) :], strict=True):
+            lost[place] |= changes_sign(each, reached)
+        return Seen(whole, np.array(found[: len(loops)]).reshape(len(loops), m, n), reached, lost)
+
+    def _lost(self, grid: Grid, values: FloatArray, reached: Mask) -> Mask:
+        """Return which quantities (k, m) have no value at a pose that is reached, though nothing leaves them unlimited there."""
+        empty: Mask = np.asarray(np.isnan(values) & reached)
+        lost: Mask = np.asarray(empty.any(axis=2))
+        for place in np.flatnonzero(lost.any(axis=1)):
+            free = unlimited(motion_of(grid), self.quantities[place])
+            if free is not None:
+                lost[place] = (empty[place] & ~free.reshape(reached.shape)).any(axis=1)
+        return lost
 
     # -- derivatives -------------------------------------------------------------------------------------
 
@@ -141,7 +164,7 @@ def eager(motion: Motion, quantity: Any) -> FloatArray:
     if isinstance(quantity, str) and quantity not in motion.plan.members and quantity in motion.plan.table.spellings:
         owner, sign = motion.plan.table.spellings[quantity]
         return np.asarray(np.broadcast_to(sign * motion.inputs[owner], motion.shape))
-    found = quantity.of(motion) if isinstance(quantity, Request) else quantity_values(motion, quantity)
+    found = quantity.of(motion) if isinstance(quantity, Request) else quantity_values(motion, quantity, endless=True)
     return np.asarray(np.broadcast_to(found, motion.shape))
 
 
@@ -151,7 +174,6 @@ def value_on(quantity: Any) -> Callable[[Motion], FloatArray]:
     def value(motion: Motion) -> FloatArray:
         return eager(motion, quantity)
 
-    value.__name__ = title_of(quantity).replace(" ", "_") if callable(quantity) or isinstance(quantity, (str, Quantity)) else "request"
     return value
 
 
@@ -166,8 +188,78 @@ def quickly_on(plan: Plan, quantity: Any) -> Callable[[Motion], FloatArray]:
             (found,) = Evaluation(motion._grid, (request,), QUICKEST, "nan").run(None)
         return np.asarray(np.broadcast_to(np.where(motion.reached, found, np.nan), motion.shape))
 
-    value.__name__ = value_on(quantity).__name__
     return value
+
+
+# Where there is no value.
+
+
+def unlimited(motion: Motion, quantity: Any) -> Mask | None:
+    """Return the mask of poses at which nothing limits a quantity, so that it has no value there; None of one that always has."""
+    if not isinstance(quantity, Request):
+        return None
+    try:
+        with unwarned(), np.errstate(all="ignore"):
+            found = quantity.unlimited(motion)
+    except (AssemblyError, UntracedError):  # what it would say is refused there, or depends on more than the pose
+        return None
+    return None if found is None else np.asarray(np.broadcast_to(found, motion.shape))
+
+
+def changes_sign(values: FloatArray, reached: Mask) -> Mask:
+    """Return of which designs values (m, n) have both signs, or are zero somewhere."""
+    low, high = (np.where(reached, values, end) for end in (np.inf, -np.inf))
+    return np.asarray((np.nanmin(low, axis=-1, initial=np.inf) <= 0.0) & (np.nanmax(high, axis=-1, initial=-np.inf) >= 0.0))
+
+
+GOES_THROUGH = ("add", "subtract", "multiply", "divide", "negative", "absolute", "power", "sqrt", "hypot")
+"""The functions that grow without bounds where a part of them does."""
+
+
+def divisors_of(plan: Plan, quantity: Any) -> tuple[Any, ...]:
+    """Return what a quantity is divided by, directly or in its parts: where one of these passes zero it has no bounds."""
+    known = plan.members.get(quantity) if isinstance(quantity, str) else quantity
+    if isinstance(known, Ref):
+        return divisors_of(plan, known.target)
+    sign, parts = operation(known)
+    if sign not in GOES_THROUGH:
+        return ()
+    found = [each for part in (parts if sign != "power" else parts[:1]) for each in divisors_of(plan, part)]
+    if sign == "divide":
+        found += zero_factors(plan, parts[1])
+    if sign == "power" and isinstance(power := constant_part(parts[1]), float) and power < 0.0:
+        found += zero_factors(plan, parts[0])
+    return tuple(found)
+
+
+def zero_factors(plan: Plan, divisor: Any) -> list[Any]:
+    """Return the factors of a divisor, each of which makes it zero, without the sizes and powers about them."""
+    known = plan.members.get(divisor) if isinstance(divisor, str) else divisor
+    if isinstance(known, Ref):
+        return zero_factors(plan, known.target)
+    sign, parts = operation(known)
+    if sign in ("absolute", "power", "sqrt", "negative"):
+        return zero_factors(plan, parts[0])
+    if sign == "multiply":
+        return [each for part in parts for each in zero_factors(plan, part)]
+    return [divisor] if isinstance(divisor, (str, Quantity, Request)) and constant_part(divisor) is None else []
+
+
+def constant_part(part: Any) -> float | None:
+    """Return a number that stands in a quantity; None of anything else."""
+    return part.number if isinstance(part, Number) else part if isinstance(part, float) else None
+
+
+def operation(quantity: Any) -> tuple[str, tuple[Any, ...]]:
+    """Return by which of NumPy's functions a quantity is made, and of what; "" for one that is no such thing."""
+    if isinstance(quantity, Combined):
+        return quantity.function, quantity.parts
+    if isinstance(quantity, Operation):
+        return {"*": "multiply", "/": "divide", "**": "power"}[quantity.symbol], quantity.parts()
+    if isinstance(quantity, Function):
+        return quantity.function, quantity.parts()
+    named = {Sum: "add", Negative: "negative"}.get(type(quantity), "")
+    return named, quantity.parts() if named else ()
 
 
 # How far the links are from being too short or too long to meet.

@@ -51,7 +51,7 @@ class Effect:
     @property
     def length(self) -> float:
         """The greatest change, real or told by the gradient [SI]."""
-        return float(np.nanmax(np.abs([self.low, self.high, self.linear_low, self.linear_high])))
+        return float(np.fmax.reduce(np.abs([self.low, self.high, self.linear_low, self.linear_high])))
 
 
 @final
@@ -107,6 +107,9 @@ def tornado(machine: Mechanism, quantity: Measured, tolerances: Mapping[str, Tol
         said = "say one pose, or give a measure such as most(...)"
         raise DefinitionError(f"{plan.title}: {measured_title(plan, quantity)} at {poses.count} poses; {said}.")
     nominal = float(values[0, 0])
+    if not np.isfinite(nominal):
+        what = f"{plan.title}: {measured_title(plan, quantity)} has no value at {poses.words()}"
+        raise DefinitionError(f"{what}; ask where it has one.")
     low, high = values[1 : 1 + k, 0] - nominal, values[1 + k :, 0] - nominal
     slopes = gradient_at(machine, poses, quantity, named)
     parts = (slopes * np.array([each.sigma for each in named.values()])) ** 2

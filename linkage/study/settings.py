@@ -15,7 +15,7 @@ from ..motion import highest, last_holding
 from ..program import FloatArray
 from ..units import show, unit_or_none
 from .box import range_of
-from .checks import QuantityLike, check_one_design, is_one, poses_of, quantity_values, title_of, unit_of
+from .checks import QuantityLike, check_one_design, is_one, poses_of, quantity_values, title_of, unit_of, why_not_assembled
 from .targets import Solutions, Target, solutions_for
 
 SAMPLES = 1025
@@ -64,7 +64,8 @@ def settings_for(
     """Return every value of a dimension in a range at which a quantity has a target value [SI], at one pose of one design.
 
     `settings_for(hitch, "MK", "tilt", 0.0, between=(0.5, 1.3), S=0.1)`. Roots are found to rounding; two that lie closer than a
-    thousandth of the range may be missed. Settings that cannot be assembled are passed over. `unit` is the quantity's in the sentence.
+    thousandth of the range may be missed. Settings that cannot be assembled over the whole stroke are no answer. `unit` is the
+    quantity's in the sentence.
 
     Of several dimensions and targets, `settings_for(hitch, {"MK": (0.5, 1.3), "M": [(0.22, 1.05), (0.22, 0.95)]}, targets)` with a list of
     targets such as `Target("tilt", 0.0, S=0.1)` returns all `Solutions` in the box that are found from `points` of it, for every choice,
@@ -99,8 +100,12 @@ def settings_for(
     off = curve(at)
     found = [root for root in (*sign_changes(curve, at, off), *touchings(curve, at, off)) if is_root(curve, root, off)]
     unique = [root for place, root in enumerate(sorted(found)) if not place or root - sorted(found)[place - 1] > 1e-9 * (high - low)]
+    lost = {root: why for root in unique if (why := why_not_assembled(machine.replaced(**{name: root})))}
+    kept = [root for root in unique if root not in lost]
     words = SettingWords(name, unit_of(machine.plan, name), title_of(quantity), unit)
-    return Settings(name, tuple(unique), words.roots(unique, target) if unique else words.none(at, off + target, target))
+    if unique and not kept:
+        return Settings(name, (), words.lost(unique, target, lost[unique[0]]))
+    return Settings(name, tuple(kept), words.roots(kept, target) if kept else words.none(at, off + target, target))
 
 
 def ends_of_reach(curve: Curve, at: FloatArray) -> FloatArray:
@@ -166,6 +171,14 @@ class SettingWords:
         """Return the settings that give the target."""
         found, wanted = said(" or ").join(show(root, self.unit) for root in roots), show(target, self.shown_in)
         return said("{what} = {target} with {name} = {found}.", what=self.what, target=wanted, name=self.name, found=found)
+
+    def lost(self, roots: Sequence[float], target: float, why: str) -> str:
+        """Return that the settings that give the target are no machines over the whole stroke, and why."""
+        found, wanted = said(" or ").join(show(root, self.unit) for root in roots), show(target, self.shown_in)
+        return said(
+            "{what} = {target} with {name} = {found}, which cannot be assembled over the whole stroke: {why}",
+            what=self.what, target=wanted, name=self.name, found=found, why=why,
+        )  # fmt: skip
 
     def none(self, at: FloatArray, value: FloatArray, target: float) -> str:
         """Return why no setting gives the target."""

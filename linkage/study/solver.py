@@ -8,7 +8,7 @@ way, so that the solver turns back.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, final
 from warnings import catch_warnings, simplefilter
@@ -16,9 +16,9 @@ from warnings import catch_warnings, simplefilter
 import numpy as np
 
 from ..errors import DefinitionError
-from ..motion.measures import Constraint, Given, Integral, Leaf, Least, Measure, Most
+from ..motion.measures import CombinedMeasure, Constraint, Given, Integral, Leaf, Least, Measure, Most
 from ..program import FloatArray
-from .problem import Evaluated, Problem, reduced, scale_among, size_of_rows, terms_size
+from .problem import Evaluated, LimitReachedError, Numbers, Problem, Truth, reduced, scale_among, size_of_rows, terms_size
 
 FAR = 10.0
 """The loss for the whole of a box's side towards designs that cannot be assembled, in scaled numbers."""
@@ -36,6 +36,10 @@ CLEAR = 1e-9
 OTHER_SIZE = 4.0
 """Numbers so many times larger or smaller than at the start are scaled anew."""
 HALVINGS = 40
+STEEP = 1e3
+"""What an infinite derivative counts, of scaled numbers by unit coordinates."""
+LINES, WIDENED = 24, 8
+"""Lines of a constraint that trust-constr is given at most, and how often others are added that its end misses."""
 
 
 @final
@@ -53,7 +57,8 @@ class Graded:
 
     def __add__(self, other: Any) -> Graded:
         other = Graded.of(other)
-        return Graded(self.value + other.value, self.slope + other.slope)
+        with np.errstate(all="ignore"):
+            return Graded(self.value + other.value, self.slope + other.slope)
 
     __radd__ = __add__
 
@@ -68,7 +73,8 @@ class Graded:
 
     def __mul__(self, other: Any) -> Graded:
         other = Graded.of(other)
-        return Graded(self.value * other.value, self.slope * other.value + other.slope * self.value)
+        with np.errstate(all="ignore"):
+            return Graded(self.value * other.value, self.slope * other.value + other.slope * self.value)
 
     __rmul__ = __mul__
 
@@ -92,12 +98,16 @@ class Graded:
 @final
 @dataclass(frozen=True, eq=False)
 class Row:
-    """One line of the solver's problem: which constraint it belongs to, None for what every design keeps, and its scaled numbers."""
+    """One line of the solver's problem: which constraint it belongs to, None for what every design keeps, and its scaled numbers.
+
+    Those of `is_reach` are of the loops, which can be assembled.
+    """
 
     constraint: Constraint | None
     values: FloatArray
     slopes: FloatArray
     equation: bool = False
+    is_reach: bool = False
 
 
 @final
@@ -120,27 +130,33 @@ class Found:
 class Local:
     """A problem with one combination of choices, as a solver sees it.
 
-    Its variables are the unit coordinates, then those of the leaves, then the worst of several objectives, and where it is `elastic` by
-    how much each constraint gives way; then the sum of these is to be least.
+    Its variables are the unit coordinates, then those of the leaves, then the worst of several objectives, and by how much each of the
+    `elastic` constraints gives way; where there are such, the sum of that is to be least.
     """
 
-    def __init__(self, problem: Problem, combination: Sequence[int], start: FloatArray, *, elastic: bool = False) -> None:
-        self.problem, self.combination, self.elastic = problem, tuple(combination), elastic
+    def __init__(
+        self, problem: Problem, combination: Sequence[int], start: FloatArray, *, elastic: Sequence[Constraint] = ()
+    ) -> None:
+        self.problem, self.combination, self.elastic = problem, tuple(combination), tuple(elastic)
         self.n = len(problem.space.variables)
         self._cache: dict[bytes, Evaluated] = {}
         self._good: tuple[FloatArray, Evaluated] | None = None
         equations = tuple(each.margin for each in problem.constraints if each.symbol == "==")
+        self._divisors = divisors((*problem.objectives, *(each.margin for each in problem.constraints)))
+        self._signs: tuple[float, ...] | None = None
+        self._watch: Watch | None = None
         self._needed = {leaf for each in (*problem.objectives, *equations) for leaf in each.leaves}
         first = self.look(start)
         if not bool(first.whole[0]):
             raise DefinitionError("A local search starts from a design that can be assembled.")
         if not self._usable(first):
             raise DefinitionError("A local search starts from a design of which the objective has a value.")
+        self._signs = self._divisor_signs(first)
         self.start = np.asarray(start, float)
         self.leaf_scales, self.scales, self.size = self._scales(first)
         self.aux = self._auxiliaries(first)
         self.several = int(len(problem.objectives) > 1)
-        self.slack = len(problem.constraints) if elastic else 0
+        self.slack = len(self.elastic)
         self.width = self.n + len(self.aux) + self.several + self.slack
 
     # -- scales and auxiliary variables ------------------------------------------------------------------
@@ -196,9 +212,22 @@ class Local:
             self._good = np.array(unit, float), look
         return look
 
+    def _divisor_signs(self, look: Evaluated) -> tuple[float, ...]:
+        """Return the signs of the numbers of a design that another number of it is divided by."""
+        if not self._divisors:
+            return ()
+        numbers = self.leaf_values(look)
+        with np.errstate(all="ignore"):
+            return tuple(float(np.sign(each.of(lambda leaf: np.float64(numbers[leaf])))) for each in self._divisors)
+
     def _usable(self, look: Evaluated) -> bool:
-        """Return whether the objectives and equations have values; an inequality without one says nothing."""
-        return all(bool(np.isfinite(rows.values).any()) for leaf, rows in look.rows.items() if leaf in self._needed)
+        """Return whether the objectives and equations have values; an inequality without one says nothing.
+
+        Beyond a design at which a divisor is zero others begin: a search stays on its side.
+        """
+        if self._signs is not None and self._divisor_signs(look) != self._signs:
+            return False
+        return all(bool(np.isfinite(rows.values).any()) and not rows.lost[0] for leaf, rows in look.rows.items() if leaf in self._needed)
 
     def _safe(self, z: FloatArray) -> tuple[Evaluated, FloatArray, float]:
         """Return a look that can be worked with, the way from it to the point that is asked, and the loss there."""
@@ -238,7 +267,8 @@ class Local:
             return float(z[columns].sum()) + loss, slope
         found = self.graded(self.problem.objectives[0], look, z)
         factor = self.problem.sense / self.size
-        return factor * (found.value + float(found.slope[: self.n] @ way)) + loss, factor * found.slope
+        slope = bounded(factor * found.slope)
+        return factor * found.value + float(slope[: self.n] @ way) + loss, slope
 
     def rows(self, z: FloatArray) -> list[Row]:
         """Return the lines of the problem: zero or above where they are kept, zero where they are equations."""
@@ -256,7 +286,7 @@ class Local:
         """Return the line that holds one of several objectives below the worst of them."""
         graded, factor = self.graded(objective, look, z), self.problem.sense / self.size
         column = self.n + len(self.aux)
-        slope = -factor * graded.slope
+        slope = bounded(-factor * graded.slope)
         slope[column] = 1.0
         return Row(None, np.array([z[column] - factor * graded.value + slope[: self.n] @ way - loss]), slope[None])
 
@@ -272,7 +302,7 @@ class Local:
             told = np.isfinite(told_margins(here))
             values = np.where(told, here.margins[0] - CLEAR, values)
             slopes[told, : self.n] = here.margin_slopes.T[told]
-        return Row(None, values, slopes)
+        return Row(None, values, slopes, is_reach=True)
 
     def _constraint(self, place: int, each: Constraint, look: Evaluated, way: FloatArray, loss: float, z: FloatArray) -> Row:
         """Return the line or lines of a constraint: one a pose where a single extreme is held against a number."""
@@ -289,10 +319,13 @@ class Local:
         else:
             graded = self.graded(each, look, z)
             values, slopes = np.array([graded.value / scale]), graded.slope[None] / scale
+            if not equation or not np.isfinite(values[0]):
+                values, slopes = without_gaps(values, slopes)
+            slopes = bounded(slopes)
         values = values + slopes[:, : self.n] @ way - loss
-        if self.elastic:
+        column = self._column(each)
+        if column is not None:
             slopes = np.array(slopes)
-            column = self.width - self.slack + place
             slack = float(z[column])
             if equation:  # both sides give way
                 both = np.concatenate([slopes, -slopes])
@@ -316,16 +349,19 @@ class Local:
         values, slopes = without_gaps(values, slopes)
         return Row(owner if isinstance(owner, Constraint) else None, values + slopes[:, : self.n] @ way - loss, slopes)
 
+    def _column(self, constraint: Constraint) -> int | None:
+        """Return the variable by which a constraint gives way; None of one that does not."""
+        return next((self.width - self.slack + place for place, each in enumerate(self.elastic) if each is constraint), None)
+
     def first(self, unit: FloatArray) -> FloatArray:
         """Return the solver's variables at unit coordinates."""
         values = self.leaf_values(self.look(unit))
         worst = [self.problem.sense * float(self.problem.value(lambda leaf: values[leaf])) / self.size] * self.several
         z = np.concatenate([unit, [values[leaf] / self.leaf_scales[leaf] for _, leaf in self.aux], worst, np.zeros(self.slack)])
         if self.elastic:
-            columns = {id(each): self.width - self.slack + place for place, each in enumerate(self.problem.constraints)}
             for row in self.rows(z):
-                if row.constraint is not None:
-                    column = columns[id(row.constraint)]
+                column = None if row.constraint is None else self._column(row.constraint)
+                if column is not None:
                     z[column] = max(z[column], -float(row.values.min()))
         return z
 
@@ -357,7 +393,7 @@ class Local:
         for equations, kind in ((False, "ineq"), (True, "eq")):
             if self._stacked(z, equations)[0].size:
                 held.append(self._held(kind, equations))
-        watch = Watch(self, z)
+        watch = self._watched(z)
         try:
             result = minimize(
                 watch.objective, z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
@@ -365,7 +401,16 @@ class Local:
             )  # fmt: skip
         except NoProgressError:
             return watch.best
+        except LimitReachedError:
+            if self.elastic:
+                return watch.best
+            raise
         return watch.better(np.asarray(result.x, float))
+
+    def _watched(self, z: FloatArray, patience: float = PATIENCE) -> Watch:
+        """Return the objective for a solver; it is kept, so that the best so far is known where the solver is stopped."""
+        self._watch = Watch(self, z, patience)
+        return self._watch
 
     def violation(self, z: FloatArray) -> float:
         """Return by how much the worst line of the problem is missed, in scaled numbers."""
@@ -375,37 +420,90 @@ class Local:
         return {"type": kind, "fun": lambda at: self._stacked(at, equations)[0], "jac": lambda at: self._stacked(at, equations)[1]}
 
     def _trusted(self, z: FloatArray, bounds: Any, most: int) -> FloatArray:
-        """Return what trust-constr comes to."""
+        """Return what trust-constr comes to: by the lines that stand worst, then with those that its end misses, too."""
+        chosen: list[Any] = [None] * 2
+        for _ in range(WIDENED):
+            chosen = [self._worst_lines(z, equations, known) for equations, known in zip((False, True), chosen, strict=True)]
+            found = self._within(z, bounds, chosen, most)
+            values = self._stacked(found, False)[0]
+            if not np.any(np.delete(values, chosen[0]) < -MET):
+                return found
+            z = found
+        return z
+
+    def _worst_lines(self, z: FloatArray, equations: bool, known: Any) -> Any:
+        """Return the places of the lines that a solver is given: all equations, of each other constraint the worst; those known, too."""
+        rows, first, found = [row for row in self.rows(z) if row.equation is equations], 0, []
+        for row in rows:
+            near = np.argsort(row.values, kind="stable")[: row.values.size if equations else LINES]
+            found.append(first + near)
+            first += row.values.size
+        lines = np.concatenate([*found, np.zeros(0, int) if known is None else known]) if found else np.zeros(0, int)
+        return np.unique(lines.astype(int))
+
+    def _within(self, z: FloatArray, bounds: Any, chosen: Sequence[Any], most: int) -> FloatArray:
+        """Return what trust-constr comes to by some of the lines."""
         from scipy.optimize import NonlinearConstraint, minimize
 
         held = []
-        for equations, upper in ((False, np.inf), (True, 0.0)):
-            if self._stacked(z, equations)[0].size:
-                one = self._held("ineq", equations)
-                held.append(NonlinearConstraint(one["fun"], 0.0, upper, jac=one["jac"]))
-        with catch_warnings():
-            simplefilter("ignore", UserWarning)  # of functions that happen to be linear
-            result = minimize(
-                lambda at: self.objective(at)[0], z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
-                method="trust-constr", options={"maxiter": 5 * most, "gtol": 1e-9, "xtol": 1e-11},
-            )  # fmt: skip
+        for equations, upper, lines in ((False, np.inf, chosen[0]), (True, 0.0, chosen[1])):
+            if lines.size:
+                values, slopes = self._chosen(equations, lines)
+                held.append(NonlinearConstraint(values, 0.0, upper, jac=slopes))
+        watch = self._watched(z, np.inf)
+        with catch_warnings(), np.errstate(all="ignore"):
+            simplefilter("ignore")  # of functions that happen to be linear, and of singular steps
+            try:
+                result = minimize(
+                    watch.objective, z, jac=lambda at: np.array(self.objective(at)[1]), bounds=bounds, constraints=held,
+                    method="trust-constr", options={"maxiter": 5 * most, "gtol": 1e-9, "xtol": 1e-11},
+                )  # fmt: skip
+            except (ValueError, np.linalg.LinAlgError):  # a system of equations without a solution
+                return watch.best
         return np.asarray(result.x, float)
+
+    def _chosen(self, equations: bool, lines: Any) -> tuple[Any, Any]:
+        """Return some lines' values and derivatives as functions of the solver's variables."""
+        return (lambda at: self._stacked(at, equations)[0][lines]), (lambda at: self._stacked(at, equations)[1][lines])
 
     def judged(self, unit: FloatArray) -> Found:
         """Return the objective and what is missing at unit coordinates, between the samples too."""
         return self._truth(unit)[0]
 
-    def run(self, method: str = "slsqp") -> Found:
-        """Return what a search from the start comes to, with poses between the samples added until none is worse than these."""
-        unit = self.start
-        for _ in range(ROUNDS):
-            unit = self._nearest_good(np.clip(self.solve(unit, method)[: self.n], 0.0, 1.0))
-            if self.refine(unit) or self._rescaled(unit):
-                continue
-            found, missed = self._truth(unit)
-            if not missed:
-                return found
-        return self.judged(unit)
+    def run(self, method: str = "slsqp", rounds: int = ROUNDS) -> Found:
+        """Return what a search from the start comes to, with poses between the samples added until none is worse than these.
+
+        Where the limit of designs is reached it is the best so far.
+        """
+        try:
+            unit = self.start
+            for _ in range(rounds):
+                unit = self._nearest_good(np.clip(self.solve(unit, method)[: self.n], 0.0, 1.0))
+                if self.refine(unit) or self._rescaled(unit):
+                    continue
+                found, missed = self._truth(unit)
+                if not missed:
+                    return found
+            return self.judged(unit)
+        except LimitReachedError:
+            with self.problem.count.unlimited():
+                best = self.start if self._watch is None else self._watch.best[: self.n]
+                return self.judged(self._nearest_good(np.clip(best, 0.0, 1.0)))
+
+    def least(self) -> Found | None:
+        """Return what an elastic search comes to by its samples alone; None where that is no design."""
+        unit = np.clip(self.solve(self.start)[: self.n], 0.0, 1.0)
+        with self.problem.count.unlimited():
+            look = self.look(unit)
+        if not bool(look.whole[0]) or not self._usable(look):
+            return None
+        values = self.numbers(unit)
+        return Found(unit, true_worth(self.problem, values), missing_of(self.problem.constraints, self.scales, values), True)
+
+    def numbers(self, unit: FloatArray) -> Numbers:
+        """Return the leaves' numbers at the samples of unit coordinates."""
+        look = self.look(unit)
+        return Numbers({leaf: Truth(value, {}, bool(look.rows[leaf].lost[0])) for leaf, value in self.leaf_values(look).items()})
 
     def _nearest_good(self, unit: FloatArray) -> FloatArray:
         """Return unit coordinates; where these cannot be worked with, the last ones on the way from the good ones to them that can."""
@@ -459,15 +557,29 @@ class Local:
         look = self.look(unit)
         if not bool(look.whole[0]):
             return Found(unit, np.nan, np.inf, False), False
-        known, values, worse = self.leaf_values(look), {}, False
+        known, truth, worse = self.leaf_values(look), {}, False
         for leaf in problem.leaves:
-            values[leaf], parts = problem.true(leaf, design, quick=True)
-            if not isinstance(leaf, Integral) and self._is_worse(leaf, values[leaf], known[leaf]) and problem.refined(leaf, parts):
+            truth[leaf] = found = problem.true(leaf, design, quick=True)
+            if not isinstance(leaf, Integral) and self._is_worse(leaf, found.value, known[leaf]) and problem.refined(leaf, found.parts):
                 worse = True
         if worse:
             self._cache.clear()
-        value = float(problem.value(lambda leaf: values[leaf]))
+        values = Numbers(truth)
+        value = true_worth(problem, values)
         return Found(unit, value, missing_of(problem.constraints, self.scales, values), True), worse
+
+
+def divisors(expressions: Sequence[Measure]) -> list[Measure]:
+    """Return the measures that others are divided by in some expressions."""
+    found: list[Measure] = []
+    for each in expressions:
+        if isinstance(each, CombinedMeasure):
+            found += divisors((each.left, each.right))
+            if each.symbol == "/" and each.right.leaves:
+                found.append(each.right)
+            elif each.symbol == "**" and each.left.leaves and isinstance(each.right, Given) and each.right.value < 0.0:
+                found.append(each.left)
+    return found
 
 
 class NoProgressError(Exception):
@@ -478,8 +590,8 @@ class NoProgressError(Exception):
 class Watch:
     """A local search's objective, which stops the solver where it has got no further for long, as at an edge of reach."""
 
-    def __init__(self, local: Local, start: FloatArray) -> None:
-        self.local, self.best, self.since, self.merit = local, np.array(start, float), 0, np.inf
+    def __init__(self, local: Local, start: FloatArray, patience: float = PATIENCE) -> None:
+        self.local, self.best, self.since, self.merit, self.patience = local, np.array(start, float), 0, np.inf, patience
 
     def objective(self, z: FloatArray) -> float:
         """Return the scaled objective; NoProgressError where there is no hope."""
@@ -487,7 +599,7 @@ class Watch:
         self.since += 1
         if merit < self.merit - NO_GAIN * (1.0 + abs(merit)):
             self.best, self.since, self.merit = np.array(z, float), 0, merit
-        elif self.since > PATIENCE:
+        elif self.since > self.patience:
             raise NoProgressError
         return value
 
@@ -515,6 +627,11 @@ def told_margins(look: Evaluated) -> FloatArray:
     """Return the margins (r,) of a look at one design, NaN where they or their derivatives are not known."""
     assert look.margin_slopes is not None
     return np.where(np.isfinite(look.margin_slopes).all(axis=0), look.margins[0], np.nan)
+
+
+def bounded(slopes: FloatArray) -> FloatArray:
+    """Return derivatives of scaled numbers that a solver can work with: those that are infinite, as at a dead point, very steep."""
+    return np.nan_to_num(slopes, nan=0.0, posinf=STEEP, neginf=-STEEP)
 
 
 def without_gaps(values: FloatArray, slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -557,11 +674,21 @@ def scales_of(problem: Problem, look: Evaluated) -> list[float]:
     return found
 
 
-def missing_of(constraints: Sequence[Constraint], scales: Sequence[float], values: Mapping[Leaf, float]) -> float:
+def true_worth(problem: Problem, values: Numbers) -> float:
+    """Return the objective [SI] of the leaves' numbers; NaN where one of them is lost."""
+    is_lost = any(leaf in values.lost for each in problem.objectives for leaf in each.leaves)
+    with np.errstate(all="ignore"):
+        return float("nan") if is_lost else float(problem.value(lambda leaf: np.float64(values[leaf])))
+
+
+def missing_of(constraints: Sequence[Constraint], scales: Sequence[float], values: Numbers) -> float:
     """Return by how much the worst of some constraints is missed, in parts of its size; infinite where one has no value."""
     missing = 0.0
     for each, scale in zip(constraints, scales, strict=True):
-        margin = float(each.margin.of(lambda leaf: values[leaf])) / scale
+        with np.errstate(all="ignore"):
+            margin = float(each.margin.of(lambda leaf: np.float64(values[leaf]))) / scale
+        if values.lost.intersection(each.margin.leaves):
+            return np.inf
         if np.isnan(margin):
             if all(np.isfinite(values[leaf]) for leaf in each.margin.leaves) or each.symbol == "==":
                 return np.inf

@@ -12,7 +12,7 @@ from ..frozen import FrozenDict, read_only, refuses_changes
 from ..mechanism import Mechanism
 from ..quantities import is_whole
 from ..shown import Shown
-from .batching import Executor, LocalExecutor, Progress, SurveyRun, progress_told
+from .batching import Executor, LocalExecutor, Progress, SurveyRun, check_progress, progress_told
 from .checkpoint import Checkpoint
 from .checks import check_one_design
 from .designs import Array, Batch, Designs, Measure, Task
@@ -120,8 +120,7 @@ def check_options(machine: Mechanism, measure: Measure, executor: Executor | Non
         raise DefinitionError(f"executor={executor!r:.60} {what}; give a pool of concurrent.futures or client.get_executor().")
     if isinstance(version, bool) or not isinstance(version, (str, int)):
         raise DefinitionError(f"version={cited(version)}: a text or a whole number is expected, such as version=2.")
-    if not isinstance(progress, bool) and (not callable(progress) or isinstance(progress, type)):
-        raise DefinitionError(f"progress={cited(progress)}: say True for a bar, or give a function of (done, total) designs.")
+    check_progress(progress)
 
 
 def piece_size(machine: Mechanism, count: int, given: int | None) -> int:

@@ -19,7 +19,7 @@ from ..program import FloatArray, Way
 from ..quantities import is_number
 from ..units import deg, display_unit, mm, show, unit_or_none
 from .box import Box, setting_words, unit_points
-from .checks import check_one_design, is_one
+from .checks import check_one_design, is_one, why_not_assembled
 from .measured import measure_of
 from .spread import traced_number
 
@@ -62,8 +62,9 @@ class Target:
 class Solutions:
     """All settings of several dimensions that give the targets, or the nearest one; `sentence` says so.
 
-    `settings` are values [SI] by name; `met` is whether they give every target; `misses` are, by settings, how far each target is missed
-    [SI], zero to rounding where they are met. Where `is_family` they are some of infinitely many.
+    `settings` are values [SI] by name; `met` is whether they give every target, of a machine that is assembled over its whole stroke;
+    `misses` are, by settings, how far each target is missed [SI], zero to rounding where they are met. Where `is_family` they are some of
+    infinitely many.
     """
 
     machine: Mechanism
@@ -270,12 +271,22 @@ class Search:
         family = self._of_families(unit, choice, kept) if len(met) else {}
         kept = [each for each in kept if family.get(each, each) == each]
         kept.sort(key=lambda each: (int(choice[each]), *unit[each]))
+        lost = {each: why for each in kept if len(met) and (why := why_not_assembled(self._machine(unit[each], choice[each])))}
+        is_met = bool(len(met)) and len(lost) < len(kept)
+        kept = [each for each in kept if each not in lost] if is_met else kept
         values = self.box.settings(unit[kept], choice[kept])
         settings = tuple(one_setting(values, place) for place in range(len(kept)))
         misses = tuple(tuple((off[each] * self.aim.scale).tolist()) for each in kept)
         words = [setting_words(self.machine.plan, values, place) for place in range(len(kept))]
-        sentence = self._met_words(words, bool(family)) if len(met) else self._near_words(words[0], off[kept[0]])
-        return Solutions(self.machine, settings, bool(len(met)), misses, bool(family), sentence)
+        if lost and not is_met:
+            sentence = self._met_words(words, bool(family)) + f" It cannot be assembled over the whole stroke: {lost[kept[0]]}"
+        else:
+            sentence = self._met_words(words, bool(family)) if is_met else self._near_words(words[0], off[kept[0]])
+        return Solutions(self.machine, settings, is_met, misses, bool(family), sentence)
+
+    def _machine(self, unit: FloatArray, choice: int) -> Mechanism:
+        """Return the machine at unit coordinates (k,) with a choice."""
+        return self.machine.replaced(**one_setting(self.box.settings(unit[None], np.array([choice])), 0))
 
     def _is_same(self, one: FloatArray, other: FloatArray, choice: int) -> bool:
         """Return whether two solutions are one: to rounding, or, at a double one, as near as what lies between is a solution too."""

@@ -449,7 +449,7 @@ def test_local_search_of_elastic_and_plain_agree_where_all_is_kept():
     space = Space.of(machine, {"OB": (0.25, 0.35)})
     problem = Problem(machine, [most(pressure("lift"))], conditions_of([TRAVEL >= 0.5], machine), space)
     unit = space.unit(space.present(machine))
-    assert Local(problem, (), unit, elastic=True).run().missing == 0.0
+    assert Local(problem, (), unit, elastic=problem.constraints).run().missing == 0.0
 
 
 # -- kept on the way ------------------------------------------------------------------------------------------------

@@ -185,10 +185,7 @@ def test_a_rigid_triangle_without_height_moves_as_well_as_any():
         C = OnLink(O, B, OC=0.2, BC=0.3, side=LEFT)
 
     motion = Flat().sweep(5)
-    with pytest.warns(SingularWarning) as found:  # at S = 1.1 the y part is 25 times smaller than the x part, and a height of 0 is rounded
-        ratio = motion.ratio("C")
-    assert [each.message.estimate < 1e-6 for each in found] == [True]
-    assert_allclose(ratio, 0.4 * motion.ratio("B"), rtol=1e-6)
+    assert_allclose(motion.ratio("C"), 0.4 * motion.ratio("B"), rtol=1e-6)
 
 
 def test_a_derivative_of_nothing_is_nothing():

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from linkage import Crank, DefinitionError, Dyad, Ground, Link, Mechanism, Pin, Stroke, deg, drawn
+from linkage import LEFT, Crank, DefinitionError, Dyad, Ground, Link, Mechanism, OnLink, Pin, Stroke, deg, drawn
 
 
 class Lever(Mechanism):
@@ -94,3 +94,22 @@ def test_dyad_hangs_on_a_straight_lever():
 
     motion = Hung().sweep(3)
     assert_allclose(np.hypot(*(motion["H"] - motion["C"])), 2.0, rtol=1e-14)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_straight_link_stays_straight_whatever_its_lengths_round_to(seed):
+    """Lengths that add up but for their last digit: a height of 1e-8 that only rounding makes is none, and nothing is warned of."""
+    rng = np.random.default_rng(seed)
+    part, whole = rng.uniform(0.1, 0.9), rng.uniform(1.0, 2.0)
+
+    class Straight(Mechanism):
+        phi = Stroke(0, 90 * deg)
+        O = Ground(0.3, -0.2)
+        A = Crank(O, OA=whole, angle=phi)
+        C = OnLink(O, A, OC=part * whole, AC=whole - part * whole, side=LEFT)
+
+    motion = Straight().sweep(7)
+    straight = motion["O"] + part * (motion["A"] - motion["O"])
+    assert_allclose(motion["C"], straight, rtol=0, atol=1e-15)
+    assert_allclose(motion.ratio("C"), part * motion.ratio("A"), rtol=0, atol=1e-15)
+    assert_allclose(Straight().evaluate(["C"], phi=motion.strokes["phi"], backend="floats")[0], straight, rtol=0, atol=1e-15)

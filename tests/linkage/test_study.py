@@ -301,7 +301,11 @@ def test_no_setting_is_said():
 
 def test_setting_beside_the_end_of_reach():
     """Where the link is just long enough: between the last setting that reaches and its neighbour on the samples."""
-    hitch = ThreePointHitch()
+
+    class Held(ThreePointHitch):
+        S = Stroke(0.1, 0.1 + 1e-7)  # a setting has to reach over the whole stroke
+
+    hitch = Held()
     end = float(hitch.at(S=0.1).distance("M", "F")) - hitch["FK"]
     wanted = float(hitch.replaced(MK=end + 1e-6).at(S=0.1)["tilt"])
     found = settings_for(hitch, "MK", "tilt", wanted, between=(0.4, 2.0), S=0.1)

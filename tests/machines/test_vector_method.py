@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from hydraulics import Cylinder
 from linkage import (
     RIGHT,
     AssemblyError,
@@ -31,6 +32,7 @@ from linkage import (
     deg,
     distance,
     driving_force,
+    equations,
     pin_forces,
 )
 from linkage.files import load, to_json, to_toml
@@ -382,3 +384,29 @@ def test_a_table_drives_as_a_stroke_does():
     found = Cam().sweep(5)
     assert Cam().mobility == 1
     assert_allclose(pin_forces(found).drives["phi"], driving_force(found), rtol=1e-11)
+
+
+# -- the equations of vectors that are written where they are used ---------------------------------------------
+
+LONG = ("forestry crane", "boom, arm and bucket, three cylinders, a bell crank")
+
+
+@pytest.mark.parametrize("which", [pytest.param(name, marks=pytest.mark.slow if name in LONG else ()) for name in ALL])
+def test_equations_of_forces(which):
+    """Their values are the engine's; the vectors of a line have no symbols of their own."""
+    vectors, _ = ALL[which]
+    found = motion(vectors, 3)
+    values = equations(vectors, forces=True).values(at=found.strokes)
+    for stroke in found.strokes:
+        force = driving_force(found, drive=stroke)
+        assert_allclose(values[f"Q_{stroke}"] * np.ones(3), force, rtol=1e-9, atol=1e-12 * np.abs(force).max())
+    for name, ram in vectors.plan.of_kind(Cylinder).items():
+        assert_allclose(values[f"T_{name}"] * np.ones(3), ram.thrust(found), rtol=1e-9)
+
+
+def test_equations_of_a_cylinder_along_a_vector_without_a_name():
+    _, steps = PAIRS["a lever, placed from the cylinder's pin"]
+    held = type("Held", (PAIRS["a lever, placed from the cylinder's pin"][0],), {"lift": Cylinder("A", "B", bore=0.06, rod=0.03)})
+    found = motion(held, 3)
+    values = equations(held, forces=True).values(at=found.strokes)
+    assert_allclose(values["T_lift"], pin_forces(motion(steps, 3)).thrusts["AB"], rtol=1e-9)

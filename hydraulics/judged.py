@@ -53,6 +53,9 @@ def lift_verdicts(
 def line_verdicts(circuit: LiftLine, judge: Judge, resistance: float = 0.0, unit: str = "bar") -> list[Verdict]:
     """Return the verdicts on a circuit and each of its cylinders."""
     cylinders = [LiftingCylinder(judge, circuit, ram, unit) for ram in circuit.rams(judge.motion)]
+    unplaced = [each.ram.unplaced for each in cylinders if not each.ram.is_placed(judge)]
+    if unplaced:
+        return [Verdict("lifting", False, " ".join(unplaced))]
     nothing = idle(cylinders)
     if nothing is not None:
         return [nothing, oil_verdict(circuit, judge)]

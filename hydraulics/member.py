@@ -290,6 +290,8 @@ class Cylinder(TwoPoint, Tabled, Judging):
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it fits wherever the machine runs, is of a standard size, and whether a rod that carries something buckles."""
         try:
+            if not self.is_placed(judge):
+                return [Verdict("length", False, self.unplaced), self.standard(judge.motion)]
             rod = self.buckling_verdicts(judge) if carries_loads(judge) else []
             return [*self.length_verdicts(judge), self.standard(judge.motion), *rod]
         except DefinitionError as error:
@@ -364,6 +366,15 @@ class Cylinder(TwoPoint, Tabled, Judging):
             opened = closed + stroke if stroke is not None else np.inf
             return [self._reaches(low, high, closed, opened).answered(ends[0] if low - closed < opened - high else ends[1])]
         return [] if stroke is None else [self._travels(high - low, stroke).answered(ends[1])]
+
+    def is_placed(self, judge: Judge) -> bool:
+        """Return whether its pins have a place anywhere that a judge looks at: a fixed one may have none in a design."""
+        return bool(np.isfinite(judge.answer(least(distance(self.A, self.B))).value))
+
+    @property
+    def unplaced(self) -> str:
+        """That its pins have no place, in words."""
+        return said("{pins} has no length at any pose that is looked at: one of its pins has no place there.", pins=self._pins)
 
     def travelled(self, judge: Judge) -> float:
         """Return greatest less least length over all that a judge looks at [m], of one design."""

@@ -6,7 +6,7 @@ import re
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -95,9 +95,8 @@ def with_overs(machine: Mechanism, overs: Sequence[Over] | None) -> Mechanism:
     members: dict[str, Any] = {name: None for name, over in own.items() if over not in overs}
     fresh = [over for over in overs if not over.name]
     members |= {f"over_{number}": over for number, over in enumerate(fresh, 1)}
-    variant = type(cls)(cls.__name__, (cls,), {"__doc__": cls.__doc__, "__module__": cls.__module__, **members})
-    made: Mechanism = variant(**machine.dimensions)
-    return made
+    contents = {"__doc__": cls.__doc__, "__module__": cls.__module__, **members}
+    return cast(Mechanism, type(cls)(cls.__name__, (cls,), contents)(**machine.dimensions))  # type: ignore[misc]
 
 
 def judged_over(machine: Mechanism, options: Namespace, motion: Motion) -> list[Over | Motion] | None:

@@ -147,16 +147,16 @@ class Domain:
             self.motion = Motion(plan, designs, strokes, "nan", per_design=own)
 
     def number(self, quantity: str | Quantity) -> float:
-        """Return the value of a design variable by its name, or of a quantity of the design [SI]; DefinitionError for a batch."""
+        """Return the value of a design variable by its name, or of a quantity of the design [SI]; DefinitionError where designs differ."""
         if isinstance(quantity, str):
             owner, sign = self.plan.table.spellings[quantity]
             found = sign * np.asarray(self.designs[owner], float)
         else:
             start = {name: np.asarray(value, float) for name, value in self.plan.sketch_strokes.items()}
             found = Motion(self.plan, self.designs, start, "nan").value(quantity)
-        if np.size(found) != 1 or not np.all(np.isfinite(found)):
+        if np.unique(found).size != 1 or not np.all(np.isfinite(found)):
             what = f"{self.plan.title}: {self.over}: {words_of(quantity)} = {cited(found)}"
-            raise DefinitionError(f"{what}; one finite number is expected, of one design.")
+            raise DefinitionError(f"{what}; one finite number is expected, the same for all designs: take one design, or give over=.")
         return float(np.ravel(found)[0])
 
     @cached_property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from ..quantities import Member
 from ..units import deg, show
 from ..verdict import Verdict
 from . import scan
-from .answer import share_text
+from .answer import Answer, share_text
 from .judge import Judge, Question
 from .limits import StrokeLimits, place_text
 from .measures import Condition, Measure, least, reachable
@@ -194,13 +194,24 @@ def batch_verdicts(judge: Judge) -> list[str]:
         )
         return [*found, text]
     failed: dict[str, list[tuple[int, str]]] = {}
+    answers: dict[str, list[Answer]] = {}
     for number in np.flatnonzero(np.any([each.any(axis=1) for each in reached], axis=0)).tolist():
         for verdict in member_verdicts(judge.of_design(number).lost_allowed()):
             failed.setdefault(verdict.rule, [])
+            if verdict.answer is not None and np.isfinite(verdict.answer.value):
+                answers.setdefault(verdict.rule, []).append(verdict.answer)
             if verdict.ok is False:
                 failed[verdict.rule].append((number + 1, verdict.sentence))
     for rule, each_of in failed.items():
-        text = said("{n} of {total} designs fail", n=len(each_of), total=total)
+        text = said("{n} of {total} designs fail", n=len(each_of), total=total) + (range_words(answers.get(rule, [])) if each_of else "")
         text += said("; the first is design {number}: {sentence}", number=each_of[0][0], sentence=each_of[0][1]) if each_of else "."
         found.append(Verdict(rule, not each_of, text))
     return found
+
+
+def range_words(answers: Sequence[Answer]) -> str:
+    """Return from what to what the worst values of several designs go, in words; empty where all have the same."""
+    low, high = (pick(answers, key=lambda each: each.value, default=None) for pick in (min, max))
+    if low is None or high is None or low.amount == high.amount:
+        return ""
+    return said(", of their worst values {low} to {high}", low=low.amount, high=high.amount)

@@ -12,7 +12,7 @@ from typing import Any, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, known_name, unknown, unwarned
+from linkage.errors import DefinitionError, known_name, unknown
 from linkage.language import said, said_of, with_and
 from linkage.loads import FRICTIONLESS, Acting
 from linkage.motion import Answer, Condition, Judge, Motion, Question, Span, at, below_zero, least, most, reached, require_motion
@@ -313,12 +313,8 @@ class LiftingCylinder:
 
     @property
     def way_back(self) -> str:
-        """The direction in which it goes back: against its working one; of both the way the load drives it at most ends of the strokes."""
-        if self.ram.works != "both":
-            return "retracting" if self.ram.works == "piston" else "extending"
-        with unwarned():
-            ends = Thrust(self.ram, Acting(self.judge.acting.loads)).of(self.judge.motion)
-        return "retracting" if float(np.nan_to_num(np.sign(ends)).sum()) >= 0.0 else "extending"
+        """The direction in which it goes back, told at the ends of the strokes."""
+        return self.ram.way_back(self.judge.motion, self.judge.acting.loads)
 
     def stuck(self, back: GoingBack) -> str:
         """Return where it does not go back, in words."""

@@ -230,6 +230,14 @@ class Cylinder(TwoPoint, Tabled, Judging):
         """The directions in which the side that works drives it."""
         return {"piston": ("extending",), "rod": ("retracting",)}.get(self.works, ("extending", "retracting"))
 
+    def way_back(self, motion: AnyMotion, loads: Loads = None, case: Case = None) -> str:
+        """Return the direction in which it goes back: against its working one; of both the way the load drives it at most of the poses."""
+        if self.works != "both":
+            return "retracting" if self.works == "piston" else "extending"
+        with unwarned():
+            drives = np.sign(self.thrust(motion, loads, case=case))
+        return "retracting" if float(np.nan_to_num(drives).sum()) >= 0.0 else "extending"
+
     def pressure_on(
         self, side: str, motion: AnyMotion, acting: Acting, circuit: Circuit | None = None, *, below: bool = False
     ) -> Array:

@@ -146,12 +146,16 @@ class Domain:
             own = given is not None and given._grid.per_design
             self.motion = Motion(plan, designs, strokes, "nan", per_design=own)
 
-    def number(self, quantity: Quantity) -> float:
-        """Return the value of a quantity of the design [SI]; DefinitionError for a batch."""
-        start = {name: np.asarray(value, float) for name, value in self.plan.sketch_strokes.items()}
-        found = Motion(self.plan, self.designs, start, "nan").value(quantity)
+    def number(self, quantity: str | Quantity) -> float:
+        """Return the value of a design variable by its name, or of a quantity of the design [SI]; DefinitionError for a batch."""
+        if isinstance(quantity, str):
+            owner, sign = self.plan.table.spellings[quantity]
+            found = sign * np.asarray(self.designs[owner], float)
+        else:
+            start = {name: np.asarray(value, float) for name, value in self.plan.sketch_strokes.items()}
+            found = Motion(self.plan, self.designs, start, "nan").value(quantity)
         if np.size(found) != 1 or not np.all(np.isfinite(found)):
-            what = f"{self.plan.title}: {self.over}: {quantity.name or quantity} = {cited(found)}"
+            what = f"{self.plan.title}: {self.over}: {words_of(quantity)} = {cited(found)}"
             raise DefinitionError(f"{what}; one finite number is expected, of one design.")
         return float(np.ravel(found)[0])
 
@@ -580,6 +584,20 @@ class Judge:
                 row = Sought(leaf, piece, situation, sense)
                 found[key] = row if key not in found else replace(found[key], situation=shared(found[key].situation, situation))
         return [*found.values()]
+
+    def split(self, constraint: Constraint) -> list[Constraint]:
+        """Return a constraint as one of each smooth piece, in each load case and movement that occurs, as searches take it.
+
+        One piece alone, and a comparison of several measures, stays as it is, in each load case.
+        """
+        leaf = constraint.left
+        bounds_worst = (isinstance(leaf, Least) and constraint.symbol == ">=") or (isinstance(leaf, Most) and constraint.symbol == "<=")
+        if not (bounds_worst and isinstance(leaf, Leaf) and isinstance(leaf.quantity, Request)) or constraint.right.leaves:
+            return [constraint]
+        rows = [row for place in self.places for row in self.rows(leaf, place)]
+        if len(rows) == 1:
+            return [constraint]
+        return [replace(constraint, left=replace(leaf, quantity=row.piece.request)) for row in rows]
 
     def at_pose(self, row: Sought, place: Domain) -> WorstPiece:
         """Return the value of a row at the one pose that its leaf says."""

@@ -126,7 +126,7 @@ class Over(Member):
 
     # -- of a machine ------------------------------------------------------------------------------------
 
-    def places(self, plan: Plan, number: Callable[[Quantity], float]) -> dict[str, FloatArray]:
+    def places(self, plan: Plan, number: Callable[[str | Quantity], float]) -> dict[str, FloatArray]:
         """Return strokes [m or rad] that span it, arrays of one shape; `number` gives the value of a quantity of the design.
 
         Of a box its corners, an axis for each stroke that runs; of a path the places in an array of one axis; poses in one of two.
@@ -143,19 +143,20 @@ class Over(Member):
         values = dict(zip(moving, axes, strict=True))
         return {name: np.array(np.broadcast_to(values.get(name, low), shape)).reshape(whole) for name, (low, _) in ends.items()}
 
-    def ends(self, name: str, plan: Plan, number: Callable[[Quantity], float]) -> tuple[float, float]:
+    def ends(self, name: str, plan: Plan, number: Callable[[str | Quantity], float]) -> tuple[float, float]:
         """Return the least and the greatest value of a stroke in a box [m or rad]; DefinitionError for an end that follows a stroke."""
         stroke = plan.strokes[name]
         given = self.strokes.get(name, (stroke.start, stroke.end))
         found = []
         for each in given if isinstance(given, tuple) else (given, given):
-            if not is_number(each):
+            is_variable = isinstance(each, str) and each in plan.table.spellings
+            if not is_number(each) and not is_variable:
                 followed = quantity(each)
                 behind = next((one for one in plan.strokes if one == followed.name or one in plan.reaches(followed)), "")
                 if behind:
                     what = f"{plan.title}: {self}: {followed.name or followed} depends on the stroke {behind} itself"
                     raise DefinitionError(f"{what}; give a quantity of the design.")
-            found.append(float(each) if is_number(each) else number(quantity(each)))
+            found.append(float(each) if is_number(each) else number(each if is_variable else quantity(each)))
         check_magnitude(name, (found[0], found[1]), plan)
         return min(found), max(found)
 

@@ -132,7 +132,7 @@ class Over(Member):
         Of a box its corners, an axis for each stroke that runs; of a path the places in an array of one axis; poses in one of two.
         """
         if self.shape != "box":
-            known = [of_design(self.strokes[name], number) for name in plan.strokes]
+            known = [numbers_of_design(self.strokes[name], number) for name in plan.strokes]
             values = dict(zip(plan.strokes, np.broadcast_arrays(*map(real, known)), strict=True))
             apart = self.shape == "poses" and len(values) > 1
             return {name: np.array(value.reshape(-1, 1) if apart else np.atleast_1d(value)) for name, value in values.items()}
@@ -237,10 +237,10 @@ def box_ends(name: str, value: Any) -> Any:
     raise DefinitionError(f"Over({name}={cited(value)}): (low, high) or one value is expected, in SI.")
 
 
-def of_design(value: Any, number: Callable[[Quantity], float]) -> Any:
+def numbers_of_design(value: Any, number: Callable[[Quantity], float]) -> Any:
     """Return what a stroke of a path is given as numbers; `number` gives the value of a quantity of the design."""
     if isinstance(value, tuple):
-        return [of_design(each, number) for each in value]
+        return [numbers_of_design(each, number) for each in value]
     return value if is_number(value) else number(quantity(value))
 
 

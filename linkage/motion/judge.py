@@ -10,17 +10,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import product
 from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, told, unwarned
+from ..errors import DefinitionError, cited, known_name, told, unwarned
 from ..language import said
-from ..loads import PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
+from ..loads import FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel
-from ..quantities import Quantity, Ref
+from ..quantities import PoseCondition, Quantity, Ref
 from ..vectors import Numbers
 from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
 from .box import values_a_stroke
@@ -57,6 +56,8 @@ INNER = 65
 """Values of the stroke over which `worst` is taken."""
 PANELS = 4096
 """Intervals of an integral, by Simpson's rule."""
+COARSE = 5
+"""Values of each stroke of a coarse grid."""
 MET = 1e-9
 """Of the size of its two sides: a condition that is missed by no more is kept, to rounding."""
 
@@ -144,12 +145,16 @@ class Domain:
             own = given is not None and given._grid.per_design
             self.motion = Motion(plan, designs, strokes, "nan", per_design=own)
 
-    def number(self, quantity: Quantity) -> float:
-        """Return the value of a quantity of the design [SI]; DefinitionError for one that differs between the designs of a batch."""
-        start = {name: np.asarray(value, float) for name, value in self.plan.sketch_strokes.items()}
-        found = Motion(self.plan, self.designs, start, "nan").value(quantity)
+    def number(self, quantity: str | Quantity) -> float:
+        """Return the value of a design variable by its name, or of a quantity of the design [SI]; DefinitionError where designs differ."""
+        if isinstance(quantity, str):
+            owner, sign = self.plan.table.spellings[quantity]
+            found = sign * np.asarray(self.designs[owner], float)
+        else:
+            start = {name: np.asarray(value, float) for name, value in self.plan.sketch_strokes.items()}
+            found = Motion(self.plan, self.designs, start, "nan").value(quantity)
         if np.unique(found).size != 1 or not np.all(np.isfinite(found)):
-            what = f"{self.plan.title}: {self.over}: {quantity.name or quantity} = {cited(found)}"
+            what = f"{self.plan.title}: {self.over}: {words_of(quantity)} = {cited(found)}"
             raise DefinitionError(f"{what}; one finite number is expected, the same for all designs: take one design, or give over=.")
         return float(np.ravel(found)[0])
 
@@ -456,6 +461,10 @@ class Judge:
             raise DefinitionError(f'{plan.title}: acting={cited(acting)}: a situation is expected, such as Acting(case="full").')
         self.plan, self.designs, self.acting, self.machine = plan, designs, acting or PLAIN, machine
         cases = [*plan.of_kind(LoadCase)]
+        if self.acting.case is not None and not isinstance(self.acting.case, LoadCase):
+            case_named(plan, self.acting.case)
+        if self.acting.drive is not None:
+            known_name("Stroke", self.acting.drive, plan.strokes, where=f"{plan.title}: acting.drive")
         for over in overs:
             if isinstance(over, Over):
                 over.check(plan.title, plan.strokes, cases)
@@ -486,6 +495,31 @@ class Judge:
         motion = self.motion
         return motion if len(self.places) == 1 and len(motion._stroke_shape) <= 1 and self.places[0].over.shape != "poses" else None
 
+    @property
+    def cases(self) -> list[str]:
+        """The load cases that are looked at, by name, "plain" the machine's own loads."""
+        return [*dict.fromkeys(case for place in self.places for case in place.cases(self.acting))]
+
+    def actings(self, request: Request) -> list[Acting]:
+        """Return the situations in which a request is judged over all its overs, as requests and forces take them."""
+        asked = request.under(self.acting)
+        found = dict.fromkeys(each for place in self.places for each in place.situations(asked, self.acting))
+        return [each.acting.within(self.acting) for each in found]
+
+    @property
+    def pose(self) -> Motion | None:
+        """A pose that is reached, of those that are looked at; None where none is found on a coarse grid."""
+        for place in self.places:
+            axes = [np.linspace(np.min(value), np.max(value), COARSE) for value in place.motion.strokes.values()]
+            grid = dict(zip(place.motion.strokes, np.meshgrid(*axes, indexing="ij"), strict=True))
+            coarse = place.motion if place.over.shape != "box" else Motion(self.plan, self.designs, grid, "nan")
+            for motion in (place.motion, coarse):
+                reached = motion.reached.reshape(-1, *motion._stroke_shape).all(axis=0)
+                if reached.any():
+                    strokes = {name: np.broadcast_to(value, motion._stroke_shape) for name, value in motion.strokes.items()}
+                    return motion.moved({name: value[reached][0] for name, value in strokes.items()})
+        return None
+
     def situation(self, answer: Answer) -> Acting:
         """Return the situation of an answer of one design, as requests and forces take it."""
         case = answer.case if answer.case not in ("", PLAIN_CASE) else None
@@ -494,6 +528,12 @@ class Judge:
     def there(self, answer: Answer) -> Motion:
         """Return the pose of an answer of one design."""
         return self.motion.moved({name: np.asarray(value) for name, value in answer.strokes.items()})
+
+    @property
+    def is_reached(self) -> bool:
+        """Whether any place that it looks at can be assembled."""
+        self.answers([reachable])
+        return any(seen.lost_share < 1.0 for seen in self._seen)
 
     def answer(self, question: Question) -> Answer:
         """Return the answer to one question."""
@@ -544,6 +584,20 @@ class Judge:
                 found[key] = row if key not in found else replace(found[key], situation=shared(found[key].situation, situation))
         return [*found.values()]
 
+    def split(self, constraint: Constraint) -> list[Constraint]:
+        """Return a constraint as one of each smooth piece, in each load case and movement that occurs, as searches take it.
+
+        One piece alone, and a comparison of several measures, stays as it is, in each load case.
+        """
+        leaf = constraint.left
+        bounds_worst = (isinstance(leaf, Least) and constraint.symbol == ">=") or (isinstance(leaf, Most) and constraint.symbol == "<=")
+        if not (bounds_worst and isinstance(leaf, Leaf) and isinstance(leaf.quantity, Request)) or constraint.right.leaves:
+            return [constraint]
+        rows = [row for place in self.places for row in self.rows(leaf, place)]
+        if len(rows) == 1:
+            return [constraint]
+        return [replace(constraint, left=replace(leaf, quantity=row.piece.request)) for row in rows]
+
     def at_pose(self, row: Sought, place: Domain) -> WorstPiece:
         """Return the value of a row at the one pose that its leaf says."""
         leaf = row.leaf
@@ -576,13 +630,12 @@ class Judge:
                 value, margin = valued(question, values.__getitem__)
             unbounded = np.any([each.unbounded for each in chosen], axis=0) if chosen else np.zeros((), bool)
             where = next((each.strokes for each in chosen if each.strokes), {})
-            situation = next((each.row.situation for each in chosen if each.row.situation != Situation()), Situation())
             side = next((each.row.piece.side for each in chosen if each.row.piece.side), "")
             lawless = max((each.lawless for each in chosen), default=0.0)
             unlimited = max((each.unlimited for each in chosen), default=0.0)
             made.append(
                 Candidate(
-                    np.asarray(value), np.asarray(margin), where, np.asarray(unbounded), situation, side, place, seen, lawless, unlimited
+                    np.asarray(value), np.asarray(margin), where, np.asarray(unbounded), situation_of(chosen), side, place, seen, lawless, unlimited
                 )
             )
         return made
@@ -702,9 +755,10 @@ def questions_of(plan: Plan, given: Any) -> list[Any]:
         raise DefinitionError(f"{plan.title}: answers({cited(given)}): a list of questions is expected, [most(...) <= 8 * deg].")
     for each in listed:
         if not isinstance(each, (Measure, Condition)):
-            said_of = (
-                f"{words_of(each)} has a value at every pose" if isinstance(each, (str, Quantity, Request)) else f"{cited(each)} is none"
-            )
+            at_poses = isinstance(each, (str, Quantity, Request, Worst))
+            said_of = f"{words_of(each)} has a value at every pose" if at_poses else f"{cited(each)} is none"
+            if isinstance(each, PoseCondition):
+                said_of = f"{each} is kept at some poses and not at others; say which value is meant, or where, Over(only=[...])"
             raise DefinitionError(
                 f"{plan.title}: a question is a measure or a condition, and {said_of}; write least(...), most(...) >= ...."
             )
@@ -736,13 +790,47 @@ def shared(a: Situation, b: Situation) -> Situation:
     return Situation(*("" if x != y else x for x, y in ((a.case, b.case), (a.direction, b.direction), (a.drive, b.drive))))
 
 
-def together(of_leaves: Sequence[Sequence[WorstPiece]]) -> Iterable[tuple[WorstPiece, ...]]:
-    """Yield the pieces of several leaves that occur at once: in the same load case and movement, where they name one."""
-    for chosen in product(*of_leaves):
-        cases = {each.row.situation.case for each in chosen} - {""}
-        ways = {(each.row.situation.direction, each.row.situation.drive) for each in chosen if each.row.situation.direction}
-        if len(cases) <= 1 and len(ways) <= 1:
-            yield chosen
+def together(of_leaves: Sequence[Sequence[WorstPiece]]) -> list[tuple[WorstPiece, ...]]:
+    """Return the pieces of several leaves that occur at once, all there are.
+
+    They are in the same load case, where they name one, and either at rest or moving: what is at rest only, as nothing rubs, goes with
+    both. What the same stroke, path or cylinder moves goes the same way.
+    """
+    moves = {id(each): any(is_moving(one) for one in pieces) for pieces in of_leaves for each in pieces}
+
+    def at_once(a: WorstPiece, b: WorstPiece) -> bool:
+        one, other = a.row.situation, b.row.situation
+        if one.case and other.case and one.case != other.case:
+            return False
+        if not (one.direction and other.direction):
+            return True
+        if is_moving(a) != is_moving(b):
+            return not moves[id(b if is_moving(a) else a)]
+        return mover_of(a) != mover_of(b) or (one.direction, one.drive) == (other.direction, other.drive)
+
+    found: list[tuple[WorstPiece, ...]] = [()]
+    for pieces in of_leaves:
+        found = [(*chosen, each) for chosen in found for each in pieces if all(at_once(one, each) for one in chosen)]
+    return found
+
+
+def is_moving(piece: WorstPiece) -> bool:
+    """Return whether a piece is one of a movement."""
+    return piece.row.situation.direction not in ("", FRICTIONLESS)
+
+
+def mover_of(piece: WorstPiece) -> Any:
+    """Return what moves in the direction of a piece: a cylinder's name, None for a stroke or a path."""
+    quantity = piece.row.leaf.quantity
+    return quantity.mover if isinstance(quantity, Request) else None
+
+
+def situation_of(chosen: Sequence[WorstPiece]) -> Situation:
+    """Return the situation of pieces that occur at once: their load case, and their movement where one of them moves."""
+    case = next((each.row.situation.case for each in chosen if each.row.situation.case), "")
+    moving_one = next((each for each in chosen if is_moving(each)), None)
+    way = moving_one or next((each for each in chosen if each.row.situation.direction), None)
+    return Situation(case, way.row.situation.direction, way.row.situation.drive) if way else Situation(case)
 
 
 def valued(question: Any, number: Callable[[Leaf], FloatArray]) -> tuple[FloatArray, FloatArray]:

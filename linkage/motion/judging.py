@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -13,10 +13,11 @@ from ..language import said
 from ..quantities import Member
 from ..units import deg, show
 from ..verdict import Verdict
+from . import scan
 from .answer import Answer, share_text
 from .judge import Judge, Question
 from .limits import StrokeLimits, place_text
-from .measures import Measure, least, reachable
+from .measures import Condition, Measure, least, reachable
 from .motion import out_of_reach
 from .pose_requests import transmission
 
@@ -33,6 +34,10 @@ class Judging(Member):
         """Return what its verdicts ask of every machine, so that all members' questions are looked at in one pass."""
         return []
 
+    def conditions(self, judge: Judge) -> Mapping[str, Condition]:
+        """Return those of its rules that are plain conditions, by the rules' names: what a page asks of a design that is changed."""
+        return {}
+
     @abstractmethod
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return what an engineer should know of it: what the judge answers over all that the machine runs, of one design.
@@ -45,7 +50,7 @@ def judge_verdicts(judge: Judge) -> list[str]:
     """Return what can be said of any machine over all that it runs; of a batch, how many designs fail."""
     if any(map(np.ndim, judge.designs.values())):
         return batch_verdicts(judge)
-    if not any(place.motion.reached.any() for place in judge.places):
+    if not judge.is_reached:
         return assembly_verdicts(judge)
     members = judge.plan.of_kind(Judging).values()
     judge.answers([reachable, *transmissions(judge).values(), *(each for member in members for each in member.questions(judge))])
@@ -65,11 +70,12 @@ def geometry_verdicts(judge: Judge) -> list[str]:
     """Return whether one design is assembled over all that it runs, its dead points, and its least transmission angle where it is poor."""
     if not judge.plan.strokes or not judge.plan.moving:
         return []
-    first = next((place.motion for place in judge.places if place.motion.reached.any()), None)
-    if first is None:
+    if not judge.is_reached:
         return assembly_verdicts(judge)
-    limits = first.limits().values()
-    dead = [each for one in limits for each in dead_point_verdicts(one)]
+    first = next((place.motion for place in judge.places if place.motion.reached.any()), judge.motion)
+    spans = {name: (float(np.min(value)), float(np.max(value))) for name, value in first.strokes.items()}
+    limits = (one for name, one in scan.limits(first).items() if spans[name][0] < spans[name][1] or len(spans) == 1)
+    dead = [each for one in limits for each in dead_point_verdicts(one, spans[one.stroke])]
     return [*assembly_verdicts(judge), *dead, *transmission_words(judge)]
 
 
@@ -85,7 +91,7 @@ def assembly_verdicts(judge: Judge) -> list[str]:
     ]
     if not answer.lost:
         return [Verdict("assembly", True, said("it is assembled over {spans}.", spans="; ".join(named)), answer=answer)]
-    if not any(place.motion.reached.any() for place in judge.places):
+    if not judge.is_reached:
         return [Verdict("assembly", False, one_line(out_of_reach(judge.places[0].motion)), answer=answer)]
     text = said(
         "over {spans} {share} cannot be assembled, deepest {place}: {why}", spans="; ".join(named), share=share_text(answer.lost.share),
@@ -97,9 +103,9 @@ def assembly_verdicts(judge: Judge) -> list[str]:
     return [Verdict("assembly", False, f"{text.rstrip('.')}; {remedy}", answer=answer)]
 
 
-def dead_point_verdicts(limits: StrokeLimits) -> Iterator[Verdict]:
-    """Yield what stops or turns a motion along one stroke: within its range a fault, beyond its ends how far away it is."""
-    low, high = sorted((limits.start, limits.end))
+def dead_point_verdicts(limits: StrokeLimits, span: tuple[float, float]) -> Iterator[Verdict]:
+    """Yield what stops or turns a motion along one stroke: within the part that runs a fault, beyond its ends how far away it is."""
+    low, high = span if span[0] < span[1] else sorted((limits.start, limits.end))
     near = 1e-9 * (high - low)
     points = dict.fromkeys(limits.dead_points)
     inside = [place_of(limits, value, step) for value, step in points if low + near < value < high - near]

@@ -126,7 +126,7 @@ class Over(Member):
 
     # -- of a machine ------------------------------------------------------------------------------------
 
-    def places(self, plan: Plan, number: Callable[[Quantity], float]) -> dict[str, FloatArray]:
+    def places(self, plan: Plan, number: Callable[[str | Quantity], float]) -> dict[str, FloatArray]:
         """Return strokes [m or rad] that span it, arrays of one shape; `number` gives the value of a quantity of the design.
 
         Of a box its corners, an axis for each stroke that runs; of a path the places in an array of one axis; poses in one of two.
@@ -144,7 +144,7 @@ class Over(Member):
         values = dict(zip(moving, axes, strict=True))
         return {name: np.array(np.broadcast_to(values.get(name, low), shape)).reshape(whole) for name, (low, _) in ends.items()}
 
-    def ends(self, name: str, plan: Plan, number: Callable[[Quantity], float]) -> tuple[float, float]:
+    def ends(self, name: str, plan: Plan, number: Callable[[str | Quantity], float]) -> tuple[float, float]:
         """Return the least and the greatest value of a stroke in a box [m or rad]; DefinitionError for an end that follows a stroke."""
         stroke = plan.strokes[name]
         given = self.strokes.get(name, (stroke.start, stroke.end))
@@ -153,11 +153,13 @@ class Over(Member):
         return min(found), max(found)
 
     def numbers(self, given: Any, plan: Plan, number: Callable[[Quantity], float]) -> Any:
-        """Return the values that a stroke is given as numbers [m or rad], a list of several; DefinitionError for one that follows a stroke."""
+        """Return what a stroke is given as numbers [m or rad], a list of several; DefinitionError for what follows a stroke."""
         if isinstance(given, tuple):
             return [self.numbers(each, plan, number) for each in given]
         if is_number(given):
             return float(given)
+        if isinstance(given, str) and given in plan.table.spellings:
+            return number(given)
         followed = quantity(given)
         behind = next((one for one in plan.strokes if one == followed.name or one in plan.reaches(followed)), "")
         if behind:
@@ -222,8 +224,8 @@ def ends_text(value: Any) -> str:
 
 
 def is_end(value: Any) -> bool:
-    """Return whether a value is a number, a quantity or the name of one."""
-    return is_number(value) or isinstance(value, (str, Quantity))
+    """Return whether a value is a number, a quantity or a name."""
+    return is_number(value) or isinstance(value, Quantity) or (isinstance(value, str) and value.isidentifier())
 
 
 def box_ends(name: str, value: Any) -> Any:
@@ -244,7 +246,7 @@ def box_ends(name: str, value: Any) -> Any:
 
 def place_values(shape: str, name: str, value: Any) -> Any:
     """Return what a stroke of a path is given: numbers or quantities in their order, or one where it is held."""
-    if isinstance(value, (str, Quantity)):
+    if is_end(value) and not is_number(value):
         return value
     if isinstance(value, (list, tuple)) and any(isinstance(each, (str, Quantity)) for each in value) and all(map(is_end, value)):
         return tuple(float(each) if is_number(each) else each for each in value)

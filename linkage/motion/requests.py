@@ -81,6 +81,11 @@ class Request(Arithmetic):
         """Whether these directions are those of a stroke, which has to be named; else they are its own, as a cylinder's."""
         return False
 
+    @property
+    def mover(self) -> Hashable:
+        """What moves in these directions: a cylinder's name; None for a stroke or a path."""
+        return None
+
     def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
         """Return the smooth pieces that it is judged by in one situation, such as the two sides of a cylinder."""
         return (SmoothPiece(self),)
@@ -116,6 +121,11 @@ class BoundRequest(ABC):
     @abstractmethod
     def key(self) -> Hashable:
         """What tells this request from others of the same plan."""
+
+    @property
+    def traced_with(self) -> Hashable:
+        """What tells the requests whose program is traced in one with this one's: where one of them can be, all can."""
+        return self.key
 
     @abstractmethod
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
@@ -422,6 +432,10 @@ class Combined(Request):
     @property
     def of_strokes(self) -> bool:
         return any(each.of_strokes for each in self.requests)
+
+    @property
+    def mover(self) -> Hashable:
+        return None if self.of_strokes else next((each.mover for each in self.requests if each.mover is not None), None)
 
     def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
         parts = [each.pieces(plan) if isinstance(each, Request) else (SmoothPiece(each),) for each in self.parts]

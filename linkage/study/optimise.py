@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any, final
 import numpy as np
 
 from ..disk import check_name, in_words, replacing_text
-from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, cited, one_word
-from ..loads import Acting
+from ..errors import AssemblyError, DefinitionError, LinkageError, StudyError, cited, known_name, one_word
+from ..loads import PLAIN_CASE, Acting, LoadCase
 from ..mechanism import Mechanism
-from ..motion import Request
+from ..motion import Over, Request
 from ..motion.measures import (
     At,
     CombinedMeasure,
@@ -41,7 +41,7 @@ from .checkpoint import measure_text
 from .checks import check_one_design
 from .infeasible import infeasible_error
 from .optimum import Optimum, in_units, polished, unit_of_constraint
-from .problem import COARSE, SAMPLES, LimitReachedError, Problem, reduced
+from .problem import COARSE, SAMPLES, LimitReachedError, Problem, ranges_of, reduced
 from .solver import Found, Graded, Local
 from .space import Space
 from .spread import sigma
@@ -104,12 +104,15 @@ def optimise(
     objectives, sense = objectives_of(machine, minimise, maximise)
     space = Space.of(machine, vary)
     constraints = conditions_of(subject_to, machine)
-    cases = list(case) if isinstance(case, (list, tuple)) else [case]
+    over, occurring = where_searched(machine, over)
+    cases = list(case) if isinstance(case, (list, tuple)) else occurring if case is None else [case]
     if not cases:
         raise DefinitionError(f"{title}: case={cited(case)}: a load case or several are expected; leave it out for the own loads.")
     for each in cases:
         case_of(machine.plan, each)
-    held = list(dict.fromkeys(found for each in cases for found in (constraint_in_case(one, each) for one in constraints)))
+    judges = [machine.judge(over, Acting(case=PLAIN_CASE if each is None else each)) for each in cases]
+    in_cases = [(each, piece) for each, judge in zip(cases, judges, strict=True) for one in constraints for piece in judge.split(one)]
+    held = list(dict.fromkeys(constraint_in_case(piece, each) for each, piece in in_cases))
     plan = SearchPlan(method, solver, starts or STARTS, seed)
     if len(objectives) > 1:
         if len(cases) > 1 or robust is not None or folder is not None:
@@ -126,6 +129,29 @@ def optimise(
     problem.count.limit = limit or default_limit(problem, plan)
     with progress_told(progress, machine.plan.heading) as tell, fixed_backend("numpy"):  # the same to the last bit whatever ran before
         return DesignSearch(problem, plan, Journal.of(folder, problem, plan), tell).run()
+
+
+def where_searched(machine: Mechanism, over: Any) -> tuple[Any, list[Any]]:
+    """Return the part of each stroke that a search looks at, and the load cases that occur there, None for the plain loads.
+
+    `over` is a dictionary, an `Over` or the name of one that the class declares; without it the box. DefinitionError for a path, poses and
+    conditions on poses, which a search does not run along.
+    """
+    plan, title = machine.plan, machine.plan.title
+    declared = plan.of_kind(Over)
+    if isinstance(over, str):
+        over = declared[known_name("Over", over, declared, where=title)]
+    occurring = [None, *plan.of_kind(LoadCase)]
+    if not isinstance(over, Over):
+        ranges_of(machine, over)  # which refuses what is none
+        return over, occurring
+    over.check(title, plan.strokes, plan.of_kind(LoadCase))
+    if over.shape != "box" or over.only:
+        remedy = "give a box, over={...}, and ask the design that is found machine.answers([...], over=...)"
+        raise DefinitionError(f"{title}: over={over.name or over}: a search runs over a box of strokes; {remedy}.")
+    if over.cases is not None:
+        occurring = [None if name == PLAIN_CASE else name for name in over.cases]
+    return dict(over.strokes), occurring
 
 
 def default_limit(problem: Problem, plan: SearchPlan) -> int:

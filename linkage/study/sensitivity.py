@@ -112,9 +112,10 @@ def tornado(machine: Mechanism, quantity: Measured, tolerances: Mapping[str, Tol
         raise DefinitionError(f"{what}; ask where it has one.")
     low, high = values[1 : 1 + k, 0] - nominal, values[1 + k :, 0] - nominal
     slopes = gradient_at(machine, poses, quantity, named)
-    parts = (slopes * np.array([each.sigma for each in named.values()])) ** 2
-    total = float(parts.sum())
-    shares = parts / total if total else parts
+    with np.errstate(all="ignore"):
+        parts = (slopes * np.array([each.sigma for each in named.values()])) ** 2
+        total = float(parts.sum())
+        shares = parts / total if total else parts
     rows = np.stack([slopes, low, high, shares], axis=1).tolist()
     bars = [Effect(name, each, *row) for (name, each), row in zip(named.items(), rows, strict=True)]
     ordered = tuple(sorted(bars, key=lambda bar: -bar.length))

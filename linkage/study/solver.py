@@ -523,7 +523,8 @@ class Local:
         look = self.look(unit)
         leaf_scales, scales, size = self._scales(look)
         before = np.array([*self.leaf_scales.values(), *self.scales, self.size])
-        ratios = np.array([*leaf_scales.values(), *scales, size]) / before
+        with np.errstate(all="ignore"):
+            ratios = np.array([*leaf_scales.values(), *scales, size]) / before
         if bool(((ratios < OTHER_SIZE) & (ratios > 1.0 / OTHER_SIZE)).all()):
             return False
         self.leaf_scales, self.scales, self.size = leaf_scales, scales, size

@@ -19,6 +19,7 @@ from linkage import (
     LoadCase,
     Mechanism,
     OnLink,
+    Over,
     PinFriction,
     Stroke,
     StudyError,
@@ -65,6 +66,11 @@ class Boom(Mechanism):
     load = Weight(G, mass=500)
     lift = Cylinder(A, B, bore=80 * mm, rod=45 * mm, closed=0.5, stroke=0.25)
     circuit = LiftCircuit(lift, pressure=180 * bar)
+
+
+class Loaded(Boom):
+    """The same with load cases, all of which count where none is named."""
+
     full = LoadCase(scale={"load": 2.0})
     empty = LoadCase(scale={"load": 0.1})
 
@@ -194,10 +200,11 @@ def test_the_stroke_may_follow_the_design():
 
 
 def test_several_load_cases_are_all_kept_and_the_worst_counts():
-    both = optimise(Boom(), maximise=least(reserve("lift")), vary={"OB": (0.25, 0.35)}, case=["full", "empty"], starts=1)
-    full = optimise(Boom(), maximise=least(reserve("lift")), vary={"OB": (0.25, 0.35)}, case="full", starts=1)
-    plain = optimise(Boom(), maximise=least(reserve("lift")), vary={"OB": (0.25, 0.35)}, starts=1)
+    asked = dict(maximise=least(reserve("lift")), vary={"OB": (0.25, 0.35)}, starts=1)
+    both, full, plain = (optimise(Loaded(), **asked, case=case) for case in (["full", "empty"], "full", "plain"))
     assert_allclose(both.value, full.value, rtol=1e-6)
+    assert_allclose(optimise(Loaded(), **asked).value, full.value, rtol=1e-6)  # all that occur
+    assert_allclose(optimise(Loaded(), **asked, over=Over(cases=("plain", "empty"))).value, plain.value, rtol=1e-6)
     assert_allclose(full.value, plain.value / 2.0, rtol=1e-6)
 
 

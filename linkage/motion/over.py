@@ -152,7 +152,7 @@ class Over(Member):
         check_magnitude(name, (found[0], found[1]), plan)
         return min(found), max(found)
 
-    def numbers(self, given: Any, plan: Plan, number: Callable[[Quantity], float]) -> Any:
+    def numbers(self, given: Any, plan: Plan, number: Callable[[str | Quantity], float]) -> Any:
         """Return what a stroke is given as numbers [m or rad], a list of several; DefinitionError for what follows a stroke."""
         if isinstance(given, tuple):
             return [self.numbers(each, plan, number) for each in given]

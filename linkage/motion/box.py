@@ -627,10 +627,10 @@ def highest_in(box: SeenBox) -> HighestInBox:
     unbounded[doubtful.function[grows], doubtful.design[grows]] = True
     poles = doubtful.where(grows)
     unit[poles.function, poles.design] = poles.unit
-    endless = np.asarray(np.isposinf(box.seen))  # where the grid itself is infinite no search starts
+    endless = np.equal(box.seen, np.inf)  # where the grid itself is infinite no search starts
     unbounded |= endless.any(axis=-1)
     first = np.stack(np.unravel_index(np.argmax(endless, axis=-1), [box.side] * box.k), axis=-1) / (box.side - 1.0)
-    unit = np.where(endless.any(axis=-1)[..., None], first, unit)
+    unit = np.where(endless.any(axis=-1, keepdims=True), first, unit)
     lost = missing.all(axis=-1)
     value = np.where(lost, np.nan, np.where(unbounded, np.inf, np.where(value <= LOWEST, -np.inf, value)))
     return HighestInBox(value, unit, unbounded)

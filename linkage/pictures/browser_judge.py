@@ -12,7 +12,6 @@ import numpy as np
 
 from ..errors import DefinitionError, LinkageError, unwarned
 from ..language import heading_of, language
-from ..loads import FRICTIONLESS
 from ..mechanism import Mechanism
 from ..motion import BoundRequest, Condition, Judging, LiveText, Motion, Request, RequestLike, least, most
 from ..motion.judge import measures_of
@@ -172,8 +171,8 @@ def piece_of(live: LiveText, number: int, row: Any, name: str) -> dict[str, Any]
     situation = row.situation
     return {
         "over": number, "row": live.rows[name][0], "gaps": live.rows[f"{name} gaps"][0], "assumed": live.rows[f"{name} assumed"][0],
-        "sense": row.sought, "reciprocal": int(row.is_reciprocal), "case": situation.case, "direction": situation.direction,
-        "rest": int(situation.direction == FRICTIONLESS), "drive": situation.drive, "side": row.piece.side,
+        "sense": row.sought, "reciprocal": int(row.is_reciprocal), "stays": int(row.stays_at_zero),
+        "case": situation.case, "direction": situation.direction, "drive": situation.drive, "side": row.piece.side,
     }  # fmt: skip
 
 

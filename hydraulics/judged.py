@@ -12,7 +12,7 @@ from typing import Any, final
 
 import numpy as np
 
-from linkage.errors import DefinitionError, known_name, unknown, unwarned
+from linkage.errors import DefinitionError, known_name, unknown
 from linkage.language import said, said_of, with_and
 from linkage.loads import FRICTIONLESS, Acting
 from linkage.motion import Answer, Condition, Judge, Motion, Question, Span, at, below_zero, least, most, reached, require_motion
@@ -53,6 +53,9 @@ def lift_verdicts(
 def line_verdicts(circuit: LiftLine, judge: Judge, resistance: float = 0.0, unit: str = "bar") -> list[Verdict]:
     """Return the verdicts on a circuit and each of its cylinders."""
     cylinders = [LiftingCylinder(judge, circuit, ram, unit) for ram in circuit.rams(judge.motion)]
+    unplaced = [each.ram.unplaced for each in cylinders if not each.ram.is_placed(judge)]
+    if unplaced:
+        return [Verdict("lifting", False, " ".join(unplaced))]
     nothing = idle(cylinders)
     if nothing is not None:
         return [nothing, oil_verdict(circuit, judge)]
@@ -313,12 +316,8 @@ class LiftingCylinder:
 
     @property
     def way_back(self) -> str:
-        """The direction in which it goes back: against its working one; of both the way the load drives it at most ends of the strokes."""
-        if self.ram.works != "both":
-            return "retracting" if self.ram.works == "piston" else "extending"
-        with unwarned():
-            ends = Thrust(self.ram, Acting(self.judge.acting.loads)).of(self.judge.motion)
-        return "retracting" if float(np.nan_to_num(np.sign(ends)).sum()) >= 0.0 else "extending"
+        """The direction in which it goes back, told at the ends of the strokes."""
+        return self.ram.way_back(self.judge.motion, self.judge.acting.loads)
 
     def stuck(self, back: GoingBack) -> str:
         """Return where it does not go back, in words."""
@@ -334,6 +333,8 @@ def oil_verdict(circuit: LiftLine, judge: Judge) -> Verdict:
     """Return how much oil the machine takes over all that it runs, and how long the pump's flow needs for it."""
     rams = circuit.rams(judge.motion)
     ways = [ram.travelled(judge) for ram in rams]
+    if np.isnan(ways).any():
+        return Verdict("oil", None, said("nothing is left to judge: every place is unlimited, left out or lost"))
     oil = sum(way * float(np.ravel(ram.sized(judge.motion).area)[0]) for ram, way in zip(rams, ways, strict=True))
     both = [(ram, way) for ram, way in zip(rams, ways, strict=True) if ram.works == "both"]
     back = sum(way * float(np.ravel(ram.sized(judge.motion).pull_area)[0]) for ram, way in both)

@@ -230,6 +230,14 @@ class Cylinder(TwoPoint, Tabled, Judging):
         """The directions in which the side that works drives it."""
         return {"piston": ("extending",), "rod": ("retracting",)}.get(self.works, ("extending", "retracting"))
 
+    def way_back(self, motion: AnyMotion, loads: Loads = None, case: Case = None) -> str:
+        """Return the direction in which it goes back: against its working one; of both the way the load drives it at most of the poses."""
+        if self.works != "both":
+            return "retracting" if self.works == "piston" else "extending"
+        with unwarned():
+            drives = np.sign(self.thrust(motion, loads, case=case))
+        return "retracting" if float(np.nan_to_num(drives).sum()) >= 0.0 else "extending"
+
     def pressure_on(
         self, side: str, motion: AnyMotion, acting: Acting, circuit: Circuit | None = None, *, below: bool = False
     ) -> Array:
@@ -282,6 +290,8 @@ class Cylinder(TwoPoint, Tabled, Judging):
     def verdicts(self, judge: Judge) -> list[Verdict]:
         """Return whether it fits wherever the machine runs, is of a standard size, and whether a rod that carries something buckles."""
         try:
+            if not self.is_placed(judge):
+                return [Verdict("length", False, self.unplaced), self.standard(judge.motion)]
             rod = self.buckling_verdicts(judge) if carries_loads(judge) else []
             return [*self.length_verdicts(judge), self.standard(judge.motion), *rod]
         except DefinitionError as error:
@@ -350,10 +360,21 @@ class Cylinder(TwoPoint, Tabled, Judging):
             return []
         ends = judge.answers([least(distance(self.A, self.B)), most(distance(self.A, self.B))])
         low, high = (float(each.value) for each in ends)
+        if np.isnan(low):
+            return [Verdict("length", None, said("nothing is left to judge: every place is unlimited, left out or lost"), answer=ends[0])]
         if closed is not None:
             opened = closed + stroke if stroke is not None else np.inf
             return [self._reaches(low, high, closed, opened).answered(ends[0] if low - closed < opened - high else ends[1])]
         return [] if stroke is None else [self._travels(high - low, stroke).answered(ends[1])]
+
+    def is_placed(self, judge: Judge) -> bool:
+        """Return whether its pins have a place anywhere that a judge looks at: a fixed one may have none in a design."""
+        return bool(np.isfinite(judge.answer(least(distance(self.A, self.B))).value))
+
+    @property
+    def unplaced(self) -> str:
+        """That its pins have no place, in words."""
+        return said("{pins} has no length at any pose that is looked at: one of its pins has no place there.", pins=self._pins)
 
     def travelled(self, judge: Judge) -> float:
         """Return greatest less least length over all that a judge looks at [m], of one design."""

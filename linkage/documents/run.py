@@ -129,9 +129,8 @@ class Looked:
         with unwarned():
             own = column_requests(self.machine, self.curve).items()
             asked = {name: request for name, (_, request, why) in own if not (why and isinstance(request, ColumnOf))}
-            found: dict[str, MeasuredQuantity] = {
-                name: request for name, request in asked.items() if isinstance(request, (str, Quantity, Request))
-            }
+            kinds = str, Quantity, Request
+            found: dict[str, MeasuredQuantity] = {name: request for name, request in asked.items() if isinstance(request, kinds)}
             for name, column in member_tables(self.machine, self.curve):
                 if isinstance(column.request, (str, Quantity, Request)):
                     found.setdefault(f"{column.name} {name}", column.request)

@@ -15,12 +15,12 @@ from typing import Any, TypeAlias, final
 
 import numpy as np
 
-from ..errors import DefinitionError, cited, told, unwarned
+from ..errors import DefinitionError, cited, known_name, told, unwarned
 from ..language import said
 from ..loads import PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel
-from ..quantities import Quantity, Ref
+from ..quantities import PoseCondition, Quantity, Ref
 from ..vectors import Numbers
 from .answer import LOST, NONE_LOST, NOTHING_LEFT, OF_VALUE, UNBOUNDED, Answer, Lost, share_text
 from .box import values_a_stroke
@@ -147,16 +147,16 @@ class Domain:
             self.motion = Motion(plan, designs, strokes, "nan", per_design=own)
 
     def number(self, quantity: str | Quantity) -> float:
-        """Return the value of a design variable by its name, or of a quantity of the design [SI]; DefinitionError for a batch."""
+        """Return the value of a design variable by its name, or of a quantity of the design [SI]; DefinitionError where designs differ."""
         if isinstance(quantity, str):
             owner, sign = self.plan.table.spellings[quantity]
             found = sign * np.asarray(self.designs[owner], float)
         else:
             start = {name: np.asarray(value, float) for name, value in self.plan.sketch_strokes.items()}
             found = Motion(self.plan, self.designs, start, "nan").value(quantity)
-        if np.size(found) != 1 or not np.all(np.isfinite(found)):
+        if np.unique(found).size != 1 or not np.all(np.isfinite(found)):
             what = f"{self.plan.title}: {self.over}: {words_of(quantity)} = {cited(found)}"
-            raise DefinitionError(f"{what}; one finite number is expected, of one design.")
+            raise DefinitionError(f"{what}; one finite number is expected, the same for all designs: take one design, or give over=.")
         return float(np.ravel(found)[0])
 
     @cached_property
@@ -462,6 +462,10 @@ class Judge:
             raise DefinitionError(f'{plan.title}: acting={cited(acting)}: a situation is expected, such as Acting(case="full").')
         self.plan, self.designs, self.acting, self.machine = plan, designs, acting or PLAIN, machine
         cases = [*plan.of_kind(LoadCase)]
+        if self.acting.case is not None and not isinstance(self.acting.case, LoadCase):
+            case_named(plan, self.acting.case)
+        if self.acting.drive is not None:
+            known_name("Stroke", self.acting.drive, plan.strokes, where=f"{plan.title}: acting.drive")
         for over in overs:
             if isinstance(over, Over):
                 over.check(plan.title, plan.strokes, cases)
@@ -525,6 +529,12 @@ class Judge:
     def there(self, answer: Answer) -> Motion:
         """Return the pose of an answer of one design."""
         return self.motion.moved({name: np.asarray(value) for name, value in answer.strokes.items()})
+
+    @property
+    def is_reached(self) -> bool:
+        """Whether any place that it looks at can be assembled."""
+        self.answers([reachable])
+        return any(seen.lost_share < 1.0 for seen in self._seen)
 
     def answer(self, question: Question) -> Answer:
         """Return the answer to one question."""
@@ -747,9 +757,10 @@ def questions_of(plan: Plan, given: Any) -> list[Any]:
         raise DefinitionError(f"{plan.title}: answers({cited(given)}): a list of questions is expected, [most(...) <= 8 * deg].")
     for each in listed:
         if not isinstance(each, (Measure, Condition)):
-            said_of = (
-                f"{words_of(each)} has a value at every pose" if isinstance(each, (str, Quantity, Request)) else f"{cited(each)} is none"
-            )
+            at_poses = isinstance(each, (str, Quantity, Request, Worst))
+            said_of = f"{words_of(each)} has a value at every pose" if at_poses else f"{cited(each)} is none"
+            if isinstance(each, PoseCondition):
+                said_of = f"{each} is kept at some poses and not at others; say which value is meant, or where, Over(only=[...])"
             raise DefinitionError(
                 f"{plan.title}: a question is a measure or a condition, and {said_of}; write least(...), most(...) >= ...."
             )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import Any, Self, TypeVar, final
+from typing import Any, Self, TypeVar, cast, final
 from weakref import ref
 
 import numpy as np
@@ -315,14 +315,28 @@ class PinForceOf(ForceOf):
     def key(self) -> Hashable:
         return "pin force", self.request.point, self.request.on, self.request.by, self.request.component, self.loads_key
 
+    @property
+    def traced_with(self) -> Hashable:
+        return "pin forces", self.loads_key, self.length
+
+    def traced(self, plan: Plan) -> TracedLoads:
+        return self.equilibrium(plan)[0]
+
+    def equilibrium(self, plan: Plan) -> tuple[TracedLoads, Solution]:
+        """Return the loads and all joint forces on a plan's program, traced there once for all joints that are asked for."""
+        kept = plan.trace.kept
+        if self.traced_with not in kept:
+            traced = super().traced(plan)
+            system = System(traced.structure, traced.poses, traced.acting.loads, length=self.length)
+            u = eliminated_forces(system, traced.motion)
+            kept[self.traced_with] = traced, Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), [])
+        return cast(tuple[TracedLoads, Solution], kept[self.traced_with])
+
     def nodes(self, plan: Plan) -> tuple[Node, ...]:
-        traced = self.traced(plan)
-        structure, motion = traced.structure, traced.motion
-        system = System(structure, traced.poses, traced.acting.loads, length=self.length)
-        u = eliminated_forces(system, motion)
-        contact, _, sign = contact_of(structure, self.request)
-        force, _ = Solution(system, u, np.zeros((1, 0)), np.zeros(1, bool), []).transmitted(contact)
-        return (motion.node(COMPONENTS[self.request.component](*(sign * force[:, 0]))),)
+        traced, solution = self.equilibrium(plan)
+        contact, _, sign = contact_of(solution.system.structure, self.request)
+        force, _ = solution.transmitted(contact)
+        return (traced.motion.node(COMPONENTS[self.request.component](*(sign * force[:, 0]))),)
 
     def notes(self, plan: Plan) -> Notes:
         traced = self.traced(plan)

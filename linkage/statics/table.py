@@ -13,7 +13,7 @@ from ..errors import DefinitionError, cited, unwarned
 from ..language import noted, said, translated
 from ..loads import FRICTIONLESS, Acting
 from ..mechanism import Mechanism
-from ..motion import Answer, Judge, Over, greatest, most, stroke_unit
+from ..motion import Answer, Judge, Motion, Over, greatest, most, stroke_unit
 from ..motion.limits import place_text
 from ..units import shown_number, unit_sign
 from .force_requests import pin_force
@@ -85,7 +85,7 @@ def max_headings() -> tuple[str, ...]:
     )  # fmt: skip
 
 
-OverLike: TypeAlias = Over | Mapping[str, Any] | Sequence[Over] | None
+OverLike: TypeAlias = Over | Mapping[str, Any] | Sequence[Over | Motion] | None
 
 
 @overload

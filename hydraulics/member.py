@@ -525,6 +525,10 @@ class CylinderRequest(LawRequest):
         found = self.acting.within(replace(acting, drive=None), "" if keep else str(self))
         return self if found == self.acting else replace(self, acting=found)
 
+    @property
+    def mover(self) -> Hashable:
+        return self.named
+
     def movements(self, plan: Plan, rubs: bool) -> tuple[str, ...]:
         return DIRECTIONS if rubs else DIRECTIONS[:1]
 

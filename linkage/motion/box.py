@@ -615,7 +615,7 @@ def highest_in(box: SeenBox) -> HighestInBox:
         rough = ridden(box, rough, least[rough.function, rough.design])
     found = [tops, rough, best]
     missing = np.isnan(box.seen)
-    if missing.any() and not missing.all():
+    if (missing.any(axis=-1) & ~missing.all(axis=-1)).any():
         found += along_borders(box, value_of(best_of(Climbs.joined(found), K, D, 1), K, D), least)
     doubtful = best_of(Climbs.joined([rough, *found[4:]]), K, D, 1)
     doubtful = doubtful.where(doubtful.value >= value_of(best_of(Climbs.joined(found), K, D, 1), K, D)[doubtful.function, doubtful.design])
@@ -627,6 +627,10 @@ def highest_in(box: SeenBox) -> HighestInBox:
     unbounded[doubtful.function[grows], doubtful.design[grows]] = True
     poles = doubtful.where(grows)
     unit[poles.function, poles.design] = poles.unit
+    endless = np.isposinf(box.seen)  # where the grid itself is infinite no search starts
+    unbounded |= endless.any(axis=-1)
+    first = np.stack(np.unravel_index(np.argmax(endless, axis=-1), [box.side] * box.k), axis=-1) / (box.side - 1.0)
+    unit = np.where(endless.any(axis=-1)[..., None], first, unit)
     lost = missing.all(axis=-1)
     value = np.where(lost, np.nan, np.where(unbounded, np.inf, np.where(value <= LOWEST, -np.inf, value)))
     return HighestInBox(value, unit, unbounded)

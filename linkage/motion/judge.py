@@ -10,14 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import product
 from typing import Any, TypeAlias, final
 
 import numpy as np
 
 from ..errors import DefinitionError, cited, known_name, told, unwarned
 from ..language import said
-from ..loads import PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
+from ..loads import FRICTIONLESS, PLAIN, PLAIN_CASE, Acting, ForceElement, LoadCase
 from ..plan import Mask, Plan
 from ..program import QUICKEST, FloatArray, Kernel
 from ..quantities import PoseCondition, Quantity, Ref
@@ -631,13 +630,12 @@ class Judge:
                 value, margin = valued(question, values.__getitem__)
             unbounded = np.any([each.unbounded for each in chosen], axis=0) if chosen else np.zeros((), bool)
             where = next((each.strokes for each in chosen if each.strokes), {})
-            situation = next((each.row.situation for each in chosen if each.row.situation != Situation()), Situation())
             side = next((each.row.piece.side for each in chosen if each.row.piece.side), "")
             lawless = max((each.lawless for each in chosen), default=0.0)
             unlimited = max((each.unlimited for each in chosen), default=0.0)
             made.append(
                 Candidate(
-                    np.asarray(value), np.asarray(margin), where, np.asarray(unbounded), situation, side, place, seen, lawless, unlimited
+                    np.asarray(value), np.asarray(margin), where, np.asarray(unbounded), situation_of(chosen), side, place, seen, lawless, unlimited
                 )
             )
         return made
@@ -792,13 +790,47 @@ def shared(a: Situation, b: Situation) -> Situation:
     return Situation(*("" if x != y else x for x, y in ((a.case, b.case), (a.direction, b.direction), (a.drive, b.drive))))
 
 
-def together(of_leaves: Sequence[Sequence[WorstPiece]]) -> Iterable[tuple[WorstPiece, ...]]:
-    """Yield the pieces of several leaves that occur at once: in the same load case and movement, where they name one."""
-    for chosen in product(*of_leaves):
-        cases = {each.row.situation.case for each in chosen} - {""}
-        ways = {(each.row.situation.direction, each.row.situation.drive) for each in chosen if each.row.situation.direction}
-        if len(cases) <= 1 and len(ways) <= 1:
-            yield chosen
+def together(of_leaves: Sequence[Sequence[WorstPiece]]) -> list[tuple[WorstPiece, ...]]:
+    """Return the pieces of several leaves that occur at once, all there are.
+
+    They are in the same load case, where they name one, and either at rest or moving: what is at rest only, as nothing rubs, goes with
+    both. What the same stroke, path or cylinder moves goes the same way.
+    """
+    moves = {id(each): any(is_moving(one) for one in pieces) for pieces in of_leaves for each in pieces}
+
+    def at_once(a: WorstPiece, b: WorstPiece) -> bool:
+        one, other = a.row.situation, b.row.situation
+        if one.case and other.case and one.case != other.case:
+            return False
+        if not (one.direction and other.direction):
+            return True
+        if is_moving(a) != is_moving(b):
+            return not moves[id(b if is_moving(a) else a)]
+        return mover_of(a) != mover_of(b) or (one.direction, one.drive) == (other.direction, other.drive)
+
+    found: list[tuple[WorstPiece, ...]] = [()]
+    for pieces in of_leaves:
+        found = [(*chosen, each) for chosen in found for each in pieces if all(at_once(one, each) for one in chosen)]
+    return found
+
+
+def is_moving(piece: WorstPiece) -> bool:
+    """Return whether a piece is one of a movement."""
+    return piece.row.situation.direction not in ("", FRICTIONLESS)
+
+
+def mover_of(piece: WorstPiece) -> Any:
+    """Return what moves in the direction of a piece: a cylinder's name, None for a stroke or a path."""
+    quantity = piece.row.leaf.quantity
+    return quantity.mover if isinstance(quantity, Request) else None
+
+
+def situation_of(chosen: Sequence[WorstPiece]) -> Situation:
+    """Return the situation of pieces that occur at once: their load case, and their movement where one of them moves."""
+    case = next((each.row.situation.case for each in chosen if each.row.situation.case), "")
+    moving_one = next((each for each in chosen if is_moving(each)), None)
+    way = moving_one or next((each for each in chosen if each.row.situation.direction), None)
+    return Situation(case, way.row.situation.direction, way.row.situation.drive) if way else Situation(case)
 
 
 def valued(question: Any, number: Callable[[Leaf], FloatArray]) -> tuple[FloatArray, FloatArray]:

@@ -81,6 +81,11 @@ class Request(Arithmetic):
         """Whether these directions are those of a stroke, which has to be named; else they are its own, as a cylinder's."""
         return False
 
+    @property
+    def mover(self) -> Hashable:
+        """What moves in these directions: a cylinder's name; None for a stroke or a path."""
+        return None
+
     def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
         """Return the smooth pieces that it is judged by in one situation, such as the two sides of a cylinder."""
         return (SmoothPiece(self),)
@@ -427,6 +432,10 @@ class Combined(Request):
     @property
     def of_strokes(self) -> bool:
         return any(each.of_strokes for each in self.requests)
+
+    @property
+    def mover(self) -> Hashable:
+        return None if self.of_strokes else next((each.mover for each in self.requests if each.mover is not None), None)
 
     def pieces(self, plan: Plan) -> tuple[SmoothPiece, ...]:
         parts = [each.pieces(plan) if isinstance(each, Request) else (SmoothPiece(each),) for each in self.parts]

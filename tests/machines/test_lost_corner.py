@@ -9,6 +9,7 @@ import pytest
 
 from linkage import most, pin_force, reachable
 from linkage.cli import main
+from linkage.cli.settings import overs_of, with_overs
 from linkage.motion import Over
 from tests.machines.lost_corner import Declared, TailLift
 
@@ -149,6 +150,15 @@ def test_over_is_named_or_said_by_its_strokes(said):
     assert "S2 = 0 to 0.1 m" in out and "S2 = 0.2 m" in out
     _, out, _ = said(f"limits {DECLARED} --over level")
     assert "together: S1 = 0 to 0.225 m, S2 = 0 to 0.1 m\n  all of it can be assembled" in out
+
+
+def test_page_is_of_the_same_design_over_what_is_said():
+    design = Declared(BZ=1.5)
+    for texts, overs in ((["level"], ["level"]), (["level", "S2=0.05"], ["level", "over_1"]), (["S2=0:0.1"], ["over_1"])):
+        found = with_overs(design, overs_of(design, texts))
+        assert [each.name for each in found.overs] == overs and found.dimensions == design.dimensions
+        assert found.plan.heading == design.plan.heading
+    assert with_overs(design, None) is design
 
 
 @pytest.mark.parametrize("command", ["show", "limits", "forces", "table"])
